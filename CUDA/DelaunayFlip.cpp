@@ -1,0 +1,416 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DelaunayFlip.h"
+
+#include "EdgeMeshBuilder.h"
+#include "FlipLoop.h"
+#include "FlipRules.h"
+#include "MeshSurvey.h"
+#include "PackedPoints.h"
+#include "PlanarSurvey.h"
+#include "SpatialOrder.h"
+#include "ThreadBackend.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Iterations that a surface may take beyond its number of triangles before the loop gives up.
+constexpr std::int64_t SafetyMargin = 1000;
+
+class StopWatch
+{
+public:
+  double GetSeconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+void CheckOptions(const FlipOptions& options)
+{
+  if (!(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
+  {
+    throw InvalidOptions("the tolerance must be at least 0 and below 1 radian");
+  }
+  if (!(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0))
+  {
+    throw InvalidOptions("the feature angle must be from 0 to 180 degrees");
+  }
+  if (options.MaximumIterations < -1)
+  {
+    throw InvalidOptions("the number of iterations must be -1 (until done), 0 or more");
+  }
+  if (options.NumberOfThreads < 0)
+  {
+    throw InvalidOptions("the number of threads must be 0 (all) or more");
+  }
+  if (options.Backend == BackendKind::CUDA)
+  {
+    throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+  }
+}
+
+void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
+{
+  if (options.TieRule == TieRuleKind::Canonical &&
+    (geometry == GeometryKind::Surface || options.Criterion != CriterionKind::InCircle))
+  {
+    throw InvalidOptions(
+      "the tie rule 'canonical' needs the in-circle criterion in planar geometry; "
+      "use 'keep' for surfaces and opposite angles");
+  }
+}
+
+double ToDegrees(double cotangent)
+{
+  if (cotangent == -INFINITY)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return cotangent == INFINITY ? 0.0 : std::atan2(1.0, cotangent) / DegreesToRadians;
+}
+}
+
+/// From the caller's arrays to a loop, and from its iterations to a report.
+class FlipSession::Implementation
+{
+public:
+  Implementation(const TriangleMesh& mesh, const FlipOptions& options)
+    : Options(options),
+      Backend(options.NumberOfThreads)
+  {
+    const StopWatch watch;
+    CheckOptions(options);
+    CheckMeshSize(mesh);
+    const MeshSurvey survey = SurveyMesh(mesh, options.Geometry, this->Backend);
+    CheckTieRule(options, survey.Geometry);
+    this->Order = OrderMesh(mesh, survey, this->Backend);
+    EdgeMeshResult built =
+      BuildEdgeMesh({ mesh, survey, this->Order, options.FeatureAngle }, this->Backend);
+    this->Order.RankOfVertex = Array<VertexId>();
+    this->Order.TriangleOfRank = Array<TriangleId>();
+    this->Mesh = std::move(built.Edges);
+    this->StartReport(mesh, survey, built);
+    this->MakeLoop(mesh.Points, survey, built);
+    this->Report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestCotangent());
+    this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
+    this->Report.BuildSeconds = watch.GetSeconds();
+    this->DetectFirst();
+  }
+
+  bool Advance(std::int64_t iterations, const FlipObserver& observer)
+  {
+    const StopWatch watch;
+    const double secondsBefore = this->Report.FlipSeconds;
+    this->Resume();
+    for (std::int64_t i = 0; this->IsRunning() && i != iterations; ++i)
+    {
+      this->Iterate(observer);
+    }
+    if (!this->IsRunning())
+    {
+      this->MeasureEnd();
+    }
+    this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
+    return this->IsRunning();
+  }
+
+  const FlipReport& GetReport() const { return this->Report; }
+
+  void StoreTriangles(const MutableTriangleArray& triangles) const
+  {
+    this->ForTriangles(
+      [&](const TriangleRecord& record)
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          triangles.Set(record.InputTriangle, slot, this->Order.GetVertex(record.Vertices[slot]));
+        }
+      });
+  }
+
+  void StoreFlipCounts(std::int32_t* counts) const
+  {
+    this->ForTriangles([counts](const TriangleRecord& record)
+      { counts[record.InputTriangle] = static_cast<std::int32_t>(record.FlipCount); });
+  }
+
+private:
+  template <typename Work>
+  void ForTriangles(const Work& work) const
+  {
+    this->Backend.ForRange(this->Mesh.NumberOfTriangles,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t t = begin; t < end; ++t)
+        {
+          work(this->Mesh.Triangles[t]);
+        }
+      });
+  }
+
+  void StartReport(const TriangleMesh& mesh, const MeshSurvey& survey, const EdgeMeshResult& built)
+  {
+    FlipReport& report = this->Report;
+    report.Points = mesh.Points.Count;
+    report.Triangles = mesh.Triangles.Count;
+    report.Edges = built.Counts;
+    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
+    report.GeometryUsed = survey.Geometry;
+    report.Backend = this->Backend.GetName();
+    this->AddDefect(survey.NonFinitePoints);
+    this->AddDefect(survey.RepeatedIds);
+    this->AddDefect(built.DuplicateTriangles);
+    this->AddDefect(
+      { "constraint edges that are not edges of the mesh", built.MissingConstraints, {} });
+  }
+
+  void AddDefect(const Defect& defect)
+  {
+    if (defect.Count > 0)
+    {
+      this->Report.Defects.push_back(defect);
+    }
+  }
+
+  void MakeLoop(const PointArray& points, const MeshSurvey& survey, EdgeMeshResult& built)
+  {
+    if (survey.Geometry == GeometryKind::Surface)
+    {
+      this->MakeSurfaceLoop(points, survey, built);
+      return;
+    }
+    const PlaneProjection& plane = survey.Projection;
+    const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
+    const int components = byAngles || plane.Tilted ? 3 : 2;
+    this->Points = PackPoints(points, survey, this->Order,
+      { { plane.AxisU, plane.AxisV, plane.AxisW }, components, points.Floats && components == 2,
+        byAngles ? survey.Scale : 1.0 },
+      this->Backend);
+    if (byAngles && survey.Geometry == GeometryKind::PlanarXY)
+    {
+      this->DropHeights();
+    }
+    this->MakePlanarLoop(survey, built, byAngles);
+  }
+
+  void MakePlanarLoop(const MeshSurvey& survey, EdgeMeshResult& built, bool byAngles)
+  {
+    const bool brokenFans = built.Counts.NonManifold > 0 || built.Counts.WronglyWound > 0;
+    const PlanarSurvey plane = SurveyPlane(this->Mesh, this->Points, brokenFans, this->Backend);
+    this->AddDefect(plane.ZeroAreaTriangles);
+    this->AddDefect(plane.InvertedTriangles);
+    EdgeGuard guard = plane.StarsAreSimple ? EdgeGuard() : this->MakeGuard(built);
+    built.Table = EdgeTable();
+    const double* doubles = this->Points.Doubles.Data();
+    const bool canonical = this->Options.TieRule == TieRuleKind::Canonical;
+    if (byAngles)
+    {
+      this->SetLoop(PlanarAngleRule{ doubles, this->GetTolerance() }, 1.0, std::move(guard));
+    }
+    else if (survey.Projection.Tilted)
+    {
+      this->SetLoop(
+        PlanarRule<double, 3>{ doubles, plane.UniformSide, canonical, survey.FiltersApply },
+        survey.Scale, std::move(guard));
+    }
+    else if (this->Points.IsFloat())
+    {
+      this->SetLoop(PlanarRule<float, 2>{ this->Points.Floats.Data(), plane.UniformSide, canonical,
+                      survey.FiltersApply },
+        survey.Scale, std::move(guard));
+    }
+    else
+    {
+      this->SetLoop(
+        PlanarRule<double, 2>{ doubles, plane.UniformSide, canonical, survey.FiltersApply },
+        survey.Scale, std::move(guard));
+    }
+  }
+
+  void MakeSurfaceLoop(const PointArray& points, const MeshSurvey& survey, EdgeMeshResult& built)
+  {
+    this->Points = PackPoints(points, survey, this->Order,
+      { { 0, 1, 2 }, 3, points.Floats != nullptr, survey.Scale }, this->Backend);
+    this->AddDefect(FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend));
+    EdgeGuard guard = this->MakeGuard(built);
+    if (this->Points.IsFloat())
+    {
+      this->SetLoop(SurfaceRule<float>{ this->Points.Floats.Data(), this->GetTolerance() }, 1.0,
+        std::move(guard));
+    }
+    else
+    {
+      this->SetLoop(SurfaceRule<double>{ this->Points.Doubles.Data(), this->GetTolerance() }, 1.0,
+        std::move(guard));
+    }
+  }
+
+  EdgeGuard MakeGuard(EdgeMeshResult& built) const
+  {
+    return EdgeGuard(std::move(built.Table), built.Counts.Edges, this->Report.Points);
+  }
+
+  /// Terrain: angles are those of the projection.
+  void DropHeights()
+  {
+    for (std::int64_t v = 0; v < this->Points.Count; ++v)
+    {
+      this->Points.Doubles[3 * v + 2] = 0.0;
+    }
+  }
+
+  AngleTolerance GetTolerance() const
+  {
+    return { std::sin(this->Options.Tolerance), std::cos(this->Options.Tolerance) };
+  }
+
+  template <typename Rule>
+  void SetLoop(const Rule& rule, double scale, EdgeGuard guard)
+  {
+    this->Loop.reset(
+      new ThreadFlipLoop<Rule>(this->Mesh, rule, scale, std::move(guard), this->Backend));
+  }
+
+  /// What the input holds, and with nothing to do or no iteration allowed, the end.
+  void DetectFirst()
+  {
+    const StopWatch watch;
+    this->Detect();
+    this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
+    this->Report.FlipSeconds = watch.GetSeconds();
+  }
+
+  void Detect()
+  {
+    this->Found = this->Loop->Detect();
+    this->Report.NonDelaunayAfter = this->Found.Bad + this->Found.Blocked;
+  }
+
+  std::int64_t GetIterationLimit() const
+  {
+    if (this->Options.MaximumIterations >= 0)
+    {
+      return this->Options.MaximumIterations;
+    }
+    const bool mayCycle = this->Report.GeometryUsed == GeometryKind::Surface ||
+      this->Options.Criterion == CriterionKind::OppositeAngles;
+    return mayCycle ? this->Report.Triangles + SafetyMargin
+                    : std::numeric_limits<std::int64_t>::max();
+  }
+
+  bool IsRunning() const { return this->Report.StopReason == StopReasonKind::NotStarted; }
+
+  /// Goes on, also after an abort, unless there is nothing to do or no iteration left.
+  void Resume()
+  {
+    const auto done = static_cast<std::int64_t>(this->Report.Iterations.size());
+    this->Report.StopReason = StopReasonKind::NotStarted;
+    if (this->Found.Bad == 0)
+    {
+      this->Report.StopReason = StopReasonKind::Converged;
+    }
+    else if (done >= this->GetIterationLimit())
+    {
+      this->Report.StopReason = StopReasonKind::IterationLimit;
+    }
+  }
+
+  void Iterate(const FlipObserver& observer)
+  {
+    const StopWatch watch;
+    IterationRecord record;
+    record.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
+    record.Tested = this->Found.Tested;
+    record.NonDelaunay = this->Found.Bad + this->Found.Blocked;
+    record.Blocked = this->Found.Blocked;
+    record.Flipped = this->Loop->Flip();
+    record.Excluded = this->Found.Bad - record.Flipped;
+    this->Detect();
+    record.MinimumAngle = std::numeric_limits<double>::quiet_NaN();
+    if (this->Options.TrackQuality || record.Iteration == 1)
+    {
+      record.MinimumAngle = ToDegrees(this->Loop->FindLargestCotangent());
+    }
+    record.Seconds = watch.GetSeconds();
+    this->Keep(record);
+    this->Resume();
+    if (observer && !observer(this->Report.Iterations.back()) && this->IsRunning())
+    {
+      this->Report.StopReason = StopReasonKind::Aborted;
+    }
+  }
+
+  void Keep(const IterationRecord& record)
+  {
+    this->Report.Iterations.push_back(record);
+    this->Report.TotalFlips += record.Flipped;
+    this->Report.TotalExcluded += record.Excluded;
+    this->Report.TotalBlocked += record.Blocked;
+  }
+
+  /// The smallest angle is known at the first and the last iteration, without a pass between.
+  void MeasureEnd()
+  {
+    if (!this->Report.Iterations.empty())
+    {
+      this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestCotangent());
+      this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
+    }
+  }
+
+  FlipOptions Options;
+  ThreadBackend Backend;
+  SpatialOrder Order;
+  EdgeMesh Mesh;
+  PackedPoints Points;
+  std::unique_ptr<FlipLoop> Loop;
+  StepCounts Found; ///< By the last Detect.
+  FlipReport Report;
+};
+
+FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options)
+  : Impl(new Implementation(mesh, options))
+{
+}
+
+FlipSession::~FlipSession() = default;
+FlipSession::FlipSession(FlipSession&&) noexcept = default;
+FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
+
+bool FlipSession::Advance(std::int64_t iterations, const FlipObserver& observer)
+{
+  return this->Impl->Advance(iterations, observer);
+}
+
+const FlipReport& FlipSession::GetReport() const { return this->Impl->GetReport(); }
+
+void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
+{
+  this->Impl->StoreTriangles(triangles);
+}
+
+void FlipSession::StoreFlipCounts(std::int32_t* counts) const
+{
+  this->Impl->StoreFlipCounts(counts);
+}
+
+FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
+  const MutableTriangleArray& triangles, const FlipObserver& observer)
+{
+  FlipSession session(mesh, options);
+  session.Advance(-1, observer);
+  session.StoreTriangles(triangles);
+  return session.GetReport();
+}
+
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_DELAUNAYFLIP_H
+#define DELAUNAYFLIP_DELAUNAYFLIP_H
+
+#include "FlipError.h"
+#include "FlipOptions.h"
+#include "FlipReport.h"
+#include "TriangleMesh.h"
+
+#include <memory>
+
+/// @file
+/// The door of the engine.
+
+namespace delaunayflip
+{
+
+/// A mesh on its way to Delaunay: made once from the caller's arrays, advanced by iterations, read
+/// out at any time between them. The caller's arrays are not needed after the constructor.
+///
+/// Same mesh and options, same result, bit for bit, for any number of threads and any backend.
+class FlipSession
+{
+public:
+  /// Builds the edge mesh.
+  /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
+  FlipSession(const TriangleMesh& mesh, const FlipOptions& options);
+  ~FlipSession();
+  FlipSession(FlipSession&&) noexcept;
+  FlipSession& operator=(FlipSession&&) noexcept;
+
+  /// Runs at most `iterations` more iterations (-1: until a stop). Ends earlier when converged, at
+  /// the limit of the options, or when `observer` returns false.
+  /// @returns whether another call could still change the mesh.
+  bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {});
+
+  /// What has happened so far.
+  const FlipReport& GetReport() const;
+
+  /// Writes the triangles in their input slots. A triangle that no flip touched keeps its three ids
+  /// in their order. `triangles.Count` must be that of the input.
+  void StoreTriangles(const MutableTriangleArray& triangles) const;
+
+  /// Writes, for every triangle slot, how many flips it was part of (report.Triangles numbers).
+  void StoreFlipCounts(std::int32_t* counts) const;
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> Impl;
+};
+
+/// The whole way at once: flips `mesh` and writes the result to `triangles`, which may be the very
+/// array that mesh.Triangles views. Nothing is written when an exception leaves.
+/// @throws as FlipSession's constructor.
+FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
+  const MutableTriangleArray& triangles, const FlipObserver& observer = {});
+
+}
+
+#endif

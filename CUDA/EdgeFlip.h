@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGEFLIP_H
+#define DELAUNAYFLIP_EDGEFLIP_H
+
+#include "EdgeMesh.h"
+
+/// @file
+/// The 2-2 flip.
+
+namespace delaunayflip
+{
+
+/// The other four edges of a quad, as half-edges on the quad's own side.
+struct OuterHalfEdges
+{
+  HalfEdgeId AP, QA, PB, BQ;
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline OuterHalfEdges GetOuterHalfEdges(
+  const EdgeMeshView& mesh, CornerId cornerA, CornerId cornerB)
+{
+  const TriangleRecord& upper = mesh.Triangles[TriangleOf(cornerA)];
+  const TriangleRecord& lower = mesh.Triangles[TriangleOf(cornerB)];
+  const int slotA = SlotOf(cornerA);
+  const int slotB = SlotOf(cornerB);
+  return { upper.HalfEdges[PreviousSlot(slotA)], upper.HalfEdges[NextSlot(slotA)],
+    lower.HalfEdges[NextSlot(slotB)], lower.HalfEdges[PreviousSlot(slotB)] };
+}
+
+/// Puts `vertex` where the flip takes one away, and the two half-edges that move with it.
+DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
+  TriangleRecord& triangle, int slot, VertexId vertex, HalfEdgeId facing, HalfEdgeId diagonal)
+{
+  triangle.Vertices[PreviousSlot(slot)] = vertex;
+  triangle.HalfEdges[slot] = facing;
+  triangle.HalfEdges[NextSlot(slot)] = diagonal;
+  ++triangle.FlipCount;
+}
+
+/*! Turns edge p-q of the quad into a-b:
+
+             a                      a
+           /   \                  / | \
+         /   t   \              /   |   \
+        p ------- q    ->      p  t | s  q        t = (a, p, q) becomes (a, p, b)
+         \   s   /              \   |   /         s = (b, q, p) becomes (b, q, a)
+           \   /                  \ | /
+             b                      b
+
+    Each triangle keeps two vertices and two edges in their slots; edges p-b and q-a change hands.
+    Writes the records of t and s and the words of their own four sides, nothing else.
+    @returns the outer half-edges, whose edges must be judged again. */
+DELAUNAYFLIP_HOST_DEVICE inline OuterHalfEdges FlipEdge(
+  const EdgeMeshView& mesh, EdgeId edge, const Quad& quad)
+{
+  const OuterHalfEdges outer = GetOuterHalfEdges(mesh, quad.CornerA, quad.CornerB);
+  const TriangleId t = TriangleOf(quad.CornerA);
+  const TriangleId s = TriangleOf(quad.CornerB);
+  const int slotA = SlotOf(quad.CornerA);
+  const int slotB = SlotOf(quad.CornerB);
+
+  ReplaceAfter(mesh.Triangles[t], slotA, quad.B, outer.PB, 2 * edge);
+  ReplaceAfter(mesh.Triangles[s], slotB, quad.A, outer.QA, 2 * edge + 1);
+  mesh.CornerOfHalfEdge[2 * edge] = MakeCorner(t, NextSlot(slotA));
+  mesh.CornerOfHalfEdge[2 * edge + 1] = MakeCorner(s, NextSlot(slotB));
+  mesh.CornerOfHalfEdge[outer.PB] = quad.CornerA;
+  mesh.CornerOfHalfEdge[outer.QA] = quad.CornerB;
+  return outer;
+}
+
+}
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGEMESH_H
+#define DELAUNAYFLIP_EDGEMESH_H
+
+#include "Array.h"
+#include "HostDevice.h"
+
+#include <cstdint>
+
+/// @file
+/// The paper's arrays (Sec. 2: Triangles, Edges, Opposites) in half-edge form.
+///
+/// Edge e has two sides, the half-edges 2 e and 2 e + 1. A half-edge's word in CornerOfHalfEdge
+/// names a corner, 4 * triangle + slot: the triangle on that side and the slot of its vertex
+/// opposite the edge. So one word says what the paper keeps in a pair of Edges (ta or tb) and an
+/// entry of Opposites, and the end vertices are the triangle's other two.
+///
+/// A word belongs to the triangle that it names: a flip that owns its two triangles writes the
+/// words of their outer edges on its own side and never reads the far side's, so flips of disjoint
+/// triangle pairs race nowhere and the paper's repair phase (Sec. 3.2) has nothing to do.
+
+namespace delaunayflip
+{
+
+using VertexId = std::uint32_t;
+using TriangleId = std::uint32_t;
+using EdgeId = std::uint32_t;
+using HalfEdgeId = std::uint32_t;
+using CornerId = std::uint32_t;
+
+/// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
+constexpr CornerId NoCorner = 0xFFFFFFFFu;
+
+/// What the loop knows of an edge. Between iterations an edge is Fixed, Good, Candidate, Bad or
+/// blocked.
+enum class EdgeState : std::uint8_t
+{
+  Good, ///< Locally Delaunay.
+  Fixed, ///< Never flips, never judged.
+  Candidate, ///< To be judged: new, or an incident triangle changed.
+  Uncertain, ///< The filter could not tell; exact arithmetic must.
+  BlockedByShape, ///< Bad, but the flip would fold the mesh over.
+  BlockedByEdge, ///< Bad, but the new edge already exists. May clear when others flip.
+  Bad, ///< Violates the criterion and may flip.
+  Winner ///< Bad, and flips in this iteration.
+};
+
+/// Next and previous slot of a triangle.
+DELAUNAYFLIP_HOST_DEVICE inline int NextSlot(int slot) { return slot == 2 ? 0 : slot + 1; }
+DELAUNAYFLIP_HOST_DEVICE inline int PreviousSlot(int slot) { return slot == 0 ? 2 : slot - 1; }
+
+DELAUNAYFLIP_HOST_DEVICE inline CornerId MakeCorner(TriangleId triangle, int slot)
+{
+  return 4 * triangle + static_cast<CornerId>(slot);
+}
+DELAUNAYFLIP_HOST_DEVICE inline TriangleId TriangleOf(CornerId corner) { return corner >> 2; }
+DELAUNAYFLIP_HOST_DEVICE inline int SlotOf(CornerId corner) { return static_cast<int>(corner & 3); }
+DELAUNAYFLIP_HOST_DEVICE inline EdgeId EdgeOf(HalfEdgeId halfEdge) { return halfEdge >> 1; }
+
+/// A triangle in one aligned 32-byte sector.
+struct alignas(32) TriangleRecord
+{
+  VertexId Vertices[3];
+  HalfEdgeId HalfEdges[3]; ///< This triangle's side of the edge opposite each slot.
+  TriangleId InputTriangle; ///< The caller's slot.
+  std::uint32_t FlipCount; ///< Flips that this slot was part of.
+};
+
+/// The quadrilateral around an edge of two triangles, every index named (see EdgeFlip.h's picture).
+struct Quad
+{
+  CornerId CornerA, CornerB; ///< Opposite corners: a in triangle (a, p, q), b in (b, q, p).
+  VertexId A, P, Q, B; ///< The edge runs from p to q in a's triangle.
+};
+
+/// Plain pointers to an EdgeMesh, for functions of both backends.
+struct EdgeMeshView
+{
+  TriangleRecord* Triangles;
+  CornerId* CornerOfHalfEdge;
+  EdgeState* States;
+
+  DELAUNAYFLIP_HOST_DEVICE Quad GetQuad(EdgeId edge) const
+  {
+    Quad quad;
+    quad.CornerA = this->CornerOfHalfEdge[2 * edge];
+    quad.CornerB = this->CornerOfHalfEdge[2 * edge + 1];
+    const TriangleRecord& triangle = this->Triangles[TriangleOf(quad.CornerA)];
+    const int slot = SlotOf(quad.CornerA);
+    quad.A = triangle.Vertices[slot];
+    quad.P = triangle.Vertices[NextSlot(slot)];
+    quad.Q = triangle.Vertices[PreviousSlot(slot)];
+    quad.B = this->Triangles[TriangleOf(quad.CornerB)].Vertices[SlotOf(quad.CornerB)];
+    return quad;
+  }
+};
+
+/// The arrays, owned. NumberOfEdges counts records: an edge of k >= 3 triangles has k records, each
+/// with one side and Fixed.
+struct EdgeMesh
+{
+  std::int64_t NumberOfTriangles = 0;
+  std::int64_t NumberOfEdges = 0;
+  Array<TriangleRecord> Triangles;
+  Array<CornerId> CornerOfHalfEdge;
+  Array<EdgeState> States;
+
+  EdgeMeshView View()
+  {
+    return { this->Triangles.Data(), this->CornerOfHalfEdge.Data(), this->States.Data() };
+  }
+};
+
+}
+
+#endif

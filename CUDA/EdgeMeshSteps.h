@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGEMESHSTEPS_H
+#define DELAUNAYFLIP_EDGEMESHSTEPS_H
+
+#include "EdgeMesh.h"
+#include "EdgeTable.h"
+#include "HostDevice.h"
+
+/// @file
+/// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
+/// hold the table slot of the edge opposite each corner, and its FlipCount the roles of its
+/// corners, two bits each.
+
+namespace delaunayflip
+{
+
+/// Second word of an edge with three or more corners.
+constexpr CornerId ManyCorners = 0xFFFFFFFEu;
+
+/// What a corner is to its edge.
+enum class CornerRole : std::uint32_t
+{
+  Follower, ///< The other corner numbers the edge.
+  Leader, ///< The smaller corner of two.
+  Alone, ///< The only corner: a boundary edge.
+  OneOfMany ///< Of a non-manifold edge; gets an edge record of its own.
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
+{
+  return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
+}
+
+/// Adds a corner to its edge's table entry. @returns whether the edge became non-manifold by it.
+DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
+  const EdgeTableView& table, std::uint32_t slot, CornerId corner)
+{
+  if (AtomicCompareExchange(&table.First[slot], NoCorner, corner) == NoCorner ||
+    AtomicCompareExchange(&table.Second[slot], NoCorner, corner) == NoCorner)
+  {
+    return false;
+  }
+  return AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
+  const EdgeTableView& table, std::uint32_t slot, CornerId corner)
+{
+  const CornerId first = table.First[slot];
+  const CornerId second = table.Second[slot];
+  if (second == NoCorner)
+  {
+    return CornerRole::Alone;
+  }
+  if (second == ManyCorners)
+  {
+    return CornerRole::OneOfMany;
+  }
+  return corner == (first < second ? first : second) ? CornerRole::Leader : CornerRole::Follower;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
+{
+  return static_cast<CornerRole>((triangle.FlipCount >> (2 * slot)) & 3);
+}
+
+/// Gives a corner that is no follower the number `edge`: writes the words of both sides, and leaves
+/// the number in the table for look-ups by vertex pair.
+DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(const EdgeMeshView& mesh,
+  const EdgeTableView& table, std::uint32_t slot, CornerId corner, EdgeId edge)
+{
+  const CornerRole role = GetRole(mesh.Triangles[TriangleOf(corner)], SlotOf(corner));
+  CornerId other = NoCorner;
+  if (role == CornerRole::Leader)
+  {
+    const CornerId first = table.First[slot];
+    other = first == corner ? table.Second[slot] : first;
+  }
+  mesh.CornerOfHalfEdge[2 * edge] = corner;
+  mesh.CornerOfHalfEdge[2 * edge + 1] = other;
+  if (role != CornerRole::OneOfMany)
+  {
+    AtomicStore(&table.First[slot], edge);
+  }
+}
+
+/// Tells the triangles of an edge its number.
+DELAUNAYFLIP_HOST_DEVICE inline void LinkEdge(const EdgeMeshView& mesh, EdgeId edge)
+{
+  for (HalfEdgeId halfEdge = 2 * edge; halfEdge < 2 * edge + 2; ++halfEdge)
+  {
+    const CornerId corner = mesh.CornerOfHalfEdge[halfEdge];
+    if (corner != NoCorner)
+    {
+      mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)] = halfEdge;
+    }
+  }
+}
+
+/// Whether the two triangles of an edge run through it in opposite directions, as they should.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsConsistentlyWound(const EdgeMeshView& mesh, EdgeId edge)
+{
+  const CornerId a = mesh.CornerOfHalfEdge[2 * edge];
+  const CornerId b = mesh.CornerOfHalfEdge[2 * edge + 1];
+  return mesh.Triangles[TriangleOf(a)].Vertices[NextSlot(SlotOf(a))] ==
+    mesh.Triangles[TriangleOf(b)].Vertices[PreviousSlot(SlotOf(b))];
+}
+
+}
+
+#endif

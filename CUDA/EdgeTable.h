@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGETABLE_H
+#define DELAUNAYFLIP_EDGETABLE_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "HostDevice.h"
+#include "ThreadBackend.h"
+
+#include <cstdint>
+
+/// @file
+/// A hash set of edges by their vertex pair, shared by all threads: it pairs the triangles of an
+/// edge when the edge mesh is built, guards against duplicate edges while edges flip, and holds the
+/// claims on new edges of one iteration. Membership never depends on the order of insertions.
+
+namespace delaunayflip
+{
+
+/// Vertex pair of an edge, smaller id first.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t EdgeKey(VertexId a, VertexId b)
+{
+  return a < b ? (std::uint64_t(a) << 32) | b : (std::uint64_t(b) << 32) | a;
+}
+
+/// A bijection of 32-bit numbers that scatters them (MurmurHash3's finalizer).
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
+{
+  x ^= x >> 16;
+  x *= 0x85ebca6bu;
+  x ^= x >> 13;
+  x *= 0xc2b2ae35u;
+  return x ^ (x >> 16);
+}
+
+/// Plain pointers to an EdgeTable, for functions of both backends.
+///
+/// A key is sought first near the place that its smaller vertex has in the order of vertices, so
+/// that neighbours in the mesh share cache lines; when NearSlots there are taken (a vertex of very
+/// many edges), at a place that the whole pair decides. No vertex degree makes a search long.
+struct EdgeTableView
+{
+  static constexpr std::uint64_t Empty = ~std::uint64_t(0);
+  static constexpr std::uint64_t Removed = Empty - 1;
+  static constexpr std::uint32_t NoSlot = 0xFFFFFFFFu;
+  static constexpr std::uint32_t NearSlots = 64;
+  static constexpr std::uint32_t FarSlots = 1u << 12;
+  static constexpr int StrideBits = 24;
+
+  std::uint64_t* Keys;
+  std::uint32_t* First; ///< Two words of the user's with every key.
+  std::uint32_t* Second;
+  std::uint32_t Capacity; ///< Below 2^32, so that Stride times a vertex fits 64 bits.
+  std::uint64_t Stride; ///< Slots per vertex, times 2^StrideBits.
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t NearSlot(VertexId smaller, std::uint32_t scattered) const
+  {
+    const std::uint64_t home = (smaller * this->Stride) >> StrideBits;
+    return this->Wrap(home + scattered % NearSlots);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint64_t slot) const
+  {
+    return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
+  }
+
+  /// Calls visit(slot) for the slots at which `key` may be, in the order of search, until it
+  /// returns true. @returns that slot, or NoSlot.
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Search(std::uint64_t key, const Visit& visit) const
+  {
+    const VertexId smaller = static_cast<VertexId>(key >> 32);
+    const std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
+    std::uint32_t slot = this->NearSlot(smaller, scattered);
+    for (std::uint32_t i = 0; i < NearSlots + FarSlots; ++i)
+    {
+      if (i == NearSlots)
+      {
+        slot = static_cast<std::uint32_t>((std::uint64_t(scattered) * this->Capacity) >> 32);
+      }
+      if (visit(slot))
+      {
+        return slot;
+      }
+      slot = slot + 1 < this->Capacity ? slot + 1 : 0;
+    }
+    return NoSlot;
+  }
+
+  /// @returns the slot of `key`, or NoSlot.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Find(std::uint64_t key) const
+  {
+    std::uint64_t seen = Empty;
+    const std::uint32_t slot = this->Search(key,
+      [&](std::uint32_t candidate)
+      {
+        seen = AtomicLoad(&this->Keys[candidate]);
+        return seen == key || seen == Empty;
+      });
+    return seen == key ? slot : NoSlot;
+  }
+
+  /// @returns the slot that holds `key` from now on, NoSlot when the table is too full. `inserted`
+  /// tells whether this call put it there.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindOrInsert(std::uint64_t key, bool& inserted) const
+  {
+    inserted = false;
+    return this->Search(key,
+      [&](std::uint32_t candidate)
+      {
+        std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
+        if (seen == Empty)
+        {
+          seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);
+          inserted = seen == Empty;
+        }
+        return inserted || seen == key;
+      });
+  }
+
+  /// Takes the first free slot for a `key` that is not in the table. @returns whether there was
+  /// one; `fresh` tells whether the slot had never been used.
+  DELAUNAYFLIP_HOST_DEVICE bool InsertNew(std::uint64_t key, bool& fresh) const
+  {
+    const std::uint32_t slot = this->Search(key,
+      [&](std::uint32_t candidate)
+      {
+        const std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
+        fresh = seen == Empty;
+        return seen >= Removed && AtomicCompareExchange(&this->Keys[candidate], seen, key) == seen;
+      });
+    return slot != NoSlot;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Remove(std::uint64_t key) const
+  {
+    const std::uint32_t slot = this->Find(key);
+    if (slot != NoSlot)
+    {
+      AtomicStore(&this->Keys[slot], Removed);
+    }
+  }
+};
+
+/// The table, owned.
+class EdgeTable
+{
+public:
+  EdgeTable() = default;
+
+  /// An empty table with room for `edges` edges, with or without the two words a key.
+  EdgeTable(
+    std::int64_t edges, std::int64_t vertices, bool withWords, const ThreadBackend& backend);
+
+  EdgeTableView View();
+  bool IsEmpty() const { return this->Keys.Size() == 0; }
+  std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
+
+  /// Forgets all keys; words become NoCorner.
+  void Clear(const ThreadBackend& backend);
+
+  /// Gives back the words' memory; the keys stay.
+  void DropWords();
+
+private:
+  Array<std::uint64_t> Keys;
+  Array<std::uint32_t> First, Second;
+  std::uint32_t NumberOfVertices = 1;
+};
+
+}
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FILTEREDPREDICATES_H
+#define DELAUNAYFLIP_FILTEREDPREDICATES_H
+
+#include "HostDevice.h"
+
+#include <cmath>
+
+/// @file
+/// Signs that plain double arithmetic can certify. Error bounds: Shewchuk 1997, Table 2 and Fig.
+/// 21, with 1/1000 added for the terms that underflow.
+
+namespace delaunayflip
+{
+
+/// What a filter returns when it cannot tell.
+constexpr int UncertainSign = 2;
+
+/// A point of the plane of decision: u and v span it; W is the coordinate along the dropped axis,
+/// which only the lift of tilted planes uses.
+struct PlanePoint
+{
+  double U, V, W;
+};
+
+/// Underflow of a product loses at most 2^-1074, times cofactors below 2^502 when coordinate
+/// differences stay below 2^250: a determinant this large is not affected. Meshes with larger
+/// differences do not use the filters (MeshSurvey::FiltersApply).
+constexpr double SmallestCertifiable = 3.0549363634996047e-151; // 2^-500
+constexpr double LargestFilteredDifference = 1.8092513943330656e75; // 2^250
+
+/// Relative to the sum of the products' magnitudes: (3 + 16 eps) eps and (10 + 96 eps) eps with
+/// eps = 2^-53. The lift of a tilted plane has one product and two sums more: (12 + 128 eps) eps.
+constexpr double OrientationBound = 3.34e-16;
+constexpr double InCircleBound = 1.112e-15;
+constexpr double TiltedInCircleBound = 1.56e-15;
+
+DELAUNAYFLIP_HOST_DEVICE inline int CertifiedSign(double determinant, double error)
+{
+  if (determinant > error && determinant > SmallestCertifiable)
+  {
+    return 1;
+  }
+  if (-determinant > error && -determinant > SmallestCertifiable)
+  {
+    return -1;
+  }
+  return UncertainSign;
+}
+
+/// Turn of a, b, c in (u, v), or UncertainSign.
+DELAUNAYFLIP_HOST_DEVICE inline int FilteredOrientation(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+{
+  const double left = (a.U - c.U) * (b.V - c.V);
+  const double right = (a.V - c.V) * (b.U - c.U);
+  return CertifiedSign(left - right, OrientationBound * (std::fabs(left) + std::fabs(right)));
+}
+
+/// Sum and permanent of the 3 x 3 determinant with rows (u, v, lift) relative to a fourth point.
+struct FilteredDeterminant
+{
+  double Value = 0.0;
+  double Permanent = 0.0;
+
+  /// Adds lift * (u1 v2 - u2 v1); `magnitude` bounds |lift| term by term.
+  DELAUNAYFLIP_HOST_DEVICE void AddTerm(double lift, double magnitude, double first, double second)
+  {
+    this->Value += lift * (first - second);
+    this->Permanent += magnitude * (std::fabs(first) + std::fabs(second));
+  }
+};
+
+/// Sign of the in-circle determinant of a, b, c, d in (u, v), or UncertainSign.
+DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const double au = a.U - d.U, av = a.V - d.V;
+  const double bu = b.U - d.U, bv = b.V - d.V;
+  const double cu = c.U - d.U, cv = c.V - d.V;
+  const double aLift = au * au + av * av;
+  const double bLift = bu * bu + bv * bv;
+  const double cLift = cu * cu + cv * cv;
+  FilteredDeterminant determinant;
+  determinant.AddTerm(aLift, aLift, bu * cv, cu * bv);
+  determinant.AddTerm(bLift, bLift, cu * av, au * cv);
+  determinant.AddTerm(cLift, cLift, au * bv, bu * av);
+  return CertifiedSign(determinant.Value, InCircleBound * determinant.Permanent);
+}
+
+/// Lift of a point of a tilted plane relative to `d`: the difference of squared lengths, up to what
+/// is linear in u and v. `magnitude` receives the sum of the terms' magnitudes.
+DELAUNAYFLIP_HOST_DEVICE inline double TiltedLift(
+  const PlanePoint& p, const PlanePoint& d, double& magnitude)
+{
+  const double u = p.U - d.U;
+  const double v = p.V - d.V;
+  const double w = (p.W - d.W) * (p.W + d.W);
+  magnitude = u * u + v * v + std::fabs(w);
+  return u * u + v * v + w;
+}
+
+/// FilteredInCircle with the lift of tilted planes.
+DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircleTilted(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const double au = a.U - d.U, av = a.V - d.V;
+  const double bu = b.U - d.U, bv = b.V - d.V;
+  const double cu = c.U - d.U, cv = c.V - d.V;
+  double magnitude = 0.0;
+  FilteredDeterminant determinant;
+  const double aLift = TiltedLift(a, d, magnitude);
+  determinant.AddTerm(aLift, magnitude, bu * cv, cu * bv);
+  const double bLift = TiltedLift(b, d, magnitude);
+  determinant.AddTerm(bLift, magnitude, cu * av, au * cv);
+  const double cLift = TiltedLift(c, d, magnitude);
+  determinant.AddTerm(cLift, magnitude, au * bv, bu * av);
+  return CertifiedSign(determinant.Value, TiltedInCircleBound * determinant.Permanent);
+}
+
+}
+
+#endif

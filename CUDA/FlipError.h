@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPERROR_H
+#define DELAUNAYFLIP_FLIPERROR_H
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+/// @file
+/// The exceptions of the engine. Each message says what was wrong, where, and what to do. Memory
+/// that cannot be had is std::bad_alloc.
+
+namespace delaunayflip
+{
+
+/// Base of all that the engine throws on its own account.
+class FlipError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Options that contradict each other or the mesh, or are out of range.
+class InvalidOptions : public FlipError
+{
+public:
+  using FlipError::FlipError;
+};
+
+/// A triangle or constraint edge names a point that does not exist. Nothing was dereferenced.
+class InvalidMesh : public FlipError
+{
+public:
+  InvalidMesh(const std::string& message, std::int64_t cell, std::int64_t point)
+    : FlipError(message),
+      Cell(cell),
+      Point(point)
+  {
+  }
+
+  std::int64_t Cell; ///< The triangle, or the constraint edge.
+  std::int64_t Point; ///< The id that it names.
+};
+
+/// More triangles than 32-bit half-edges can number; thrown before anything is allocated.
+class MeshTooLarge : public FlipError
+{
+public:
+  using FlipError::FlipError;
+};
+
+/// The backend asked for cannot run here.
+class BackendUnavailable : public FlipError
+{
+public:
+  using FlipError::FlipError;
+};
+
+}
+
+#endif

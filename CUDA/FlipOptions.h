@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPOPTIONS_H
+#define DELAUNAYFLIP_FLIPOPTIONS_H
+
+#include <cstdint>
+
+/// @file
+/// What a caller may choose. The defaults are right for any triangle mesh.
+
+namespace delaunayflip
+{
+
+/// In which space edges are judged.
+enum class GeometryKind
+{
+  Auto, ///< Planar when all used points lie in one plane (within 1e-6 of the bounding box's
+        ///< diagonal), else Surface.
+  Planar, ///< In the plane of the points, whatever its orientation; an error if there is none.
+  PlanarXY, ///< By x and y; z rides along (terrain).
+  Surface ///< In space, by opposite-angle sums.
+};
+
+/// How an edge is judged.
+enum class CriterionKind
+{
+  InCircle, ///< The exact in-circle predicate. Planar geometry only; surfaces ignore it.
+  OppositeAngles ///< The paper's eq. 5: opposite-angle sum > pi + Tolerance. Surfaces always use
+                 ///< it.
+};
+
+/// What happens to an edge whose four points lie on one circle exactly.
+enum class TieRuleKind
+{
+  Keep, ///< It stays: a Delaunay mesh comes back bit-identical.
+  Canonical ///< The result no longer depends on the input's triangles (planar, in-circle).
+};
+
+/// Where the flips run.
+enum class BackendKind
+{
+  Auto, ///< The fastest that is available.
+  CUDA, ///< A GPU; BackendUnavailable if there is none.
+  Threads ///< Threads of the CPU.
+};
+
+struct FlipOptions
+{
+  GeometryKind Geometry = GeometryKind::Auto;
+  CriterionKind Criterion = CriterionKind::InCircle;
+  TieRuleKind TieRule = TieRuleKind::Keep;
+  BackendKind Backend = BackendKind::Auto;
+
+  /// The paper's epsilon, in radians, >= 0 and < 1; used by OppositeAngles only.
+  double Tolerance = 1e-9;
+
+  /// Surfaces: an edge whose two triangles' normals differ by more than this many degrees
+  /// (0 .. 180) in the input stays; 180 fixes none.
+  double FeatureAngle = 30.0;
+
+  /// -1: until no edge can flip. 0: none. n > 0: at most n. On surfaces, where no theorem ends the
+  /// loop in floating point, -1 means the number of triangles + 1000.
+  std::int64_t MaximumIterations = -1;
+
+  /// Threads to use; 0: as many as the machine has. The result does not depend on it.
+  int NumberOfThreads = 0;
+
+  /// Compute the smallest angle after every iteration (a pass over the mesh each time).
+  bool TrackQuality = false;
+};
+
+}
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipReport.h"
+
+namespace delaunayflip
+{
+
+const char* ToString(StopReasonKind reason)
+{
+  switch (reason)
+  {
+    case StopReasonKind::NotStarted:
+      return "not started";
+    case StopReasonKind::Converged:
+      return "converged";
+    case StopReasonKind::IterationLimit:
+      return "iteration limit";
+    case StopReasonKind::Aborted:
+      return "aborted";
+  }
+  return "unknown";
+}
+
+const char* ToString(GeometryKind geometry)
+{
+  switch (geometry)
+  {
+    case GeometryKind::Auto:
+      return "auto";
+    case GeometryKind::Planar:
+      return "planar";
+    case GeometryKind::PlanarXY:
+      return "planar-xy";
+    case GeometryKind::Surface:
+      return "surface";
+  }
+  return "unknown";
+}
+
+std::string DescribeDefects(const std::vector<Defect>& defects)
+{
+  std::string text;
+  for (const Defect& defect : defects)
+  {
+    text += (text.empty() ? "" : "; ") + std::to_string(defect.Count) + " " + defect.What;
+    const char* separator = " (first: ";
+    for (const std::int64_t id : defect.FirstIds)
+    {
+      text += separator + std::to_string(id);
+      separator = ", ";
+    }
+    text += defect.FirstIds.empty() ? "" : ")";
+  }
+  return text;
+}
+
+}

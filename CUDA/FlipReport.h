@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPREPORT_H
+#define DELAUNAYFLIP_FLIPREPORT_H
+
+#include "FlipOptions.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// @file
+/// What a run did, and what it met in the input.
+
+namespace delaunayflip
+{
+
+enum class StopReasonKind
+{
+  NotStarted,
+  Converged, ///< An iteration found nothing that it may flip.
+  IterationLimit, ///< FlipOptions::MaximumIterations, or the safety limit of surfaces.
+  Aborted ///< The observer said so.
+};
+
+/// One iteration of the loop. NonDelaunay = Flipped + Excluded + Blocked.
+struct IterationRecord
+{
+  std::int64_t Iteration = 0; ///< 1, 2, ...
+  std::int64_t Tested = 0; ///< Edges judged.
+  std::int64_t NonDelaunay = 0; ///< Bad edges known when the iteration chose (never fixed ones).
+  std::int64_t Flipped = 0;
+  std::int64_t Excluded = 0; ///< Wanted to flip; a neighbour with a better key did.
+  std::int64_t Blocked = 0; ///< Bad, but the flip would fold the mesh or duplicate an edge.
+  double MinimumAngle = 0.0; ///< Degrees, after the iteration; NaN where it was not computed.
+  double Seconds = 0.0;
+};
+
+/// Edges of the input by kind, each a pair of distinct vertices counted once. An edge may be of
+/// several kinds; FixedEdges counts it once.
+struct EdgeCounts
+{
+  std::int64_t Edges = 0;
+  std::int64_t Boundary = 0; ///< One incident triangle.
+  std::int64_t NonManifold = 0; ///< Three or more incident triangles.
+  std::int64_t WronglyWound = 0; ///< Two incident triangles that run through it the same way.
+  std::int64_t Feature = 0; ///< Sharper than FlipOptions::FeatureAngle.
+  std::int64_t Constraint = 0; ///< Given by the caller and present in the mesh.
+  std::int64_t Region = 0; ///< Between triangles of different regions.
+  std::int64_t Fixed = 0; ///< Edges that never flip, for any reason.
+};
+
+/// A kind of dirt met in the input, with how often and where first.
+struct Defect
+{
+  std::string What; ///< For people, e.g. "triangles with a repeated point id".
+  std::int64_t Count = 0; ///< How many.
+  std::vector<std::int64_t> FirstIds; ///< At most three ids of what What names, ascending.
+};
+
+struct FlipReport
+{
+  std::int64_t Points = 0;
+  std::int64_t Triangles = 0;
+  EdgeCounts Edges;
+  std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
+
+  GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
+  std::string Backend; ///< E.g. "Threads: 8".
+
+  std::vector<IterationRecord> Iterations;
+  std::int64_t TotalFlips = 0;
+  std::int64_t TotalExcluded = 0;
+  std::int64_t TotalBlocked = 0;
+  std::int64_t NonDelaunayBefore = 0; ///< Bad edges of the input that are not fixed.
+  std::int64_t NonDelaunayAfter = 0; ///< Bad edges left, flippable or blocked.
+  double MinimumAngleBefore =
+    0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
+  double MinimumAngleAfter = 0.0;
+
+  StopReasonKind StopReason = StopReasonKind::NotStarted;
+  bool Converged() const { return this->StopReason == StopReasonKind::Converged; }
+
+  double BuildSeconds = 0.0; ///< From the caller's arrays to the edge mesh.
+  double FlipSeconds = 0.0; ///< The loop.
+
+  std::vector<Defect> Defects; ///< Empty for a clean mesh.
+};
+
+/// Called on the calling thread after every iteration; false aborts the run.
+using FlipObserver = std::function<bool(const IterationRecord&)>;
+
+/// "converged", "iteration limit", "aborted" or "not started".
+const char* ToString(StopReasonKind reason);
+
+/// "auto", "planar", "planar-xy" or "surface".
+const char* ToString(GeometryKind geometry);
+
+/// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
+/// none.
+std::string DescribeDefects(const std::vector<Defect>& defects);
+
+}
+
+#endif

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPRULES_H
+#define DELAUNAYFLIP_FLIPRULES_H
+
+#include "EdgeMesh.h"
+#include "ExactPredicates.h"
+#include "HostDevice.h"
+#include "SurfaceAngles.h"
+
+#include <cstdint>
+
+/// @file
+/// May this edge stay, may it flip? One rule a geometry. A rule reads the coordinates of a quad and
+/// returns EdgeState::Good, Bad, BlockedByShape, or Uncertain when plain arithmetic cannot tell;
+/// then JudgeExactly can. Nothing here depends on the order in which edges are judged.
+
+namespace delaunayflip
+{
+
+/// Signs by plain arithmetic: may be UncertainSign.
+struct FilteredSigns
+{
+  DELAUNAYFLIP_HOST_DEVICE static int Orientation(
+    const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+  {
+    return FilteredOrientation(a, b, c);
+  }
+  DELAUNAYFLIP_HOST_DEVICE static int InCircle(const PlanePoint (&points)[4], bool tilted)
+  {
+    return tilted ? FilteredInCircleTilted(points[0], points[1], points[2], points[3])
+                  : FilteredInCircle(points[0], points[1], points[2], points[3]);
+  }
+};
+
+/// Signs that are right.
+struct ExactSigns
+{
+  DELAUNAYFLIP_HOST_DEVICE static int Orientation(
+    const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+  {
+    return ExactOrientation(a, b, c);
+  }
+  DELAUNAYFLIP_HOST_DEVICE static int InCircle(const PlanePoint (&points)[4], bool tilted)
+  {
+    return ExactInCircle(points, tilted);
+  }
+};
+
+/// The side to which the two triangles of a quad turn: 1 or -1, 0 when they turn to different sides
+/// or neither has an area, UncertainSign. `strict` tells whether both have an area.
+template <typename Signs>
+DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4], bool& strict)
+{
+  const int upper = Signs::Orientation(apqb[0], apqb[1], apqb[2]);
+  const int lower = Signs::Orientation(apqb[3], apqb[2], apqb[1]);
+  strict = upper != 0 && lower != 0;
+  if (upper == UncertainSign || lower == UncertainSign)
+  {
+    return UncertainSign;
+  }
+  return upper * lower < 0 ? 0 : (upper != 0 ? upper : lower);
+}
+
+/// BlockedByShape unless both triangles of the flipped quad turn to `side`.
+template <typename Signs>
+DELAUNAYFLIP_HOST_DEVICE EdgeState CheckConvex(const PlanePoint (&apqb)[4], int side)
+{
+  const int left = Signs::Orientation(apqb[0], apqb[1], apqb[3]);
+  const int right = Signs::Orientation(apqb[3], apqb[2], apqb[0]);
+  if (left == UncertainSign || right == UncertainSign)
+  {
+    return EdgeState::Uncertain;
+  }
+  return left == side && right == side ? EdgeState::Bad : EdgeState::BlockedByShape;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
+  const PlanePoint& a, const PlanePoint& b)
+{
+  return a.U < b.U || (a.U == b.U && a.V < b.V);
+}
+
+/// The canonical diagonal of four points on a circle is the one that does not hold the
+/// lexicographically largest of them.
+DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
+{
+  const PlanePoint& onEdge = IsLexicographicallyLess(apqb[1], apqb[2]) ? apqb[2] : apqb[1];
+  return IsLexicographicallyLess(apqb[0], onEdge) && IsLexicographicallyLess(apqb[3], onEdge);
+}
+
+/// In the plane by the exact in-circle predicate. Components = 2: (u, v); 3: a tilted plane, (u, v,
+/// w).
+template <typename Real, int Components>
+struct PlanarRule
+{
+  static constexpr bool Tilted = Components == 3;
+
+  const Real* Coordinates; ///< Components numbers a vertex.
+  int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
+  bool Canonical; ///< Ties are decided, not kept.
+  bool FiltersApply; ///< Coordinates are in the filters' range.
+
+  DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
+  {
+    return this->Coordinates + std::size_t(Components) * vertex;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint Get(VertexId vertex) const
+  {
+    const Real* x = this->Address(vertex);
+    return { x[0], x[1], Tilted ? x[Components - 1] : Real(0) };
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
+  {
+    return this->FiltersApply ? this->Decide<FilteredSigns>(quad) : EdgeState::Uncertain;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
+  {
+    return this->Decide<ExactSigns>(quad);
+  }
+
+private:
+  /// In a plane, in-circle > 0 and one triangle with an area, the other not turned over, imply that
+  /// the quad is strictly convex; a tilted lift does not quite, where points leave the plane.
+  template <typename Signs>
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
+  {
+    const PlanePoint apqb[4] = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
+      this->Get(quad.B) };
+    bool strict = true;
+    const int side = this->UniformSide != 0 ? this->UniformSide : FindSide<Signs>(apqb, strict);
+    const int inCircle = Signs::InCircle(apqb, Tilted);
+    if (side == UncertainSign || inCircle == UncertainSign)
+    {
+      return EdgeState::Uncertain;
+    }
+    const bool tie = inCircle == 0 && this->Canonical && strict && side != 0;
+    if (!(inCircle * side > 0 || (tie && EdgeHoldsLargest(apqb))))
+    {
+      return EdgeState::Good;
+    }
+    return Tilted ? CheckConvex<Signs>(apqb, side) : EdgeState::Bad;
+  }
+};
+
+/// In the plane by the paper's opposite-angle sum; convexity is exact.
+struct PlanarAngleRule
+{
+  const double* Coordinates; ///< u, v, w of every vertex.
+  AngleTolerance Tolerance;
+
+  DELAUNAYFLIP_HOST_DEVICE const double* Address(VertexId vertex) const
+  {
+    return this->Coordinates + std::size_t(3) * vertex;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 Get(VertexId vertex) const
+  {
+    const double* x = this->Address(vertex);
+    return { x[0], x[1], x[2] };
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
+  {
+    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
+      this->Get(quad.B) };
+    return ExceedsPi(points, this->Tolerance) ? EdgeState::Uncertain : EdgeState::Good;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
+  {
+    const Vector3 a = this->Get(quad.A), p = this->Get(quad.P), q = this->Get(quad.Q),
+                  b = this->Get(quad.B);
+    const PlanePoint apqb[4] = { { a.X, a.Y, 0.0 }, { p.X, p.Y, 0.0 }, { q.X, q.Y, 0.0 },
+      { b.X, b.Y, 0.0 } };
+    bool strict = true;
+    const int side = FindSide<ExactSigns>(apqb, strict);
+    return side == 0 ? EdgeState::Good : CheckConvex<ExactSigns>(apqb, side);
+  }
+};
+
+/// In space by the opposite-angle sum, without folding the surface over.
+template <typename Real>
+struct SurfaceRule
+{
+  const Real* Coordinates; ///< x, y, z of every vertex.
+  AngleTolerance Tolerance;
+
+  DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
+  {
+    return this->Coordinates + std::size_t(3) * vertex;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 Get(VertexId vertex) const
+  {
+    const Real* x = this->Address(vertex);
+    return { x[0], x[1], x[2] };
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
+  {
+    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
+      this->Get(quad.B) };
+    if (!ExceedsPi(points, this->Tolerance))
+    {
+      return EdgeState::Good;
+    }
+    return FoldsOver(points) ? EdgeState::BlockedByShape : EdgeState::Bad;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
+  {
+    return this->Judge(quad);
+  }
+};
+
+}
+
+#endif

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPSTEPS_H
+#define DELAUNAYFLIP_FLIPSTEPS_H
+
+#include "EdgeFlip.h"
+#include "EdgeMesh.h"
+#include "EdgeTable.h"
+#include "FlipRules.h"
+#include "HostDevice.h"
+
+#include <cstdint>
+
+/// @file
+/// The steps of an iteration, each for one edge: judge, resolve, guard, count; choose, claim,
+/// confirm; flip. A step says which states it wants and handles an edge of such a state. All edges
+/// may run at once within a step; what a step writes that others may read at the same time is said
+/// with it. Prefetch(edge) asks for what operator() will read, one level of indirection ahead.
+
+namespace delaunayflip
+{
+
+/// What the steps count.
+struct StepCounts
+{
+  std::int64_t Tested = 0;
+  std::int64_t Bad = 0;
+  std::int64_t Blocked = 0;
+  std::int64_t Flipped = 0;
+  std::int64_t FreshSlots = 0; ///< Slots of the guard table used for the first time.
+  std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
+
+  DELAUNAYFLIP_HOST_DEVICE StepCounts& operator+=(const StepCounts& other)
+  {
+    this->Tested += other.Tested;
+    this->Bad += other.Bad;
+    this->Blocked += other.Blocked;
+    this->Flipped += other.Flipped;
+    this->FreshSlots += other.FreshSlots;
+    this->LostInserts += other.LostInserts;
+    return *this;
+  }
+};
+
+/// Which of two bad edges flips first: a bijection of edge ids, so no two are equal (equal ones
+/// would both flip, on a shared triangle), and scattered, so that chains are not served one by one.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Priority(EdgeId edge) { return Scatter(edge); }
+
+DELAUNAYFLIP_HOST_DEVICE inline void PrefetchTriangles(const EdgeMeshView& mesh, EdgeId edge)
+{
+  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge])]);
+  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
+}
+
+/// Judges candidates by plain arithmetic. Writes the edge's own state, which no one else reads.
+template <typename Rule>
+struct JudgeStep
+{
+  EdgeMeshView Mesh;
+  Rule Decision;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
+  {
+    return state == EdgeState::Candidate;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    delaunayflip::Prefetch(this->Decision.Address(quad.A));
+    delaunayflip::Prefetch(this->Decision.Address(quad.P));
+    delaunayflip::Prefetch(this->Decision.Address(quad.Q));
+    delaunayflip::Prefetch(this->Decision.Address(quad.B));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
+  {
+    this->Mesh.States[edge] = this->Decision.Judge(this->Mesh.GetQuad(edge));
+    ++counts.Tested;
+  }
+};
+
+/// Judges exactly what JudgeStep could not. Writes the edge's own state.
+template <typename Rule>
+struct ResolveStep
+{
+  EdgeMeshView Mesh;
+  Rule Decision;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
+  {
+    return state == EdgeState::Uncertain;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  {
+    this->Mesh.States[edge] = this->Decision.JudgeExactly(this->Mesh.GetQuad(edge));
+  }
+};
+
+/// Blocks bad edges whose flip would make an edge that exists, and frees those whose obstacle has
+/// gone. Reads the guard table, which does not change meanwhile; writes the edge's own state.
+struct GuardStep
+{
+  EdgeMeshView Mesh;
+  EdgeTableView Table;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
+  {
+    return state == EdgeState::Bad || state == EdgeState::BlockedByEdge;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    const bool exists = this->Table.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
+    this->Mesh.States[edge] = exists ? EdgeState::BlockedByEdge : EdgeState::Bad;
+  }
+};
+
+/// Counts what is bad. Writes nothing.
+struct CountStep
+{
+  EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
+  {
+    return state == EdgeState::Bad || state == EdgeState::BlockedByShape ||
+      state == EdgeState::BlockedByEdge;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
+  {
+    const bool bad = this->Mesh.States[edge] == EdgeState::Bad;
+    counts.Bad += bad ? 1 : 0;
+    counts.Blocked += bad ? 0 : 1;
+  }
+};
+
+/// Chooses an independent set: a bad edge wins when no bad edge of its two triangles has a smaller
+/// priority. Reads the states of neighbours while they turn from Bad to Winner, and takes both for
+/// bad.
+struct ChooseStep
+{
+  EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Bad; }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  {
+    const OuterHalfEdges outer = this->GetOuter(edge);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.AP)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.QA)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  {
+    const OuterHalfEdges outer = this->GetOuter(edge);
+    const std::uint32_t own = Priority(edge);
+    if (!this->IsBeatenBy(own, outer.AP) && !this->IsBeatenBy(own, outer.QA) &&
+      !this->IsBeatenBy(own, outer.PB) && !this->IsBeatenBy(own, outer.BQ))
+    {
+      AtomicStore(&this->Mesh.States[edge], EdgeState::Winner);
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE OuterHalfEdges GetOuter(EdgeId edge) const
+  {
+    return GetOuterHalfEdges(
+      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool IsBeatenBy(std::uint32_t own, HalfEdgeId halfEdge) const
+  {
+    const EdgeId other = EdgeOf(halfEdge);
+    const EdgeState state = AtomicLoad(&this->Mesh.States[other]);
+    return (state == EdgeState::Bad || state == EdgeState::Winner) && Priority(other) < own;
+  }
+};
+
+/// Winners claim the edge that they would make: two flips that share no triangle may make the same
+/// one. The claim table keeps the smallest priority of every new edge.
+struct ClaimStep
+{
+  EdgeMeshView Mesh;
+  EdgeTableView Claims;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    bool inserted = false;
+    const std::uint32_t slot = this->Claims.FindOrInsert(EdgeKey(quad.A, quad.B), inserted);
+    if (slot != EdgeTableView::NoSlot)
+    {
+      AtomicMin(&this->Claims.First[slot], Priority(edge));
+    }
+  }
+};
+
+/// Winners that do not hold their claim step back. Writes the edge's own state, which no one else
+/// reads.
+struct ConfirmStep
+{
+  EdgeMeshView Mesh;
+  EdgeTableView Claims;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    const std::uint32_t slot = this->Claims.Find(EdgeKey(quad.A, quad.B));
+    if (slot == EdgeTableView::NoSlot || this->Claims.First[slot] != Priority(edge))
+    {
+      this->Mesh.States[edge] = EdgeState::Bad;
+    }
+  }
+};
+
+/// Flips the winners, which share no triangle, and makes candidates of their outer edges. Two flips
+/// may mark the same outer edge, both with the same value. With a guard table, exchanges the old
+/// vertex pair for the new one.
+struct FlipStep
+{
+  EdgeMeshView Mesh;
+  std::uint8_t* ActiveBlocks; ///< One flag a block of 2^BlockBits edges.
+  int BlockBits;
+  bool Guarded;
+  EdgeTableView Table;
+
+  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  {
+    const OuterHalfEdges outer = GetOuterHalfEdges(
+      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
+    this->Mesh.States[edge] = EdgeState::Good;
+    this->Mark(EdgeOf(outer.AP));
+    this->Mark(EdgeOf(outer.QA));
+    this->Mark(EdgeOf(outer.PB));
+    this->Mark(EdgeOf(outer.BQ));
+    ++counts.Flipped;
+    if (this->Guarded)
+    {
+      this->ExchangeEdge(quad, counts);
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE void Mark(EdgeId edge) const
+  {
+    EdgeState* state = &this->Mesh.States[edge];
+    const EdgeState seen = AtomicLoad(state);
+    if (seen == EdgeState::Fixed || seen == EdgeState::Candidate)
+    {
+      return;
+    }
+    AtomicStore(state, EdgeState::Candidate);
+    std::uint8_t* flag = &this->ActiveBlocks[edge >> this->BlockBits];
+    if (AtomicLoad(flag) == 0)
+    {
+      AtomicStore(flag, std::uint8_t(1));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void ExchangeEdge(const Quad& quad, StepCounts& counts) const
+  {
+    bool fresh = false;
+    this->Table.Remove(EdgeKey(quad.P, quad.Q));
+    counts.LostInserts += this->Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+    counts.FreshSlots += fresh ? 1 : 0;
+  }
+};
+
+}
+
+#endif

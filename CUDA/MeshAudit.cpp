@@ -1,0 +1,367 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshAudit.h"
+
+#include "MeshSurvey.h"
+#include "Predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+using Vector3 = std::array<double, 3>;
+using VertexPair = std::pair<std::int64_t, std::int64_t>;
+
+/// One side of a triangle.
+struct Side
+{
+  VertexPair Ends; ///< Ascending.
+  std::int64_t Triangle;
+  int Slot; ///< Of the vertex opposite the side.
+  bool Reversed; ///< The triangle runs from the larger end to the smaller.
+};
+
+bool operator<(const Side& a, const Side& b)
+{
+  return a.Ends != b.Ends ? a.Ends < b.Ends
+                          : std::make_pair(a.Triangle, a.Slot) < std::make_pair(b.Triangle, b.Slot);
+}
+
+/// All sides between distinct vertices, those of one edge in a row.
+std::vector<Side> SortSides(const TriangleArray& triangles)
+{
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(3 * triangles.Count));
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int64_t from = triangles.Get(t, (slot + 1) % 3);
+      const std::int64_t to = triangles.Get(t, (slot + 2) % 3);
+      if (from != to)
+      {
+        sides.push_back({ std::minmax({ from, to }), t, slot, from > to });
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Calls visit(first side, number of incident sides) for every edge, by ascending vertex pair.
+template <typename Visitor>
+void ForEachEdge(const std::vector<Side>& sides, const Visitor& visit)
+{
+  std::size_t begin = 0;
+  while (begin < sides.size())
+  {
+    std::size_t end = begin + 1;
+    while (end < sides.size() && sides[end].Ends == sides[begin].Ends)
+    {
+      ++end;
+    }
+    visit(&sides[begin], static_cast<std::int64_t>(end - begin));
+    begin = end;
+  }
+}
+
+std::int64_t CountUsedPoints(const TriangleArray& triangles)
+{
+  std::vector<std::int64_t> ids;
+  ids.reserve(static_cast<std::size_t>(3 * triangles.Count));
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    ids.insert(ids.end(), { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) });
+  }
+  std::sort(ids.begin(), ids.end());
+  return std::unique(ids.begin(), ids.end()) - ids.begin();
+}
+
+Vector3 Subtract(const Vector3& a, const Vector3& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double Dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector3 Cross(const Vector3& a, const Vector3& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double Length(const Vector3& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// The vertices of a triangle or quad in space, scaled by a power of two so that products of their
+/// differences neither overflow nor vanish. With PlanarXY, z is 0.
+template <std::size_t Count>
+std::array<Vector3, Count> GetScaledPoints(
+  const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
+{
+  std::array<Vector3, Count> scaled{};
+  double largest = 0.0;
+  const auto forEachCoordinate = [&](const auto& work)
+  {
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      for (int axis = 0; axis < (geometry == GeometryKind::PlanarXY ? 2 : 3); ++axis)
+      {
+        work(scaled[i][axis], points.Get(ids[i], axis), points.Get(ids[0], axis));
+      }
+    }
+  };
+  forEachCoordinate(
+    [&](double& result, double x, double origin)
+    {
+      // Halves: the difference of two finite numbers may be infinite.
+      result = 0.5 * x - 0.5 * origin;
+      largest = std::max(largest, std::fabs(result));
+    });
+  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  forEachCoordinate(
+    [&](double& result, double, double) { result = std::scalbn(result, -exponent); });
+  return scaled;
+}
+
+template <std::size_t Count>
+bool AreFinite(
+  const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
+{
+  return std::all_of(
+    ids.begin(), ids.end(), [&](std::int64_t id) { return IsFinitePoint(points, id, geometry); });
+}
+
+/// Cosine and sine, times any positive number, of the angle at `apex` towards `p` and `q`.
+struct Angle
+{
+  Angle(const Vector3& apex, const Vector3& p, const Vector3& q)
+  {
+    const Vector3 first = Subtract(p, apex);
+    const Vector3 second = Subtract(q, apex);
+    this->Cosine = Dot(first, second);
+    this->Sine = Length(Cross(first, second));
+  }
+
+  double Cosine;
+  double Sine;
+};
+
+/// Whether the angles sum to more than pi + tolerance. The sum lies in [0, 2 pi].
+bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
+{
+  if (a.Cosine >= 0.0 && b.Cosine >= 0.0)
+  {
+    return false;
+  }
+  const double sine = a.Sine * b.Cosine + a.Cosine * b.Sine;
+  const double cosine = a.Cosine * b.Cosine - a.Sine * b.Sine;
+  const bool isAboveThreeHalvesPi = a.Cosine < 0.0 && b.Cosine < 0.0 && cosine > 0.0;
+  return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
+}
+
+/// Says of single edges whether they violate the criterion.
+class EdgeJudge
+{
+public:
+  EdgeJudge(const TriangleMesh& mesh, const FlipOptions& options)
+    : Mesh(mesh),
+      Options(options)
+  {
+    const MeshSurvey survey = SurveyMesh(mesh, options.Geometry, ThreadBackend(1));
+    this->Geometry = survey.Geometry;
+    this->Projection = survey.Projection;
+    for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+    {
+      this->Constraints.emplace_back(
+        std::minmax({ mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1] }));
+    }
+    std::sort(this->Constraints.begin(), this->Constraints.end());
+  }
+
+  /// @param sides the two sides of an edge.
+  bool IsViolated(const Side* sides) const
+  {
+    if (!this->MayFlip(sides))
+    {
+      return false;
+    }
+    const std::array<std::int64_t, 4> quad = this->GetQuad(sides);
+    const bool isDegenerate = quad[0] == quad[3] || quad[0] == quad[1] || quad[0] == quad[2] ||
+      quad[3] == quad[1] || quad[3] == quad[2];
+    if (isDegenerate || !AreFinite(this->Mesh.Points, quad, this->Geometry))
+    {
+      return false;
+    }
+    if (this->Geometry == GeometryKind::Surface)
+    {
+      return !this->IsFeature(quad) && this->HasLargeAngles(quad);
+    }
+    const int side = this->Turn(quad[0], quad[1], quad[2]) + this->Turn(quad[3], quad[2], quad[1]);
+    return this->Options.Criterion == CriterionKind::InCircle
+      ? side * this->JudgeInCircle(quad) > 0
+      : side != 0 && this->HasLargeAngles(quad);
+  }
+
+private:
+  /// By what the caller said of the edge and by its winding.
+  bool MayFlip(const Side* sides) const
+  {
+    const std::int64_t t = sides[0].Triangle;
+    const std::int64_t s = sides[1].Triangle;
+    const unsigned char* frozen = this->Mesh.FrozenTriangles;
+    const bool isFrozen = frozen && (frozen[t] != 0 || frozen[s] != 0);
+    const bool isRegionBorder =
+      this->Mesh.Regions && this->Mesh.Regions[t] != this->Mesh.Regions[s];
+    return sides[0].Reversed != sides[1].Reversed && !isFrozen && !isRegionBorder &&
+      !std::binary_search(this->Constraints.begin(), this->Constraints.end(), sides[0].Ends);
+  }
+
+  /// a, p, q, b: triangles (a, p, q) and (b, q, p).
+  std::array<std::int64_t, 4> GetQuad(const Side* sides) const
+  {
+    const TriangleArray& triangles = this->Mesh.Triangles;
+    const Side& side = sides[0];
+    return { triangles.Get(side.Triangle, side.Slot),
+      triangles.Get(side.Triangle, (side.Slot + 1) % 3),
+      triangles.Get(side.Triangle, (side.Slot + 2) % 3),
+      triangles.Get(sides[1].Triangle, sides[1].Slot) };
+  }
+
+  /// A point's u, v and w; w is 0 unless it belongs to the lift.
+  Vector3 Project(std::int64_t point) const
+  {
+    const PlanePoint projected = this->Projection.Project(this->Mesh.Points, point);
+    return { projected.U, projected.V, projected.W };
+  }
+
+  int Turn(std::int64_t a, std::int64_t b, std::int64_t c) const
+  {
+    return Orientation(this->Project(a).data(), this->Project(b).data(), this->Project(c).data());
+  }
+
+  int JudgeInCircle(const std::array<std::int64_t, 4>& quad) const
+  {
+    const Vector3 a = this->Project(quad[0]);
+    const Vector3 p = this->Project(quad[1]);
+    const Vector3 q = this->Project(quad[2]);
+    const Vector3 b = this->Project(quad[3]);
+    return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
+                                   : InCircle(a.data(), p.data(), q.data(), b.data());
+  }
+
+  bool HasLargeAngles(const std::array<std::int64_t, 4>& quad) const
+  {
+    const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
+    return IsSumAbovePi(Angle(x[0], x[1], x[2]), Angle(x[3], x[1], x[2]), this->Options.Tolerance);
+  }
+
+  /// Whether the normals differ by more than the feature angle; never next to an empty triangle.
+  bool IsFeature(const std::array<std::int64_t, 4>& quad) const
+  {
+    if (this->Options.FeatureAngle >= 180.0)
+    {
+      return false;
+    }
+    const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
+    const Vector3 n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
+    const Vector3 m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
+    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
+  }
+
+  const TriangleMesh& Mesh;
+  const FlipOptions& Options;
+  GeometryKind Geometry;
+  PlaneProjection Projection;
+  std::vector<VertexPair> Constraints;
+};
+
+/// Radians; 0 for a triangle without area.
+double SmallestAngle(const std::array<Vector3, 3>& corners)
+{
+  double smallest = Pi;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Angle angle(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    smallest = std::min(smallest, std::atan2(angle.Sine, angle.Cosine));
+  }
+  return smallest;
+}
+
+}
+
+EdgeCounts CountEdges(const TriangleArray& triangles)
+{
+  EdgeCounts counts;
+  ForEachEdge(SortSides(triangles),
+    [&](const Side* sides, std::int64_t incident)
+    {
+      ++counts.Edges;
+      counts.Boundary += incident == 1;
+      counts.NonManifold += incident >= 3;
+      counts.WronglyWound += incident == 2 && sides[0].Reversed == sides[1].Reversed;
+    });
+  return counts;
+}
+
+std::int64_t EulerCharacteristic(const TriangleArray& triangles)
+{
+  return CountUsedPoints(triangles) - CountEdges(triangles).Edges + triangles.Count;
+}
+
+std::int64_t CountDuplicateEdgesGained(const TriangleArray& before, const TriangleArray& after)
+{
+  using Valence = std::pair<VertexPair, std::int64_t>;
+  std::vector<Valence> valencesBefore;
+  ForEachEdge(SortSides(before),
+    [&](const Side* sides, std::int64_t incident)
+    { valencesBefore.emplace_back(sides->Ends, incident); });
+
+  std::int64_t gained = 0;
+  auto found = valencesBefore.begin();
+  ForEachEdge(SortSides(after),
+    [&](const Side* sides, std::int64_t incident)
+    {
+      const auto isBefore = [](const Valence& a, const VertexPair& b) { return a.first < b; };
+      found = std::lower_bound(found, valencesBefore.end(), sides->Ends, isBefore);
+      const bool isKnown = found != valencesBefore.end() && found->first == sides->Ends;
+      gained += incident >= 3 && incident > (isKnown ? found->second : 0);
+    });
+  return gained;
+}
+
+std::int64_t CountNonDelaunayEdges(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  const EdgeJudge judge(mesh, options);
+  std::int64_t violated = 0;
+  ForEachEdge(SortSides(mesh.Triangles),
+    [&](const Side* sides, std::int64_t incident)
+    { violated += incident == 2 && judge.IsViolated(sides); });
+  return violated;
+}
+
+double MinimumAngle(const TriangleMesh& mesh, GeometryKind geometry)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const std::array<std::int64_t, 3> ids = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+      mesh.Triangles.Get(t, 2) };
+    if (AreFinite(mesh.Points, ids, geometry))
+    {
+      smallest = std::min(smallest, SmallestAngle(GetScaledPoints(mesh.Points, ids, geometry)));
+    }
+  }
+  return std::isfinite(smallest) ? smallest * 180.0 / Pi : std::numeric_limits<double>::quiet_NaN();
+}
+
+}

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POLYGONSPLIT_H
+#define DELAUNAYFLIP_POLYGONSPLIT_H
+
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// Polygons into triangles, without new points.
+
+namespace delaunayflip
+{
+
+/// Splits one polygon of `count` >= 3 vertices into count - 2 triangles that keep its winding, and
+/// appends their vertex ids, three each, to `triangles`. A quad is cut along its 0-2 diagonal
+/// unless that runs outside it (then along 1-3); a larger polygon is a fan from its first vertex
+/// when it is convex, else its ears are clipped. Works in the plane of the polygon's area vector. A
+/// polygon that crosses itself or has no area still gives count - 2 triangles (a fan).
+/// @param ids the polygon's vertex ids, valid indices into `points`.
+void SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
+  std::vector<std::int64_t>& triangles);
+
+/// Unit normal of a triangle by the right-hand rule; 0, 0, 0 for one without area.
+void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3]);
+
+}
+
+#endif

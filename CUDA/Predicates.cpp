@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Predicates.h"
+
+#include "ExactPredicates.h"
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Whether the filters' range assumption holds for these points (and none is NaN or infinite).
+template <int Count>
+bool IsInFilterRange(const PlanePoint (&points)[Count])
+{
+  bool inRange = true;
+  for (const PlanePoint& p : points)
+  {
+    constexpr double Half = LargestFilteredDifference / 2;
+    inRange = inRange && std::fabs(p.U) <= Half && std::fabs(p.V) <= Half && std::fabs(p.W) <= Half;
+  }
+  return inRange;
+}
+
+template <int Count>
+bool AreFinite(const PlanePoint (&points)[Count])
+{
+  bool finite = true;
+  for (const PlanePoint& p : points)
+  {
+    finite = finite && std::isfinite(p.U) && std::isfinite(p.V) && std::isfinite(p.W);
+  }
+  return finite;
+}
+
+int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
+{
+  if (IsInFilterRange(points))
+  {
+    const auto filter = tilted ? FilteredInCircleTilted : FilteredInCircle;
+    const int sign = filter(points[0], points[1], points[2], points[3]);
+    if (sign != UncertainSign)
+    {
+      return sign;
+    }
+  }
+  return AreFinite(points) ? ExactInCircle(points, tilted) : 0;
+}
+}
+
+int Orientation(const double a[2], const double b[2], const double c[2])
+{
+  const PlanePoint points[3] = { { a[0], a[1], 0.0 }, { b[0], b[1], 0.0 }, { c[0], c[1], 0.0 } };
+  if (IsInFilterRange(points))
+  {
+    const int sign = FilteredOrientation(points[0], points[1], points[2]);
+    if (sign != UncertainSign)
+    {
+      return sign;
+    }
+  }
+  return AreFinite(points) ? ExactOrientation(points[0], points[1], points[2]) : 0;
+}
+
+int InCircle(const double a[2], const double b[2], const double c[2], const double d[2])
+{
+  return DecideInCircle(
+    { { a[0], a[1], 0.0 }, { b[0], b[1], 0.0 }, { c[0], c[1], 0.0 }, { d[0], d[1], 0.0 } }, false);
+}
+
+int InCircleTilted(const double a[3], const double b[3], const double c[3], const double d[3])
+{
+  return DecideInCircle(
+    { { a[0], a[1], a[2] }, { b[0], b[1], b[2] }, { c[0], c[1], c[2] }, { d[0], d[1], d[2] } },
+    true);
+}
+
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SURFACEANGLES_H
+#define DELAUNAYFLIP_SURFACEANGLES_H
+
+#include "HostDevice.h"
+#include "TriangleMesh.h"
+
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// Angles in space by cross and dot products: no inverse trigonometry, no dependence on scale.
+
+namespace delaunayflip
+{
+
+constexpr double Pi = 3.14159265358979323846;
+constexpr double DegreesToRadians = Pi / 180.0;
+
+struct Vector3
+{
+  double X = 0.0, Y = 0.0, Z = 0.0;
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator+(const Vector3& a, const Vector3& b)
+{
+  return { a.X + b.X, a.Y + b.Y, a.Z + b.Z };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator-(const Vector3& a, const Vector3& b)
+{
+  return { a.X - b.X, a.Y - b.Y, a.Z - b.Z };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline double Dot(const Vector3& a, const Vector3& b)
+{
+  return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 Cross(const Vector3& a, const Vector3& b)
+{
+  return { a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline double Length(const Vector3& a) { return std::sqrt(Dot(a, a)); }
+
+/// Coordinates of a point times a power of two.
+inline Vector3 LoadScaled(const PointArray& points, std::int64_t point, double scale)
+{
+  return { scale * points.Get(point, 0), scale * points.Get(point, 1),
+    scale * points.Get(point, 2) };
+}
+
+/// The points of a quad (EdgeFlip.h's picture).
+struct QuadPoints
+{
+  Vector3 A, P, Q, B;
+};
+
+/// Normal of triangle a, b, c; its length is twice the area.
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 AreaVector(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  return Cross(b - a, c - a);
+}
+
+/// Whether the two triangles' normals differ by more than the angle of that cosine. A triangle
+/// without area has no normal: no.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsSharp(const QuadPoints& quad, double cosine)
+{
+  const Vector3 upper = AreaVector(quad.A, quad.P, quad.Q);
+  const Vector3 lower = AreaVector(quad.B, quad.Q, quad.P);
+  const double lengths = Length(upper) * Length(lower);
+  return lengths > 0.0 && Dot(upper, lower) < cosine * lengths;
+}
+
+/// Sine and cosine of the tolerance of the opposite-angle test.
+struct AngleTolerance
+{
+  double Sine = 0.0;
+  double Cosine = 1.0;
+};
+
+/// Whether the angles at a and b, opposite the edge p-q, sum to more than pi + tolerance (the
+/// paper's eq. 5). With sine and cosine of the sum, both times the same positive factor, the sum
+/// lies beyond when sin(sum - tolerance) < 0. That holds between pi/2 and 3/2 pi, where the cosine
+/// is not positive; elsewhere the sum is small or, when both angles are obtuse, large.
+DELAUNAYFLIP_HOST_DEVICE inline bool ExceedsPi(
+  const QuadPoints& quad, const AngleTolerance& tolerance)
+{
+  const Vector3 ap = quad.P - quad.A, aq = quad.Q - quad.A;
+  const Vector3 bp = quad.P - quad.B, bq = quad.Q - quad.B;
+  const double cosA = Dot(ap, aq), sinA = Length(Cross(ap, aq));
+  const double cosB = Dot(bp, bq), sinB = Length(Cross(bp, bq));
+  const double sine = sinA * cosB + cosA * sinB;
+  const double cosine = cosA * cosB - sinA * sinB;
+  if (cosine > 0.0)
+  {
+    return cosA < 0.0 && cosB < 0.0;
+  }
+  return sine * tolerance.Cosine - cosine * tolerance.Sine < 0.0;
+}
+
+/// Whether flipping p-q to a-b would fold the surface over: a new normal does not point to the side
+/// of the quad's vector area, which the flip does not change.
+DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOver(const QuadPoints& quad)
+{
+  const Vector3 area = AreaVector(quad.A, quad.P, quad.Q) + AreaVector(quad.B, quad.Q, quad.P);
+  return !(Dot(AreaVector(quad.A, quad.P, quad.B), area) > 0.0 &&
+    Dot(AreaVector(quad.B, quad.Q, quad.A), area) > 0.0);
+}
+
+/// Cotangent of the smallest angle of a triangle: infinite without area, -infinite (no angle) with
+/// a coordinate that is NaN or infinite.
+DELAUNAYFLIP_HOST_DEVICE inline double LargestCotangent(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const double atA = Dot(b - a, c - a);
+  const double atB = Dot(c - b, a - b);
+  const double atC = Dot(a - c, b - c);
+  const double doubleArea = Length(AreaVector(a, b, c));
+  if (!(doubleArea < INFINITY))
+  {
+    return -INFINITY;
+  }
+  const double atBOrC = atB > atC ? atB : atC;
+  return doubleArea > 0.0 ? (atA > atBOrC ? atA : atBOrC) / doubleArea : INFINITY;
+}
+
+}
+
+#endif

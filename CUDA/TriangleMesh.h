@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_TRIANGLEMESH_H
+#define DELAUNAYFLIP_TRIANGLEMESH_H
+
+#include <cstdint>
+
+/// @file
+/// The input of the engine: views of arrays that belong to the caller. Nothing here owns or copies.
+
+namespace delaunayflip
+{
+
+/// Coordinates of points: x, y, z interleaved, 3 * Count numbers of type float or double.
+struct PointArray
+{
+  PointArray() = default;
+  PointArray(const float* xyz, std::int64_t count)
+    : Floats(xyz),
+      Count(count)
+  {
+  }
+  PointArray(const double* xyz, std::int64_t count)
+    : Doubles(xyz),
+      Count(count)
+  {
+  }
+
+  /// Coordinate `axis` (0, 1, 2) of point `point` (0 .. Count - 1).
+  double Get(std::int64_t point, int axis) const
+  {
+    const std::int64_t i = 3 * point + axis;
+    return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
+  }
+
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr;
+  std::int64_t Count = 0;
+};
+
+/// Vertex ids of triangles: three a triangle, interleaved, 3 * Count integers of 32 or 64 bits.
+/// `Id32` and `Id64` are const types for an input, non-const for an output.
+template <typename Id32, typename Id64>
+struct BasicTriangleArray
+{
+  BasicTriangleArray() = default;
+  BasicTriangleArray(Id32* ids, std::int64_t count)
+    : Ids32(ids),
+      Count(count)
+  {
+  }
+  BasicTriangleArray(Id64* ids, std::int64_t count)
+    : Ids64(ids),
+      Count(count)
+  {
+  }
+
+  /// Vertex id at `slot` (0, 1, 2) of `triangle` (0 .. Count - 1).
+  std::int64_t Get(std::int64_t triangle, int slot) const
+  {
+    const std::int64_t i = 3 * triangle + slot;
+    return this->Ids32 ? static_cast<std::int64_t>(this->Ids32[i])
+                       : static_cast<std::int64_t>(this->Ids64[i]);
+  }
+
+  void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
+  {
+    const std::int64_t i = 3 * triangle + slot;
+    if (this->Ids32)
+    {
+      this->Ids32[i] = static_cast<Id32>(vertex);
+    }
+    else
+    {
+      this->Ids64[i] = static_cast<Id64>(vertex);
+    }
+  }
+
+  Id32* Ids32 = nullptr;
+  Id64* Ids64 = nullptr;
+  std::int64_t Count = 0;
+};
+
+using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
+using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
+
+/// A triangle mesh with what the caller knows of its edges. Any mesh is accepted: non-manifold,
+/// open, of mixed winding, with duplicate, degenerate or unused parts.
+struct TriangleMesh
+{
+  PointArray Points;
+  TriangleArray Triangles;
+
+  /// Edges that must stay: NumberOfConstraintEdges pairs of vertex ids, in any order and direction.
+  const std::int64_t* ConstraintEdges = nullptr;
+  std::int64_t NumberOfConstraintEdges = 0;
+
+  /// One label a triangle, or null: edges between triangles of different labels stay.
+  const std::int32_t* Regions = nullptr;
+
+  /// One flag a triangle, or null: the edges of triangles with a flag other than 0 stay.
+  const unsigned char* FrozenTriangles = nullptr;
+};
+
+}
+
+#endif

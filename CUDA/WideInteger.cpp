@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExactPredicates.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+/// @file
+/// Signs of determinants in integers of any width: every double is an integer times 2^-1074.
+
+namespace delaunayflip
+{
+
+namespace
+{
+using Integer = boost::multiprecision::cpp_int;
+
+/// value * 2^1074.
+Integer ToInteger(double value)
+{
+  constexpr int MantissaBits = 53;
+  constexpr int SmallestExponent = -1074;
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  Integer result = static_cast<long long>(std::ldexp(fraction, MantissaBits));
+  const int shift = exponent - MantissaBits - SmallestExponent;
+  // Subnormal numbers end in as many zero bits as the shift is negative.
+  return shift >= 0 ? Integer(result << shift) : Integer(result >> -shift);
+}
+
+struct WidePoint
+{
+  Integer U, V, W;
+
+  explicit WidePoint(const PlanePoint& point)
+    : U(ToInteger(point.U)),
+      V(ToInteger(point.V)),
+      W(ToInteger(point.W))
+  {
+  }
+};
+}
+
+int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+{
+  const WidePoint p(a), q(b), r(c);
+  const Integer determinant = (p.U - r.U) * (q.V - r.V) - (p.V - r.V) * (q.U - r.U);
+  return determinant.sign();
+}
+
+int WideInCircle(const PlanePoint (&points)[4], bool tilted)
+{
+  const WidePoint d(points[3]);
+  Integer u[3], v[3], lift[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    const WidePoint p(points[i]);
+    u[i] = p.U - d.U;
+    v[i] = p.V - d.V;
+    lift[i] = u[i] * u[i] + v[i] * v[i];
+    if (tilted)
+    {
+      lift[i] += (p.W - d.W) * (p.W + d.W);
+    }
+  }
+  const Integer determinant = lift[0] * (u[1] * v[2] - u[2] * v[1]) +
+    lift[1] * (u[2] * v[0] - u[0] * v[2]) + lift[2] * (u[0] * v[1] - u[1] * v[0]);
+  return determinant.sign();
+}
+
+}

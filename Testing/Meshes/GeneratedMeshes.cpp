@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GeneratedMeshes.h"
+
+#include <cmath>
+#include <random>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// A point of the unit circle, `turn` (0 <= turn < 1) of the way round it. The rational
+/// parametrization needs no sine, whose last bit differs between machines.
+struct CirclePoint
+{
+  explicit CirclePoint(double turn)
+  {
+    const double quarters = 4.0 * turn;
+    const double t = quarters - std::floor(quarters);
+    const double c = (1.0 - t * t) / (1.0 + t * t);
+    const double s = 2.0 * t / (1.0 + t * t);
+    switch (static_cast<int>(quarters) % 4)
+    {
+      case 0:
+        this->Set(c, s);
+        break;
+      case 1:
+        this->Set(-s, c);
+        break;
+      case 2:
+        this->Set(-c, -s);
+        break;
+      default:
+        this->Set(s, -c);
+        break;
+    }
+  }
+
+  void Set(double cosine, double sine)
+  {
+    this->Cosine = cosine;
+    this->Sine = sine;
+  }
+
+  double Cosine = 1.0;
+  double Sine = 0.0;
+};
+
+/// In [0, 1), from the generator's own bits: the standard's distributions differ between libraries.
+double DrawUnit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
+
+void AddPoint(OwnedMesh<double>& mesh, double x, double y, double z)
+{
+  mesh.Points.insert(mesh.Points.end(), { x, y, z });
+}
+
+void AddTriangle(OwnedMesh<double>& mesh, std::int32_t a, std::int32_t b, std::int32_t c)
+{
+  mesh.Triangles.insert(mesh.Triangles.end(), { a, b, c });
+}
+
+struct Quad
+{
+  std::int32_t A, B, C, D;
+};
+
+/// Cuts along A-C or, with `otherDiagonal`, along B-D.
+void AddQuad(OwnedMesh<double>& mesh, const Quad& quad, bool otherDiagonal)
+{
+  if (otherDiagonal)
+  {
+    AddTriangle(mesh, quad.A, quad.B, quad.D);
+    AddTriangle(mesh, quad.B, quad.C, quad.D);
+    return;
+  }
+  AddTriangle(mesh, quad.A, quad.B, quad.C);
+  AddTriangle(mesh, quad.A, quad.C, quad.D);
+}
+
+bool DrawBit(std::mt19937& random) { return (random() >> 31) != 0; }
+
+}
+
+OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size)
+{
+  OwnedMesh<double> mesh;
+  for (std::int32_t i = 0; i < size; ++i)
+  {
+    AddPoint(mesh, size + 1 + i, 1.0, 0.0);
+  }
+  for (std::int32_t j = 0; j < size; ++j)
+  {
+    AddPoint(mesh, j, -1.0, 0.0);
+  }
+  for (std::int32_t i = 0; i + 1 < size; ++i)
+  {
+    AddTriangle(mesh, size, i + 1, i);
+  }
+  for (std::int32_t j = 0; j + 1 < size; ++j)
+  {
+    AddTriangle(mesh, size - 1, size + j, size + j + 1);
+  }
+  return mesh;
+}
+
+OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows)
+{
+  OwnedMesh<double> mesh;
+  for (std::int32_t r = 0; r <= rows; ++r)
+  {
+    for (std::int32_t c = 0; c <= columns; ++c)
+    {
+      AddPoint(mesh, c, r, 0.0);
+    }
+  }
+  const std::int32_t stride = columns + 1;
+  for (std::int32_t r = 0; r < rows; ++r)
+  {
+    for (std::int32_t c = 0; c < columns; ++c)
+    {
+      const std::int32_t corner = r * stride + c;
+      AddQuad(mesh, { corner, corner + 1, corner + stride + 1, corner + stride }, false);
+    }
+  }
+  return mesh;
+}
+
+OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  OwnedMesh<double> mesh;
+  for (std::int32_t r = 0; r < rows; ++r)
+  {
+    const CirclePoint meridian(0.5 * (r + 1) / (rows + 1));
+    for (std::int32_t c = 0; c < columns; ++c)
+    {
+      const CirclePoint parallel((c + 0.9 * DrawUnit(random)) / columns);
+      AddPoint(
+        mesh, meridian.Sine * parallel.Cosine, meridian.Sine * parallel.Sine, meridian.Cosine);
+    }
+  }
+  const std::int32_t north = rows * columns;
+  const std::int32_t south = north + 1;
+  AddPoint(mesh, 0.0, 0.0, 1.0);
+  AddPoint(mesh, 0.0, 0.0, -1.0);
+  const std::int32_t lastRing = (rows - 1) * columns;
+  for (std::int32_t c = 0; c < columns; ++c)
+  {
+    const std::int32_t next = (c + 1) % columns;
+    AddTriangle(mesh, north, c, next);
+    for (std::int32_t ring = 0; ring < lastRing; ring += columns)
+    {
+      AddQuad(mesh, { ring + c, ring + columns + c, ring + columns + next, ring + next },
+        DrawBit(random));
+    }
+    AddTriangle(mesh, south, lastRing + next, lastRing + c);
+  }
+  return mesh;
+}
+
+OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  OwnedMesh<double> mesh;
+  for (std::int32_t c = 0; c < columns; ++c)
+  {
+    const CirclePoint around(static_cast<double>(c) / columns);
+    const CirclePoint twist(0.5 * c / columns);
+    for (std::int32_t r = 0; r <= rows; ++r)
+    {
+      const double across = static_cast<double>(r) / rows - 0.5;
+      const double radius = 2.0 + across * twist.Cosine;
+      AddPoint(mesh, radius * around.Cosine, radius * around.Sine, across * twist.Sine);
+    }
+  }
+  const std::int32_t stride = rows + 1;
+  for (std::int32_t c = 0; c < columns; ++c)
+  {
+    const bool seam = c + 1 == columns;
+    for (std::int32_t r = 0; r < rows; ++r)
+    {
+      const std::int32_t near = c * stride + r;
+      // After one turn the strip arrives upside down.
+      const std::int32_t far = seam ? rows - r : near + stride;
+      AddQuad(mesh, { near, far, seam ? far - 1 : far + 1, near + 1 }, DrawBit(random));
+    }
+  }
+  return mesh;
+}
+
+}
