@@ -22,6 +22,7 @@ namespace
 {
 /// Iterations that a surface may take beyond its number of triangles before the loop gives up.
 constexpr std::int64_t SafetyMargin = 1000;
+constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
 
 class StopWatch
 {
@@ -112,9 +113,12 @@ public:
     const StopWatch watch;
     const double secondsBefore = this->Report.FlipSeconds;
     this->Resume();
-    for (std::int64_t i = 0; this->IsRunning() && i != iterations; ++i)
+    const auto done = [this]()
+    { return static_cast<std::int64_t>(this->Report.Iterations.size()); };
+    const std::int64_t limit = iterations < 0 ? NoLimit : done() + iterations;
+    while (this->IsRunning() && done() < limit)
     {
-      this->Iterate(observer);
+      this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer);
     }
     if (!this->IsRunning())
     {
@@ -285,15 +289,15 @@ private:
   void DetectFirst()
   {
     const StopWatch watch;
-    this->Detect();
+    this->Detected(this->Loop->Detect());
     this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
     this->Report.FlipSeconds = watch.GetSeconds();
   }
 
-  void Detect()
+  void Detected(const StepCounts& found)
   {
-    this->Found = this->Loop->Detect();
-    this->Report.NonDelaunayAfter = this->Found.Bad + this->Found.Blocked;
+    this->Found = found;
+    this->Report.NonDelaunayAfter = found.Bad + found.Blocked;
   }
 
   std::int64_t GetIterationLimit() const
@@ -304,8 +308,7 @@ private:
     }
     const bool mayCycle = this->Report.GeometryUsed == GeometryKind::Surface ||
       this->Options.Criterion == CriterionKind::OppositeAngles;
-    return mayCycle ? this->Report.Triangles + SafetyMargin
-                    : std::numeric_limits<std::int64_t>::max();
+    return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;
   }
 
   bool IsRunning() const { return this->Report.StopReason == StopReasonKind::NotStarted; }
@@ -325,33 +328,39 @@ private:
     }
   }
 
-  void Iterate(const FlipObserver& observer)
+  /// At least one iteration, at most `most`.
+  void Iterate(std::int64_t most, const FlipObserver& observer)
   {
     const StopWatch watch;
-    IterationRecord record;
-    record.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
-    record.Tested = this->Found.Tested;
-    record.NonDelaunay = this->Found.Bad + this->Found.Blocked;
-    record.Blocked = this->Found.Blocked;
-    record.Flipped = this->Loop->Flip();
-    record.Excluded = this->Found.Bad - record.Flipped;
-    this->Detect();
-    record.MinimumAngle = std::numeric_limits<double>::quiet_NaN();
-    if (this->Options.TrackQuality || record.Iteration == 1)
+    const bool isFirst = this->Report.Iterations.empty();
+    const std::vector<IterationCounts> iterations =
+      this->Loop->Advance({ most, isFirst, this->Options.TrackQuality });
+    this->Detected(this->Loop->GetFound());
+    const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
+    bool goOn = true;
+    for (const IterationCounts& counts : iterations)
     {
-      record.MinimumAngle = ToDegrees(this->Loop->FindLargestCotangent());
+      this->Keep(counts, seconds);
+      goOn = (!observer || observer(this->Report.Iterations.back())) && goOn;
     }
-    record.Seconds = watch.GetSeconds();
-    this->Keep(record);
     this->Resume();
-    if (observer && !observer(this->Report.Iterations.back()) && this->IsRunning())
+    if (!goOn && this->IsRunning())
     {
       this->Report.StopReason = StopReasonKind::Aborted;
     }
   }
 
-  void Keep(const IterationRecord& record)
+  void Keep(const IterationCounts& counts, double seconds)
   {
+    IterationRecord record;
+    record.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
+    record.Tested = counts.Tested;
+    record.NonDelaunay = counts.Bad + counts.Blocked;
+    record.Blocked = counts.Blocked;
+    record.Flipped = counts.Flipped;
+    record.Excluded = counts.Bad - counts.Flipped;
+    record.MinimumAngle = ToDegrees(counts.LargestCotangent);
+    record.Seconds = seconds;
     this->Report.Iterations.push_back(record);
     this->Report.TotalFlips += record.Flipped;
     this->Report.TotalExcluded += record.Excluded;

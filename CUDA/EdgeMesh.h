@@ -32,13 +32,14 @@ using CornerId = std::uint32_t;
 /// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
 constexpr CornerId NoCorner = 0xFFFFFFFFu;
 
-/// What the loop knows of an edge. Between iterations an edge is Fixed, Good, Candidate, Bad or
+/// What the loop knows of an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
 /// blocked.
 enum class EdgeState : std::uint8_t
 {
   Good, ///< Locally Delaunay.
   Fixed, ///< Never flips, never judged.
-  Candidate, ///< To be judged: new, or an incident triangle changed.
+  Deferred, ///< Between chunks while these work for themselves; a candidate afterwards.
+  Candidate = 4, ///< To be judged: new, or an incident triangle changed.
   Uncertain, ///< The filter could not tell; exact arithmetic must.
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
   BlockedByEdge, ///< Bad, but the new edge already exists. May clear when others flip.
@@ -104,7 +105,7 @@ struct EdgeMesh
   std::int64_t NumberOfEdges = 0;
   Array<TriangleRecord> Triangles;
   Array<CornerId> CornerOfHalfEdge;
-  Array<EdgeState> States;
+  Array<EdgeState> States; ///< Padded to a multiple of 8: they are searched a word at a time.
 
   EdgeMeshView View()
   {

@@ -205,7 +205,9 @@ private:
     EdgeMesh& edges = this->Result.Edges;
     edges.NumberOfEdges = this->FirstEdges.back();
     edges.CornerOfHalfEdge = Array<CornerId>(2 * edges.NumberOfEdges);
-    edges.States = Array<EdgeState>(edges.NumberOfEdges);
+    edges.States = Array<EdgeState>((edges.NumberOfEdges + 7) / 8 * 8);
+    std::fill(edges.States.Data() + edges.NumberOfEdges, edges.States.Data() + edges.States.Size(),
+      EdgeState::Fixed);
     const EdgeTableView table = this->Result.Table.View();
     const EdgeMeshView mesh = this->View();
     this->Backend.ForRange(edges.NumberOfTriangles,

@@ -20,6 +20,13 @@
 namespace delaunayflip
 {
 
+/// The states that a step wants, first to last.
+struct StateRange
+{
+  EdgeState First;
+  EdgeState Last;
+};
+
 /// What the steps count.
 struct StepCounts
 {
@@ -42,6 +49,31 @@ struct StepCounts
   }
 };
 
+/// One flag a block of 1024 edges, for the edges [First, Last).
+struct BlockFlags
+{
+  static constexpr int BlockBits = 10;
+  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
+
+  std::uint8_t* Flags;
+  std::int64_t First;
+  std::int64_t Last;
+
+  /// Flags the block of an edge of the range.
+  DELAUNAYFLIP_HOST_DEVICE void Set(EdgeId edge) const
+  {
+    if (edge < this->First || edge >= this->Last)
+    {
+      return;
+    }
+    std::uint8_t* flag = &this->Flags[(edge >> BlockBits) - (this->First >> BlockBits)];
+    if (AtomicLoad(flag) == 0)
+    {
+      AtomicStore(flag, std::uint8_t(1));
+    }
+  }
+};
+
 /// Which of two bad edges flips first: a bijection of edge ids, so no two are equal (equal ones
 /// would both flip, on a shared triangle), and scattered, so that chains are not served one by one.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Priority(EdgeId edge) { return Scatter(edge); }
@@ -59,10 +91,7 @@ struct JudgeStep
   EdgeMeshView Mesh;
   Rule Decision;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
-  {
-    return state == EdgeState::Candidate;
-  }
+  static constexpr StateRange Wanted{ EdgeState::Candidate, EdgeState::Candidate };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
   {
     const Quad quad = this->Mesh.GetQuad(edge);
@@ -85,10 +114,7 @@ struct ResolveStep
   EdgeMeshView Mesh;
   Rule Decision;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
-  {
-    return state == EdgeState::Uncertain;
-  }
+  static constexpr StateRange Wanted{ EdgeState::Uncertain, EdgeState::Uncertain };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
   {
@@ -103,10 +129,7 @@ struct GuardStep
   EdgeMeshView Mesh;
   EdgeTableView Table;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
-  {
-    return state == EdgeState::Bad || state == EdgeState::BlockedByEdge;
-  }
+  static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
   {
@@ -116,20 +139,16 @@ struct GuardStep
   }
 };
 
-/// Counts what is bad. Writes nothing.
+/// Counts what is bad. Reads and writes nothing but states.
 struct CountStep
 {
-  EdgeMeshView Mesh;
+  static constexpr StateRange Wanted{ EdgeState::BlockedByShape, EdgeState::Bad };
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state)
-  {
-    return state == EdgeState::Bad || state == EdgeState::BlockedByShape ||
-      state == EdgeState::BlockedByEdge;
-  }
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
+  const EdgeState* States;
+
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
   {
-    const bool bad = this->Mesh.States[edge] == EdgeState::Bad;
+    const bool bad = this->States[edge] == EdgeState::Bad;
     counts.Bad += bad ? 1 : 0;
     counts.Blocked += bad ? 0 : 1;
   }
@@ -142,7 +161,7 @@ struct ChooseStep
 {
   EdgeMeshView Mesh;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Bad; }
+  static constexpr StateRange Wanted{ EdgeState::Bad, EdgeState::Bad };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
   {
     const OuterHalfEdges outer = this->GetOuter(edge);
@@ -183,7 +202,7 @@ struct ClaimStep
   EdgeMeshView Mesh;
   EdgeTableView Claims;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
   {
@@ -204,7 +223,7 @@ struct ConfirmStep
   EdgeMeshView Mesh;
   EdgeTableView Claims;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
   {
@@ -223,12 +242,11 @@ struct ConfirmStep
 struct FlipStep
 {
   EdgeMeshView Mesh;
-  std::uint8_t* ActiveBlocks; ///< One flag a block of 2^BlockBits edges.
-  int BlockBits;
+  BlockFlags Active;
   bool Guarded;
   EdgeTableView Table;
 
-  DELAUNAYFLIP_HOST_DEVICE static bool Wants(EdgeState state) { return state == EdgeState::Winner; }
+  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
   {
     const OuterHalfEdges outer = GetOuterHalfEdges(
@@ -257,16 +275,12 @@ private:
   {
     EdgeState* state = &this->Mesh.States[edge];
     const EdgeState seen = AtomicLoad(state);
-    if (seen == EdgeState::Fixed || seen == EdgeState::Candidate)
+    if (seen == EdgeState::Fixed || seen == EdgeState::Candidate || seen == EdgeState::Deferred)
     {
       return;
     }
     AtomicStore(state, EdgeState::Candidate);
-    std::uint8_t* flag = &this->ActiveBlocks[edge >> this->BlockBits];
-    if (AtomicLoad(flag) == 0)
-    {
-      AtomicStore(flag, std::uint8_t(1));
-    }
+    this->Active.Set(edge);
   }
   DELAUNAYFLIP_HOST_DEVICE void ExchangeEdge(const Quad& quad, StepCounts& counts) const
   {
