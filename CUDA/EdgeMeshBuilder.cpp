@@ -93,7 +93,7 @@ private:
         {
           TriangleRecord& record = edges.Triangles[t];
           record.InputTriangle = this->Input.Order.GetTriangle(t);
-          record.FlipCount = 0;
+          record.FlipCount = this->IsUntouchable(record.InputTriangle) ? UntouchableBit : 0;
           for (int slot = 0; slot < 3; ++slot)
           {
             record.Vertices[slot] =
@@ -287,22 +287,22 @@ private:
   bool MustStay(const EdgeMeshView& mesh, EdgeId edge, FixedSums& sums) const
   {
     const Quad quad = mesh.GetQuad(edge);
-    const TriangleId a = mesh.Triangles[TriangleOf(quad.CornerA)].InputTriangle;
-    const TriangleId b = mesh.Triangles[TriangleOf(quad.CornerB)].InputTriangle;
+    const TriangleRecord& a = mesh.Triangles[TriangleOf(quad.CornerA)];
+    const TriangleRecord& b = mesh.Triangles[TriangleOf(quad.CornerB)];
     const bool wronglyWound = !IsConsistentlyWound(mesh, edge);
-    const bool duplicate = quad.A == quad.B;
-    const bool region =
-      this->Input.Mesh.Regions && this->Input.Mesh.Regions[a] != this->Input.Mesh.Regions[b];
+    const bool duplicate = quad.A == quad.B && a.InputTriangle != b.InputTriangle;
+    const bool region = this->Input.Mesh.Regions &&
+      this->Input.Mesh.Regions[a.InputTriangle] != this->Input.Mesh.Regions[b.InputTriangle];
     const bool feature = !wronglyWound && this->IsFeature(quad);
     sums.WronglyWound += wronglyWound ? 1 : 0;
     sums.Region += region ? 1 : 0;
     sums.Feature += feature ? 1 : 0;
-    if (duplicate && a != b)
+    if (duplicate)
     {
-      Note(sums.Duplicates, std::max(a, b));
+      Note(sums.Duplicates, std::max(a.InputTriangle, b.InputTriangle));
     }
-    return wronglyWound || duplicate || region || feature || this->IsUntouchable(a) ||
-      this->IsUntouchable(b);
+    return wronglyWound || duplicate || region || feature ||
+      ((a.FlipCount | b.FlipCount) & UntouchableBit) != 0;
   }
 
   bool IsUntouchable(TriangleId inputTriangle) const

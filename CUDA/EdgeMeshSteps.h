@@ -18,6 +18,9 @@ namespace delaunayflip
 /// Second word of an edge with three or more corners.
 constexpr CornerId ManyCorners = 0xFFFFFFFEu;
 
+/// Bit of FlipCount: no edge of this triangle may flip.
+constexpr std::uint32_t UntouchableBit = 1u << 6;
+
 /// What a corner is to its edge.
 enum class CornerRole : std::uint32_t
 {

@@ -19,6 +19,42 @@
 namespace delaunayflip
 {
 
+/// For each of the 256 sets of bytes of a word: which ones, in order, and how many.
+class BytePlaces
+{
+public:
+  struct Places
+  {
+    std::uint8_t Place[8];
+    std::uint8_t Count;
+  };
+
+  /// @param topBits a set as the top bits of its bytes, the others 0.
+  static const Places& Of(std::uint64_t topBits)
+  {
+    static const BytePlaces table;
+    // The product gathers bit 0 of the eight bytes in the last byte.
+    return table.Sets[((topBits >> 7) * 0x0102040810204080u) >> 56];
+  }
+
+private:
+  BytePlaces()
+  {
+    for (int set = 0; set < 256; ++set)
+    {
+      Places& places = this->Sets[set];
+      places = {};
+      for (int i = 0; i < 8; ++i)
+      {
+        places.Place[places.Count] = static_cast<std::uint8_t>(i);
+        places.Count += (set >> i) & 1;
+      }
+    }
+  }
+
+  Places Sets[256];
+};
+
 class EdgeWorklist
 {
 public:
@@ -37,7 +73,7 @@ public:
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Takes the flagged blocks as those of the coming steps and clears the flags.
+  /// Takes the flagged blocks as those of the coming steps; their flags stay.
   void Gather()
   {
     this->Blocks.clear();
@@ -46,7 +82,6 @@ public:
       if (this->Flags[block])
       {
         this->Blocks.push_back(this->FirstBlock + static_cast<std::int64_t>(block));
-        this->Flags[block] = 0;
       }
     }
   }
@@ -73,6 +108,8 @@ public:
 private:
   static constexpr std::int64_t BlocksPerTask = 8;
   static constexpr std::int64_t WordSize = 8; ///< Edges whose states fill a machine word.
+  static constexpr std::int64_t WordsPerGroup = 8;
+  static constexpr std::uint64_t EveryByte = 0x0101010101010101u;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 8;
 
@@ -84,22 +121,9 @@ private:
     {
       StepCounts block;
       (this->RunOnBlock(steps, this->Blocks[i], block), ...);
-      if (block.Bad + block.Blocked > 0)
-      {
-        this->Flags[this->Blocks[i] - this->FirstBlock] = 1;
-      }
       counts += block;
     }
     return counts;
-  }
-
-  static void RunOnEdges(
-    const CountStep& step, const EdgeId* edges, std::int64_t size, StepCounts& counts)
-  {
-    for (std::int64_t i = 0; i < size; ++i)
-    {
-      step(edges[i], counts);
-    }
   }
 
   /// Two requests ahead of every edge: its triangles, then what their contents lead to.
@@ -107,28 +131,42 @@ private:
   static void RunOnEdges(
     const Step& step, const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
+    decltype(step.Load(0)) items[PrefetchDistance];
     for (std::int64_t i = 0; i < size + 2 * PrefetchDistance; ++i)
     {
-      if (i < size)
+      auto& item = items[i % PrefetchDistance];
+      if (i >= 2 * PrefetchDistance)
       {
-        PrefetchTriangles(step.Mesh, edges[i]);
+        step(edges[i - 2 * PrefetchDistance], item, counts);
       }
       if (i >= PrefetchDistance && i - PrefetchDistance < size)
       {
-        step.Prefetch(edges[i - PrefetchDistance]);
+        item = step.Load(edges[i - PrefetchDistance]);
+        step.Prefetch(item);
       }
-      if (i >= 2 * PrefetchDistance)
+      if (i < size)
       {
-        step(edges[i - 2 * PrefetchDistance], counts);
+        PrefetchTriangles(step.Mesh, edges[i]);
       }
     }
   }
 
   template <typename Step>
-  void RunOnBlock(const Step& step, std::int64_t block, StepCounts& counts) const
+  void RunOnBlock(const Step& step, std::int64_t block, StepCounts& counts)
   {
-    EdgeId edges[BlockFlags::BlockSize];
+    EdgeId edges[BlockFlags::BlockSize + WordSize];
     RunOnEdges(step, edges, this->Find(Step::Wanted, block, edges), counts);
+  }
+
+  void RunOnBlock(const CountStep& step, std::int64_t block, StepCounts& counts)
+  {
+    EdgeId edges[BlockFlags::BlockSize + WordSize];
+    const std::int64_t size = this->Find(CountStep::Wanted, block, edges);
+    for (std::int64_t i = 0; i < size; ++i)
+    {
+      step(edges[i], counts);
+    }
+    this->Flags[block - this->FirstBlock] = size > 0;
   }
 
   /// Stores the edges of a block in a wanted state. @returns how many.
@@ -136,17 +174,57 @@ private:
   {
     const std::int64_t first = std::max(this->FirstEdge, block << BlockFlags::BlockBits);
     const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockFlags::BlockBits);
+    const std::int64_t endWord = (last + WordSize - 1) / WordSize;
     std::int64_t count = 0;
-    for (std::int64_t word = first / WordSize; word * WordSize < last; ++word)
+    for (std::int64_t word = first / WordSize; word < endWord;)
     {
-      std::uint64_t matches = this->MatchWord(wanted, word, first, last);
-      while (matches != 0)
+      const std::int64_t end = std::min(endWord, word + WordsPerGroup);
+      if (this->AreAtRest(word, end))
       {
-        found[count++] = static_cast<EdgeId>(word * WordSize + __builtin_ctzll(matches) / WordSize);
-        matches &= matches - 1;
+        word = end;
+        continue;
+      }
+      for (; word < end; ++word)
+      {
+        count += Store(this->MatchWord(wanted, word, first, last), word, found + count);
       }
     }
     return count;
+  }
+
+  /// Whether no edge of the words [word, end) has anything to do.
+  bool AreAtRest(std::int64_t word, std::int64_t end) const
+  {
+    static_assert(static_cast<int>(EdgeState::Deferred) < 4 &&
+        static_cast<int>(EdgeState::Candidate) == 4 && static_cast<int>(EdgeState::Winner) < 12,
+      "the states at rest are those without bits 2 and 3");
+    std::uint64_t states = 0;
+    for (; word < end; ++word)
+    {
+      states |= this->LoadWord(word);
+    }
+    return (states & (0x0C * EveryByte)) == 0;
+  }
+
+  /// Without a branch per edge: all eight places are written, those beyond the count again later.
+  static std::int64_t Store(std::uint64_t matches, std::int64_t word, EdgeId* found)
+  {
+    if (matches == 0)
+    {
+      return 0;
+    }
+    const BytePlaces::Places& places = BytePlaces::Of(matches);
+    for (std::int64_t i = 0; i < WordSize; ++i)
+    {
+      found[i] = static_cast<EdgeId>(word * WordSize + places.Place[i]);
+    }
+    return places.Count;
+  }
+
+  std::uint64_t LoadWord(std::int64_t word) const
+  {
+    using Word __attribute__((may_alias)) = std::uint64_t;
+    return __atomic_load_n(reinterpret_cast<const Word*>(this->States) + word, __ATOMIC_RELAXED);
   }
 
   /// The eight states of a word at once: the top bit of every byte tells whether that edge lies in
@@ -154,16 +232,12 @@ private:
   std::uint64_t MatchWord(
     StateRange wanted, std::int64_t word, std::int64_t first, std::int64_t last) const
   {
-    constexpr std::uint64_t EveryByte = 0x0101010101010101u;
-    constexpr std::uint64_t TopBits = 0x80 * EveryByte;
-    using Word __attribute__((may_alias)) = std::uint64_t;
-    const Word* words = reinterpret_cast<const Word*>(this->States);
-    const std::uint64_t states = __atomic_load_n(words + word, __ATOMIC_RELAXED);
+    const std::uint64_t states = this->LoadWord(word);
     const std::uint64_t atLeastFirst =
       states + (0x80 - static_cast<std::uint64_t>(wanted.First)) * EveryByte;
     const std::uint64_t aboveLast =
       states + (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
-    std::uint64_t matches = atLeastFirst & ~aboveLast & TopBits;
+    std::uint64_t matches = atLeastFirst & ~aboveLast & (0x80 * EveryByte);
     const std::int64_t before = first - word * WordSize;
     const std::int64_t after = (word + 1) * WordSize - last;
     matches &= before > 0 ? ~std::uint64_t(0) << (8 * before) : ~std::uint64_t(0);

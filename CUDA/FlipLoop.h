@@ -215,6 +215,7 @@ private:
   IterationCounts Iterate(bool measure)
   {
     const EdgeMeshView mesh = this->Mesh.View();
+    this->Worklist.Gather();
     this->Worklist.Run(this->Backend, ChooseStep{ mesh });
     if (this->Guard.IsActive())
     {
@@ -289,6 +290,7 @@ private:
     std::vector<IterationCounts> counts(rounds);
     for (std::int64_t round = 0; round < rounds; ++round)
     {
+      worklist.Gather();
       worklist.Run(ChooseStep{ mesh });
       const StepCounts flips = worklist.Run(flip);
       counts[round] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };

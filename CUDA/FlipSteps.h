@@ -92,17 +92,17 @@ struct JudgeStep
   Rule Decision;
 
   static constexpr StateRange Wanted{ EdgeState::Candidate, EdgeState::Candidate };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
   {
-    const Quad quad = this->Mesh.GetQuad(edge);
     delaunayflip::Prefetch(this->Decision.Address(quad.A));
     delaunayflip::Prefetch(this->Decision.Address(quad.P));
     delaunayflip::Prefetch(this->Decision.Address(quad.Q));
     delaunayflip::Prefetch(this->Decision.Address(quad.B));
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    this->Mesh.States[edge] = this->Decision.Judge(this->Mesh.GetQuad(edge));
+    AtomicStore(&this->Mesh.States[edge], this->Decision.Judge(quad));
     ++counts.Tested;
   }
 };
@@ -115,10 +115,11 @@ struct ResolveStep
   Rule Decision;
 
   static constexpr StateRange Wanted{ EdgeState::Uncertain, EdgeState::Uncertain };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    this->Mesh.States[edge] = this->Decision.JudgeExactly(this->Mesh.GetQuad(edge));
+    AtomicStore(&this->Mesh.States[edge], this->Decision.JudgeExactly(quad));
   }
 };
 
@@ -130,12 +131,12 @@ struct GuardStep
   EdgeTableView Table;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    const Quad quad = this->Mesh.GetQuad(edge);
     const bool exists = this->Table.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
-    this->Mesh.States[edge] = exists ? EdgeState::BlockedByEdge : EdgeState::Bad;
+    AtomicStore(&this->Mesh.States[edge], exists ? EdgeState::BlockedByEdge : EdgeState::Bad);
   }
 };
 
@@ -162,17 +163,21 @@ struct ChooseStep
   EdgeMeshView Mesh;
 
   static constexpr StateRange Wanted{ EdgeState::Bad, EdgeState::Bad };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  DELAUNAYFLIP_HOST_DEVICE OuterHalfEdges Load(EdgeId edge) const
   {
-    const OuterHalfEdges outer = this->GetOuter(edge);
+    return GetOuterHalfEdges(
+      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const OuterHalfEdges& outer) const
+  {
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.AP)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.QA)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(
+    EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
   {
-    const OuterHalfEdges outer = this->GetOuter(edge);
     const std::uint32_t own = Priority(edge);
     if (!this->IsBeatenBy(own, outer.AP) && !this->IsBeatenBy(own, outer.QA) &&
       !this->IsBeatenBy(own, outer.PB) && !this->IsBeatenBy(own, outer.BQ))
@@ -182,11 +187,6 @@ struct ChooseStep
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE OuterHalfEdges GetOuter(EdgeId edge) const
-  {
-    return GetOuterHalfEdges(
-      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
-  }
   DELAUNAYFLIP_HOST_DEVICE bool IsBeatenBy(std::uint32_t own, HalfEdgeId halfEdge) const
   {
     const EdgeId other = EdgeOf(halfEdge);
@@ -203,10 +203,10 @@ struct ClaimStep
   EdgeTableView Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    const Quad quad = this->Mesh.GetQuad(edge);
     bool inserted = false;
     const std::uint32_t slot = this->Claims.FindOrInsert(EdgeKey(quad.A, quad.B), inserted);
     if (slot != EdgeTableView::NoSlot)
@@ -224,14 +224,14 @@ struct ConfirmStep
   EdgeTableView Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId) const {}
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    const Quad quad = this->Mesh.GetQuad(edge);
     const std::uint32_t slot = this->Claims.Find(EdgeKey(quad.A, quad.B));
     if (slot == EdgeTableView::NoSlot || this->Claims.First[slot] != Priority(edge))
     {
-      this->Mesh.States[edge] = EdgeState::Bad;
+      AtomicStore(&this->Mesh.States[edge], EdgeState::Bad);
     }
   }
 };
@@ -247,18 +247,17 @@ struct FlipStep
   EdgeTableView Table;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(EdgeId edge) const
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
   {
-    const OuterHalfEdges outer = GetOuterHalfEdges(
-      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
+    const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    const Quad quad = this->Mesh.GetQuad(edge);
     const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
-    this->Mesh.States[edge] = EdgeState::Good;
+    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     this->Mark(EdgeOf(outer.AP));
     this->Mark(EdgeOf(outer.QA));
     this->Mark(EdgeOf(outer.PB));

@@ -4,6 +4,7 @@
 
 #include "MeshSurvey.h"
 #include "Predicates.h"
+#include "ScaledOffsets.h"
 
 #include <algorithm>
 #include <array>
@@ -102,35 +103,15 @@ Vector3 Cross(const Vector3& a, const Vector3& b)
 
 double Length(const Vector3& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// The vertices of a triangle or quad in space, scaled by a power of two so that products of their
-/// differences neither overflow nor vanish. With PlanarXY, z is 0.
+/// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
 template <std::size_t Count>
 std::array<Vector3, Count> GetScaledPoints(
   const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
 {
-  std::array<Vector3, Count> scaled{};
-  double largest = 0.0;
-  const auto forEachCoordinate = [&](const auto& work)
-  {
-    for (std::size_t i = 0; i < Count; ++i)
-    {
-      for (int axis = 0; axis < (geometry == GeometryKind::PlanarXY ? 2 : 3); ++axis)
-      {
-        work(scaled[i][axis], points.Get(ids[i], axis), points.Get(ids[0], axis));
-      }
-    }
-  };
-  forEachCoordinate(
-    [&](double& result, double x, double origin)
-    {
-      // Halves: the difference of two finite numbers may be infinite.
-      result = 0.5 * x - 0.5 * origin;
-      largest = std::max(largest, std::fabs(result));
-    });
-  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-  forEachCoordinate(
-    [&](double& result, double, double) { result = std::scalbn(result, -exponent); });
-  return scaled;
+  std::array<Vector3, Count> offsets{};
+  const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
+  LoadScaledOffsets(points, ids.data(), Count, axes, offsets);
+  return offsets;
 }
 
 template <std::size_t Count>

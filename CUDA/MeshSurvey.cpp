@@ -79,6 +79,12 @@ IdSurvey SurveyIds(
   return survey;
 }
 
+bool IsFinite(const double (&point)[3], GeometryKind geometry)
+{
+  return std::isfinite(point[0]) && std::isfinite(point[1]) &&
+    (geometry == GeometryKind::PlanarXY || std::isfinite(point[2]));
+}
+
 /// Bounding box and counts of the used points.
 struct PointSurvey
 {
@@ -87,13 +93,12 @@ struct PointSurvey
   std::int64_t Used = 0;
   Defect NonFinite;
 
-  void Include(const PointArray& points, std::int64_t point)
+  void Include(const double (&point)[3])
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double x = points.Get(point, axis);
-      this->Lower[axis] = std::min(this->Lower[axis], x);
-      this->Upper[axis] = std::max(this->Upper[axis], x);
+      this->Lower[axis] = std::min(this->Lower[axis], point[axis]);
+      this->Upper[axis] = std::max(this->Upper[axis], point[axis]);
     }
   }
 
@@ -124,9 +129,10 @@ PointSurvey SurveyPoints(const PointArray& points, GeometryKind geometry, Array<
           continue;
         }
         ++survey.Used;
-        if (IsFinitePoint(points, i, geometry))
+        const double point[3] = { points.Get(i, 0), points.Get(i, 1), points.Get(i, 2) };
+        if (IsFinite(point, geometry))
         {
-          survey.Include(points, i);
+          survey.Include(point);
         }
         else
         {
@@ -340,8 +346,8 @@ Defect& operator+=(Defect& total, const Defect& part)
 
 bool IsFinitePoint(const PointArray& points, std::int64_t point, GeometryKind geometry)
 {
-  const bool finite = std::isfinite(points.Get(point, 0)) && std::isfinite(points.Get(point, 1));
-  return finite && (geometry == GeometryKind::PlanarXY || std::isfinite(points.Get(point, 2)));
+  const double xyz[3] = { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
+  return IsFinite(xyz, geometry);
 }
 
 MeshSurvey SurveyMesh(

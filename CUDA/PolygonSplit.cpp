@@ -3,6 +3,7 @@
 #include "PolygonSplit.h"
 
 #include "Predicates.h"
+#include "ScaledOffsets.h"
 
 #include <algorithm>
 #include <array>
@@ -17,44 +18,11 @@ namespace
 using Vector2 = std::array<double, 2>;
 using Vector3 = std::array<double, 3>;
 
-Vector3 GetPoint(const PointArray& points, std::int64_t id)
-{
-  return { points.Get(id, 0), points.Get(id, 1), points.Get(id, 2) };
-}
-
-/// The vertices relative to the first, scaled by a power of two so that no product of two overflows
-/// or vanishes.
-std::vector<Vector3> CenterAndScale(
-  const PointArray& points, const std::int64_t* ids, std::int64_t count)
-{
-  const Vector3 origin = GetPoint(points, ids[0]);
-  std::vector<Vector3> offsets(static_cast<std::size_t>(count));
-  double largest = 0.0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // Halves: the difference of two finite numbers may be infinite.
-      const double offset = 0.5 * points.Get(ids[i], axis) - 0.5 * origin[axis];
-      offsets[i][axis] = offset;
-      largest = std::max(largest, std::abs(offset));
-    }
-  }
-  const int exponent = std::isfinite(largest) && largest > 0.0 ? std::ilogb(largest) : 0;
-  for (Vector3& offset : offsets)
-  {
-    for (double& coordinate : offset)
-    {
-      coordinate = std::scalbn(coordinate, -exponent);
-    }
-  }
-  return offsets;
-}
-
 /// Twice the area of the polygon's shadow along each axis (Newell), up to a positive factor.
 Vector3 AreaVector(const PointArray& points, const std::int64_t* ids, std::int64_t count)
 {
-  const std::vector<Vector3> offsets = CenterAndScale(points, ids, count);
+  std::vector<Vector3> offsets(static_cast<std::size_t>(count));
+  LoadScaledOffsets(points, ids, count, 3, offsets);
   Vector3 area = { 0.0, 0.0, 0.0 };
   for (std::int64_t i = 1; i + 1 < count; ++i)
   {

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SCALEDOFFSETS_H
+#define DELAUNAYFLIP_SCALEDOFFSETS_H
+
+#include "TriangleMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace delaunayflip
+{
+
+/// Where a polygon's points lie relative to its first, scaled by a power of two such that products
+/// of two offsets neither overflow nor vanish. Offsets are anything indexed [i][axis]; the first
+/// `axes` coordinates are loaded.
+template <typename Offsets>
+void LoadScaledOffsets(
+  const PointArray& points, const std::int64_t* ids, std::int64_t count, int axes, Offsets& offsets)
+{
+  const auto forEach = [&](const auto& work)
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      for (int axis = 0; axis < axes; ++axis)
+      {
+        work(offsets[i][axis], points.Get(ids[i], axis), points.Get(ids[0], axis));
+      }
+    }
+  };
+  double largest = 0.0;
+  forEach([&](double&, double x, double) { largest = std::max(largest, std::fabs(x)); });
+  // The difference of two finite numbers may be infinite, that of their halves may not.
+  const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
+  largest = 0.0;
+  forEach(
+    [&](double& offset, double x, double origin)
+    {
+      offset = unit * x - unit * origin;
+      largest = std::max(largest, std::fabs(offset));
+    });
+  const int exponent = largest > 0.0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  forEach([&](double& offset, double, double) { offset = std::scalbn(offset, -exponent); });
+}
+
+}
+
+#endif
