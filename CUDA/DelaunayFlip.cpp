@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
+#include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipLoop.h"
 #include "FlipRules.h"
@@ -336,6 +337,9 @@ private:
     const std::vector<IterationCounts> iterations =
       this->Loop->Advance({ most, isFirst, this->Options.TrackQuality });
     this->Detected(this->Loop->GetFound());
+#if !defined(NDEBUG)
+    RequireConsistent(this->Mesh, this->Backend);
+#endif
     const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
     bool goOn = true;
     for (const IterationCounts& counts : iterations)

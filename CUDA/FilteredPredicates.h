@@ -36,17 +36,13 @@ constexpr double OrientationBound = 3.34e-16;
 constexpr double InCircleBound = 1.112e-15;
 constexpr double TiltedInCircleBound = 1.56e-15;
 
+/// Without branches: which way a test goes is a coin toss that no processor predicts.
 DELAUNAYFLIP_HOST_DEVICE inline int CertifiedSign(double determinant, double error)
 {
-  if (determinant > error && determinant > SmallestCertifiable)
-  {
-    return 1;
-  }
-  if (-determinant > error && -determinant > SmallestCertifiable)
-  {
-    return -1;
-  }
-  return UncertainSign;
+  const double bound = error + SmallestCertifiable;
+  const int positive = determinant > bound ? 1 : 0;
+  const int negative = -determinant > bound ? 1 : 0;
+  return positive - negative + UncertainSign * (1 - positive - negative);
 }
 
 /// Turn of a, b, c in (u, v), or UncertainSign.

@@ -138,11 +138,9 @@ private:
       return EdgeState::Uncertain;
     }
     const bool tie = inCircle == 0 && this->Canonical && strict && side != 0;
-    if (!(inCircle * side > 0 || (tie && EdgeHoldsLargest(apqb))))
-    {
-      return EdgeState::Good;
-    }
-    return Tilted ? CheckConvex<Signs>(apqb, side) : EdgeState::Bad;
+    const EdgeState wanted = tie && !EdgeHoldsLargest(apqb) ? EdgeState::Good : EdgeState::Bad;
+    const EdgeState state = inCircle * side > 0 || tie ? wanted : EdgeState::Good;
+    return Tilted && state == EdgeState::Bad ? CheckConvex<Signs>(apqb, side) : state;
   }
 };
 

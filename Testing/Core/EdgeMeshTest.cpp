@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeMeshAudit.h"
+#include "EdgeMeshBuilder.h"
+#include "GeneratedMeshes.h"
+#include "MeshSurvey.h"
+#include "SpatialOrder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <utility>
+#include <vector>
+
+/// @file
+/// The edge arrays against brute force: a map from vertex pairs to corners.
+
+namespace
+{
+using namespace delaunayflip;
+
+using Pair = std::pair<VertexId, VertexId>;
+
+struct Built
+{
+  MeshSurvey Survey;
+  SpatialOrder Order;
+  EdgeMeshResult Result;
+};
+
+Built Build(const TriangleMesh& mesh, const ThreadBackend& backend)
+{
+  Built built;
+  built.Survey = SurveyMesh(mesh, GeometryKind::Auto, backend);
+  built.Order = OrderMesh(mesh, built.Survey, backend);
+  built.Result = BuildEdgeMesh({ mesh, built.Survey, built.Order, 180.0 }, backend);
+  return built;
+}
+
+std::map<Pair, std::vector<CornerId>> MapCorners(const EdgeMesh& mesh)
+{
+  std::map<Pair, std::vector<CornerId>> corners;
+  for (TriangleId t = 0; t < mesh.NumberOfTriangles; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId a = mesh.Triangles[t].Vertices[NextSlot(slot)];
+      const VertexId b = mesh.Triangles[t].Vertices[PreviousSlot(slot)];
+      corners[std::minmax(a, b)].push_back(MakeCorner(t, slot));
+    }
+  }
+  return corners;
+}
+
+/// Corners of every edge record, by smallest corner: what ids must follow.
+std::vector<std::vector<CornerId>> ExpectedRecords(const EdgeMesh& mesh)
+{
+  std::vector<std::vector<CornerId>> records;
+  for (const auto& entry : MapCorners(mesh))
+  {
+    if (entry.second.size() <= 2)
+    {
+      records.push_back(entry.second);
+      continue;
+    }
+    for (const CornerId corner : entry.second)
+    {
+      records.push_back({ corner });
+    }
+  }
+  std::sort(records.begin(), records.end());
+  return records;
+}
+
+void ExpectRecords(const EdgeMesh& mesh)
+{
+  const auto expected = ExpectedRecords(mesh);
+  ASSERT_EQ(static_cast<std::int64_t>(expected.size()), mesh.NumberOfEdges);
+  for (std::int64_t e = 0; e < mesh.NumberOfEdges; ++e)
+  {
+    const CornerId second = expected[e].size() == 2 ? expected[e][1] : NoCorner;
+    ASSERT_EQ(expected[e][0], mesh.CornerOfHalfEdge[2 * e]) << "edge " << e;
+    ASSERT_EQ(second, mesh.CornerOfHalfEdge[2 * e + 1]) << "edge " << e;
+  }
+}
+
+/// Random triangles on few points: every kind of edge, degenerate triangles included.
+OwnedMesh<float> MakeSoup(std::int32_t points, std::int32_t triangles, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  OwnedMesh<float> mesh;
+  for (std::int32_t i = 0; i < 3 * points; ++i)
+  {
+    mesh.Points.push_back(static_cast<float>(random() % 1024));
+  }
+  for (std::int32_t i = 0; i < 3 * triangles; ++i)
+  {
+    mesh.Triangles.push_back(static_cast<std::int32_t>(random() % points));
+  }
+  return mesh;
+}
+
+TEST(EdgeMesh, RandomMeshMatchesBruteForce)
+{
+  const ThreadBackend backend(2);
+  const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1); // large enough to be reordered
+  const Built built = Build(mesh.View(), backend);
+  ASSERT_GT(built.Order.TriangleOfRank.Size(), 0u);
+  ExpectRecords(built.Result.Edges);
+  EXPECT_EQ(0, CountInconsistencies(built.Result.Edges, backend));
+}
+
+TEST(EdgeMesh, SoupMatchesBruteForce)
+{
+  const ThreadBackend backend(2);
+  for (std::uint32_t seed = 0; seed < 20; ++seed)
+  {
+    const OwnedMesh<float> mesh = MakeSoup(12, 40, seed);
+    const Built built = Build(mesh.View(), backend);
+    ExpectRecords(built.Result.Edges);
+  }
+}
+
+TEST(EdgeMesh, SeparateTrianglesFillTheTable)
+{
+  // Three edges a triangle: twice what a closed mesh has, so the first table runs full.
+  const ThreadBackend backend(2);
+  OwnedMesh<float> mesh;
+  for (std::int32_t i = 0; i < 30000; ++i)
+  {
+    mesh.Points.insert(mesh.Points.end(), { float(i), float(i % 7), float(i % 3) });
+    mesh.Triangles.push_back(i);
+  }
+  const Built built = Build(mesh.View(), backend);
+  EXPECT_EQ(30000, built.Result.Counts.Edges);
+  EXPECT_EQ(30000, built.Result.Counts.Boundary);
+  ExpectRecords(built.Result.Edges);
+}
+
+TEST(EdgeMesh, HubOfManyTriangles)
+{
+  // One vertex in every triangle: nothing may cost the square of its degree.
+  const ThreadBackend backend(2);
+  constexpr std::int32_t Spokes = 300000;
+  OwnedMesh<float> mesh;
+  mesh.Points = { 0.0f, 0.0f, 0.0f };
+  for (std::int32_t i = 0; i <= Spokes; ++i)
+  {
+    mesh.Points.insert(mesh.Points.end(), { float(i), 1.0f, 0.0f });
+  }
+  for (std::int32_t i = 1; i <= Spokes; ++i)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, i });
+  }
+  const Built built = Build(mesh.View(), backend);
+  EXPECT_EQ(2 * Spokes + 1, built.Result.Counts.Edges);
+  EXPECT_EQ(Spokes + 2, built.Result.Counts.Boundary);
+}
+
+TEST(EdgeMesh, AuditSeesBrokenWords)
+{
+  const ThreadBackend backend(1);
+  Built built = Build(MakeRandomBadMesh(100, 1).View(), backend);
+  EdgeMesh& mesh = built.Result.Edges;
+  EXPECT_NO_THROW(RequireConsistent(mesh, backend));
+  std::swap(mesh.CornerOfHalfEdge[0], mesh.CornerOfHalfEdge[20]);
+  EXPECT_GT(CountInconsistencies(mesh, backend), 0);
+  EXPECT_THROW(RequireConsistent(mesh, backend), std::logic_error);
+}
+}
