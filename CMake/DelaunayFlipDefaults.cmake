@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+
 # What every target shares: language level, output folders, build type, sanitizers.
 include(GNUInstallDirs)
 

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellAttributes.h"
+
+#include "PolygonSplit.h"
+#include "TriangleSlots.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// For every cell of the output, the cell of the mesh that it comes from.
+void ListSources(const TriangleSlots& slots, vtkIdList* sources)
+{
+  const vtkIdType before = slots.GetFirstPolygon();
+  const vtkIdType polygons = slots.GetNumberOfPolygons();
+  const std::vector<vtkIdType>& strips = slots.GetStrips();
+  sources->SetNumberOfIds(before + polygons + static_cast<vtkIdType>(strips.size()));
+  std::iota(sources->begin(), sources->begin() + before, 0);
+  for (vtkIdType polygon = 0; polygon < polygons; ++polygon)
+  {
+    sources->SetId(before + polygon, slots.GetCellOfPolygon(polygon));
+  }
+  std::copy(strips.begin(), strips.end(), sources->begin() + before + polygons);
+}
+
+/// Ids that name a cell twice are global no more.
+void DemoteGlobalIds(vtkCellData* data)
+{
+  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
+  if (!ids)
+  {
+    return;
+  }
+  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+  if (!data->GetPedigreeIds())
+  {
+    data->SetPedigreeIds(ids);
+  }
+}
+
+void ReadOldTriangle(const TriangleArray& triangles, vtkIdType triangle, std::int64_t ids[3])
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    ids[slot] = triangles.Get(triangle, slot);
+  }
+}
+
+/// The normal of triangle `ids`, on the side of the winding where `normal` was for `oldIds`.
+void RenewNormal(const PointArray& points, const std::int64_t oldIds[3], const std::int64_t ids[3],
+  double normal[3])
+{
+  double oldNormal[3];
+  TriangleNormal(points, oldIds, oldNormal);
+  const double side = vtkMath::Dot(oldNormal, normal) < 0.0 ? -1.0 : 1.0;
+  TriangleNormal(points, ids, normal);
+  vtkMath::MultiplyScalar(normal, side);
+}
+
+}
+
+void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output)
+{
+  vtkCellData* data = output->GetCellData();
+  if (slots.AreInPlace())
+  {
+    data->ShallowCopy(mesh->GetCellData());
+    return;
+  }
+  vtkNew<vtkIdList> sources;
+  ListSources(slots, sources);
+  vtkNew<vtkIdList> targets;
+  targets->SetNumberOfIds(sources->GetNumberOfIds());
+  std::iota(targets->begin(), targets->end(), 0);
+
+  data->CopyAllOn();
+  data->CopyAllocate(mesh->GetCellData(), sources->GetNumberOfIds());
+  data->CopyData(mesh->GetCellData(), sources, targets);
+  if (slots.DivideCells())
+  {
+    DemoteGlobalIds(data);
+  }
+}
+
+void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output)
+{
+  vtkDataArray* shared = output->GetCellData()->GetNormals();
+  if (!shared)
+  {
+    return;
+  }
+  auto normals = vtkSmartPointer<vtkDataArray>::Take(shared->NewInstance());
+  normals->DeepCopy(shared);
+  vtkNew<vtkIdList> cell;
+  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
+  {
+    const vtkIdType triangle = slots.GetTriangle(polygon);
+    if (triangle == TriangleSlots::None)
+    {
+      continue;
+    }
+    std::int64_t oldIds[3];
+    ReadOldTriangle(slots.GetTriangles(), triangle, oldIds);
+    output->GetPolys()->GetCellAtId(polygon, cell);
+    const std::int64_t ids[3] = { cell->GetId(0), cell->GetId(1), cell->GetId(2) };
+    if (!std::equal(ids, ids + 3, oldIds))
+    {
+      double normal[3];
+      normals->GetTuple(slots.GetFirstPolygon() + polygon, normal);
+      RenewNormal(points, oldIds, ids, normal);
+      normals->SetTuple(slots.GetFirstPolygon() + polygon, normal);
+    }
+  }
+  output->GetCellData()->SetNormals(normals);
+}
+
+void AddFlipCounts(
+  const std::vector<std::int32_t>& counts, const TriangleSlots& slots, vtkPolyData* output)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName("vtkDelaunayFlipCount");
+  array->SetNumberOfValues(output->GetNumberOfCells());
+  array->FillValue(0);
+  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
+  {
+    const vtkIdType triangle = slots.GetTriangle(polygon);
+    if (triangle != TriangleSlots::None)
+    {
+      array->SetValue(slots.GetFirstPolygon() + polygon, counts[triangle]);
+    }
+  }
+  output->GetCellData()->AddArray(array);
+}
+
+}

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutputCells.h"
+
+#include "DelaunayFlip.h"
+#include "TriangleSlots.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace delaunayflip
+{
+namespace
+{
+
+bool Uses64BitIds(vtkPolyData* mesh)
+{
+  vtkCellArray* cells = mesh->GetNumberOfPolys() > 0 ? mesh->GetPolys() : mesh->GetStrips();
+  return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
+}
+
+/// Triangle cells whose connectivity the session writes itself. Id: what the engine calls the
+/// value type of ArrayT.
+template <typename ArrayT, typename Id>
+vtkSmartPointer<vtkCellArray> BuildTriangles(const FlipSession& session, vtkIdType count)
+{
+  vtkNew<ArrayT> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType i = 0; i <= count; ++i)
+  {
+    offsets->SetValue(i, static_cast<typename ArrayT::ValueType>(3 * i));
+  }
+  vtkNew<ArrayT> connectivity;
+  connectivity->SetNumberOfValues(3 * count);
+  session.StoreTriangles(
+    MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+/// Triangles of the session between polygons that stay.
+vtkSmartPointer<vtkCellArray> BuildMixedPolygons(
+  const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh)
+{
+  const vtkIdType count = slots.GetTriangles().Count;
+  std::vector<std::int64_t> storage(3 * count);
+  const MutableTriangleArray triangles(storage.data(), count);
+  session.StoreTriangles(triangles);
+
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  Uses64BitIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
+  {
+    const vtkIdType triangle = slots.GetTriangle(polygon);
+    if (triangle == TriangleSlots::None)
+    {
+      mesh->GetPolys()->GetCellAtId(slots.GetCellOfPolygon(polygon) - slots.GetFirstPolygon(), ids);
+      cells->InsertNextCell(ids);
+    }
+    else
+    {
+      cells->InsertNextCell(
+        { triangles.Get(triangle, 0), triangles.Get(triangle, 1), triangles.Get(triangle, 2) });
+    }
+  }
+  return cells;
+}
+
+}
+
+vtkSmartPointer<vtkCellArray> BuildPolygons(
+  const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh)
+{
+  if (!slots.ArePolygonsTriangles())
+  {
+    return BuildMixedPolygons(session, slots, mesh);
+  }
+  // Splitting may need more connectivity than 32-bit offsets can number.
+  const vtkIdType count = slots.GetTriangles().Count;
+  if (Uses64BitIds(mesh) || 3 * count > std::numeric_limits<std::int32_t>::max())
+  {
+    return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count);
+  }
+  return BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
+}
+
+vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh)
+{
+  if (static_cast<vtkIdType>(slots.GetStrips().size()) == mesh->GetNumberOfStrips())
+  {
+    return mesh->GetStrips();
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> ids;
+  for (const vtkIdType cell : slots.GetStrips())
+  {
+    mesh->GetStrips()->GetCellAtId(cell - slots.GetFirstStrip(), ids);
+    cells->InsertNextCell(ids);
+  }
+  return cells;
+}
+
+}

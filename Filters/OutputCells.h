@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef OutputCells_h
+#define OutputCells_h
+
+#include "vtkSmartPointer.h"
+
+class vtkCellArray;
+class vtkPolyData;
+
+namespace delaunayflip
+{
+
+class FlipSession;
+class TriangleSlots;
+
+/// The polygons of the output, in ids as wide as those of the mesh's polygons (of its strips where
+/// it has no polygons).
+vtkSmartPointer<vtkCellArray> BuildPolygons(
+  const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh);
+
+/// The strips of the output: those of the mesh that stay.
+vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh);
+
+}
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PolyDataBridge.h"
+
+#include "CellAttributes.h"
+#include "DelaunayFlip.h"
+#include "OutputCells.h"
+#include "RegionLabels.h"
+
+#include "vtkAOSDataArrayTemplate.h"
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// The points in place where they lie as the engine wants them, else a copy in `storage`.
+PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
+{
+  const vtkIdType count = mesh->GetNumberOfPoints();
+  if (count == 0)
+  {
+    return {};
+  }
+  vtkDataArray* data = mesh->GetPoints()->GetData();
+  if (auto* floats = vtkArrayDownCast<vtkAOSDataArrayTemplate<float>>(data))
+  {
+    return { static_cast<const float*>(floats->GetPointer(0)), count };
+  }
+  if (auto* doubles = vtkArrayDownCast<vtkAOSDataArrayTemplate<double>>(data))
+  {
+    return { static_cast<const double*>(doubles->GetPointer(0)), count };
+  }
+  storage.resize(3 * count);
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    data->GetTuple(point, &storage[3 * point]);
+  }
+  return { static_cast<const double*>(storage.data()), count };
+}
+
+}
+
+PolyDataBridge::PolyDataBridge(
+  vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings)
+  : Mesh(mesh),
+    Points(ViewPoints(mesh, Coordinates)),
+    Slots(mesh, Points, settings.Triangulate),
+    Constraints(CollectConstraintEdges(
+      settings.LinesAsConstraints ? mesh : nullptr, constraints, mesh->GetNumberOfPoints()))
+{
+  this->FreezeGhosts();
+  if (!settings.RegionArray.empty())
+  {
+    this->LabelTriangles(settings.RegionArray);
+  }
+}
+
+void PolyDataBridge::FreezeGhosts()
+{
+  auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
+    this->Mesh->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  if (this->Slots.AreInPlace() && !ghosts)
+  {
+    return;
+  }
+  const int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+    vtkDataSetAttributes::HIDDENCELL;
+  this->Frozen.resize(this->Slots.GetTriangles().Count);
+  for (vtkIdType triangle = 0; triangle < this->Slots.GetTriangles().Count; ++triangle)
+  {
+    const vtkIdType cell = this->Slots.GetCell(triangle);
+    this->Frozen[triangle] = this->Slots.IsFrozen(triangle) ||
+      (ghosts && cell < ghosts->GetNumberOfValues() && (ghosts->GetValue(cell) & ghost) != 0);
+  }
+}
+
+void PolyDataBridge::LabelTriangles(const std::string& array)
+{
+  const std::vector<std::int32_t> labels = LabelRegions(this->Mesh, array);
+  this->Regions.resize(this->Slots.GetTriangles().Count);
+  for (vtkIdType triangle = 0; triangle < this->Slots.GetTriangles().Count; ++triangle)
+  {
+    this->Regions[triangle] = labels[this->Slots.GetCell(triangle)];
+  }
+}
+
+TriangleMesh PolyDataBridge::GetMesh() const
+{
+  TriangleMesh mesh;
+  mesh.Points = this->Points;
+  mesh.Triangles = this->Slots.GetTriangles();
+  mesh.ConstraintEdges = this->Constraints.empty() ? nullptr : this->Constraints.front().data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Constraints.size());
+  mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
+  mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
+  return mesh;
+}
+
+void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* output) const
+{
+  output->SetPoints(this->Mesh->GetPoints());
+  output->SetVerts(this->Mesh->GetVerts());
+  output->SetLines(this->Mesh->GetLines());
+  output->SetPolys(BuildPolygons(session, this->Slots, this->Mesh));
+  output->SetStrips(BuildStrips(this->Slots, this->Mesh));
+  output->GetPointData()->ShallowCopy(this->Mesh->GetPointData());
+  output->GetFieldData()->ShallowCopy(this->Mesh->GetFieldData());
+  PassCellData(this->Mesh, this->Slots, output);
+  RenewNormals(this->Points, this->Slots, output);
+}
+
+void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
+{
+  std::vector<std::int32_t> counts(this->Slots.GetTriangles().Count);
+  session.StoreFlipCounts(counts.data());
+  AddFlipCounts(counts, this->Slots, output);
+}
+
+}

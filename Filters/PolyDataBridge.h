@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PolyDataBridge_h
+#define PolyDataBridge_h
+
+#include "ConstraintEdges.h"
+#include "TriangleMesh.h"
+#include "TriangleSlots.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace delaunayflip
+{
+
+class FlipSession;
+
+/// Both directions between vtkPolyData and the engine: translates, computes nothing. The mesh must
+/// outlive the bridge.
+class PolyDataBridge
+{
+public:
+  struct Settings
+  {
+    bool Triangulate = true;
+    bool LinesAsConstraints = true;
+    std::string RegionArray; ///< Empty: no regions.
+  };
+
+  /// @param constraints may be null.
+  /// @throws InvalidMesh, InvalidOptions.
+  PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings);
+
+  /// Views of the mesh or of this bridge.
+  TriangleMesh GetMesh() const;
+
+  /// Writes the session's triangles and all that passes of the mesh.
+  void Store(const FlipSession& session, vtkPolyData* output) const;
+
+  /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
+  void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
+
+private:
+  void FreezeGhosts();
+  void LabelTriangles(const std::string& array);
+
+  vtkPolyData* Mesh;
+  std::vector<double> Coordinates; ///< Of points that cannot be viewed in place.
+  PointArray Points;
+  TriangleSlots Slots;
+  ConstraintEdges Constraints;
+  std::vector<std::int32_t> Regions; ///< Empty, or one a triangle.
+  std::vector<unsigned char> Frozen; ///< Empty, or one a triangle.
+};
+
+}
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RegionLabels.h"
+
+#include "FlipError.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkPolyData.h"
+#include "vtkVariant.h"
+
+#include <map>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// An order for all numbers: NaN counts as one value, before the others.
+struct TupleLess
+{
+  template <typename Value>
+  bool operator()(const std::vector<Value>& left, const std::vector<Value>& right) const
+  {
+    for (std::size_t i = 0; i < left.size(); ++i)
+    {
+      if (IsLess(left[i], right[i]))
+      {
+        return true;
+      }
+      if (IsLess(right[i], left[i]))
+      {
+        return false;
+      }
+    }
+    return false;
+  }
+
+  template <typename Value>
+  static bool IsLess(const Value& left, const Value& right)
+  {
+    return left < right || (left != left && right == right);
+  }
+};
+
+/// Numbers the distinct tuples that it is shown.
+template <typename Value>
+class Labeler
+{
+public:
+  std::int32_t operator()(const std::vector<Value>& tuple)
+  {
+    return this->Labels.emplace(tuple, static_cast<std::int32_t>(this->Labels.size()))
+      .first->second;
+  }
+
+private:
+  std::map<std::vector<Value>, std::int32_t, TupleLess> Labels;
+};
+
+struct LabelNumbers
+{
+  template <typename ArrayT>
+  void operator()(ArrayT* array, std::vector<std::int32_t>& labels) const
+  {
+    using Value = vtk::GetAPIType<ArrayT>;
+    Labeler<Value> label;
+    std::vector<Value> tuple(array->GetNumberOfComponents());
+    std::size_t cell = 0;
+    for (const auto values : vtk::DataArrayTupleRange(array))
+    {
+      std::copy(values.cbegin(), values.cend(), tuple.begin());
+      labels[cell++] = label(tuple);
+    }
+  }
+};
+
+void LabelStrings(vtkAbstractArray* array, std::vector<std::int32_t>& labels)
+{
+  Labeler<std::string> label;
+  std::vector<std::string> tuple(array->GetNumberOfComponents());
+  vtkIdType value = 0;
+  for (std::int32_t& cellLabel : labels)
+  {
+    for (std::string& component : tuple)
+    {
+      component = array->GetVariantValue(value++).ToString();
+    }
+    cellLabel = label(tuple);
+  }
+}
+
+}
+
+std::vector<std::int32_t> LabelRegions(vtkPolyData* mesh, const std::string& name)
+{
+  vtkAbstractArray* array = mesh->GetCellData()->GetAbstractArray(name.c_str());
+  if (!array)
+  {
+    throw InvalidOptions("RegionArray: the input has no cell array named \"" + name + "\".");
+  }
+  if (array->GetNumberOfTuples() != mesh->GetNumberOfCells())
+  {
+    throw InvalidOptions("RegionArray: \"" + name + "\" has not one tuple a cell.");
+  }
+  std::vector<std::int32_t> labels(mesh->GetNumberOfCells());
+  vtkDataArray* numbers = vtkArrayDownCast<vtkDataArray>(array);
+  if (!numbers)
+  {
+    LabelStrings(array, labels);
+  }
+  else if (!vtkArrayDispatch::Dispatch::Execute(numbers, LabelNumbers{}, labels))
+  {
+    LabelNumbers{}(numbers, labels);
+  }
+  return labels;
+}
+
+}

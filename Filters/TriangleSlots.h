@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TriangleSlots_h
+#define TriangleSlots_h
+
+#include "TriangleMesh.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkCellArray;
+class vtkIdList;
+class vtkPolyData;
+
+namespace delaunayflip
+{
+
+/// The triangles of a vtkPolyData: which cell each comes from, and which output cell it becomes.
+///
+/// Polygons that are triangles all are viewed in place. All else is copied: polygons and strips as
+/// the triangles that they split into. A split cell either gives way to its triangles or, with
+/// `triangulate` off, stays, and its triangles are frozen and never come out.
+class TriangleSlots
+{
+public:
+  static constexpr vtkIdType None = -1;
+
+  /// @throws InvalidMesh when a polygon or a strip names a point outside `points`.
+  TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate);
+  TriangleSlots(const TriangleSlots&) = delete;
+  TriangleSlots& operator=(const TriangleSlots&) = delete;
+
+  /// The triangles for the engine; a view of this object or of the mesh.
+  const TriangleArray& GetTriangles() const { return this->Triangles; }
+
+  /// Whether the output's cells are, one to one, those of the mesh.
+  bool AreInPlace() const { return this->InPlace; }
+
+  /// Whether a cell gives way to more than one.
+  bool DivideCells() const { return this->CellsAreDivided; }
+
+  /// The cell of the mesh that `triangle` comes from.
+  vtkIdType GetCell(vtkIdType triangle) const
+  {
+    return this->InPlace ? this->FirstPolygon + triangle : this->Cells[triangle];
+  }
+
+  /// Whether `triangle` is part of a cell that stays as it is.
+  bool IsFrozen(vtkIdType triangle) const { return !this->InPlace && this->Frozen[triangle] != 0; }
+
+  vtkIdType GetNumberOfPolygons() const
+  {
+    return static_cast<vtkIdType>(
+      this->InPlace ? this->Triangles.Count : static_cast<vtkIdType>(this->Polygons.size()));
+  }
+
+  /// The triangle that output polygon `polygon` is, or None for one that stays as it is.
+  vtkIdType GetTriangle(vtkIdType polygon) const
+  {
+    return this->InPlace ? polygon : this->Polygons[polygon].Triangle;
+  }
+
+  /// The cell of the mesh that output polygon `polygon` comes from.
+  vtkIdType GetCellOfPolygon(vtkIdType polygon) const
+  {
+    return this->InPlace ? this->FirstPolygon + polygon : this->Polygons[polygon].Cell;
+  }
+
+  /// Cells of the mesh that are the strips of the output.
+  const std::vector<vtkIdType>& GetStrips() const { return this->Strips; }
+
+  /// The cell of the mesh that is its first polygon, and its first strip.
+  vtkIdType GetFirstPolygon() const { return this->FirstPolygon; }
+  vtkIdType GetFirstStrip() const { return this->FirstStrip; }
+
+  /// Whether output polygon i is triangle i, for all of either.
+  bool ArePolygonsTriangles() const;
+
+private:
+  struct OutputPolygon
+  {
+    vtkIdType Cell;
+    vtkIdType Triangle;
+  };
+
+  bool ViewPolygons(vtkCellArray* polygons);
+  void CheckTriangles(vtkIdType numberOfPoints) const;
+  void ReadPolygons(vtkCellArray* polygons, const PointArray& points);
+  void ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray& points);
+  void ReadStrips(vtkCellArray* strips, const PointArray& points);
+  void AddStripTriangles(vtkIdList* ids);
+  void AddTriangles(vtkIdType cell, vtkIdType count, bool stays);
+
+  bool Triangulate;
+  bool InPlace = false;
+  bool CellsAreDivided = false;
+  vtkIdType FirstPolygon;
+  vtkIdType FirstStrip;
+  TriangleArray Triangles;
+
+  // Empty in place. One entry a triangle (Ids: three):
+  std::vector<std::int64_t> Ids;
+  std::vector<vtkIdType> Cells;
+  std::vector<unsigned char> Frozen;
+  // One entry an output cell:
+  std::vector<OutputPolygon> Polygons;
+  std::vector<vtkIdType> Strips;
+};
+
+}
+
+#endif

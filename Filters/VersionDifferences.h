@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VersionDifferences_h
+#define VersionDifferences_h
+
+#include "vtkAlgorithm.h"
+#include "vtkVersionMacros.h"
+
+/// @file
+/// All that differs between the versions of VTK.
+
+namespace delaunayflip
+{
+
+/// Whether `filter` is to stop: asked itself or, from VTK 9.3 on, through a filter upstream. A
+/// filter that was asked itself keeps its output, which the executive would otherwise empty.
+inline bool IsAbortRequested(vtkAlgorithm* filter)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  const bool aborted = filter->CheckAbort();
+  if (filter->GetAbortExecute())
+  {
+    filter->SetAbortOutput(false);
+  }
+  return aborted;
+#else
+  return filter->GetAbortExecute() != 0;
+#endif
+}
+
+}
+
+#endif

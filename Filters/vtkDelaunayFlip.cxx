@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayFlip.h"
+
+#include "DelaunayFlip.h"
+#include "PolyDataBridge.h"
+#include "ReportTables.h"
+#include "VersionDifferences.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+
+using namespace delaunayflip;
+
+// The enumerations of the engine and of the class are the same numbers.
+static_assert(static_cast<int>(GeometryKind::Surface) == vtkDelaunayFlip::GEOMETRY_SURFACE, "");
+static_assert(
+  static_cast<int>(CriterionKind::OppositeAngles) == vtkDelaunayFlip::CRITERION_OPPOSITE_ANGLES,
+  "");
+static_assert(static_cast<int>(TieRuleKind::Canonical) == vtkDelaunayFlip::TIE_RULE_CANONICAL, "");
+static_assert(static_cast<int>(BackendKind::Threads) == vtkDelaunayFlip::BACKEND_THREADS, "");
+static_assert(
+  static_cast<int>(StopReasonKind::Aborted) == vtkDelaunayFlip::STOP_REASON_ABORTED, "");
+
+vtkStandardNewMacro(vtkDelaunayFlip);
+
+//------------------------------------------------------------------------------
+struct vtkDelaunayFlip::Connection
+{
+  vtkPolyData* Input;
+  vtkPolyData* Constraints; ///< Or null.
+  vtkPolyData* Output;
+  vtkTable* Iterations;
+};
+
+//------------------------------------------------------------------------------
+vtkDelaunayFlip::vtkDelaunayFlip()
+  : Report(new FlipReport)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkDelaunayFlip::~vtkDelaunayFlip() = default;
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::SetConstraintsData(vtkPolyData* constraints)
+{
+  this->SetInputData(1, constraints);
+}
+
+vtkTable* vtkDelaunayFlip::GetIterations()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+int vtkDelaunayFlip::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+    return 1;
+  }
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlip::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const Connection data{ vtkPolyData::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
+    vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+  try
+  {
+    this->Flip(data);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Not enough memory for " << data.Input->GetNumberOfCells() << " cells.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+  *this->Report = FlipReport();
+  data.Output->Initialize();
+  data.Iterations->Initialize();
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::Flip(const Connection& data)
+{
+  *this->Report = FlipReport();
+  if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
+  {
+    this->Report->StopReason = StopReasonKind::Converged;
+    data.Output->ShallowCopy(data.Input);
+    AddIterationColumns(*this->Report, data.Iterations->GetRowData());
+    return;
+  }
+  const PolyDataBridge bridge(data.Input, data.Constraints,
+    { this->Triangulate, this->LinesAsConstraints, this->RegionArray });
+  FlipSession session(bridge.GetMesh(), this->GetOptions());
+  session.Advance(-1, [this](const IterationRecord& record) { return this->Observe(record); });
+  *this->Report = session.GetReport();
+
+  bridge.Store(session, data.Output);
+  if (this->GenerateFlipCount)
+  {
+    bridge.StoreFlipCounts(session, data.Output);
+  }
+  AddIterationColumns(*this->Report, data.Iterations->GetRowData());
+  AddIterationColumns(*this->Report, data.Output->GetFieldData());
+  AddTotals(*this->Report, data.Output->GetFieldData());
+  this->Warn();
+}
+
+//------------------------------------------------------------------------------
+FlipOptions vtkDelaunayFlip::GetOptions() const
+{
+  FlipOptions options;
+  options.Geometry = static_cast<GeometryKind>(this->Geometry);
+  options.Criterion = static_cast<CriterionKind>(this->Criterion);
+  options.TieRule = static_cast<TieRuleKind>(this->TieRule);
+  options.Backend = static_cast<BackendKind>(this->Backend);
+  options.Tolerance = this->Tolerance;
+  options.FeatureAngle = this->FeatureAngle;
+  options.MaximumIterations = this->MaximumIterations;
+  options.NumberOfThreads = this->NumberOfThreads;
+  options.TrackQuality = this->TrackQuality;
+  return options;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlip::Observe(const IterationRecord& record)
+{
+  this->Report->Iterations.push_back(record);
+  this->Report->TotalFlips += record.Flipped;
+  // How many flips are to come is unknown; the bad edges of this iteration stand for them.
+  const double done = static_cast<double>(this->Report->TotalFlips);
+  const double known = done + static_cast<double>(record.NonDelaunay);
+  const double progress = known > 0.0 ? done / known : 1.0;
+  this->UpdateProgress(std::max(this->GetProgress(), progress));
+  return !IsAbortRequested(this);
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::Warn()
+{
+  std::string text = DescribeDefects(this->Report->Defects);
+  if (this->Report->StopReason == StopReasonKind::IterationLimit &&
+    this->Report->NonDelaunayAfter > 0)
+  {
+    text += (text.empty() ? "" : "; ") + std::string("stopped by the iteration limit with ") +
+      std::to_string(this->Report->NonDelaunayAfter) + " edges left that are not Delaunay";
+  }
+  if (!text.empty())
+  {
+    vtkWarningMacro(<< text);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkDelaunayFlip::GetNumberOfIterations() const
+{
+  return static_cast<vtkIdType>(this->Report->Iterations.size());
+}
+
+vtkIdType vtkDelaunayFlip::GetTotalFlips() const { return this->Report->TotalFlips; }
+
+vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
+{
+  return this->Report->NonDelaunayAfter;
+}
+
+bool vtkDelaunayFlip::GetConverged() const { return this->Report->Converged(); }
+
+int vtkDelaunayFlip::GetStopReason() const { return static_cast<int>(this->Report->StopReason); }
+
+const char* vtkDelaunayFlip::GetStopReasonAsString() const
+{
+  return ToString(this->Report->StopReason);
+}
+
+int vtkDelaunayFlip::GetGeometryUsed() const
+{
+  return static_cast<int>(this->Report->GeometryUsed);
+}
+
+const char* vtkDelaunayFlip::GetGeometryUsedAsString() const
+{
+  return ToString(this->Report->GeometryUsed);
+}
+
+const FlipReport& vtkDelaunayFlip::GetReport() const { return *this->Report; }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Geometry: " << this->Geometry << "\n";
+  os << indent << "Criterion: " << this->Criterion << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "TieRule: " << this->TieRule << "\n";
+  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "RegionArray: " << this->RegionArray << "\n";
+  os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
+  os << indent << "Triangulate: " << this->Triangulate << "\n";
+  os << indent << "Backend: " << this->Backend << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "TrackQuality: " << this->TrackQuality << "\n";
+  os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
+  os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
+  os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
+  os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
+}

@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDelaunayFlip
+ * @brief   turn a triangle mesh into a Delaunay mesh by parallel edge flips
+ *
+ * vtkDelaunayFlip keeps the points of a mesh where they are and changes only how they are joined:
+ * in every iteration it flips, in parallel, an independent set of edges that are not locally
+ * Delaunay, until none is left that it may flip.
+ *
+ * What goes in: any vtkPolyData, also as a block of a composite dataset. Triangles are flipped;
+ * quads, polygons and triangle strips are split into triangles first (see Triangulate). Nothing is
+ * assumed about the mesh: it may be open, non-manifold, of mixed winding, with duplicate,
+ * degenerate or unused parts. What is not provably safe to flip stays as it is and is counted.
+ * The optional second input holds constraint edges as lines and polygons over the same point ids,
+ * as the source of vtkDelaunay2D does; lines of the first input are constraints too
+ * (LinesAsConstraints).
+ *
+ * What comes out: on port 0 the mesh, with the very same vtkPoints object and point data, verts
+ * and lines, and with every triangle in the slot, and with the cell data, that it came with.
+ * Triangles that no flip touched are bit-identical. Active cell normals are computed anew for
+ * changed triangles. Where a cell was split, global cell ids become pedigree ids, since they are no
+ * longer unique. Output cells are ordered verts, lines, polygons (triangles of strips after those
+ * of the polygons), strips; cells of fewer than three points pass as they are. On port 1 a vtkTable
+ * with one row an iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
+ * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
+ * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
+ * NonDelaunayEdges, FixedEdges, NonManifoldEdges, GeometryUsed and Backend. Input without
+ * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
+ *
+ * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
+ * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
+ * cells (vtkGhostType: duplicate, refined or hidden).
+ *
+ * How it differs from its neighbours: vtkDelaunay2D makes a triangulation of points from nothing
+ * and in x and y only; this filter improves a mesh that exists, planar in any orientation or a
+ * surface in space, keeps its holes, borders and constraints, and is exact in the plane: by default
+ * each edge is judged by an error-free in-circle predicate. The same input gives the same output,
+ * bit for bit, for any number of threads; Seconds and Backend are the only values that may differ.
+ *
+ * @warning
+ * Points that do not belong to any triangle stay unused: nothing is inserted. On surfaces the
+ * result is Delaunay in the sense of opposite-angle sums, and an edge whose flip would fold the
+ * surface or duplicate an edge stays and is reported as blocked.
+ *
+ * @warning
+ * With composite input the read-back methods speak of the block that was processed last; the field
+ * data arrays and the tables are per block.
+ *
+ * @par References
+ * C. Navarro, N. Hitschfeld, E. Scheihing: "Quasi-Delaunay triangulations using GPU-based
+ * edge-flips", VISIGRAPP 2013 (the parallel method).
+ * C. L. Lawson: "Software for C1 surface interpolation", in Mathematical Software III, 1977 (edge
+ * flips end in the Delaunay triangulation).
+ * J. R. Shewchuk: "Adaptive precision floating-point arithmetic and fast robust geometric
+ * predicates", Discrete & Computational Geometry 18, 1997.
+ *
+ * @sa
+ * vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
+ */
+#ifndef vtkDelaunayFlip_h
+#define vtkDelaunayFlip_h
+
+#include "vtkDelaunayFlipFiltersModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkTable;
+
+namespace delaunayflip
+{
+struct FlipOptions;
+struct FlipReport;
+struct IterationRecord;
+}
+
+class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkDelaunayFlip* New();
+  vtkTypeMacro(vtkDelaunayFlip, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * In which space edges are judged. AUTO (default) is PLANAR when all used points lie in one plane
+   * of any orientation, within 1e-6 of the diagonal of their bounding box, else SURFACE. PLANAR is
+   * an error if there is no such plane. PLANAR_XY judges by x and y and lets z ride along
+   * (terrain); AUTO never chooses it. SURFACE judges in space, by opposite-angle sums.
+   */
+  enum GeometryType
+  {
+    GEOMETRY_AUTO = 0,
+    GEOMETRY_PLANAR = 1,
+    GEOMETRY_PLANAR_XY = 2,
+    GEOMETRY_SURFACE = 3
+  };
+  vtkSetClampMacro(Geometry, int, GEOMETRY_AUTO, GEOMETRY_SURFACE);
+  vtkGetMacro(Geometry, int);
+  void SetGeometryToAuto() { this->SetGeometry(GEOMETRY_AUTO); }
+  void SetGeometryToPlanar() { this->SetGeometry(GEOMETRY_PLANAR); }
+  void SetGeometryToPlanarXY() { this->SetGeometry(GEOMETRY_PLANAR_XY); }
+  void SetGeometryToSurface() { this->SetGeometry(GEOMETRY_SURFACE); }
+  ///@}
+
+  ///@{
+  /**
+   * How an edge is judged. IN_CIRCLE (default) is the exact predicate of planar geometry.
+   * OPPOSITE_ANGLES is the criterion of the literature: the two angles opposite the edge sum to
+   * more than pi + Tolerance. Surfaces always use OPPOSITE_ANGLES.
+   */
+  enum CriterionType
+  {
+    CRITERION_IN_CIRCLE = 0,
+    CRITERION_OPPOSITE_ANGLES = 1
+  };
+  vtkSetClampMacro(Criterion, int, CRITERION_IN_CIRCLE, CRITERION_OPPOSITE_ANGLES);
+  vtkGetMacro(Criterion, int);
+  void SetCriterionToInCircle() { this->SetCriterion(CRITERION_IN_CIRCLE); }
+  void SetCriterionToOppositeAngles() { this->SetCriterion(CRITERION_OPPOSITE_ANGLES); }
+  ///@}
+
+  ///@{
+  /**
+   * By how many radians an opposite-angle sum must exceed pi. At least 0 and below 1, else the
+   * update fails; default 1e-9. Without effect on the in-circle criterion, which is exact.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * What happens to an edge whose four points lie on one circle exactly. KEEP (default) leaves it,
+   * so that a Delaunay mesh comes back bit-identical. CANONICAL makes the result independent of the
+   * triangles of the input; it needs planar geometry and the in-circle criterion, else the update
+   * fails.
+   */
+  enum TieRuleType
+  {
+    TIE_RULE_KEEP = 0,
+    TIE_RULE_CANONICAL = 1
+  };
+  vtkSetClampMacro(TieRule, int, TIE_RULE_KEEP, TIE_RULE_CANONICAL);
+  vtkGetMacro(TieRule, int);
+  void SetTieRuleToKeep() { this->SetTieRule(TIE_RULE_KEEP); }
+  void SetTieRuleToCanonical() { this->SetTieRule(TIE_RULE_CANONICAL); }
+  ///@}
+
+  ///@{
+  /**
+   * On surfaces, an edge stays when the normals of its two triangles differ by more than this many
+   * degrees in the input. 0 to 180; default 30; 180 turns feature edges off.
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of a cell array, numeric or of strings, with any number of components, that tells
+   * regions apart: edges between triangles of different values stay. Default none ("" or null);
+   * the update fails if the input has no such array.
+   */
+  vtkSetStdStringFromCharMacro(RegionArray);
+  vtkGetCharFromStdStringMacro(RegionArray);
+  ///@}
+
+  ///@{
+  /**
+   * Keep the edges along the lines of the input (every pair of consecutive points of its polylines)
+   * that are edges of the mesh. Default on. Lines pass to the output in any case.
+   */
+  vtkSetMacro(LinesAsConstraints, bool);
+  vtkGetMacro(LinesAsConstraints, bool);
+  vtkBooleanMacro(LinesAsConstraints, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Split quads, polygons and triangle strips into triangles and flip those too. A quad is cut
+   * along the diagonal of its first and third point unless that runs outside it; a larger polygon
+   * becomes a fan where it is convex, else its ears are clipped. Default on. Off: such cells pass
+   * untouched and their edges stay (in the counts they take part as the triangles they would
+   * become, none of whose edges may flip).
+   */
+  vtkSetMacro(Triangulate, bool);
+  vtkGetMacro(Triangulate, bool);
+  vtkBooleanMacro(Triangulate, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Where the flips run. AUTO (default) takes the fastest that is available; THREADS are those of
+   * the CPU; CUDA is a GPU, and the update fails if there is none.
+   */
+  enum BackendType
+  {
+    BACKEND_AUTO = 0,
+    BACKEND_CUDA = 1,
+    BACKEND_THREADS = 2
+  };
+  vtkSetClampMacro(Backend, int, BACKEND_AUTO, BACKEND_THREADS);
+  vtkGetMacro(Backend, int);
+  void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
+  void SetBackendToCUDA() { this->SetBackend(BACKEND_CUDA); }
+  void SetBackendToThreads() { this->SetBackend(BACKEND_THREADS); }
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0 (default): as many as the machine has. The result does not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Upper limit of iterations: -1 (default) goes on until no edge can flip, 0 makes none. On
+   * surfaces -1 has a safety limit of the number of triangles + 1000. A limit that leaves edges to
+   * flip gives a warning; the output is a valid mesh.
+   */
+  vtkSetClampMacro(MaximumIterations, vtkIdType, -1, VTK_ID_MAX);
+  vtkGetMacro(MaximumIterations, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Compute the smallest angle of the mesh after every iteration instead of only after the first
+   * and the last. Costs a pass over the mesh each time. Default off.
+   */
+  vtkSetMacro(TrackQuality, bool);
+  vtkGetMacro(TrackQuality, bool);
+  vtkBooleanMacro(TrackQuality, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Add the cell array vtkDelaunayFlipCount (int): how often each triangle was part of a flip; 0
+   * for other cells. Default off.
+   */
+  vtkSetMacro(GenerateFlipCount, bool);
+  vtkGetMacro(GenerateFlipCount, bool);
+  vtkBooleanMacro(GenerateFlipCount, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Constraint edges, optional: lines and polygons over the point ids of the first input. Its own
+   * points are not looked at.
+   */
+  void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
+  void SetConstraintsData(vtkPolyData* constraints);
+  ///@}
+
+  /**
+   * The table of iterations, output port 1.
+   */
+  vtkTable* GetIterations();
+
+  ///@{
+  /**
+   * What the last update did. From an observer of ProgressEvent, NumberOfIterations and TotalFlips
+   * are those up to now.
+   */
+  vtkIdType GetNumberOfIterations() const;
+  vtkIdType GetTotalFlips() const;
+  ///@}
+
+  /**
+   * Edges left that are not Delaunay and not fixed, after the last update.
+   */
+  vtkIdType GetNumberOfNonDelaunayEdges() const;
+
+  /**
+   * Whether the last update ended because an iteration found nothing that it may flip.
+   */
+  bool GetConverged() const;
+
+  ///@{
+  /**
+   * Why the last update ended. NOT_STARTED before any, and after an error.
+   */
+  enum StopReasonType
+  {
+    STOP_REASON_NOT_STARTED = 0,
+    STOP_REASON_CONVERGED = 1,
+    STOP_REASON_ITERATION_LIMIT = 2,
+    STOP_REASON_ABORTED = 3
+  };
+  int GetStopReason() const;
+  const char* GetStopReasonAsString() const;
+  ///@}
+
+  ///@{
+  /**
+   * The geometry that the last update used, one of GeometryType; GEOMETRY_AUTO before any, after an
+   * error and for a mesh without triangles.
+   */
+  int GetGeometryUsed() const;
+  const char* GetGeometryUsedAsString() const;
+  ///@}
+
+  /**
+   * Everything that is known of the last update, for C++ callers that include FlipReport.h.
+   */
+#ifndef __VTK_WRAP__
+  const delaunayflip::FlipReport& GetReport() const;
+#endif
+
+protected:
+  vtkDelaunayFlip();
+  ~vtkDelaunayFlip() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Geometry = GEOMETRY_AUTO;
+  int Criterion = CRITERION_IN_CIRCLE;
+  double Tolerance = 1e-9;
+  int TieRule = TIE_RULE_KEEP;
+  double FeatureAngle = 30.0;
+  std::string RegionArray;
+  bool LinesAsConstraints = true;
+  bool Triangulate = true;
+  int Backend = BACKEND_AUTO;
+  int NumberOfThreads = 0;
+  vtkIdType MaximumIterations = -1;
+  bool TrackQuality = false;
+  bool GenerateFlipCount = false;
+
+private:
+  struct Connection;
+
+  void Flip(const Connection& data);
+  delaunayflip::FlipOptions GetOptions() const;
+  bool Observe(const delaunayflip::IterationRecord& record);
+  void Warn();
+
+  std::unique_ptr<delaunayflip::FlipReport> Report;
+
+  vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
+  void operator=(const vtkDelaunayFlip&) = delete;
+};
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quads, polygons, strips and cells of too few points.
+
+#include "FilterTestSupport.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkStringArray.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+const Points Grid = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 2, 1, 0 },
+  { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 } };
+
+std::vector<int> RunAndGetNumbers(vtkPolyData* mesh)
+{
+  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+  WatchedFilter filter(mesh);
+  return GetNumbers(RunCleanly(filter)->GetCellData(), "Number");
+}
+
+}
+
+TEST(VtkDelaunayFlip, QuadsSplitAlongTheirFirstDiagonal)
+{
+  auto mesh = MakeMesh(Grid, { { 0, 1, 4, 3 }, { 1, 2, 5, 4 } });
+  EXPECT_EQ(RunAndGetNumbers(mesh), std::vector<int>({ 0, 0, 1, 1 }));
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  EXPECT_TRUE(HasEdge(output, 0, 4));
+  EXPECT_TRUE(HasEdge(output, 1, 5));
+  EXPECT_EQ(filter->GetTotalFlips(), 0); // both quads are ties
+}
+
+TEST(VtkDelaunayFlip, ConcaveQuadsSplitInside)
+{
+  // An arrow head whose notch, point 3, makes diagonal 0-2 run outside.
+  auto mesh = MakeMesh({ { 0, 0, 0 }, { 2, 1, 0 }, { 0, 2, 0 }, { 1, 1, 0 } }, { { 0, 1, 2, 3 } });
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(output->GetNumberOfCells(), 2);
+  EXPECT_TRUE(HasEdge(output, 1, 3));
+}
+
+TEST(VtkDelaunayFlip, CellDataFollowMixedPolygons)
+{
+  auto mesh = MakeMesh(Grid, { { 0, 1, 4, 3 }, { 1, 2, 4 }, { 4, 2, 5, 8, 7 }, { 3, 4, 7, 6 } });
+  EXPECT_EQ(RunAndGetNumbers(mesh), std::vector<int>({ 0, 0, 1, 2, 2, 2, 3, 3 }));
+}
+
+TEST(VtkDelaunayFlip, StringCellDataFollowToo)
+{
+  auto mesh = MakeMesh(Grid, { { 0, 1, 4, 3 }, { 1, 2, 5, 4 } });
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  names->InsertNextValue("left");
+  names->InsertNextValue("right");
+  mesh->GetCellData()->AddArray(names);
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  auto* copy = vtkStringArray::SafeDownCast(output->GetCellData()->GetAbstractArray("Name"));
+  ASSERT_NE(copy, nullptr);
+  ASSERT_EQ(copy->GetNumberOfValues(), 4);
+  EXPECT_EQ(copy->GetValue(1), "left");
+  EXPECT_EQ(copy->GetValue(2), "right");
+}
+
+TEST(VtkDelaunayFlip, StripsFollowThePolygons)
+{
+  auto mesh = MakeMesh(Grid, { { 3, 4, 6 }, { 4, 7, 6 } });
+  mesh->SetVerts(MakeCells({ { 8 } }));
+  mesh->SetStrips(MakeCells({ { 3, 0, 4, 1, 5, 2 } }));
+  EXPECT_EQ(RunAndGetNumbers(mesh), std::vector<int>({ 0, 1, 2, 3, 3, 3, 3 }));
+
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(output->GetNumberOfStrips(), 0);
+  // One winding throughout: the odd triangles of a strip are turned round.
+  EXPECT_EQ(GetCell(output, 3), Cell({ 3, 0, 4 }));
+  EXPECT_EQ(GetCell(output, 4), Cell({ 4, 0, 1 }));
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+}
+
+TEST(VtkDelaunayFlip, TrianglesOfQuadsFlip)
+{
+  // The rhombus as one quad, cut along 0-2 first.
+  auto mesh =
+    MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+  EXPECT_TRUE(HasEdge(output, 1, 3));
+}
+
+TEST(VtkDelaunayFlip, CellsOfTooFewPointsPass)
+{
+  auto mesh = MakeRhombus();
+  mesh->SetPolys(MakeCells({ { 0, 1 }, { 0, 1, 2 }, {}, { 0, 2, 3 }, { 2 } }));
+  mesh->SetStrips(MakeCells({ { 1, 2 }, { 3 } }));
+  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  const Cells polygons = GetCells(output->GetPolys());
+  ASSERT_EQ(polygons.size(), 5u);
+  EXPECT_EQ(polygons[0], Cell({ 0, 1 }));
+  EXPECT_EQ(polygons[2], Cell());
+  EXPECT_EQ(polygons[4], Cell({ 2 }));
+  EXPECT_TRUE(HasEdge(output, 1, 3));
+  EXPECT_EQ(GetCells(output->GetStrips()), Cells({ { 1, 2 }, { 3 } }));
+  EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>({ 0, 1, 2, 3, 4, 5, 6 }));
+}
+
+TEST(VtkDelaunayFlip, TriangulateOffKeepsOtherCells)
+{
+  // The rhombus with a quad below its left side and a strip above its right side.
+  auto mesh = MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { -3, -3, 0 },
+                         { 0, -3, 0 }, { 3, 3, 0 }, { 0, 4, 0 } },
+    { { 4, 5, 1, 0 }, { 0, 1, 2 }, { 0, 2, 3 } });
+  mesh->SetStrips(MakeCells({ { 2, 6, 3, 7 } }));
+  AddNumbers(mesh->GetCellData(), "Number", 4, 0);
+  WatchedFilter filter(mesh);
+  filter->TriangulateOff();
+  filter->GenerateFlipCountOn();
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+  EXPECT_EQ(GetCell(output, 0), Cell({ 4, 5, 1, 0 }));
+  EXPECT_TRUE(HasEdge(output, 1, 3));
+  EXPECT_EQ(GetCells(output->GetStrips()), Cells({ { 2, 6, 3, 7 } }));
+  EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>({ 0, 1, 2, 3 }));
+  EXPECT_EQ(
+    GetNumbers(output->GetCellData(), "vtkDelaunayFlipCount"), std::vector<int>({ 0, 1, 1, 0 }));
+}
+
+TEST(VtkDelaunayFlip, TriangulateOffFixesTheirEdges)
+{
+  // A square of two triangles that share the side 0-2 of a flat quad; on the other side of it, a
+  // triangle: the side is bad, and stays.
+  auto mesh =
+    MakeMesh({ { -3, 0, 0 }, { 3, 0, 0 }, { 0, 0.5, 0 }, { 1, -0.5, 0 }, { -1, -0.5, 0 } },
+      { { 0, 1, 2 }, { 1, 0, 4, 3 } });
+  WatchedFilter filter(mesh);
+  RunCleanly(filter);
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  filter->TriangulateOff();
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  EXPECT_EQ(GetCells(output->GetPolys()), GetCells(mesh->GetPolys()));
+}

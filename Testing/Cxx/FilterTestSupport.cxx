@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestSupport.h"
+
+#include "MeshAudit.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkExecutive.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkPoints.h"
+
+#include <gtest/gtest.h>
+
+vtkSmartPointer<vtkCellArray> MakeCells(const Cells& cells)
+{
+  auto array = vtkSmartPointer<vtkCellArray>::New();
+  for (const Cell& cell : cells)
+  {
+    array->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygons)
+{
+  vtkNew<vtkPoints> array;
+  array->SetDataTypeToDouble();
+  for (const std::array<double, 3>& point : points)
+  {
+    array->InsertNextPoint(point.data());
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(array);
+  mesh->SetPolys(MakeCells(polygons));
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> MakeRhombus()
+{
+  return MakeMesh(
+    { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } });
+}
+
+Cell GetCell(vtkPolyData* mesh, vtkIdType cell)
+{
+  vtkNew<vtkIdList> ids;
+  mesh->GetCellPoints(cell, ids);
+  return Cell(ids->begin(), ids->end());
+}
+
+Cells GetCells(vtkCellArray* cells)
+{
+  Cells result;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    cells->GetCellAtId(cell, ids);
+    result.emplace_back(ids->begin(), ids->end());
+  }
+  return result;
+}
+
+bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b)
+{
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    for (std::size_t i = 0; i < cell.size(); ++i)
+    {
+      const vtkIdType from = cell[i];
+      const vtkIdType to = cell[(i + 1) % cell.size()];
+      if ((from == a && to == b) || (from == b && to == a))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void AddNumbers(vtkDataSetAttributes* data, const char* name, vtkIdType count, int first)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    array->InsertNextValue(first + static_cast<int>(i));
+  }
+  data->AddArray(array);
+}
+
+std::vector<int> GetNumbers(vtkDataSetAttributes* data, const char* name)
+{
+  auto* array = vtkIntArray::SafeDownCast(data->GetArray(name));
+  if (!array)
+  {
+    ADD_FAILURE() << "no int array " << name;
+    return {};
+  }
+  return std::vector<int>(array->GetPointer(0), array->GetPointer(array->GetNumberOfValues()));
+}
+
+delaunayflip::OwnedMesh<double> ToOwnedMesh(vtkPolyData* mesh)
+{
+  delaunayflip::OwnedMesh<double> owned;
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    const double* xyz = mesh->GetPoint(point);
+    owned.Points.insert(owned.Points.end(), xyz, xyz + 3);
+  }
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    EXPECT_EQ(cell.size(), 3u);
+    owned.Triangles.insert(owned.Triangles.end(), cell.begin(), cell.end());
+  }
+  return owned;
+}
+
+long long CountViolations(vtkPolyData* mesh)
+{
+  return delaunayflip::CountNonDelaunayEdges(ToOwnedMesh(mesh).View(), {});
+}
+
+WatchedFilter::WatchedFilter()
+{
+  this->Watch(this->Filter, vtkCommand::ErrorEvent, &this->Errors);
+  this->Watch(this->Filter, vtkCommand::WarningEvent, &this->Warnings);
+  this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, nullptr);
+}
+
+WatchedFilter::WatchedFilter(vtkPolyData* input)
+  : WatchedFilter()
+{
+  this->Filter->SetInputData(input);
+}
+
+void WatchedFilter::Watch(
+  vtkObject* object, unsigned long event, std::vector<std::string>* messages)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(messages);
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* target, void* text)
+    {
+      if (target)
+      {
+        static_cast<std::vector<std::string>*>(target)->emplace_back(
+          static_cast<const char*>(text));
+      }
+    });
+  object->AddObserver(event, command);
+}
+
+vtkPolyData* WatchedFilter::Run()
+{
+  this->Filter->Update();
+  return this->Filter->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> RunCleanly(WatchedFilter& filter)
+{
+  vtkSmartPointer<vtkPolyData> output = filter.Run();
+  EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
+  EXPECT_EQ(filter.GetWarnings(), std::vector<std::string>{});
+  return output;
+}

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The filter as a part of a pipeline: progress, abort, limits, composite data.
+
+#include "FilterTestSupport.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> MakeLongRun()
+{
+  return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); // 37 iterations
+}
+
+/// Calls a function at every progress event.
+template <typename Action>
+void OnProgress(vtkDelaunayFlip* filter, Action& action)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&action);
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* target, void*) { (*static_cast<Action*>(target))(); });
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+}
+
+}
+
+TEST(VtkDelaunayFlip, ProgressRisesWithTheIterations)
+{
+  WatchedFilter filter(MakeLongRun());
+  std::vector<double> progress;
+  std::vector<vtkIdType> iterations;
+  auto record = [&]()
+  {
+    progress.push_back(filter->GetProgress());
+    iterations.push_back(filter->GetNumberOfIterations());
+  };
+  OnProgress(filter.Get(), record);
+  RunCleanly(filter);
+  ASSERT_GE(progress.size(), 37u);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  EXPECT_LE(progress.back(), 1.0);
+  EXPECT_GT(progress[10], 0.0);
+  EXPECT_LT(progress[10], 1.0);
+  EXPECT_NE(std::find(iterations.begin(), iterations.end(), 10), iterations.end());
+}
+
+TEST(VtkDelaunayFlip, AbortLeavesAValidMesh)
+{
+  auto mesh = MakeLongRun();
+  WatchedFilter filter(mesh);
+  auto stop = [&]()
+  {
+    if (filter->GetNumberOfIterations() == 5)
+    {
+      filter->SetAbortExecute(1);
+    }
+  };
+  OnProgress(filter.Get(), stop);
+  vtkPolyData* output = filter.Run();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  EXPECT_FALSE(filter->GetConverged());
+  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+  EXPECT_EQ(output->GetNumberOfCells(), mesh->GetNumberOfCells());
+}
+
+TEST(VtkDelaunayFlip, IterationLimitWarns)
+{
+  auto mesh = MakeLongRun();
+  WatchedFilter filter(mesh);
+  filter->SetMaximumIterations(5);
+  vtkPolyData* output = filter.Run();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_NE(filter.GetWarnings()[0].find("iteration limit"), std::string::npos);
+}
+
+TEST(VtkDelaunayFlip, NoIterationsNoFlips)
+{
+  auto mesh = MakeLongRun();
+  WatchedFilter filter(mesh);
+  filter->SetMaximumIterations(0);
+  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), GetCells(mesh->GetPolys()));
+  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
+}
+
+TEST(VtkDelaunayFlip, ExecutesOnlyWhenModified)
+{
+  WatchedFilter filter(MakeLongRun());
+  int executions = 0;
+  auto count = [&]() { executions += filter->GetProgress() == 0.0 ? 1 : 0; };
+  OnProgress(filter.Get(), count);
+  RunCleanly(filter);
+  RunCleanly(filter);
+  EXPECT_EQ(executions, 1);
+  filter->SetGeometryToPlanar();
+  RunCleanly(filter);
+  EXPECT_EQ(executions, 2);
+}
+
+TEST(VtkDelaunayFlip, FollowsAnotherFilter)
+{
+  vtkNew<vtkAppendPolyData> append;
+  append->AddInputData(MakeRhombus());
+  WatchedFilter filter;
+  filter->SetInputConnection(append->GetOutputPort());
+  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
+}
+
+TEST(VtkDelaunayFlip, MultiBlock)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(0, MakeLongRun());
+  blocks->SetBlock(0, MakeRhombus());
+  blocks->SetBlock(1, nullptr);
+  blocks->SetBlock(2, inner);
+  WatchedFilter filter;
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  EXPECT_TRUE(filter.GetErrors().empty());
+
+  auto* meshes = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(meshes, nullptr);
+  auto* first = vtkPolyData::SafeDownCast(meshes->GetBlock(0));
+  ASSERT_NE(first, nullptr);
+  EXPECT_TRUE(HasEdge(first, 1, 3));
+  EXPECT_EQ(first->GetFieldData()->GetArray("TotalFlips")->GetComponent(0, 0), 1.0);
+  auto* second =
+    vtkPolyData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(meshes->GetBlock(2))->GetBlock(0));
+  EXPECT_EQ(CountViolations(second), 0);
+
+  auto* tables = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(1));
+  ASSERT_NE(tables, nullptr);
+  auto* table =
+    vtkTable::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(tables->GetBlock(2))->GetBlock(0));
+  ASSERT_NE(table, nullptr);
+  EXPECT_EQ(table->GetNumberOfRows(), 37);
+}
+
+TEST(VtkDelaunayFlip, PartitionedDataSetCollection)
+{
+  vtkNew<vtkPartitionedDataSet> partitions;
+  partitions->SetPartition(0, MakeRhombus());
+  partitions->SetPartition(1, MakeLongRun());
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartitionedDataSet(0, partitions);
+  WatchedFilter filter;
+  filter->SetInputDataObject(collection);
+  filter->Update();
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  EXPECT_TRUE(HasEdge(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 0)), 1, 3));
+  EXPECT_EQ(CountViolations(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 1))), 0);
+}

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The table, the field data and the read-back methods.
+
+#include "FilterTestSupport.h"
+
+#include "FlipReport.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace
+{
+
+const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded",
+  "Blocked", "MinimumAngle", "Seconds" };
+
+/// 6 triangles that take flips {1, 2, 3, 2, 1}.
+vtkSmartPointer<vtkPolyData> MakeWorstCase()
+{
+  return ToPolyData(delaunayflip::MakeWorstCaseMesh(4));
+}
+
+double GetTotal(vtkPolyData* mesh, const char* name)
+{
+  vtkDataArray* array = mesh->GetFieldData()->GetArray(name);
+  EXPECT_NE(array, nullptr) << name;
+  EXPECT_EQ(array->GetNumberOfTuples(), 1) << name;
+  return array->GetComponent(0, 0);
+}
+
+std::string GetText(vtkPolyData* mesh, const char* name)
+{
+  auto* array = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray(name));
+  EXPECT_NE(array, nullptr) << name;
+  return array->GetValue(0);
+}
+
+}
+
+TEST(VtkDelaunayFlip, TableHasOneRowAnIteration)
+{
+  WatchedFilter filter(MakeWorstCase());
+  RunCleanly(filter);
+  vtkTable* table = filter->GetIterations();
+  ASSERT_EQ(table->GetNumberOfColumns(), 8);
+  for (int column = 0; column < 8; ++column)
+  {
+    EXPECT_STREQ(table->GetColumnName(column), Columns[column]);
+  }
+  std::vector<int> flipped;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    EXPECT_EQ(table->GetValueByName(row, "Iteration").ToInt(), row + 1);
+    EXPECT_EQ(table->GetValueByName(row, "NonDelaunay").ToInt(),
+      table->GetValueByName(row, "Flipped").ToInt() +
+        table->GetValueByName(row, "Excluded").ToInt() +
+        table->GetValueByName(row, "Blocked").ToInt());
+    flipped.push_back(table->GetValueByName(row, "Flipped").ToInt());
+  }
+  EXPECT_EQ(flipped, std::vector<int>({ 1, 2, 3, 2, 1 }));
+  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+}
+
+TEST(VtkDelaunayFlip, FieldDataRepeatTheTable)
+{
+  WatchedFilter filter(MakeWorstCase());
+  auto output = RunCleanly(filter);
+  for (const char* column : Columns)
+  {
+    vtkDataArray* array = output->GetFieldData()->GetArray(column);
+    ASSERT_NE(array, nullptr) << column;
+    ASSERT_EQ(array->GetNumberOfTuples(), 5);
+    auto* other = vtkDataArray::SafeDownCast(filter->GetIterations()->GetColumnByName(column));
+    for (vtkIdType row = 0; row < 5; ++row)
+    {
+      const double value = array->GetComponent(row, 0);
+      EXPECT_TRUE(value == other->GetComponent(row, 0) || std::isnan(value));
+    }
+  }
+}
+
+TEST(VtkDelaunayFlip, TotalsAreFieldData)
+{
+  WatchedFilter filter(MakeWorstCase());
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(GetTotal(output, "Converged"), 1.0);
+  EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
+  EXPECT_EQ(GetTotal(output, "NonDelaunayEdges"), 0.0);
+  EXPECT_EQ(GetTotal(output, "FixedEdges"), 8.0); // 13 edges, 5 of them inside
+  EXPECT_EQ(GetTotal(output, "NonManifoldEdges"), 0.0);
+  EXPECT_EQ(GetText(output, "StopReason"), "converged");
+  EXPECT_EQ(GetText(output, "GeometryUsed"), "planar");
+  EXPECT_EQ(GetText(output, "Backend"), filter->GetReport().Backend);
+}
+
+TEST(VtkDelaunayFlip, FieldDataOfTheInputPass)
+{
+  auto mesh = MakeWorstCase();
+  vtkNew<vtkStringArray> title;
+  title->SetName("Title");
+  title->InsertNextValue("worst case");
+  mesh->GetFieldData()->AddArray(title);
+  vtkNew<vtkStringArray> stale; // of an earlier run, say
+  stale->SetName("TotalFlips");
+  mesh->GetFieldData()->AddArray(stale);
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(GetText(output, "Title"), "worst case");
+  EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
+  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 2);
+  EXPECT_EQ(mesh->GetFieldData()->GetAbstractArray("TotalFlips"), stale);
+}
+
+TEST(VtkDelaunayFlip, TrackQualityGivesEveryAngle)
+{
+  WatchedFilter filter(MakeWorstCase());
+  RunCleanly(filter);
+  const auto isNan = [&filter](int row)
+  { return std::isnan(filter->GetIterations()->GetValueByName(row, "MinimumAngle").ToDouble()); };
+  EXPECT_FALSE(isNan(0));
+  EXPECT_TRUE(isNan(2));
+  EXPECT_FALSE(isNan(4));
+  filter->TrackQualityOn();
+  RunCleanly(filter);
+  EXPECT_FALSE(isNan(2));
+}
+
+TEST(VtkDelaunayFlip, ReadBack)
+{
+  WatchedFilter filter(MakeWorstCase());
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_FALSE(filter->GetConverged());
+  RunCleanly(filter);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  EXPECT_EQ(filter->GetTotalFlips(), 9);
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_CONVERGED);
+  EXPECT_STREQ(filter->GetStopReasonAsString(), "converged");
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
+  EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
+  EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
+}
+
+TEST(VtkDelaunayFlip, PrintSelfNamesEveryProperty)
+{
+  std::ostringstream text;
+  vtkNew<vtkDelaunayFlip> filter;
+  filter->Print(text);
+  for (const char* name : { "Geometry", "Criterion", "Tolerance", "TieRule", "FeatureAngle",
+         "RegionArray", "LinesAsConstraints", "Triangulate", "Backend", "NumberOfThreads",
+         "MaximumIterations", "TrackQuality", "GenerateFlipCount" })
+  {
+    EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
+  }
+}
