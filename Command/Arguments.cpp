@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Arguments.h"
+
+#include "CommandError.h"
+#include "Console.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+template <typename Kind>
+void AddChoice(CLI::App& app, const std::string& name, Kind& value,
+  const std::map<std::string, Kind>& choices, const std::string& help)
+{
+  app
+    .add_option_function<std::string>(
+      name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
+    ->check(CLI::IsMember(choices));
+}
+
+/// Unlike CLI::Range it refuses NaN.
+CLI::Validator Within(double low, double high, const std::string& range)
+{
+  const auto check = [low, high, range](std::string& text)
+  {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool inside = end != text.c_str() && *end == '\0' && value >= low && value <= high;
+    return inside ? std::string() : text + " is not " + range;
+  };
+  return CLI::Validator(check, "");
+}
+
+void AddMethodOptions(CLI::App& app, FlipOptions& flip)
+{
+  AddChoice<GeometryKind>(app, "--geometry", flip.Geometry,
+    { { "auto", GeometryKind::Auto }, { "planar", GeometryKind::Planar },
+      { "planar-xy", GeometryKind::PlanarXY }, { "surface", GeometryKind::Surface } },
+    "Where edges are judged: in the points' plane (planar), by x and y with z riding along "
+    "(planar-xy, for terrain), in space (surface); auto: planar if all points lie in one plane, "
+    "else surface [auto]");
+  AddChoice<CriterionKind>(app, "--criterion", flip.Criterion,
+    { { "in-circle", CriterionKind::InCircle },
+      { "opposite-angles", CriterionKind::OppositeAngles } },
+    "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
+    "[in-circle]");
+  app
+    .add_option("--feature-angle", flip.FeatureAngle,
+      "Surfaces: an edge sharper than this many degrees stays; 180: none does [30]")
+    ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
+  app
+    .add_option(
+      "--tolerance", flip.Tolerance, "Radians above pi that an opposite-angle sum may reach [1e-9]")
+    ->check(Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
+  AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
+    { { "keep", TieRuleKind::Keep }, { "canonical", TieRuleKind::Canonical } },
+    "Edges whose four points lie on one circle: keep them, or make the result independent of the "
+    "input's triangles (in-circle in the plane only) [keep]");
+}
+
+void AddRunOptions(CLI::App& app, Arguments& arguments)
+{
+  app.add_flag(
+    "--ignore-lines", arguments.IgnoreLines, "Lines of the input do not hold edges in place");
+  app
+    .add_option("--max-iterations", arguments.Flip.MaximumIterations,
+      "Stop after this many iterations; -1: when nothing is left to flip [-1]")
+    ->check(Within(-1.0, 9e18, "a number of iterations (-1 or more)"));
+  AddChoice<BackendKind>(app, "--backend", arguments.Flip.Backend,
+    { { "auto", BackendKind::Auto }, { "cuda", BackendKind::CUDA },
+      { "threads", BackendKind::Threads } },
+    "Where the flips run [auto]");
+  app
+    .add_option("--threads", arguments.Flip.NumberOfThreads,
+      "Number of CPU threads; 0: all. The result does not depend on it [0]")
+    ->check(Within(0.0, 65536.0, "a number of threads (0 to 65536)"));
+  app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
+  app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)");
+  app.add_flag("--quiet", arguments.Quiet,
+    "No summary, notes or progress bar; warnings and errors still appear");
+}
+
+std::filesystem::path Resolved(const std::string& path)
+{
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+}
+
+void CheckDistinct(const std::string& first, const std::string& second)
+{
+  if (!first.empty() && !second.empty() && Resolved(first) == Resolved(second))
+  {
+    throw CommandError(ExitCode::WrongUsage, second + ": named for two files of different kind");
+  }
+}
+
+/// What one option alone cannot tell.
+void CheckTogether(Arguments& arguments)
+{
+  arguments.InputFormat = FormatOf(arguments.Input);
+  arguments.OutputFormat = FormatOf(arguments.Output);
+  CheckDistinct(arguments.Input, arguments.Statistics);
+  CheckDistinct(arguments.Input, arguments.Report);
+  CheckDistinct(arguments.Output, arguments.Statistics);
+  CheckDistinct(arguments.Output, arguments.Report);
+  CheckDistinct(arguments.Statistics, arguments.Report);
+}
+
+}
+
+std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
+{
+  CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips. Points never move.\n"
+               "Files: .vtk .vtp .ply .stl .obj, by extension.",
+    "delaunay-flip");
+  app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
+  app.footer(
+    "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
+    "writable; 4 iteration limit reached (output written); 5 the backend asked for is not\n"
+    "available; 130 interrupted. Without success no file is changed.");
+  app.add_option("INPUT", arguments.Input, "The mesh to read")->required();
+  app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
+  AddMethodOptions(app, arguments.Flip);
+  AddRunOptions(app, arguments);
+  try
+  {
+    app.parse(argc, argv);
+    CheckTogether(arguments);
+  }
+  catch (const CLI::Success& success)
+  {
+    return app.exit(success);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    PrintError(std::string(error.what()) + " (delaunay-flip --help shows the usage)");
+    return static_cast<int>(ExitCode::WrongUsage);
+  }
+  return std::nullopt;
+}
+
+}

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_ARGUMENTS_H
+#define DELAUNAYFLIP_ARGUMENTS_H
+
+#include "FlipOptions.h"
+#include "MeshFormat.h"
+
+#include <optional>
+#include <string>
+
+/// @file
+/// The command line.
+
+namespace delaunayflip
+{
+
+struct Arguments
+{
+  std::string Input;
+  std::string Output;
+  MeshFormat InputFormat = MeshFormat::VTK;
+  MeshFormat OutputFormat = MeshFormat::VTK;
+  FlipOptions Flip;
+  bool IgnoreLines = false;
+  std::string Statistics; ///< CSV file; empty: none.
+  std::string Report; ///< JSON file; empty: none.
+  bool Quiet = false;
+};
+
+/// Reads the command line into `arguments`. Prints help, the version, or what was wrong.
+/// @returns the exit code when there is nothing left to do, else nothing.
+std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments);
+
+}
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ChildProcess.h"
+
+#include "CommandError.h"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <new>
+
+namespace delaunayflip
+{
+
+struct ChildProcess::SharedPhase
+{
+  std::atomic<Phase> Value{ Phase::Reading };
+};
+
+namespace
+{
+
+bool IsIgnored(int signal)
+{
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/// What a user or the system ends a program with; what is already ignored (nohup) stays ignored.
+sigset_t EndingSignals()
+{
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    if (!IsIgnored(signal))
+    {
+      sigaddset(&signals, signal);
+    }
+  }
+  return signals;
+}
+
+}
+
+ChildProcess::ChildProcess()
+  : Watched(EndingSignals()),
+    Parent(getpid())
+{
+  void* memory =
+    mmap(nullptr, sizeof(SharedPhase), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED)
+  {
+    throw CommandError(ExitCode::BadFile, std::string("no memory: ") + std::strerror(errno));
+  }
+  this->Shared = new (memory) SharedPhase;
+  // A full disk, a file size limit or a closed pipe shall be an error code, not a death.
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
+  // Else the system might reap the child itself and its end be lost.
+  signal(SIGCHLD, SIG_DFL);
+  sigaddset(&this->Watched, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &this->Watched, &this->Before);
+}
+
+ChildProcess::~ChildProcess()
+{
+  sigprocmask(SIG_SETMASK, &this->Before, nullptr);
+  munmap(this->Shared, sizeof(SharedPhase));
+}
+
+ChildOutcome ChildProcess::Run(const ChildWork& work)
+{
+  std::cout.flush();
+  const int child = fork();
+  if (child < 0)
+  {
+    throw CommandError(ExitCode::BadFile, std::string("cannot fork: ") + std::strerror(errno));
+  }
+  if (child == 0)
+  {
+    this->Work(work);
+  }
+  return this->Wait(child);
+}
+
+void ChildProcess::Work(const ChildWork& work)
+{
+  // A terminal's interrupt reaches both processes; the parent alone decides.
+  for (const int ending : { SIGINT, SIGTERM, SIGHUP })
+  {
+    signal(ending, SIG_IGN);
+  }
+  sigprocmask(SIG_SETMASK, &this->Before, nullptr);
+  // A reader that dies of a corrupt file shall not leave a core file in the user's folder.
+  const rlimit none = {};
+  setrlimit(RLIMIT_CORE, &none);
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != this->Parent)
+  {
+    _exit(static_cast<int>(ExitCode::Interrupted));
+  }
+#endif
+  const int code = work([this](Phase phase) { this->Shared->Value = phase; });
+  std::cout.flush();
+  _exit(code);
+}
+
+ChildOutcome ChildProcess::Wait(int child)
+{
+  ChildOutcome outcome;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0)
+  {
+    int received = 0;
+    if (sigwait(&this->Watched, &received) == 0 && received != SIGCHLD)
+    {
+      // Nothing has been written under a final name yet, so there is nothing to wait for.
+      outcome.InterruptedBy = received;
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      break;
+    }
+  }
+  outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  outcome.DiedOf = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  outcome.LastPhase = this->Shared->Value;
+  return outcome;
+}
+
+}

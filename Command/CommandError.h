@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_COMMANDERROR_H
+#define DELAUNAYFLIP_COMMANDERROR_H
+
+#include <stdexcept>
+#include <string>
+
+/// @file
+/// How the command ends.
+
+namespace delaunayflip
+{
+
+/// What the command returns to the shell.
+enum class ExitCode
+{
+  Done = 0,
+  WrongUsage = 2,
+  BadFile = 3, ///< Input unreadable or invalid, or an output not writable.
+  IterationLimit = 4, ///< The output is written; violations may be left.
+  NoBackend = 5, ///< The backend asked for cannot run here.
+  Interrupted = 130 ///< 128 + SIGINT; other signals that end it give 128 + their number.
+};
+
+/// Ends the command: the message for the user and the exit code.
+class CommandError : public std::runtime_error
+{
+public:
+  CommandError(ExitCode code, const std::string& message)
+    : std::runtime_error(message),
+      Code(code)
+  {
+  }
+
+  ExitCode Code;
+};
+
+}
+
+#endif

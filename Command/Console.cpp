@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Console.h"
+
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <regex>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// VTK's text without its first line (the source file), the object's address and the line breaks,
+/// and without the bytes of a corrupt file that it may quote.
+std::string InOneLine(const char* text)
+{
+  static const std::regex head("^[^\n]*(ERROR|Warning): In [^\n]*\n");
+  static const std::regex object("^vtk\\w+ \\(0x[0-9a-fA-F]+\\): ?");
+  static const std::regex request(
+    "^Algorithm (\\w+) *\\(0x[^\n]*returned failure for request[^]*$");
+  static const std::regex breaks("\\s+");
+  constexpr std::size_t longest = 2000; // std::regex recurses
+  std::string line = std::regex_replace(std::string(text).substr(0, longest), head, "");
+  line = std::regex_replace(line, object, "");
+  line = std::regex_replace(line, request, "$1 failed");
+  line = std::regex_replace(line, breaks, " ");
+  std::replace_if(
+    line.begin(), line.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+class CollectingWindow : public vtkOutputWindow
+{
+public:
+  static CollectingWindow* New();
+  vtkTypeMacro(CollectingWindow, vtkOutputWindow);
+
+  void DisplayErrorText(const char* text) override { this->Errors.push_back(InOneLine(text)); }
+  void DisplayWarningText(const char* text) override { this->Warnings.push_back(InOneLine(text)); }
+  void DisplayGenericWarningText(const char* text) override { this->DisplayWarningText(text); }
+  void DisplayDebugText(const char*) override {}
+
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+};
+
+vtkStandardNewMacro(CollectingWindow);
+
+/// Each line once.
+std::string Joined(const std::vector<std::string>& lines)
+{
+  std::string joined;
+  for (auto line = lines.begin(); line != lines.end(); ++line)
+  {
+    if (std::find(lines.begin(), line, *line) == line)
+    {
+      joined += (joined.empty() ? "" : "; ") + *line;
+    }
+  }
+  return joined;
+}
+
+bool IsAboutVersion(const std::string& warning)
+{
+  return warning.find("with older reader version") != std::string::npos ||
+    warning.find("is higher than this reader supports") != std::string::npos;
+}
+
+CollectingWindow* Window()
+{
+  return CollectingWindow::SafeDownCast(vtkOutputWindow::GetInstance());
+}
+
+/// On a terminal the line may hold a progress bar.
+void PrintLine(const std::string& line)
+{
+  std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << line << std::endl;
+}
+
+}
+
+void PrintError(const std::string& message) { PrintLine("error: " + message); }
+
+void PrintWarning(const std::string& message) { PrintLine("warning: " + message); }
+
+void PrintNote(const std::string& message) { PrintLine("note: " + message); }
+
+VTKMessages::VTKMessages()
+{
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkNew<CollectingWindow> window;
+  vtkOutputWindow::SetInstance(window);
+}
+
+void VTKMessages::PrintWarnings()
+{
+  for (const std::string& warning : Window()->Warnings)
+  {
+    PrintWarning(warning);
+  }
+  Window()->Warnings.clear();
+}
+
+std::string VTKMessages::TakeErrors()
+{
+  const std::string joined = Joined(Window()->Errors);
+  Window()->Errors.clear();
+  return joined;
+}
+
+std::string VTKMessages::TakeComplaints()
+{
+  std::vector<std::string>& warnings = Window()->Warnings;
+  const auto complaints = std::stable_partition(warnings.begin(), warnings.end(), IsAboutVersion);
+  Window()->Errors.insert(Window()->Errors.end(), complaints, warnings.end());
+  warnings.erase(complaints, warnings.end());
+  return this->TakeErrors();
+}
+
+MutedStandardError::MutedStandardError()
+  : Saved(dup(STDERR_FILENO))
+{
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (this->Saved >= 0 && nowhere >= 0)
+  {
+    dup2(nowhere, STDERR_FILENO);
+  }
+  if (nowhere >= 0)
+  {
+    close(nowhere);
+  }
+}
+
+MutedStandardError::~MutedStandardError()
+{
+  if (this->Saved >= 0)
+  {
+    dup2(this->Saved, STDERR_FILENO);
+    close(this->Saved);
+  }
+}
+
+}

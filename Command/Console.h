@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CONSOLE_H
+#define DELAUNAYFLIP_CONSOLE_H
+
+#include <string>
+#include <vector>
+
+/// @file
+/// One-line messages on stderr, VTK's own among them.
+
+namespace delaunayflip
+{
+
+void PrintError(const std::string& message);
+void PrintWarning(const std::string& message);
+void PrintNote(const std::string& message);
+
+/// From its construction on, collects what VTK has to say in this process instead of printing it.
+class VTKMessages
+{
+public:
+  VTKMessages();
+
+  /// Prints the warnings since the last call, one line each.
+  void PrintWarnings();
+
+  /// The errors since the last call joined, or an empty string.
+  std::string TakeErrors();
+
+  /// The errors and warnings since the last call joined, or an empty string. A warning that the
+  /// file is of a newer version than VTK knows is left for PrintWarnings.
+  std::string TakeComplaints();
+};
+
+/// Sends stderr to nowhere while it lives: a dying reader says what helps no one.
+class MutedStandardError
+{
+public:
+  MutedStandardError();
+  ~MutedStandardError();
+  MutedStandardError(const MutedStandardError&) = delete;
+  MutedStandardError& operator=(const MutedStandardError&) = delete;
+
+private:
+  int Saved;
+};
+
+}
+
+#endif

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipJob.h"
+
+#include "CommandError.h"
+#include "Console.h"
+#include "DelaunayFlip.h"
+#include "FormatLosses.h"
+#include "HeightField.h"
+#include "MeshReader.h"
+#include "MeshWriter.h"
+#include "OutputFiles.h"
+#include "ProgressBar.h"
+#include "Report.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkDelaunayFlip.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <limits>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Finds out what options alone, or this machine, make impossible, before a large file is read.
+void TryOptions(const FlipOptions& options)
+{
+  const double points[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  const std::int32_t triangle[] = { 0, 1, 2 };
+  TriangleMesh mesh;
+  mesh.Points = PointArray(points, 3);
+  mesh.Triangles = TriangleArray(triangle, 1);
+  try
+  {
+    FlipSession(mesh, options);
+  }
+  catch (const BackendUnavailable& error)
+  {
+    throw CommandError(ExitCode::NoBackend, error.what());
+  }
+  catch (const InvalidOptions& error)
+  {
+    throw CommandError(ExitCode::WrongUsage, error.what());
+  }
+}
+
+void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
+{
+  const FlipOptions& flip = arguments.Flip;
+  filter->SetGeometry(static_cast<int>(flip.Geometry));
+  filter->SetCriterion(static_cast<int>(flip.Criterion));
+  filter->SetTieRule(static_cast<int>(flip.TieRule));
+  filter->SetBackend(static_cast<int>(flip.Backend));
+  filter->SetTolerance(flip.Tolerance);
+  filter->SetFeatureAngle(flip.FeatureAngle);
+  filter->SetMaximumIterations(flip.MaximumIterations);
+  filter->SetNumberOfThreads(flip.NumberOfThreads);
+  filter->SetLinesAsConstraints(!arguments.IgnoreLines);
+}
+
+void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
+{
+  auto* filter = vtkDelaunayFlip::SafeDownCast(caller);
+  static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
+    "iteration " + std::to_string(filter->GetNumberOfIterations()) + ", " +
+      std::to_string(filter->GetTotalFlips()) + " flips");
+}
+
+/// The work from reading to the report, a step a function.
+class FlipJob
+{
+public:
+  FlipJob(const Arguments& arguments, OutputFiles& files)
+    : Settings(arguments),
+      Files(files),
+      Bar(!arguments.Quiet)
+  {
+  }
+
+  void Read()
+  {
+    const auto start = Clock::now();
+    this->Bar.Start("reading " + this->Settings.Input);
+    MeshFile file = ReadMesh(this->Settings.Input, this->Settings.InputFormat, this->Messages);
+    this->Bar.Clear();
+    this->Input = file.Mesh;
+    this->Run.ReadSeconds = SecondsSince(start);
+    for (const std::string& note : file.Notes)
+    {
+      this->Note(note);
+    }
+    if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
+    {
+      this->Note(this->Settings.Input + ": no triangles in it");
+    }
+  }
+
+  void Flip()
+  {
+    vtkNew<vtkCallbackCommand> progress;
+    progress->SetCallback(ShowProgress);
+    progress->SetClientData(&this->Bar);
+    Configure(this->Filter, this->Settings);
+    this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
+    this->Filter->SetInputData(this->Input);
+    this->Filter->Update();
+    this->Bar.Clear();
+    this->Messages.PrintWarnings();
+    this->ThrowErrors();
+    this->TakeReport();
+    this->NoteHeightField();
+  }
+
+  void Write()
+  {
+    const auto start = Clock::now();
+    this->Bar.Start("writing " + this->Settings.Output);
+    vtkNew<vtkPolyData> mesh;
+    mesh->ShallowCopy(this->Filter->GetOutput());
+    // The same mesh gives the same file, whenever and wherever; the report has these two.
+    mesh->GetFieldData()->RemoveArray("Seconds");
+    mesh->GetFieldData()->RemoveArray("Backend");
+    this->WriteOutput(mesh);
+    this->Bar.Clear();
+    this->Run.WriteSeconds = SecondsSince(start);
+    const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
+    if (!losses.empty())
+    {
+      this->Note(this->Settings.Output + ": this file format does not hold: " + losses);
+    }
+  }
+
+  void Tell()
+  {
+    if (this->Files.Statistics)
+    {
+      WriteText(*this->Files.Statistics,
+        [this](std::ostream& stream) { WriteCsv(this->Run.Flip, stream); });
+    }
+    if (this->Files.Report)
+    {
+      WriteText(
+        *this->Files.Report, [this](std::ostream& stream) { WriteJson(this->Run, stream); });
+    }
+    if (!this->Settings.Quiet)
+    {
+      WriteSummary(this->Run, std::cout);
+    }
+  }
+
+  ExitCode GetExitCode() const
+  {
+    return this->Run.Flip.StopReason == StopReasonKind::IterationLimit ? ExitCode::IterationLimit
+                                                                       : ExitCode::Done;
+  }
+
+private:
+  void Note(const std::string& note) const
+  {
+    if (!this->Settings.Quiet)
+    {
+      PrintNote(note);
+    }
+  }
+
+  void ThrowErrors()
+  {
+    const std::string errors = this->Messages.TakeErrors();
+    if (!errors.empty())
+    {
+      throw CommandError(this->AcceptsMesh() ? ExitCode::WrongUsage : ExitCode::BadFile,
+        this->Settings.Input + ": " + errors);
+    }
+  }
+
+  void TakeReport()
+  {
+    FlipReport& report = this->Run.Flip;
+    report = this->Filter->GetReport();
+    if (report.Triangles == 0)
+    {
+      // The filter had nothing to look at.
+      report.Points = this->Input->GetNumberOfPoints();
+      report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
+      report.MinimumAngleAfter = report.MinimumAngleBefore;
+    }
+  }
+
+  /// Whether the filter takes the mesh with other options: then the given ones were at fault.
+  bool AcceptsMesh()
+  {
+    Arguments lenient;
+    lenient.Flip.MaximumIterations = 0;
+    Configure(this->Filter, lenient);
+    this->Filter->Update();
+    return this->Messages.TakeErrors().empty();
+  }
+
+  void NoteHeightField() const
+  {
+    if (this->Settings.Flip.Geometry == GeometryKind::Auto &&
+      this->Run.Flip.GeometryUsed == GeometryKind::Surface && IsHeightField(this->Input))
+    {
+      this->Note("a height field; --geometry planar-xy treats it as terrain");
+    }
+  }
+
+  void WriteOutput(vtkPolyData* mesh)
+  {
+    try
+    {
+      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages);
+    }
+    catch (const CommandError& error)
+    {
+      throw CommandError(
+        error.Code, this->Settings.Output + ": cannot be written: " + error.what());
+    }
+  }
+
+  template <typename Function>
+  static void WriteText(const PendingFile& file, const Function& write)
+  {
+    std::ofstream stream(file.GetTemporary(), std::ios::binary);
+    write(stream);
+    stream.close();
+    if (!stream)
+    {
+      throw CommandError(
+        ExitCode::BadFile, file.GetTarget() + ": cannot be written (is the disk full?)");
+    }
+  }
+
+  const Arguments& Settings;
+  OutputFiles& Files;
+  VTKMessages Messages;
+  ProgressBar Bar;
+  vtkSmartPointer<vtkPolyData> Input;
+  vtkNew<vtkDelaunayFlip> Filter;
+  RunReport Run;
+};
+
+}
+
+int RunFlipJob(
+  const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
+{
+  TryOptions(arguments.Flip);
+  FlipJob job(arguments, files);
+  enter(Phase::Reading);
+  job.Read();
+  enter(Phase::Flipping);
+  job.Flip();
+  enter(Phase::Writing);
+  job.Write();
+  job.Tell();
+  enter(Phase::Over);
+  return static_cast<int>(job.GetExitCode());
+}
+
+}

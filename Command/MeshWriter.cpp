@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshWriter.h"
+
+#include "CommandError.h"
+#include "Console.h"
+#include "MeshReader.h"
+
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkOBJWriter.h>
+#include <vtkPLYWriter.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataWriter.h>
+#include <vtkSTLWriter.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <fstream>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+template <typename Writer>
+void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(mesh);
+  const bool written = writer->Write() != 0;
+  const std::string complaints = messages.TakeComplaints();
+  if (!written || !complaints.empty() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw CommandError(ExitCode::BadFile, complaints.empty() ? "the writer failed" : complaints);
+  }
+}
+
+void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkPolyDataWriter> writer;
+  writer->SetFileTypeToBinary();
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteXml(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToAppended();
+  writer->SetHeaderTypeToUInt64();
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WritePly(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkPLYWriter> writer;
+  writer->SetFileTypeToBinary();
+  writer->SetArrayName("RGB"); // as vtkPLYReader names colors
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkSTLWriter> writer;
+  writer->SetFileTypeToBinary();
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteObj(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkOBJWriter> writer;
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteUnchecked(
+  vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages)
+{
+  switch (format)
+  {
+    case MeshFormat::VTK:
+      return WriteLegacy(mesh, path, messages);
+    case MeshFormat::VTP:
+      return WriteXml(mesh, path, messages);
+    case MeshFormat::PLY:
+      return WritePly(mesh, path, messages);
+    case MeshFormat::STL:
+      return WriteStl(mesh, path, messages);
+    case MeshFormat::OBJ:
+      return WriteObj(mesh, path, messages);
+  }
+}
+
+/// Whether the last line is there: a text cut short in it may still be readable, and wrong.
+bool IsEnded(const std::string& path, MeshFormat format)
+{
+  if (format == MeshFormat::PLY || format == MeshFormat::STL)
+  {
+    return true; // their binary form has a length that the reader knows
+  }
+  const std::string ending = format == MeshFormat::VTP ? "</VTKFile>\n" : "\n";
+  std::ifstream file(path, std::ios::binary);
+  std::string last(ending.size(), ' ');
+  file.seekg(-static_cast<std::streamoff>(ending.size()), std::ios::end);
+  file.read(last.data(), static_cast<std::streamsize>(last.size()));
+  return file && last == ending;
+}
+
+bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
+{
+  const bool keepsPoints = format != MeshFormat::STL;
+  const bool keepsAll = format == MeshFormat::VTK || format == MeshFormat::VTP;
+  return mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
+    (!keepsPoints || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
+    (!keepsAll || mesh->GetNumberOfCells() == written->GetNumberOfCells());
+}
+
+}
+
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages)
+{
+  std::string difference;
+  try
+  {
+    WriteUnchecked(mesh, path, format, messages);
+    const MeshFile written = ReadUnmerged(path, format, messages);
+    if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
+    {
+      return;
+    }
+    difference = "something is missing when it is read back";
+  }
+  catch (const CommandError& error)
+  {
+    // The user has never heard of the temporary.
+    difference = error.what();
+    const std::size_t name = difference.find(path + ": ");
+    difference.erase(0, name == 0 ? path.size() + 2 : 0);
+  }
+  throw CommandError(ExitCode::BadFile, difference + " (is the disk full?)");
+}
+
+}

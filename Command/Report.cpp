@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace delaunayflip
+{
+
+void WriteJson(const RunReport& run, std::ostream& stream)
+{
+  const FlipReport& flip = run.Flip;
+  nlohmann::ordered_json json;
+  json["points"] = flip.Points;
+  json["triangles"] = flip.Triangles;
+  json["edges"] = flip.Edges.Edges;
+  json["boundary_edges"] = flip.Edges.Boundary;
+  json["fixed_edges"] = flip.Edges.Fixed;
+  json["non_manifold_edges"] = flip.Edges.NonManifold;
+  json["geometry"] = ToString(flip.GeometryUsed);
+  json["backend"] = flip.Backend;
+  json["iterations"] = flip.Iterations.size();
+  json["total_flips"] = flip.TotalFlips;
+  json["total_excluded"] = flip.TotalExcluded;
+  json["total_blocked"] = flip.TotalBlocked;
+  json["non_delaunay_before"] = flip.NonDelaunayBefore;
+  json["non_delaunay_after"] = flip.NonDelaunayAfter;
+  json["min_angle_before_deg"] = flip.MinimumAngleBefore;
+  json["min_angle_after_deg"] = flip.MinimumAngleAfter;
+  json["converged"] = flip.Converged();
+  json["stop_reason"] = ToString(flip.StopReason);
+  json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
+    { "flip", flip.FlipSeconds }, { "write", run.WriteSeconds } };
+  stream << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+void WriteCsv(const FlipReport& flip, std::ostream& stream)
+{
+  stream << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
+         << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const IterationRecord& record : flip.Iterations)
+  {
+    stream << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
+           << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ',';
+    if (record.MinimumAngle == record.MinimumAngle)
+    {
+      stream << record.MinimumAngle;
+    }
+    else
+    {
+      stream << "nan"; // without the sign that a stream may put
+    }
+    stream << ',' << record.Seconds << '\n';
+  }
+}
+
+namespace
+{
+
+/// 1234567 as 1,234,567.
+std::string Grouped(std::int64_t number)
+{
+  std::string digits = std::to_string(number);
+  for (std::size_t end = digits.size(); end > 3; end -= 3)
+  {
+    digits.insert(end - 3, ",");
+  }
+  return digits;
+}
+
+std::string Count(std::int64_t number, const std::string& singular)
+{
+  return Grouped(number) + " " + singular + (number == 1 ? "" : "s");
+}
+
+std::string Degrees(double angle)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << angle;
+  return angle == angle ? text.str() : "none";
+}
+
+std::string Seconds(double seconds)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << seconds << " s";
+  return text.str();
+}
+
+}
+
+void WriteSummary(const RunReport& run, std::ostream& stream)
+{
+  const FlipReport& flip = run.Flip;
+  stream << "mesh            " << Count(flip.Points, "point") << ", "
+         << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
+         << Grouped(flip.Edges.Fixed) << " fixed), " << ToString(flip.GeometryUsed) << '\n'
+         << "violations      " << Grouped(flip.NonDelaunayBefore) << " -> "
+         << Grouped(flip.NonDelaunayAfter) << '\n'
+         << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
+         << Degrees(flip.MinimumAngleAfter) << " degrees\n"
+         << "flips           " << Grouped(flip.TotalFlips) << " in "
+         << Count(static_cast<std::int64_t>(flip.Iterations.size()), "iteration") << ", "
+         << ToString(flip.StopReason) << '\n'
+         << "time            read " << Seconds(run.ReadSeconds) << ", edges "
+         << Seconds(flip.BuildSeconds) << ", flips " << Seconds(flip.FlipSeconds) << ", write "
+         << Seconds(run.WriteSeconds) << " (" << flip.Backend << ")\n";
+}
+
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REPORT_H
+#define DELAUNAYFLIP_REPORT_H
+
+#include "FlipReport.h"
+
+#include <ostream>
+
+/// @file
+/// A run in words and numbers.
+
+namespace delaunayflip
+{
+
+/// What the engine did, with the times of what it knows nothing of.
+struct RunReport
+{
+  FlipReport Flip;
+  double ReadSeconds = 0.0;
+  double WriteSeconds = 0.0;
+};
+
+/// One JSON object; numbers that are not finite become null.
+void WriteJson(const RunReport& run, std::ostream& stream);
+
+/// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
+void WriteCsv(const FlipReport& flip, std::ostream& stream);
+
+/// A few lines for people.
+void WriteSummary(const RunReport& run, std::ostream& stream);
+
+}
+
+#endif

@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the command share: running it, small meshes, and reading what it wrote."""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
+    from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
+    from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(125)
+
+READERS = {
+    ".vtk": vtkPolyDataReader,
+    ".vtp": vtkXMLPolyDataReader,
+    ".ply": vtkPLYReader,
+    ".stl": vtkSTLReader,
+    ".obj": vtkOBJReader,
+}
+WRITERS = {
+    ".vtk": vtkPolyDataWriter,
+    ".vtp": vtkXMLPolyDataWriter,
+    ".ply": vtkPLYWriter,
+    ".stl": vtkSTLWriter,
+    ".obj": vtkOBJWriter,
+}
+FORMATS = list(READERS)
+
+
+class CommandTest(unittest.TestCase):
+    """Runs the command in a folder of its own, in which no temporary may stay behind."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = self._folder.name
+
+    def tearDown(self):
+        left = [name for name in os.listdir(self.folder) if name.startswith(".delaunay-flip")]
+        self.assertEqual(left, [], "temporary files are left")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_command(self, *arguments, **options):
+        """Runs it; the result has returncode, stdout and stderr (text)."""
+        return subprocess.run(
+            command_line(*arguments),
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            timeout=120,
+            check=False,
+            **options,
+        )
+
+    def succeed(self, *arguments, code=0):
+        """Runs it and expects success."""
+        result = self.run_command(*arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def fail_with(self, code, *arguments, naming=()):
+        """Runs it and expects the exit code and one line of error with every word of `naming`."""
+        result = self.run_command(*arguments)
+        self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
+        errors = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
+        self.assertEqual(len(errors), 1, result.stderr)
+        for word in naming:
+            self.assertIn(word, errors[0])
+        return result
+
+    def report(self, *arguments, code=0):
+        """Runs it with --report and gives that back."""
+        path = self.path("report.json")
+        self.succeed(*arguments, "--report", path, code=code)
+        return read_report(path)
+
+
+def command_line(*arguments):
+    return [os.environ["DELAUNAYFLIP_COMMAND"], *map(str, arguments)]
+
+
+def read_report(path):
+    def refuse(constant):
+        raise ValueError(f"{constant} is not JSON")
+
+    with open(path, encoding="utf-8") as file:
+        return json.load(file, parse_constant=refuse)
+
+
+def make_mesh(points, cells, lines=()):
+    """A vtkPolyData with double points."""
+    coordinates = vtkPoints()
+    coordinates.SetDataTypeToDouble()
+    for point in points:
+        coordinates.InsertNextPoint(point)
+    mesh = vtkPolyData()
+    mesh.SetPoints(coordinates)
+    for ids, setter in ((cells, mesh.SetPolys), (lines, mesh.SetLines)):
+        array = vtkCellArray()
+        for cell in ids:
+            array.InsertNextCell(len(cell), cell)
+        setter(array)
+    return mesh
+
+
+def make_array(name, values):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(value)
+    return array
+
+
+def worst_case(size):
+    """The literature's slow case: 2 * size points in two rows, 2 * size - 2 triangles; takes
+    2 * size - 3 iterations and (size - 1)^2 flips."""
+    upper = [(size + 1.0 + i, 1.0, 0.0) for i in range(size)]
+    lower = [(float(j), -1.0, 0.0) for j in range(size)]
+    triangles = [(size, i + 1, i) for i in range(size - 1)]
+    triangles += [(size - 1, size + j, size + j + 1) for j in range(size - 1)]
+    return make_mesh(upper + lower, triangles)
+
+
+def bumpy_grid(columns, height, seed=7):
+    """A jittered grid of squares, each cut along a random diagonal; `height` 0 makes it planar,
+    else it is a terrain. Coordinates are multiples of 2^-10, so that every format holds them."""
+    generator = random.Random(seed)
+
+    def jitter():
+        return generator.randint(-200, 200) / 1024
+
+    points = [
+        (x + jitter(), y + jitter(), height * jitter())
+        for y in range(columns)
+        for x in range(columns)
+    ]
+    triangles = []
+    for y in range(columns - 1):
+        for x in range(columns - 1):
+            a = y * columns + x
+            b, c, d = a + 1, a + columns + 1, a + columns
+            pairs = ((a, b, d), (b, c, d)), ((a, b, c), (a, c, d))
+            triangles += generator.choice(pairs)
+    return make_mesh(points, triangles)
+
+
+def random_insertion(count, seed=3):
+    """A square of two triangles; every further random point splits the triangle that holds it."""
+    generator = random.Random(seed)
+    points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
+    triangles = [(0, 1, 2), (0, 2, 3)]
+
+    def is_left(a, b, p):
+        (ax, ay, _), (bx, by, _) = points[a], points[b]
+        return (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0
+
+    while len(points) < count:
+        point = (generator.random(), generator.random(), 0.0)
+        for place, (a, b, c) in enumerate(triangles):
+            if is_left(a, b, point) and is_left(b, c, point) and is_left(c, a, point):
+                new = len(points)
+                points.append(point)
+                triangles[place] = (a, b, new)
+                triangles += [(b, c, new), (c, a, new)]
+                break
+    return make_mesh(points, triangles)
+
+
+def write_mesh(mesh, path, **settings):
+    """Writes with VTK's writer for the extension; settings are its methods and their arguments."""
+    writer = WRITERS[os.path.splitext(path)[1].lower()]()
+    writer.SetFileName(path)
+    writer.SetInputData(mesh)
+    if hasattr(writer, "SetFileTypeToBinary"):
+        writer.SetFileTypeToBinary()
+    for method, arguments in settings.items():
+        getattr(writer, method)(*arguments)
+    writer.Write()
+    return path
+
+
+def read_mesh(path):
+    reader = READERS[os.path.splitext(path)[1].lower()]()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(mesh):
+    return [mesh.GetPoint(i) for i in range(mesh.GetNumberOfPoints())]
+
+
+def cells_of(array):
+    """The cells of a vtkCellArray as tuples of ids."""
+    connectivity = array.GetConnectivityArray()
+    offsets = array.GetOffsetsArray()
+    ids = [int(connectivity.GetTuple1(i)) for i in range(connectivity.GetNumberOfTuples())]
+    ends = [int(offsets.GetTuple1(i)) for i in range(offsets.GetNumberOfTuples())]
+    return [tuple(ids[begin:end]) for begin, end in zip(ends, ends[1:])]
+
+
+def triangles_of(mesh):
+    return cells_of(mesh.GetPolys())
+
+
+def triangle_set(mesh):
+    """The triangles as coordinates, whatever their order and first corner."""
+    points = points_of(mesh)
+    corners = [[points[i] for i in triangle] for triangle in triangles_of(mesh)]
+    return sorted(
+        tuple(triangle[low:] + triangle[:low])
+        for triangle in corners
+        for low in [triangle.index(min(triangle))]
+    )
+
+
+def edge_counts(triangles):
+    """(edges, edges of one triangle, edges of three or more) by counting."""
+    uses = {}
+    for a, b, c in triangles:
+        for edge in ((a, b), (b, c), (c, a)):
+            key = (min(edge), max(edge))
+            uses[key] = uses.get(key, 0) + 1
+    counts = list(uses.values())
+    return len(counts), counts.count(1), sum(count > 2 for count in counts)

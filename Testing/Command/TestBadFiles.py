@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Input that is cut off or corrupt: an exit code and a line of explanation, never a crash, never
+half a mesh."""
+
+import os
+import random
+import struct
+import unittest
+
+from CommandTesting import CommandTest, bumpy_grid, make_mesh, read_mesh, triangles_of, write_mesh
+
+GRID = 4
+TRIANGLES = 2 * (GRID - 1) ** 2
+
+
+class BadFileTest(CommandTest):
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def refuse(self, name, *naming):
+        """Expects exit code 3, one line about the file and the reason, and no output."""
+        before = sorted(os.listdir(self.folder))
+        result = self.fail_with(3, name, "out.vtk", naming=[name, *naming])
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+
+class Truncated(BadFileTest):
+    def cut(self, name, keep_from=0, **settings):
+        """Cuts a file at every fortieth of its length: refused, or (when only the end mark, or the
+        last blank, is gone) read whole."""
+        path = write_mesh(bumpy_grid(GRID, 0), self.path(name), **settings)
+        with open(path, "rb") as file:
+            whole = file.read()
+        refused = 0
+        for length in range(keep_from, len(whole), max(1, len(whole) // 40)):
+            self.write("cut-" + name, whole[:length])
+            result = self.run_command("cut-" + name, "out.stl")
+            self.assertIn(result.returncode, (0, 3), f"{length} bytes: {result.stderr}")
+            if result.returncode == 0:
+                count = len(triangles_of(read_mesh(self.path("out.stl"))))
+                self.assertEqual(count, TRIANGLES, f"{name}: {length} of {len(whole)} bytes")
+                os.remove(self.path("out.stl"))
+            else:
+                refused += 1
+                self.assertRegex(result.stderr, rf"^error: cut-{name}: .*\n$")
+                self.assertFalse(os.path.exists(self.path("out.stl")))
+        self.assertGreater(refused, 30)
+        self.succeed(name, "whole.stl")
+
+    def test_vtk(self):
+        self.cut("a.vtk")
+        self.cut("b.vtk", SetFileVersion=(42,))
+
+    def test_vtp(self):
+        self.cut("a.vtp")
+        self.cut("b.vtp", SetDataModeToAscii=())
+
+    def test_ply(self):
+        self.cut("a.ply")
+        self.cut("b.ply", SetFileTypeToASCII=())
+
+    def test_stl(self):
+        self.cut("a.stl")
+        self.cut("b.stl", SetFileTypeToASCII=())
+
+    def test_obj(self):
+        """The format has no end mark: a cut shows within a line only."""
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1")
+        self.refuse("a.obj", "line 3", "three coordinates")
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2")
+        self.refuse("a.obj", "line 4", "3 corners")
+
+    def test_empty(self):
+        for name in ("a.vtk", "a.vtp", "a.ply", "a.stl"):
+            self.write(name, b"")
+            self.refuse(name)
+
+
+class Corrupt(BadFileTest):
+    def bytes_of(self, name):
+        write_mesh(bumpy_grid(GRID, 0), self.path(name))
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def test_noise(self):
+        noise = random.Random(1).randbytes(5000)
+        for name in ("a.vtk", "a.vtp", "a.ply", "a.stl"):
+            self.write(name, noise)
+            self.refuse(name)
+
+    def test_wrong_format(self):
+        vtk = self.bytes_of("good.vtk")
+        for name in ("a.vtp", "a.ply", "a.stl"):
+            self.write(name, vtk)
+            self.refuse(name)
+
+    def test_stl_count(self):
+        good = self.bytes_of("a.stl")
+        for count in (TRIANGLES - 1, TRIANGLES + 1, 0, 2**32 - 1):
+            self.write("a.stl", good[:80] + struct.pack("<I", count) + good[84:])
+            self.refuse("a.stl", f"{count} triangles", f"{len(good)}")
+
+    def test_ply_count(self):
+        good = self.bytes_of("a.ply")
+        for old, new in (
+            (b"vertex 16", b"vertex 4000000000"),
+            (b"vertex 16", b"vertex -1"),
+            (b"face 18", b"face 4000000000"),
+            (b"face 18", b"face 19"),
+        ):
+            self.assertIn(old, good)
+            self.write("a.ply", good.replace(old, new))
+            self.refuse("a.ply")
+
+    def test_vtk_count(self):
+        good = self.bytes_of("a.vtk")
+        for old, new in (
+            (b"POINTS 16", b"POINTS 17"),
+            (b"POINTS 16", b"POINTS 99999999999"),
+            (b"POLYGONS 19 54", b"POLYGONS 20 54"),
+            (b"POLYGONS 19 54", b"POLYGONS 19 55"),
+        ):
+            self.assertIn(old, good)
+            self.write("a.vtk", good.replace(old, new))
+            self.refuse("a.vtk")
+
+    def test_obj_indices(self):
+        points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        for face in ("1 2 4", "0 1 2", "1 2 -4", "1 2 x", "1/1 2/1 3/1", "1//1 2//1 3//1", "1 2 /"):
+            self.write("a.obj", f"{points}f {face}\n")
+            self.refuse("a.obj", "line 4", "index")
+        self.write("a.obj", f"{points}f 1 2 3\nl 1 9\n")
+        self.refuse("a.obj", "line 5", "9 is out of range")
+
+    def test_point_ids(self):
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+        for name in ("a.vtk", "a.vtp", "a.ply"):
+            for bad in (3, -1):
+                write_mesh(make_mesh(points, [(0, 1, bad)]), self.path(name))
+                self.refuse(name, str(bad))
+
+
+class OtherData(BadFileTest):
+    def test_other_legacy_type(self):
+        self.write(
+            "grid.vtk",
+            "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+            "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
+        )
+        self.refuse("grid.vtk", "unstructured_grid", "Extract Surface")
+
+    def test_other_xml_type(self):
+        self.write(
+            "grid.vtp",
+            '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1">\n'
+            "<UnstructuredGrid/>\n</VTKFile>\n",
+        )
+        self.refuse("grid.vtp", "UnstructuredGrid", "Extract Surface")
+
+    def test_newer_version(self):
+        """A warning, for the rest may be readable."""
+        write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
+        with open(self.path("a.vtk"), encoding="ascii") as file:
+            text = file.read()
+        self.assertIn("Version 5.1", text)
+        self.write("a.vtk", text.replace("Version 5.1", "Version 6.7"))
+        self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
+
+    def test_no_triangles(self):
+        """Nothing to do is no error."""
+        write_mesh(make_mesh([(0, 0, 0), (1, 0, 0)], []), self.path("points.vtk"))
+        for extension in (".vtk", ".vtp", ".ply", ".obj"):
+            result = self.succeed("points.vtk", "out" + extension)
+            self.assertIn("note: points.vtk: no triangles", result.stderr)
+            self.assertEqual(read_mesh(self.path("out" + extension)).GetNumberOfPoints(), 2)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every exit code of the command."""
+
+import os
+import unittest
+
+from CommandTesting import (
+    CommandTest,
+    bumpy_grid,
+    read_mesh,
+    triangles_of,
+    worst_case,
+    write_mesh,
+)
+
+
+class WrongUsage(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.planar = write_mesh(bumpy_grid(4, 0), self.path("planar.vtk"))
+        self.surface = write_mesh(bumpy_grid(4, 1), self.path("surface.vtk"))
+
+    def tearDown(self):
+        self.assertFalse(os.path.exists(self.path("out.vtk")))
+        super().tearDown()
+
+    def refuse(self, naming, *arguments, mesh=None):
+        self.fail_with(2, mesh or self.planar, "out.vtk", *arguments, naming=[naming])
+
+    def test_missing_arguments(self):
+        self.fail_with(2, naming=["INPUT"])
+        self.fail_with(2, self.planar, naming=["OUTPUT"])
+
+    def test_unknown_option(self):
+        self.refuse("--fast", "--fast")
+
+    def test_unknown_extension(self):
+        known = [".vtk", ".vtp", ".ply", ".stl", ".obj"]
+        self.fail_with(2, self.planar, "out.xyz", naming=["out.xyz", *known])
+        self.fail_with(2, "in.xyz", "out.vtk", naming=["in.xyz", *known])
+        self.fail_with(2, "in", "out.vtk", naming=known)
+
+    def test_choices(self):
+        for option in ("--geometry", "--criterion", "--tie-rule", "--backend"):
+            self.refuse(option, option, "0")
+            self.refuse(option, option)
+
+    def test_ranges(self):
+        for option, values in {
+            "--feature-angle": ["-1", "180.5", "nan", "x"],
+            "--tolerance": ["-1e-9", "1", "nan", "inf"],
+            "--threads": ["-1", "1.5", "99999999"],
+            "--max-iterations": ["-2", "1e30", "x"],
+        }.items():
+            for value in values:
+                self.refuse(option, option, value)
+
+    def test_contradictions(self):
+        canonical = ("--tie-rule", "canonical")
+        self.refuse("anonical", *canonical, "--geometry", "surface")
+        self.refuse("anonical", *canonical, "--criterion", "opposite-angles")
+        self.refuse("anonical", *canonical, mesh=self.surface)
+        self.refuse("lane", "--geometry", "planar", mesh=self.surface)
+
+    def test_one_name_for_two_files(self):
+        self.refuse("out.vtk", "--report", "./out.vtk")
+        self.refuse("same", "--report", "same", "--statistics", "same")
+        self.refuse("planar.vtk", "--statistics", self.planar)
+
+
+class BadFile(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = write_mesh(bumpy_grid(4, 0), self.path("mesh.vtk"))
+
+    def test_missing_input(self):
+        self.fail_with(3, "none.vtk", "out.vtk", naming=["none.vtk", "No such file"])
+        self.assertFalse(os.path.exists(self.path("out.vtk")))
+
+    def test_folder_as_input(self):
+        os.mkdir(self.path("folder.vtk"))
+        self.fail_with(3, "folder.vtk", "out.vtk", naming=["folder.vtk", "folder"])
+
+    def test_output_not_writable(self):
+        self.fail_with(3, self.mesh, "none/out.vtk", naming=["none/out.vtk", "No such file"])
+        os.mkdir(self.path("folder.vtk"))
+        self.fail_with(3, self.mesh, "folder.vtk", naming=["folder.vtk", "plain file"])
+
+    def test_nothing_is_written_when_one_file_cannot_be(self):
+        self.fail_with(3, self.mesh, "out.vtk", "--report", "none/r", naming=["none/r"])
+        self.fail_with(3, self.mesh, "out.vtk", "--statistics", "/dev/null", naming=["/dev/null"])
+        self.assertEqual(os.listdir(self.folder), ["mesh.vtk"])
+        self.assertTrue(os.path.exists("/dev/null"))
+
+
+class Success(CommandTest):
+    def test_help_and_version(self):
+        self.assertIn("--feature-angle", self.succeed("--help").stdout)
+        self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")
+
+    def test_every_option_at_once(self):
+        mesh = write_mesh(bumpy_grid(6, 0), self.path("mesh.vtk"))
+        self.succeed(
+            *(mesh, "out.vtk", "--geometry", "planar-xy", "--criterion", "in-circle"),
+            *("--feature-angle", "20", "--tolerance", "1e-8", "--tie-rule", "canonical"),
+            *("--ignore-lines", "--max-iterations", "-1", "--backend", "threads"),
+            *("--threads", "2", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
+        )
+        self.assertLess({"out.vtk", "s.csv", "r.json"}, set(os.listdir(self.folder)))
+
+    def test_iteration_limit(self):
+        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
+        report = self.report(mesh, "out.vtk", "--max-iterations", "2", code=4)
+        self.assertEqual(report["stop_reason"], "iteration limit")
+        self.assertFalse(report["converged"])
+        self.assertEqual((report["iterations"], report["total_flips"]), (2, 3))
+        self.assertGreater(report["non_delaunay_after"], 0)
+        self.assertEqual(len(triangles_of(read_mesh(self.path("out.vtk")))), 6)
+
+    def test_no_iterations(self):
+        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
+        self.assertEqual(
+            self.report(mesh, "out.vtk", "--max-iterations", "0", code=4)["total_flips"], 0
+        )
+        before, after = (triangles_of(read_mesh(self.path(n))) for n in ("mesh.vtk", "out.vtk"))
+        self.assertEqual(before, after)
+
+    def test_forced_backend(self):
+        """A machine with a GPU, and a build that can use it, runs; any other one says why not."""
+        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
+        arguments = (mesh, "out.vtk", "--backend", "cuda")
+        if self.run_command(*arguments).returncode == 0:
+            self.assertIn("CUDA", self.report(*arguments)["backend"])
+        else:
+            self.fail_with(5, *arguments, naming=["CUDA"])
+            self.assertFalse(os.path.exists(self.path("out.vtk")))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,228 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every input format to every output format; what each keeps, and what the command says of it."""
+
+import os
+import shutil
+import unittest
+
+from CommandTesting import (
+    FORMATS,
+    CommandTest,
+    bumpy_grid,
+    cells_of,
+    make_array,
+    make_mesh,
+    points_of,
+    read_mesh,
+    triangle_set,
+    triangles_of,
+    write_mesh,
+)
+
+
+def annotated_mesh():
+    """A planar mesh with a line, point and cell data, a point of its own and thirds as
+    coordinates."""
+    mesh = bumpy_grid(5, 0)
+    mesh.GetPoints().InsertNextPoint(1 / 3, -2 / 3, 0)
+    lines = make_mesh([], [], [(0, 1, 2)])
+    mesh.SetLines(lines.GetLines())
+    mesh.GetPointData().AddArray(make_array("depth", [i / 7 for i in range(26)]))
+    mesh.GetCellData().AddArray(make_array("region", [i / 3 for i in range(33)]))
+    return mesh
+
+
+class RoundTrip(CommandTest):
+    def convert_all(self, mesh):
+        """The result, as triangles, of every pair of formats."""
+        results = {}
+        for source in FORMATS:
+            path = write_mesh(mesh, self.path("in" + source))
+            for target in FORMATS:
+                self.succeed(path, "out" + target)
+                results[source, target] = triangle_set(read_mesh(self.path("out" + target)))
+        return results
+
+    def test_every_pair_of_formats(self):
+        for height in (0, 1):
+            mesh = bumpy_grid(8, height)
+            results = self.convert_all(mesh)
+            first = results[".vtk", ".vtk"]
+            self.assertNotEqual(first, triangle_set(mesh), "nothing was flipped")
+            self.assertEqual(len(first), 98)
+            for pair, result in results.items():
+                self.assertEqual(result, first, pair)
+
+    def test_text_files(self):
+        mesh = bumpy_grid(6, 0)
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), "expected.vtk")
+        expected = triangle_set(read_mesh(self.path("expected.vtk")))
+        for name, settings in {
+            "a.vtk": {"SetFileTypeToASCII": ()},
+            "b.vtk": {"SetFileTypeToASCII": (), "SetFileVersion": (42,)},
+            "c.vtk": {"SetFileVersion": (42,)},
+            "a.vtp": {"SetDataModeToAscii": ()},
+            "a.ply": {"SetFileTypeToASCII": ()},
+            "b.ply": {"SetDataByteOrderToBigEndian": ()},
+            "a.stl": {"SetFileTypeToASCII": ()},
+        }.items():
+            self.succeed(write_mesh(mesh, self.path(name), **settings), "out.vtk")
+            self.assertEqual(triangle_set(read_mesh(self.path("out.vtk"))), expected, name)
+
+    def test_upper_case_extension(self):
+        write_mesh(bumpy_grid(4, 0), self.path("in.stl"))
+        os.rename(self.path("in.stl"), self.path("in.STL"))
+        for extension in FORMATS:
+            self.succeed("in.STL", "out" + extension.upper())
+            self.assertEqual(len(triangles_of(read_mesh(self.path("out" + extension.upper())))), 18)
+
+
+class Kept(CommandTest):
+    def test_vtk_formats_keep_everything(self):
+        mesh = annotated_mesh()
+        for source in (".vtk", ".vtp"):
+            path = write_mesh(mesh, self.path("in" + source))
+            for target in (".vtk", ".vtp"):
+                self.assertEqual(self.succeed(path, "out" + target).stderr, "")
+                out = read_mesh(self.path("out" + target))
+                self.assertEqual(points_of(out), points_of(mesh))
+                self.assertEqual(out.GetPoints().GetDataType(), mesh.GetPoints().GetDataType())
+                self.assertEqual(cells_of(out.GetLines()), [(0, 1, 2)])
+                for data, name, count in (
+                    (out.GetPointData(), "depth", 26),
+                    (out.GetCellData(), "region", 33),
+                ):
+                    values = data.GetArray(name)
+                    self.assertEqual(values.GetNumberOfTuples(), count)
+                    divisor = 7 if name == "depth" else 3
+                    for i in range(count):
+                        self.assertEqual(values.GetTuple1(i), i / divisor)
+
+    def test_binary(self):
+        path = write_mesh(annotated_mesh(), self.path("in.vtk"), SetFileTypeToASCII=())
+        self.succeed(path, "out.vtk")
+        with open(self.path("out.vtk"), "rb") as file:
+            self.assertEqual(file.read().split(b"\n")[2], b"BINARY")
+        self.succeed(path, "out.vtp")
+        with open(self.path("out.vtp"), "rb") as file:
+            text = file.read()
+        self.assertIn(b'format="appended"', text)
+        self.assertNotIn(b'format="ascii"', text)
+
+    def test_same_path(self):
+        for extension in FORMATS:
+            path = write_mesh(bumpy_grid(6, 0), self.path("mesh" + extension))
+            self.succeed(path, "separate" + extension)
+            self.succeed(path, path)
+            same, separate = self.bytes("mesh" + extension), self.bytes("separate" + extension)
+            self.assertEqual(same, separate)
+
+    def test_link_and_permissions_survive(self):
+        path = write_mesh(bumpy_grid(4, 0), self.path("mesh.vtk"))
+        shutil.copy(path, self.path("target.vtk"))
+        os.chmod(self.path("target.vtk"), 0o640)
+        os.symlink("target.vtk", self.path("link.vtk"))
+        self.succeed(path, "link.vtk")
+        self.assertTrue(os.path.islink(self.path("link.vtk")))
+        self.assertEqual(os.stat(self.path("target.vtk")).st_mode & 0o777, 0o640)
+        self.succeed(path, "expected.vtk")
+        self.assertEqual(self.bytes("target.vtk"), self.bytes("expected.vtk"))
+
+    def test_threads_give_the_same_bytes(self):
+        path = write_mesh(bumpy_grid(40, 0), self.path("mesh.vtk"))
+        for extension in FORMATS:
+            results = set()
+            for threads in (1, 2, 3, 16):
+                self.succeed(path, "out" + extension, "--threads", threads)
+                results.add(self.bytes("out" + extension))
+            self.assertEqual(len(results), 1, extension)
+
+    def test_obj_holds_doubles(self):
+        self.succeed(write_mesh(annotated_mesh(), self.path("in.vtk")), "out.obj")
+        with open(self.path("out.obj"), encoding="ascii") as file:
+            points = [line.split()[1:] for line in file if line.startswith("v ")]
+        self.assertEqual([tuple(map(float, p)) for p in points], points_of(annotated_mesh()))
+
+    def bytes(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+
+class Lost(CommandTest):
+    def losses(self, mesh, name):
+        """The one line on losses, or an empty string."""
+        result = self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        lines = [line for line in result.stderr.splitlines() if "does not hold" in line]
+        self.assertLessEqual(len(lines), 1)
+        return "".join(lines)
+
+    def test_losses_are_named_in_one_line(self):
+        everywhere = ["note: out", "point data (depth)", "cell data (region)"]
+        for extension, more in {
+            ".ply": ["lines (1)", "double precision"],
+            ".stl": ["lines (1)", "double precision", "unused points (1)"],
+            ".obj": [],
+        }.items():
+            line = self.losses(annotated_mesh(), "out" + extension)
+            for words in everywhere + more:
+                self.assertIn(words, line)
+
+    def test_nothing_is_said_where_nothing_is_lost(self):
+        for extension in FORMATS:
+            self.assertEqual(self.losses(bumpy_grid(4, 0), "out" + extension), "")
+        for extension in (".vtk", ".vtp"):
+            self.assertEqual(self.losses(annotated_mesh(), "out" + extension), "")
+
+    def test_nothing_is_said_from_a_format_to_itself(self):
+        for extension in FORMATS:
+            path = write_mesh(bumpy_grid(4, 0), self.path("in" + extension))
+            self.assertEqual(self.succeed(path, "out" + extension).stderr, "")
+
+    def test_double_ply(self):
+        """VTK reads any .ply in single precision."""
+        with open(self.path("in.ply"), "w", encoding="ascii") as file:
+            file.write(
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                "end_header\n0 0 0\n1.1 0 0\n0 1 0\n3 0 1 2\n"
+            )
+        self.assertIn("single precision", self.succeed("in.ply", "out.vtk").stderr)
+
+
+class RepeatedPoints(CommandTest):
+    def test_obj_with_normals(self):
+        """Four normals a vertex: VTK's reader makes twelve points of a tetrahedron."""
+        with open(self.path("in.obj"), "w", encoding="ascii") as file:
+            file.write(
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                "vn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\nvn .6 .6 .6\n"
+                "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
+            )
+        result = self.succeed("in.obj", "out.vtk")
+        self.assertRegex(result.stderr, r"note: in.obj: merged 8 points")
+        report = self.report("in.obj", "out.vtk")
+        counts = [report[key] for key in ("points", "edges", "boundary_edges")]
+        self.assertEqual(counts, [4, 6, 0])
+
+    def test_obj_without_keeps_coincident_points(self):
+        text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 5 6\n"
+        with open(self.path("in.obj"), "w", encoding="ascii") as file:
+            file.write(text)
+        self.assertEqual(self.report("in.obj", "out.vtk")["points"], 6)
+
+    def test_collapsed_stl_triangle_stays(self):
+        mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 1)], [(0, 1, 2), (1, 1, 3)])
+        report = self.report(write_mesh(mesh, self.path("in.stl")), "out.stl")
+        self.assertEqual((report["points"], report["triangles"]), (4, 2))
+        self.assertEqual(os.path.getsize(self.path("out.stl")), 84 + 2 * 50)
+
+    def test_relative_obj_indices(self):
+        with open(self.path("in.obj"), "w", encoding="ascii") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 \\\n-1\nv 1 1 0\nf -3 -1 -2\n")
+        self.succeed("in.obj", "out.vtk")
+        self.assertEqual(triangles_of(read_mesh(self.path("out.vtk"))), [(0, 1, 2), (1, 3, 2)])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writing that fails half-way. A limit on the size of files stands for a full disk."""
+
+import os
+import resource
+import unittest
+
+from CommandTesting import FORMATS, CommandTest, bumpy_grid, write_mesh
+
+
+class FullDisk(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = write_mesh(bumpy_grid(30, 1), self.path("mesh.vtk"))
+
+    def refuse(self, limit, *arguments, naming):
+        """Expects exit code 3 and that no file is new or changed when none may exceed `limit`
+        bytes."""
+        before = {name: self.content(name) for name in os.listdir(self.folder)}
+        result = self.run_command(
+            self.mesh,
+            *arguments,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )
+        self.assertEqual(result.returncode, 3, result.stderr)
+        errors = [line for line in result.stderr.splitlines() if line.startswith("error:")]
+        self.assertEqual(len(errors), 1, result.stderr)
+        self.assertIn(naming, errors[0])
+        self.assertIn("cannot be written", errors[0])
+        self.assertEqual(before, {name: self.content(name) for name in os.listdir(self.folder)})
+
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def test_mesh(self):
+        for extension in FORMATS:
+            name = "out" + extension
+            self.succeed(self.mesh, name)
+            size = os.path.getsize(self.path(name))
+            for limit in (0, 100, size // 3, size - 1):
+                self.refuse(limit, name, naming=name)
+
+    def test_new_mesh(self):
+        for extension in FORMATS:
+            self.refuse(5000, "new" + extension, naming="new" + extension)
+
+    def test_report_and_statistics(self):
+        self.succeed(self.mesh, "out.stl", "--report", "report.json")
+        larger = os.path.getsize(self.path("out.stl"))
+        self.refuse(larger // 100, "out.obj", "--report", "report.json", naming="out.obj")
+        tiny = write_mesh(bumpy_grid(2, 0), self.path("tiny.stl"))
+        self.mesh = tiny
+        self.refuse(300, "tiny-out.stl", "--report", "report.json", naming="report.json")
+        self.refuse(40, "tiny-out.stl", "--statistics", "table.csv", naming="tiny-out.stl")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Signals, and what a terminal sees."""
+
+import os
+import pty
+import select
+import signal
+import subprocess
+import time
+import unittest
+
+from CommandTesting import CommandTest, bumpy_grid, command_line, worst_case, write_mesh
+
+
+class Interrupt(CommandTest):
+    """The slow mesh takes 30,000 iterations: the signal always comes before the end."""
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = write_mesh(worst_case(15000), self.path("slow.vtk"))
+        with open(self.path("out.vtk"), "w", encoding="utf-8") as file:
+            file.write("precious")
+
+    def start(self, *arguments, disposition=signal.SIG_DFL):
+        """Starts the command with a terminal as its stderr; gives it back with the terminal."""
+        terminal, far_end = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        process = subprocess.Popen(
+            command_line(*arguments),
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=far_end,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, disposition),
+        )
+        self.addCleanup(process.stdout.close)
+        os.close(far_end)
+        return process, terminal
+
+    def stop(self, number):
+        """The exit code and last words of a command that gets the signal among its iterations."""
+        process, terminal = self.start(
+            self.mesh, "out.vtk", "--report", "report", "--statistics", "table"
+        )
+        text = read_terminal(terminal, until=b"iteration")
+        self.assertIn(b"iteration", text)
+        process.send_signal(number)
+        code = process.wait(timeout=60)
+        return code, text + read_terminal(terminal)
+
+    def test_interrupt(self):
+        code, text = self.stop(signal.SIGINT)
+        self.assertEqual(code, 130)
+        self.assertIn(b"interrupted", text)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
+        with open(self.path("out.vtk"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "precious")
+
+    def test_termination(self):
+        code, _ = self.stop(signal.SIGTERM)
+        self.assertEqual(code, 128 + signal.SIGTERM)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
+
+    def test_ignored_interrupt_stays_ignored(self):
+        """As a shell starts a job in the background."""
+        mesh = write_mesh(worst_case(3000), self.path("mesh.vtk"))
+        process, terminal = self.start(mesh, "new.vtk", disposition=signal.SIG_IGN)
+        read_terminal(terminal, until=b"[")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertTrue(os.path.exists(self.path("new.vtk")))
+
+
+class Terminal(CommandTest):
+    def errors_on_terminal(self, *arguments):
+        terminal, far_end = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        result = subprocess.run(
+            command_line(*arguments),
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=far_end,
+            timeout=60,
+            check=True,
+        )
+        os.close(far_end)
+        self.assertNotIn(b"\r", result.stdout)
+        return read_terminal(terminal)
+
+    def test_progress_bar_on_a_terminal_only(self):
+        mesh = write_mesh(bumpy_grid(10, 0), self.path("mesh.vtk"))
+        text = self.errors_on_terminal(mesh, "out.vtk")
+        self.assertIn(b"\r", text)
+        self.assertIn(b"reading", text)
+        self.assertIn(b"[---", text)
+        self.assertTrue(text.endswith(b"\r\033[K"), "the bar must be wiped")
+        self.assertEqual(self.succeed(mesh, "out.vtk").stderr, "")
+
+    def test_quiet(self):
+        mesh = write_mesh(bumpy_grid(10, 1), self.path("mesh.vtk"))
+        self.assertEqual(self.errors_on_terminal(mesh, "out.stl", "--quiet"), b"")
+        result = self.succeed(mesh, "out.stl", "--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+        self.assertIn("note: ", self.succeed(mesh, "out.stl").stderr)
+        self.fail_with(3, "none.vtk", "out.vtk", "--quiet", naming=["none.vtk"])
+
+
+def read_terminal(terminal, until=None):
+    """What arrives within a minute, up to the words or, without any, up to a quiet moment."""
+    text = b""
+    end = time.monotonic() + 60
+    while time.monotonic() < end and not (until and until in text):
+        ready, _, _ = select.select([terminal], [], [], 0.2 if until is None else 1.0)
+        if ready:
+            try:
+                text += os.read(terminal, 4096)
+            except OSError:  # nobody holds the other end any more
+                break
+        elif until is None:
+            break
+    return text
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

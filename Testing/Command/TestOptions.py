@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""That the options reach the filter: each test has a mesh on which its option decides."""
+
+import unittest
+
+from CommandTesting import CommandTest, bumpy_grid, make_mesh, triangle_set, read_mesh, write_mesh
+
+# Cut along its long diagonal.
+KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+KITE_CELLS = [(0, 1, 2), (0, 2, 3)]
+
+
+class Options(CommandTest):
+    def flips(self, mesh, *arguments):
+        path = write_mesh(mesh, self.path("in.vtk"))
+        return self.report(path, "out.vtk", *arguments)["total_flips"]
+
+    def test_lines(self):
+        mesh = make_mesh(KITE, KITE_CELLS, [(2, 0)])
+        self.assertEqual(self.flips(mesh), 0)
+        self.assertEqual(self.flips(mesh, "--ignore-lines"), 1)
+
+    def test_feature_angle(self):
+        """A roof of 90 degrees whose ridge is the long diagonal."""
+        points = [(-2, 0, 0), (0, -1, -1), (2, 0, 0), (0, 1, -1)]
+        mesh = make_mesh(points, KITE_CELLS)
+        self.assertEqual(self.flips(mesh), 0)
+        self.assertEqual(self.flips(mesh, "--feature-angle", "85"), 0)
+        self.assertEqual(self.flips(mesh, "--feature-angle", "95"), 1)
+
+    def test_tolerance(self):
+        """The opposite angles sum to pi + 0.01 or so."""
+        mesh = make_mesh([(-1, 0, 0), (0, -0.995, 0), (1, 0, 0), (0, 0.995, 0)], KITE_CELLS)
+        angles = ("--criterion", "opposite-angles")
+        self.assertEqual(self.flips(mesh, *angles), 1)
+        self.assertEqual(self.flips(mesh, *angles, "--tolerance", "0.009"), 1)
+        self.assertEqual(self.flips(mesh, *angles, "--tolerance", "0.011"), 0)
+        self.assertEqual(self.flips(mesh, "--tolerance", "0.011"), 1)
+
+    def test_tie_rule(self):
+        """A square has two Delaunay triangulations."""
+        points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        results = []
+        for cells in (KITE_CELLS, [(0, 1, 3), (1, 2, 3)]):
+            mesh = make_mesh(points, cells)
+            self.assertEqual(self.flips(mesh), 0)
+            self.flips(mesh, "--tie-rule", "canonical")
+            results.append(triangle_set(read_mesh(self.path("out.vtk"))))
+        self.assertEqual(results[0], results[1])
+
+    def test_geometry(self):
+        mesh = bumpy_grid(6, 1)
+        path = write_mesh(mesh, self.path("in.vtk"))
+        for geometry in ("planar-xy", "surface"):
+            report = self.report(path, "out.vtk", "--geometry", geometry)
+            self.assertEqual(report["geometry"], geometry)
+        self.assertEqual(self.report(path, "out.vtk")["geometry"], "surface")
+        flat = write_mesh(bumpy_grid(6, 0), self.path("flat.vtk"))
+        self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
+
+    def test_threads(self):
+        path = write_mesh(bumpy_grid(6, 0), self.path("in.vtk"))
+        arguments = (path, "out.vtk", "--backend", "threads", "--threads")
+        for threads in (1, 3):
+            self.assertEqual(self.report(*arguments, threads)["backend"], f"Threads: {threads}")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

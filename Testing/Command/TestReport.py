@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The JSON report and the CSV table."""
+
+import csv
+import math
+import unittest
+
+from CommandTesting import (
+    CommandTest,
+    bumpy_grid,
+    edge_counts,
+    make_mesh,
+    points_of,
+    random_insertion,
+    read_mesh,
+    triangles_of,
+    worst_case,
+    write_mesh,
+)
+
+KEYS = [
+    *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
+    *("geometry", "backend", "iterations", "total_flips", "total_excluded", "total_blocked"),
+    *("non_delaunay_before", "non_delaunay_after", "min_angle_before_deg", "min_angle_after_deg"),
+    *("converged", "stop_reason", "seconds"),
+]
+COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"
+
+
+def smallest_angle(mesh):
+    """In degrees."""
+    points = points_of(mesh)
+    angles = []
+    for triangle in triangles_of(mesh):
+        for corner in range(3):
+            a, b, c = (points[triangle[(corner + k) % 3]] for k in range(3))
+            u = [q - p for p, q in zip(a, b)]
+            v = [q - p for p, q in zip(a, c)]
+            cosine = sum(p * q for p, q in zip(u, v)) / math.hypot(*u) / math.hypot(*v)
+            angles.append(math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
+    return min(angles)
+
+
+class Report(CommandTest):
+    def test_keys(self):
+        report = self.report(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk")
+        self.assertEqual(list(report), KEYS)
+        self.assertEqual(list(report["seconds"]), ["read", "build", "flip", "write"])
+        for seconds in report["seconds"].values():
+            self.assertGreaterEqual(seconds, 0.0)
+
+    def test_worst_case(self):
+        report = self.report(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk")
+        expected = {
+            **{"points": 8, "triangles": 6, "edges": 13, "boundary_edges": 8, "fixed_edges": 8},
+            **{"non_manifold_edges": 0, "geometry": "planar", "iterations": 5, "total_flips": 9},
+            **{"total_blocked": 0, "non_delaunay_before": 1, "non_delaunay_after": 0},
+            **{"converged": True, "stop_reason": "converged"},
+        }
+        self.assertEqual({key: report[key] for key in expected}, expected)
+
+    def test_counts_and_angles(self):
+        for height in (0, 1):
+            mesh = bumpy_grid(12, height)
+            report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
+            edges, boundary, non_manifold = edge_counts(triangles_of(mesh))
+            self.assertEqual(report["edges"], edges)
+            self.assertEqual(report["boundary_edges"], boundary)
+            self.assertEqual(report["non_manifold_edges"], non_manifold)
+            after = smallest_angle(read_mesh(self.path("out.vtk")))
+            self.assertAlmostEqual(report["min_angle_before_deg"], smallest_angle(mesh), 6)
+            self.assertAlmostEqual(report["min_angle_after_deg"], after, 6)
+
+    def test_non_manifold_edge(self):
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 1), (0, -1, -1)]
+        mesh = make_mesh(points, [(0, 1, 2), (1, 0, 3), (1, 0, 4)])
+        report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
+        counts = [report[key] for key in ("edges", "boundary_edges", "non_manifold_edges")]
+        self.assertEqual(counts, [7, 6, 1])
+
+    def test_no_triangles(self):
+        report = self.report(write_mesh(make_mesh([(0, 0, 0)], []), self.path("in.vtk")), "out.vtk")
+        self.assertEqual((report["points"], report["triangles"]), (1, 0))
+        self.assertIsNone(report["min_angle_before_deg"])
+        self.assertIsNone(report["min_angle_after_deg"])
+
+
+class Statistics(CommandTest):
+    def rows(self, mesh, *arguments):
+        path = write_mesh(mesh, self.path("in.vtk"))
+        self.succeed(path, "out.vtk", "--statistics", "table.csv", *arguments)
+        with open(self.path("table.csv"), encoding="utf-8", newline="") as file:
+            self.assertEqual(file.readline(), COLUMNS + "\n")
+            file.seek(0)
+            return list(csv.DictReader(file))
+
+    def column(self, rows, name):
+        return [int(row[name]) for row in rows]
+
+    def test_worst_case(self):
+        rows = self.rows(worst_case(4))
+        self.assertEqual(self.column(rows, "Iteration"), [1, 2, 3, 4, 5])
+        self.assertEqual(self.column(rows, "Flipped"), [1, 2, 3, 2, 1])
+        angles = [float(row["MinimumAngle"]) for row in rows]
+        self.assertEqual([math.isnan(angle) for angle in angles], [False, True, True, True, False])
+        self.assertEqual([row["MinimumAngle"] for row in rows][1], "nan")
+
+    def test_columns_add_up(self):
+        rows = self.rows(random_insertion(300))
+        self.assertGreater(len(rows), 3)
+        self.assertGreater(sum(self.column(rows, "Excluded")), 0)
+        for row in rows:
+            parts = sum(int(row[name]) for name in ("Flipped", "Excluded", "Blocked"))
+            self.assertEqual(int(row["NonDelaunay"]), parts)
+            self.assertGreaterEqual(int(row["Tested"]), int(row["NonDelaunay"]))
+            self.assertGreaterEqual(float(row["Seconds"]), 0.0)
+        report = self.report(self.path("in.vtk"), "out.vtk")
+        self.assertEqual(report["iterations"], len(rows))
+        for key, name in (
+            ("total_flips", "Flipped"),
+            ("total_excluded", "Excluded"),
+            ("total_blocked", "Blocked"),
+        ):
+            self.assertEqual(report[key], sum(self.column(rows, name)))
+        self.assertEqual(report["min_angle_after_deg"], float(rows[-1]["MinimumAngle"]))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
