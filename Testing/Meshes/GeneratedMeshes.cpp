@@ -165,10 +165,11 @@ OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std:
   OwnedMesh<double> mesh;
   for (std::int32_t c = 0; c < columns; ++c)
   {
-    const CirclePoint around(static_cast<double>(c) / columns);
-    const CirclePoint twist(0.5 * c / columns);
     for (std::int32_t r = 0; r <= rows; ++r)
     {
+      const double turn = (c + 0.9 * DrawUnit(random)) / columns;
+      const CirclePoint around(turn);
+      const CirclePoint twist(0.5 * turn);
       const double across = static_cast<double>(r) / rows - 0.5;
       const double radius = 2.0 + across * twist.Cosine;
       AddPoint(mesh, radius * around.Cosine, radius * around.Sine, across * twist.Sine);

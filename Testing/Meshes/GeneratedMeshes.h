@@ -15,7 +15,7 @@ namespace delaunayflip
 {
 
 /// An owned mesh: x, y, z of the points and three ids a triangle.
-template<typename Real>
+template <typename Real>
 struct OwnedMesh
 {
   std::vector<Real> Points;
@@ -54,9 +54,12 @@ OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows);
 
 /// A closed sphere-like surface of good topology and bad triangles: a latitude-longitude sphere
 /// whose vertices are moved along their circles at random and whose quads are cut at random.
+/// `rows` circles of `columns` points between two poles; `columns` >= 3, `rows` >= 1.
 OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
-/// A Moebius strip of `columns` x `rows` quads with random cuts: one side, one wrongly wound seam.
+/// A Moebius strip of `columns` x `rows` quads, vertices moved along the strip at random and quads
+/// cut at random: one side, one boundary, `rows` wrongly wound edges at the seam. `columns` >= 3,
+/// `rows` >= 1.
 OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
 }

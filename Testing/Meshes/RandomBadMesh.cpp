@@ -157,7 +157,7 @@ std::int32_t DrawCoordinate(std::mt19937& random)
   return coordinate;
 }
 
-template<typename Real>
+template <typename Real>
 OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
 {
   std::mt19937 random(seed);

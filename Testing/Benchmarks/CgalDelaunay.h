@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CGALDELAUNAY_H
+#define DELAUNAYFLIP_CGALDELAUNAY_H
+
+#include "GeneratedMeshes.h"
+
+namespace delaunayflip
+{
+
+struct CgalTime
+{
+  double Seconds; ///< Inserting the range of points; copying them to CGAL's type not included.
+  std::int64_t Triangles;
+};
+
+/// CGAL's Delaunay_triangulation_2 with exact predicates of a mesh's points. Inserting a range
+/// sorts it in space first, CGAL's fastest way.
+CgalTime TimeCgalDelaunay(const OwnedMesh<float>& mesh);
+
+}
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PEAKMEMORY_H
+#define DELAUNAYFLIP_PEAKMEMORY_H
+
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+
+namespace delaunayflip
+{
+
+/// Largest resident memory of a whole run above that of its input and output arrays, in bytes; -1
+/// where the system does not tell.
+///
+/// A forked child, which shares the input and has filled its output array already, reads its
+/// resident size (VmRSS), runs, and reads the peak since the fork (VmHWM). Threads do not survive a
+/// fork, so call this before anything has started one.
+std::int64_t MeasurePeakMemory(const OwnedMesh<float>& mesh, const FlipOptions& options);
+
+}
+
+#endif

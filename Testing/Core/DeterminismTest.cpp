@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipTestSupport.h"
+
+#include <gtest/gtest.h>
+
+namespace delaunayflip
+{
+namespace
+{
+
+struct NamedMesh
+{
+  const char* Name;
+  OwnedMesh<double> (*Make)();
+  GeometryKind Geometry;
+};
+
+void PrintTo(const NamedMesh& mesh, std::ostream* stream) { *stream << mesh.Name; }
+
+/// Large enough for several cache-sized chunks, also where tests are reduced.
+OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(90000, 41); }
+
+OwnedMesh<double> MakeTiltedPlane()
+{
+  const AffineMap map = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 2, -3, 0, 0 } } };
+  return Transform(MakeRandomBadMeshDouble(50000 / Reduction, 42), map);
+}
+
+OwnedMesh<double> MakeSurface()
+{
+  return MakeBadSphere(300 / static_cast<int>(Reduction), 150 / static_cast<int>(Reduction), 43);
+}
+
+OwnedMesh<double> MakeStrip()
+{
+  return MakeMoebiusStrip(2000 / static_cast<int>(Reduction), 8, 44);
+}
+
+/// Every tenth triangle twice, so that edges of three and more triangles abound.
+OwnedMesh<double> MakeDirtySurface()
+{
+  OwnedMesh<double> mesh = MakeSurface();
+  const std::vector<std::int32_t> clean = mesh.Triangles;
+  for (std::size_t i = 0; i + 3 <= clean.size(); i += 30)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), &clean[i], &clean[i] + 3);
+  }
+  return mesh;
+}
+
+class DeterminismTest : public testing::TestWithParam<NamedMesh>
+{
+protected:
+  void SetUp() override
+  {
+    this->Mesh = GetParam().Make();
+    this->Options.Geometry = GetParam().Geometry;
+    this->Options.FeatureAngle = 180.0;
+    this->Options.TrackQuality = true;
+    this->Options.NumberOfThreads = 1;
+    this->Expected = Flip(this->Mesh.View(), this->Options);
+    ASSERT_LT(0, this->Expected.Report.TotalFlips);
+  }
+
+  void ExpectSame(const FlipResult& result) const
+  {
+    EXPECT_TRUE(this->Expected.Triangles == result.Triangles);
+    EXPECT_TRUE(this->Expected.FlipCounts == result.FlipCounts);
+    ExpectSameStatistics(this->Expected.Report, result.Report);
+  }
+
+  OwnedMesh<double> Mesh;
+  FlipOptions Options;
+  FlipResult Expected;
+};
+
+TEST_P(DeterminismTest, AnyNumberOfThreadsGivesTheSameBits)
+{
+  ExpectConsistentStatistics(this->Expected.Report);
+  for (int threads : { 1, 2, 3, 16, 0 })
+  {
+    this->Options.NumberOfThreads = threads;
+    this->ExpectSame(Flip(this->Mesh.View(), this->Options));
+    ASSERT_FALSE(HasFailure()) << threads << " threads";
+  }
+}
+
+TEST_P(DeterminismTest, RepeatedRunsGiveTheSameBits)
+{
+  this->Options.NumberOfThreads = 4;
+  for (int run = 0; run < 3; ++run)
+  {
+    this->ExpectSame(Flip(this->Mesh.View(), this->Options));
+  }
+}
+
+TEST_P(DeterminismTest, SingleStepsGiveTheSameBits)
+{
+  this->Options.NumberOfThreads = 3;
+  FlipSession session(this->Mesh.View(), this->Options);
+  std::size_t steps = 0;
+  while (session.Advance(1))
+  {
+    ++steps;
+    ASSERT_EQ(steps, session.GetReport().Iterations.size());
+    ASSERT_EQ(StopReasonKind::NotStarted, session.GetReport().StopReason);
+  }
+  FlipResult result;
+  result.Triangles.resize(this->Mesh.Triangles.size());
+  result.FlipCounts.resize(this->Mesh.Triangles.size() / 3);
+  session.StoreTriangles(
+    MutableTriangleArray(result.Triangles.data(), this->Mesh.NumberOfTriangles()));
+  session.StoreFlipCounts(result.FlipCounts.data());
+  result.Report = session.GetReport();
+  this->ExpectSame(result);
+  EXPECT_FALSE(session.Advance());
+  ExpectSameStatistics(this->Expected.Report, session.GetReport());
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, DeterminismTest,
+  testing::Values(NamedMesh{ "Plane", MakeLargePlane, GeometryKind::Auto },
+    NamedMesh{ "TiltedPlane", MakeTiltedPlane, GeometryKind::Auto },
+    NamedMesh{ "Terrain", MakeTiltedPlane, GeometryKind::PlanarXY },
+    NamedMesh{ "PlaneAsSurface", MakeTiltedPlane, GeometryKind::Surface },
+    NamedMesh{ "Sphere", MakeSurface, GeometryKind::Auto },
+    NamedMesh{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
+    NamedMesh{ "DirtySphere", MakeDirtySurface, GeometryKind::Auto }),
+  [](const auto& test) { return std::string(test.param.Name); });
+
+}
+}

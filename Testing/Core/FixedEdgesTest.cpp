@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CgalReference.h"
+#include "MeshAudit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+/// Edges with the triangles beside them.
+std::map<Edge, std::vector<std::int64_t>> CollectEdges(const TriangleArray& triangles)
+{
+  std::map<Edge, std::vector<std::int64_t>> edges;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      edges[std::minmax({ triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3) })].push_back(t);
+    }
+  }
+  return edges;
+}
+
+/// Every `step`-th edge of two triangles, now and then turned round.
+std::vector<std::int64_t> PickConstraints(const TriangleArray& triangles, int step)
+{
+  std::vector<std::int64_t> constraints;
+  int i = 0;
+  for (const auto& [edge, incident] : CollectEdges(triangles))
+  {
+    if (incident.size() == 2 && ++i % step == 0)
+    {
+      const bool turn = i % (2 * step) == 0;
+      constraints.push_back(turn ? edge.second : edge.first);
+      constraints.push_back(turn ? edge.first : edge.second);
+    }
+  }
+  return constraints;
+}
+
+TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& constraints)
+{
+  mesh.ConstraintEdges = constraints.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(constraints.size()) / 2;
+  return mesh;
+}
+
+TEST(ConstraintEdges, GiveCgalsConstrainedDelaunayMesh)
+{
+  for (std::uint32_t seed = 31; seed < 34; ++seed)
+  {
+    const OwnedMesh<double> bad = MakeRandomBadMeshDouble(3000 / Reduction, seed);
+    const std::vector<std::int64_t> constraints = PickConstraints(bad.View().Triangles, 10);
+    const TriangleMesh mesh = WithConstraints(bad.View(), constraints);
+    const FlipResult result = Flip(mesh);
+    EXPECT_TRUE(MakeCgalConstrainedDelaunay(mesh) == ToTriangleSet(result.Triangles));
+    EXPECT_EQ(0, CountNonDelaunayEdges(WithTriangles(mesh, result.Triangles), FlipOptions()));
+    EXPECT_LT(0, CountNonDelaunayEdges(WithTriangles(bad.View(), result.Triangles), FlipOptions()));
+    EXPECT_EQ(mesh.NumberOfConstraintEdges, result.Report.Edges.Constraint);
+    EXPECT_EQ(mesh.NumberOfConstraintEdges + 4, result.Report.Edges.Fixed);
+  }
+}
+
+TEST(ConstraintEdges, StayOnSurfaces)
+{
+  const OwnedMesh<double> bad = MakeBadSphere(60, 30, 34);
+  const std::vector<std::int64_t> constraints = PickConstraints(bad.View().Triangles, 7);
+  FlipOptions options;
+  options.FeatureAngle = 180.0;
+  const FlipResult result = Flip(WithConstraints(bad.View(), constraints), options);
+  const auto edges = CollectEdges(ViewTriangles(result.Triangles));
+  for (std::size_t i = 0; i < constraints.size(); i += 2)
+  {
+    EXPECT_EQ(1u, edges.count(std::minmax({ constraints[i], constraints[i + 1] }))) << i / 2;
+  }
+  EXPECT_LT(0, result.Report.TotalFlips);
+  EXPECT_EQ(bad.NumberOfTriangles() * 3 / 2, result.Report.Edges.Edges);
+  EXPECT_EQ(static_cast<std::int64_t>(constraints.size() / 2), result.Report.Edges.Fixed);
+}
+
+TEST(ConstraintEdges, CountOnceAndAreReportedWhenMissing)
+{
+  const OwnedMesh<double> grid = MakeGridMesh(2, 1);
+  // 0-4 is a diagonal, given thrice; 1-3 the other diagonal; 0-1 a boundary edge; 5-5 no edge.
+  const std::vector<std::int64_t> constraints = { 0, 4, 4, 0, 0, 4, 1, 3, 0, 1, 5, 5 };
+  const FlipReport report =
+    FlipSession(WithConstraints(grid.View(), constraints), FlipOptions()).GetReport();
+  EXPECT_EQ(2, report.Edges.Constraint);
+  EXPECT_EQ(1 + report.Edges.Boundary, report.Edges.Fixed);
+  ASSERT_EQ(1u, report.Defects.size());
+  EXPECT_EQ(1, report.Defects[0].Count);
+  EXPECT_NE(std::string::npos, DescribeDefects(report.Defects).find("constraint"));
+}
+
+double GetCenterX(const OwnedMesh<double>& mesh, std::int64_t t)
+{
+  double sum = 0.0;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    sum += mesh.Points[3 * mesh.Triangles[3 * t + slot]];
+  }
+  return sum / 3.0;
+}
+
+TEST(Regions, KeepTheirBorders)
+{
+  const OwnedMesh<double> bad = MakeRandomBadMeshDouble(3000, 35);
+  std::vector<std::int32_t> regions;
+  for (std::int64_t t = 0; t < bad.NumberOfTriangles(); ++t)
+  {
+    regions.push_back(static_cast<std::int32_t>(3.0 * GetCenterX(bad, t)) - 1);
+  }
+  TriangleMesh mesh = bad.View();
+  mesh.Regions = regions.data();
+  const FlipResult result = Flip(mesh);
+
+  const auto edges = CollectEdges(mesh.Triangles);
+  const auto edgesAfter = CollectEdges(ViewTriangles(result.Triangles));
+  std::int64_t borders = 0;
+  for (const auto& [edge, incident] : edges)
+  {
+    if (incident.size() == 2 && regions[incident[0]] != regions[incident[1]])
+    {
+      ++borders;
+      ASSERT_EQ(1u, edgesAfter.count(edge));
+      // Slots keep their label, so the labels beside the border are the same as before.
+      const std::vector<std::int64_t>& after = edgesAfter.at(edge);
+      EXPECT_EQ(std::minmax({ regions[incident[0]], regions[incident[1]] }),
+        std::minmax({ regions[after[0]], regions[after[1]] }));
+    }
+  }
+  EXPECT_LT(0, borders);
+  EXPECT_EQ(borders, result.Report.Edges.Region);
+  EXPECT_EQ(borders + 4, result.Report.Edges.Fixed);
+  EXPECT_EQ(0, CountNonDelaunayEdges(WithTriangles(mesh, result.Triangles), FlipOptions()));
+  EXPECT_LT(0, CountNonDelaunayEdges(WithTriangles(bad.View(), result.Triangles), FlipOptions()));
+}
+
+TEST(FrozenTriangles, StayBitForBit)
+{
+  const OwnedMesh<double> bad = MakeRandomBadMeshDouble(3000, 36);
+  std::vector<unsigned char> frozen;
+  for (std::int64_t t = 0; t < bad.NumberOfTriangles(); ++t)
+  {
+    frozen.push_back(t % 9 == 0 ? 255 : 0);
+  }
+  TriangleMesh mesh = bad.View();
+  mesh.FrozenTriangles = frozen.data();
+  const FlipResult result = Flip(mesh);
+  for (std::int64_t t = 0; t < bad.NumberOfTriangles(); t += 9)
+  {
+    EXPECT_TRUE(
+      std::equal(&bad.Triangles[3 * t], &bad.Triangles[3 * t] + 3, &result.Triangles[3 * t]));
+    EXPECT_EQ(0, result.FlipCounts[t]);
+  }
+  EXPECT_LT(0, result.Report.TotalFlips);
+  EXPECT_EQ(0, CountNonDelaunayEdges(WithTriangles(mesh, result.Triangles), FlipOptions()));
+  EXPECT_LT(0, CountNonDelaunayEdges(WithTriangles(bad.View(), result.Triangles), FlipOptions()));
+}
+
+/// A box's edges are sharp; its flat faces may flip.
+TEST(FeatureEdges, AreDecidedByTheFeatureAngle)
+{
+  // Two long bad pairs that meet at a right angle along edge 0-1.
+  OwnedMesh<double> roof;
+  roof.Points = { 0, 0, 0, 9, 0, 0, 9, 1, 0, 0, 1, 0, 4, 0, 1 };
+  roof.Triangles = { 0, 1, 2, 0, 2, 3, 1, 0, 4 };
+  FlipOptions options;
+  for (double angle : { 0.0, 30.0, 89.9 })
+  {
+    options.FeatureAngle = angle;
+    EXPECT_EQ(1, FlipSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+  }
+  for (double angle : { 90.1, 180.0 })
+  {
+    options.FeatureAngle = angle;
+    EXPECT_EQ(0, FlipSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+  }
+  options.FeatureAngle = 30.0;
+  const FlipResult result = Flip(roof.View(), options);
+  EXPECT_TRUE(HasEdge(result.Triangles, 0, 1));
+}
+
+}
+}

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipTestSupport.h"
+
+#include "MeshAudit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+
+TriangleSet ToTriangleSet(const TriangleArray& triangles)
+{
+  TriangleSet set;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    std::array<std::int64_t, 3> ids = { triangles.Get(t, 0), triangles.Get(t, 1),
+      triangles.Get(t, 2) };
+    std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
+    set.push_back(ids);
+  }
+  std::sort(set.begin(), set.end());
+  return set;
+}
+
+TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles)
+{
+  return ToTriangleSet(ViewTriangles(triangles));
+}
+
+FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  const auto triangles = static_cast<std::size_t>(mesh.Triangles.Count);
+  FlipResult result;
+  result.Triangles.resize(3 * triangles);
+  result.FlipCounts.resize(triangles);
+  FlipSession session(mesh, options);
+  session.Advance();
+  session.StoreTriangles(MutableTriangleArray(result.Triangles.data(), mesh.Triangles.Count));
+  session.StoreFlipCounts(result.FlipCounts.data());
+  result.Report = session.GetReport();
+  return result;
+}
+
+TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles)
+{
+  return TriangleArray(triangles.data(), static_cast<std::int64_t>(triangles.size()) / 3);
+}
+
+TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles)
+{
+  TriangleMesh result = mesh;
+  result.Triangles = ViewTriangles(triangles);
+  return result;
+}
+
+void ExpectSameTopology(
+  const TriangleArray& before, const std::vector<std::int32_t>& after, const FlipReport& report)
+{
+  const TriangleArray view = ViewTriangles(after);
+  const EdgeCounts a = CountEdges(before);
+  const EdgeCounts b = CountEdges(view);
+  EXPECT_EQ(a.Edges, b.Edges);
+  EXPECT_EQ(a.Boundary, b.Boundary);
+  EXPECT_EQ(a.NonManifold, b.NonManifold);
+  EXPECT_EQ(a.WronglyWound, b.WronglyWound);
+  EXPECT_EQ(a.Edges, report.Edges.Edges);
+  EXPECT_EQ(a.Boundary, report.Edges.Boundary);
+  EXPECT_EQ(a.NonManifold, report.Edges.NonManifold);
+  EXPECT_EQ(a.WronglyWound, report.Edges.WronglyWound);
+  EXPECT_EQ(EulerCharacteristic(before), EulerCharacteristic(view));
+  EXPECT_EQ(EulerCharacteristic(before), report.EulerCharacteristic);
+  EXPECT_EQ(0, CountDuplicateEdgesGained(before, view));
+}
+
+void ExpectConsistentStatistics(const FlipReport& report)
+{
+  std::int64_t flipped = 0;
+  std::int64_t excluded = 0;
+  std::int64_t blocked = 0;
+  std::int64_t iteration = 0;
+  for (const IterationRecord& row : report.Iterations)
+  {
+    EXPECT_EQ(++iteration, row.Iteration);
+    EXPECT_EQ(row.NonDelaunay, row.Flipped + row.Excluded + row.Blocked)
+      << "iteration " << row.Iteration;
+    EXPECT_GE(row.Tested, 0);
+    flipped += row.Flipped;
+    excluded += row.Excluded;
+    blocked += row.Blocked;
+  }
+  EXPECT_EQ(flipped, report.TotalFlips);
+  EXPECT_EQ(excluded, report.TotalExcluded);
+  EXPECT_EQ(blocked, report.TotalBlocked);
+}
+
+namespace
+{
+
+void ExpectSameAngle(double a, double b)
+{
+  EXPECT_TRUE(a == b || (a != a && b != b)) << a << " and " << b;
+}
+
+void ExpectSameRow(const IterationRecord& a, const IterationRecord& b)
+{
+  EXPECT_EQ(a.Iteration, b.Iteration);
+  EXPECT_EQ(a.Tested, b.Tested);
+  EXPECT_EQ(a.NonDelaunay, b.NonDelaunay);
+  EXPECT_EQ(a.Flipped, b.Flipped);
+  EXPECT_EQ(a.Excluded, b.Excluded);
+  EXPECT_EQ(a.Blocked, b.Blocked);
+  ExpectSameAngle(a.MinimumAngle, b.MinimumAngle);
+}
+
+}
+
+void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
+{
+  ASSERT_EQ(a.Iterations.size(), b.Iterations.size());
+  for (std::size_t i = 0; i < a.Iterations.size(); ++i)
+  {
+    ExpectSameRow(a.Iterations[i], b.Iterations[i]);
+  }
+  EXPECT_EQ(a.TotalFlips, b.TotalFlips);
+  EXPECT_EQ(a.NonDelaunayBefore, b.NonDelaunayBefore);
+  EXPECT_EQ(a.NonDelaunayAfter, b.NonDelaunayAfter);
+  EXPECT_EQ(a.StopReason, b.StopReason);
+  EXPECT_EQ(a.Edges.Fixed, b.Edges.Fixed);
+  EXPECT_EQ(DescribeDefects(a.Defects), DescribeDefects(b.Defects));
+  ExpectSameAngle(a.MinimumAngleBefore, b.MinimumAngleBefore);
+  ExpectSameAngle(a.MinimumAngleAfter, b.MinimumAngleAfter);
+}
+
+bool HasEdge(const std::vector<std::int32_t>& triangles, std::int64_t p, std::int64_t q)
+{
+  for (std::size_t corner = 0; corner < triangles.size(); ++corner)
+  {
+    const std::int64_t from = triangles[corner];
+    const std::int64_t to = triangles[corner % 3 == 2 ? corner - 2 : corner + 1];
+    if ((from == p && to == q) || (from == q && to == p))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void ReverseTriangles(std::vector<std::int32_t>& triangles)
+{
+  for (std::size_t corner = 0; corner < triangles.size(); corner += 3)
+  {
+    std::swap(triangles[corner + 1], triangles[corner + 2]);
+  }
+}
+
+}

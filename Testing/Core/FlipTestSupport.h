@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPTESTSUPPORT_H
+#define DELAUNAYFLIP_FLIPTESTSUPPORT_H
+
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+/// @file
+/// What several engine tests need: running flips on copies, comparing meshes, changing them.
+
+namespace delaunayflip
+{
+
+/// Instrumented programs are an order of magnitude slower: sizes and case counts shrink with them.
+#ifdef DELAUNAYFLIP_REDUCED_TESTS
+constexpr std::int64_t Reduction = 10;
+#else
+constexpr std::int64_t Reduction = 1;
+#endif
+
+/// A set of triangles without their order: each starts at its smallest id, then all are sorted.
+/// The direction in which a triangle runs still shows.
+using TriangleSet = std::vector<std::array<std::int64_t, 3>>;
+TriangleSet ToTriangleSet(const TriangleArray& triangles);
+TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles);
+
+struct FlipResult
+{
+  std::vector<std::int32_t> Triangles;
+  std::vector<std::int32_t> FlipCounts;
+  FlipReport Report;
+};
+
+/// Runs all flips on a copy of the triangles.
+FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options = {});
+
+TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles);
+
+/// `mesh` with other triangles: the caller's labels and constraints stay attached.
+TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles);
+
+/// Reports a failure for every count of edges that flips may not change and that changed.
+void ExpectSameTopology(
+  const TriangleArray& before, const std::vector<std::int32_t>& after, const FlipReport& report);
+
+/// Reports a failure for rows that break NonDelaunay = Flipped + Excluded + Blocked, and for totals
+/// that are not the sums of the rows.
+void ExpectConsistentStatistics(const FlipReport& report);
+
+/// Reports a failure for every difference other than times and the backend's name.
+void ExpectSameStatistics(const FlipReport& a, const FlipReport& b);
+
+bool HasEdge(const std::vector<std::int32_t>& triangles, std::int64_t p, std::int64_t q);
+
+/// Swaps two corners of every triangle, so that it runs the other way.
+void ReverseTriangles(std::vector<std::int32_t>& triangles);
+
+/// An integer in [0, count), the same with every standard library.
+inline std::int32_t DrawIndex(std::mt19937& random, std::int64_t count)
+{
+  return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(count));
+}
+
+/// One coordinate of the image of (x, y, z) under an affine map.
+struct AffineRow
+{
+  double X, Y, Z, Offset;
+};
+using AffineMap = std::array<AffineRow, 3>;
+
+/// The mesh with mapped points, in double precision.
+template <typename Real>
+OwnedMesh<double> Transform(const OwnedMesh<Real>& mesh, const AffineMap& map)
+{
+  OwnedMesh<double> result;
+  result.Triangles = mesh.Triangles;
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    for (const AffineRow& row : map)
+    {
+      result.Points.push_back(row.X * mesh.Points[i] + row.Y * mesh.Points[i + 1] +
+        row.Z * mesh.Points[i + 2] + row.Offset);
+    }
+  }
+  return result;
+}
+
+/// Uniform scale and offset in x and y.
+inline AffineMap ScaleAndMove(double scale, double offset)
+{
+  return { { { scale, 0, 0, offset }, { 0, scale, 0, offset }, { 0, 0, scale, 0 } } };
+}
+
+}
+
+#endif

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipTestSupport.h"
+#include "MeshAudit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Vector = std::array<long double, 3>;
+
+Vector Subtract(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+long double Dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Twice the area vector of a triangle.
+Vector Normal(const Vector& a, const Vector& b, const Vector& c)
+{
+  const Vector u = Subtract(b, a);
+  const Vector v = Subtract(c, a);
+  return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+}
+
+long double AngleAt(const Vector& apex, const Vector& p, const Vector& q)
+{
+  const Vector n = Normal(apex, p, q);
+  return std::atan2(std::sqrt(Dot(n, n)), Dot(Subtract(p, apex), Subtract(q, apex)));
+}
+
+/// Looks, with inverse trigonometry and a map of edges, for edges that should have been flipped.
+class SurfaceReferee
+{
+public:
+  SurfaceReferee(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
+    : Mesh(mesh)
+  {
+    for (std::size_t corner = 0; corner < triangles.size(); ++corner)
+    {
+      const std::size_t first = corner - corner % 3;
+      const std::int32_t from = triangles[corner];
+      const std::int32_t to = triangles[first + (corner + 1) % 3];
+      this->Opposites[{ from, to }].push_back(triangles[first + (corner + 2) % 3]);
+    }
+  }
+
+  /// Edges of exactly two consistently wound triangles whose opposite angles sum to more than pi,
+  /// by a margin, although their flip would neither fold the surface nor repeat an edge.
+  std::int64_t CountMissedFlips() const
+  {
+    std::int64_t missed = 0;
+    for (const auto& [edge, opposites] : this->Opposites)
+    {
+      const auto twin = this->Opposites.find({ edge.second, edge.first });
+      if (edge.first < edge.second && opposites.size() == 1 && twin != this->Opposites.end() &&
+        twin->second.size() == 1)
+      {
+        missed += this->ShouldFlip({ opposites[0], edge.first, edge.second, twin->second[0] });
+      }
+    }
+    return missed;
+  }
+
+private:
+  Vector Get(std::int32_t id) const
+  {
+    return { this->Mesh.Points[3 * id], this->Mesh.Points[3 * id + 1],
+      this->Mesh.Points[3 * id + 2] };
+  }
+
+  /// a, p, q, b: triangles (a, p, q) and (b, q, p).
+  bool ShouldFlip(const std::array<std::int32_t, 4>& quad) const
+  {
+    constexpr long double Margin = 1e-8L;
+    const Vector a = this->Get(quad[0]);
+    const Vector p = this->Get(quad[1]);
+    const Vector q = this->Get(quad[2]);
+    const Vector b = this->Get(quad[3]);
+    const bool exists = this->Opposites.count({ quad[0], quad[3] }) != 0 ||
+      this->Opposites.count({ quad[3], quad[0] }) != 0;
+    if (exists || AngleAt(a, p, q) + AngleAt(b, p, q) <= std::acos(-1.0L) + Margin)
+    {
+      return false;
+    }
+    const Vector upper = Normal(a, p, q);
+    const Vector lower = Normal(b, q, p);
+    const Vector area = { upper[0] + lower[0], upper[1] + lower[1], upper[2] + lower[2] };
+    const long double small = Margin * Dot(area, area);
+    return Dot(Normal(a, p, b), area) > small && Dot(Normal(b, q, a), area) > small;
+  }
+
+  const OwnedMesh<double>& Mesh;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> Opposites;
+};
+
+FlipOptions SurfaceOptions()
+{
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  options.FeatureAngle = 180.0;
+  return options;
+}
+
+/// All that must hold after flips on a surface, whatever it looks like.
+FlipResult FlipSurface(const OwnedMesh<double>& mesh)
+{
+  const FlipResult result = Flip(mesh.View(), SurfaceOptions());
+  EXPECT_TRUE(result.Report.Converged());
+  EXPECT_EQ(GeometryKind::Surface, result.Report.GeometryUsed);
+  ExpectSameTopology(mesh.View().Triangles, result.Triangles, result.Report);
+  ExpectConsistentStatistics(result.Report);
+  EXPECT_EQ(CountNonDelaunayEdges(WithTriangles(mesh.View(), result.Triangles), SurfaceOptions()),
+    result.Report.NonDelaunayAfter);
+  EXPECT_EQ(0, SurfaceReferee(mesh, result.Triangles).CountMissedFlips());
+  return result;
+}
+
+TEST(Surface, ClosedSpheresStayClosed)
+{
+  for (std::int32_t columns : { 20, 60, 200 / static_cast<int>(Reduction) })
+  {
+    const OwnedMesh<double> mesh = MakeBadSphere(columns, columns / 2, 61);
+    const FlipResult result = FlipSurface(mesh);
+    EXPECT_LT(columns, result.Report.TotalFlips);
+    EXPECT_LT(0, SurfaceReferee(mesh, mesh.Triangles).CountMissedFlips());
+    EXPECT_EQ(0, CountEdges(ViewTriangles(result.Triangles)).Boundary);
+    EXPECT_EQ(2, result.Report.EulerCharacteristic);
+  }
+}
+
+/// Few columns: nearly every flip would repeat an edge, at once or together with another flip.
+TEST(Surface, NarrowSpheresGainNoEdgeTwice)
+{
+  std::int64_t blocked = 0;
+  for (std::uint32_t seed = 0; seed < 100 / Reduction; ++seed)
+  {
+    OwnedMesh<double> mesh = MakeBadSphere(3 + seed % 3, 4 + seed % 40, seed);
+    for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
+    {
+      mesh.Points[i] *= 1.0 + seed % 7;
+    }
+    blocked += FlipSurface(mesh).Report.NonDelaunayAfter;
+    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+  }
+  EXPECT_LT(0, blocked);
+}
+
+/// In a tetrahedron every flip would repeat an edge.
+TEST(Surface, TetrahedraStayAsTheyAre)
+{
+  const OwnedMesh<double> mesh = { { -2, 0, 0, 2, 0, 0, 0, -1, 0.1, 0, 1, 0.1 },
+    { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 } };
+  const FlipResult result = FlipSurface(mesh);
+  EXPECT_EQ(mesh.Triangles, result.Triangles);
+  EXPECT_EQ(1, result.Report.NonDelaunayAfter);
+}
+
+TEST(Surface, MoebiusStripsStayOneSided)
+{
+  for (std::int32_t columns : { 6, 40, 400 / static_cast<int>(Reduction) })
+  {
+    const OwnedMesh<double> mesh = MakeMoebiusStrip(columns, 4, 62);
+    const FlipResult result = FlipSurface(mesh);
+    EXPECT_EQ(4, result.Report.Edges.WronglyWound);
+    EXPECT_EQ(0, result.Report.EulerCharacteristic);
+    EXPECT_LT(0, result.Report.TotalFlips);
+  }
+}
+
+TEST(Surface, MixedWindingFixesTheEdgesBetween)
+{
+  std::mt19937 random(63);
+  OwnedMesh<double> mesh = MakeBadSphere(40, 20, 63);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+  {
+    if (DrawIndex(random, 10) == 0)
+    {
+      std::swap(mesh.Triangles[t], mesh.Triangles[t + 1]);
+    }
+  }
+  const FlipResult result = FlipSurface(mesh);
+  EXPECT_LT(0, result.Report.Edges.WronglyWound);
+  EXPECT_LT(0, result.Report.TotalFlips);
+}
+
+void ExpectKept(const OwnedMesh<double>& mesh, const FlipResult& result, std::size_t triangle)
+{
+  EXPECT_EQ(0, result.FlipCounts[triangle]);
+  for (std::size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+  {
+    EXPECT_EQ(mesh.Triangles[corner], result.Triangles[corner]);
+  }
+}
+
+TEST(Surface, DuplicateTrianglesKeepTheirEdges)
+{
+  for (bool reversed : { false, true })
+  {
+    OwnedMesh<double> mesh = MakeBadSphere(40, 20, 64);
+    const std::vector<std::int32_t> clean = mesh.Triangles;
+    for (std::size_t t = 0; t < clean.size(); t += 60)
+    {
+      mesh.Triangles.insert(mesh.Triangles.end(),
+        { clean[t + (reversed ? 1 : 0)], clean[t + (reversed ? 0 : 1)], clean[t + 2] });
+    }
+    const FlipResult result = FlipSurface(mesh);
+    EXPECT_LT(100, result.Report.Edges.NonManifold);
+    EXPECT_LT(0, result.Report.TotalFlips);
+    for (std::size_t t = 0; t < clean.size() / 3; t += 20)
+    {
+      ExpectKept(mesh, result, t);
+      ExpectKept(mesh, result, clean.size() / 3 + t / 20);
+    }
+  }
+}
+
+/// The same triangle twice and nothing else: two incident triangles everywhere, none may flip.
+TEST(Surface, LoneDuplicatesAreReported)
+{
+  const std::vector<std::int32_t> pairs[] = { { 0, 1, 2, 1, 2, 0 }, { 0, 1, 2, 2, 1, 0 } };
+  for (const std::vector<std::int32_t>& pair : pairs)
+  {
+    const OwnedMesh<double> mesh = { { 0, 0, 0, 4, 0, 0, 1, 0.1, 0 }, pair };
+    const FlipResult result = FlipSurface(mesh);
+    EXPECT_EQ(mesh.Triangles, result.Triangles);
+    EXPECT_EQ(3, result.Report.Edges.Fixed);
+    EXPECT_FALSE(DescribeDefects(result.Report.Defects).empty());
+  }
+}
+
+/// Pages of a book: strips of bad triangles that share one spine.
+TEST(Surface, NonManifoldFansKeepTheirSpine)
+{
+  constexpr int Pages = 5;
+  constexpr int Height = 20;
+  OwnedMesh<double> mesh;
+  for (int i = 0; i <= Height; ++i)
+  {
+    mesh.Points.insert(mesh.Points.end(), { 0.0, 0.0, i * 1.0 });
+  }
+  for (int page = 0; page < Pages; ++page)
+  {
+    const std::int32_t base = static_cast<std::int32_t>(mesh.NumberOfPoints());
+    for (int i = 0; i <= Height; ++i)
+    {
+      mesh.Points.insert(
+        mesh.Points.end(), { std::cos(page * 1.0), std::sin(page * 1.0), i + 0.8 });
+    }
+    for (int i = 0; i < Height; ++i)
+    {
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { i, base + i, base + i + 1, i, base + i + 1, i + 1 });
+    }
+  }
+  const FlipResult result = FlipSurface(mesh);
+  EXPECT_EQ(Height, result.Report.Edges.NonManifold);
+  EXPECT_EQ(Pages * Height, result.Report.TotalFlips);
+}
+
+TEST(Surface, BowTieVerticesAreNoObstacle)
+{
+  OwnedMesh<double> mesh = MakeBadSphere(20, 10, 65);
+  const OwnedMesh<double> other =
+    Transform(mesh, { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 2 } } });
+  const std::int32_t offset = static_cast<std::int32_t>(mesh.NumberOfPoints());
+  const std::int32_t north = offset - 2;
+  const std::int32_t south = offset - 1;
+  mesh.Points.insert(mesh.Points.end(), other.Points.begin(), other.Points.end());
+  for (std::int32_t id : other.Triangles)
+  {
+    mesh.Triangles.push_back(id == south ? north : id + offset);
+  }
+  const FlipResult result = FlipSurface(mesh);
+  EXPECT_LT(0, result.Report.TotalFlips);
+  EXPECT_EQ(3, result.Report.EulerCharacteristic);
+}
+
+TEST(Surface, ScaleDoesNotMatter)
+{
+  const OwnedMesh<double> mesh = MakeBadSphere(40, 20, 66);
+  const FlipResult expected = FlipSurface(mesh);
+  for (double scale : { 0x1p-900, 0x1p-40, 0x1p40, 0x1p900 })
+  {
+    const OwnedMesh<double> scaled = Transform(mesh, ScaleAndMove(scale, 0.0));
+    EXPECT_TRUE(expected.Triangles == FlipSurface(scaled).Triangles) << scale;
+  }
+}
+
+}
+}
