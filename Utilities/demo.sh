@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs what is missing (Debian), builds the command delaunay-flip in build/, gives it a badly
+# triangulated terrain and draws what it made of it. Everything it writes is in demo-output/.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build="$root/build"
+output="$root/demo-output"
+python=/usr/bin/python3
+export PYTHONDONTWRITEBYTECODE=1
+
+step()
+{
+  printf '\n== %s\n' "$1"
+}
+
+# Keeps the tests of an existing build, and does not ask for their packages in a new one.
+build_command()
+{
+  local options=()
+  [ -f "$build/CMakeCache.txt" ] || options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF)
+  cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=$python "${options[@]}" >/dev/null
+  cmake --build "$build" --parallel "${JOBS:-2}" --target delaunay-flip
+}
+
+step "Packages"
+"$root/Utilities/install-packages.sh" demo
+
+step "Build"
+build_command
+
+step "A terrain, triangulated without a thought"
+mkdir -p "$output"
+"$python" "$root/Utilities/make_terrain.py" "$output/before.vtp"
+
+step "delaunay-flip before.vtp after.vtp --geometry planar-xy"
+"$build/bin/delaunay-flip" "$output/before.vtp" "$output/after.vtp" --geometry planar-xy \
+  --report "$output/report.json" --statistics "$output/iterations.csv"
+
+step "Pictures"
+"$python" "$root/Utilities/draw_demo.py" "$output"
+
+cat <<END
+
+Done. Look at
+  $output/before_after.png   the terrain, its edges and its angles
+  $output/iterations.png     the flips of every iteration
+  $output/after.vtp          the mesh (before.vtp is the input; ParaView opens both)
+  $output/report.json        the run in numbers
+  $output/iterations.csv     the iterations in numbers
+Try your own: $build/bin/delaunay-flip INPUT OUTPUT
+END

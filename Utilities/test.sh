@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs what is missing (Debian), builds everything and runs every test: the whole project in
+# build/, the engine under AddressSanitizer and UndefinedBehaviorSanitizer in build-asan/, and under
+# ThreadSanitizer in build-tsan/. The exit status is 0 only when all three pass.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+jobs=${JOBS:-2}
+passed=0 failed=0 skipped=0
+broken=()
+export PYTHONDONTWRITEBYTECODE=1
+
+# Usage: check FOLDER [CMAKE_OPTION...] - configures, builds and tests one configuration.
+check()
+{
+  local folder=$1
+  shift
+  printf '\n== %s\n' "$folder"
+  rm -f "$root/$folder/junit.xml"
+  if ! configure_build_test "$folder" "$@"; then
+    broken+=("$folder")
+  fi
+  count_results "$root/$folder/junit.xml"
+}
+
+configure_build_test()
+{
+  local build="$root/$1"
+  shift
+  cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 "$@" &&
+    "${launcher[@]}" cmake --build "$build" --parallel "$jobs" &&
+    "${launcher[@]}" ctest --test-dir "$build" --output-on-failure --parallel "$jobs" \
+      --no-tests=error --output-junit "$build/junit.xml"
+}
+
+# Usage: count_results JUNIT_FILE - adds its tests to the totals; no file, nothing ran.
+count_results()
+{
+  [ -f "$1" ] || return 0
+  local tests failures skips
+  tests=$(attribute tests "$1")
+  failures=$(attribute failures "$1")
+  skips=$(attribute skipped "$1")
+  passed=$((passed + tests - failures - skips))
+  failed=$((failed + failures))
+  skipped=$((skipped + skips))
+}
+
+attribute()
+{
+  sed -n "0,/<testcase/s/.*[^a-z]$1=\"\([0-9]*\)\".*/\1/p" "$2" | head -n 1
+}
+
+"$root/Utilities/install-packages.sh" test
+
+launcher=()
+check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON
+check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=ON \
+  -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address
+
+# ThreadSanitizer of GCC 12 finds no place for its shadow memory where the kernel randomises
+# addresses strongly (Linux 6.6 and newer); the build runs the tests too, to list them.
+if setarch --addr-no-randomize true 2>/dev/null; then
+  launcher=(setarch --addr-no-randomize)
+fi
+check build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=ON \
+  -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=thread
+
+printf '\n'
+if [ ${#broken[@]} -gt 0 ]; then
+  echo "FAILED in: ${broken[*]} (their output is above)"
+fi
+echo "tests: $passed passed, $failed failed, $skipped skipped"
+[ ${#broken[@]} -eq 0 ]
