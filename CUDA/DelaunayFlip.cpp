@@ -72,13 +72,15 @@ void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
   }
 }
 
-double ToDegrees(double cotangent)
+double ToDegrees(double squaredCotangent)
 {
-  if (cotangent == -INFINITY)
+  if (squaredCotangent == -INFINITY)
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  return cotangent == INFINITY ? 0.0 : std::atan2(1.0, cotangent) / DegreesToRadians;
+  return squaredCotangent == INFINITY
+    ? 0.0
+    : std::atan2(1.0, std::sqrt(squaredCotangent)) / DegreesToRadians;
 }
 }
 
@@ -103,7 +105,7 @@ public:
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
     this->MakeLoop(mesh.Points, survey, built);
-    this->Report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestCotangent());
+    this->Report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
     this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
     this->Report.BuildSeconds = watch.GetSeconds();
     this->DetectFirst();
@@ -363,7 +365,7 @@ private:
     record.Blocked = counts.Blocked;
     record.Flipped = counts.Flipped;
     record.Excluded = counts.Bad - counts.Flipped;
-    record.MinimumAngle = ToDegrees(counts.LargestCotangent);
+    record.MinimumAngle = ToDegrees(counts.SquaredCotangent);
     record.Seconds = seconds;
     this->Report.Iterations.push_back(record);
     this->Report.TotalFlips += record.Flipped;
@@ -376,7 +378,7 @@ private:
   {
     if (!this->Report.Iterations.empty())
     {
-      this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestCotangent());
+      this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestSquaredCotangent());
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     }
   }

@@ -155,30 +155,59 @@ private:
   void RunOnBlock(const Step& step, std::int64_t block, StepCounts& counts)
   {
     EdgeId edges[BlockFlags::BlockSize + WordSize];
-    RunOnEdges(step, edges, this->Find(Step::Wanted, block, edges), counts);
+    RunOnEdges(step, edges, this->Find(Step::Wanted, this->GetWords(block), edges), counts);
   }
 
-  void RunOnBlock(const CountStep& step, std::int64_t block, StepCounts& counts)
+  /// Exact arithmetic is asked for seldom.
+  template <typename Rule>
+  void RunOnBlock(const ResolveStep<Rule>& step, std::int64_t block, StepCounts& counts)
   {
-    EdgeId edges[BlockFlags::BlockSize + WordSize];
-    const std::int64_t size = this->Find(CountStep::Wanted, block, edges);
-    for (std::int64_t i = 0; i < size; ++i)
+    if (counts.Uncertain > 0)
     {
-      step(edges[i], counts);
+      EdgeId edges[BlockFlags::BlockSize + WordSize];
+      const std::int64_t size = this->Find(ResolveStep<Rule>::Wanted, this->GetWords(block), edges);
+      RunOnEdges(step, edges, size, counts);
     }
-    this->Flags[block - this->FirstBlock] = size > 0;
   }
 
-  /// Stores the edges of a block in a wanted state. @returns how many.
-  std::int64_t Find(StateRange wanted, std::int64_t block, EdgeId* found) const
+  void RunOnBlock(const CountStep&, std::int64_t block, StepCounts& counts)
+  {
+    const WordRange words = this->GetWords(block);
+    std::int64_t bad = 0;
+    std::int64_t all = 0;
+    for (std::int64_t word = words.First; word < words.End; ++word)
+    {
+      bad += __builtin_popcountll(this->Match({ EdgeState::Bad, EdgeState::Bad }, word, words));
+      all += __builtin_popcountll(this->Match(CountStep::Wanted, word, words));
+    }
+    counts.Bad += bad;
+    counts.Blocked += all - bad;
+    this->Flags[block - this->FirstBlock] = all > 0;
+  }
+
+  /// The words of states of a block, and which bytes of the first and the last belong to the range.
+  struct WordRange
+  {
+    std::int64_t First, End;
+    std::uint64_t FirstMask, LastMask;
+  };
+
+  WordRange GetWords(std::int64_t block) const
   {
     const std::int64_t first = std::max(this->FirstEdge, block << BlockFlags::BlockBits);
     const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockFlags::BlockBits);
-    const std::int64_t endWord = (last + WordSize - 1) / WordSize;
+    const std::uint64_t all = ~std::uint64_t(0);
+    return { first / WordSize, (last + WordSize - 1) / WordSize, all << (8 * (first % WordSize)),
+      all >> (8 * ((WordSize - last % WordSize) % WordSize)) };
+  }
+
+  /// Stores the edges in a wanted state. @returns how many.
+  std::int64_t Find(StateRange wanted, const WordRange& words, EdgeId* found) const
+  {
     std::int64_t count = 0;
-    for (std::int64_t word = first / WordSize; word < endWord;)
+    for (std::int64_t word = words.First; word < words.End;)
     {
-      const std::int64_t end = std::min(endWord, word + WordsPerGroup);
+      const std::int64_t end = std::min(words.End, word + WordsPerGroup);
       if (this->AreAtRest(word, end))
       {
         word = end;
@@ -186,7 +215,7 @@ private:
       }
       for (; word < end; ++word)
       {
-        count += Store(this->MatchWord(wanted, word, first, last), word, found + count);
+        count += Store(this->Match(wanted, word, words), word, found + count);
       }
     }
     return count;
@@ -227,10 +256,9 @@ private:
     return __atomic_load_n(reinterpret_cast<const Word*>(this->States) + word, __ATOMIC_RELAXED);
   }
 
-  /// The eight states of a word at once: the top bit of every byte tells whether that edge lies in
-  /// [first, last) and its state in the range. States are below 16, so bytes do not carry.
-  std::uint64_t MatchWord(
-    StateRange wanted, std::int64_t word, std::int64_t first, std::int64_t last) const
+  /// The eight states of a word at once: the top bit of every byte tells whether that edge belongs
+  /// to the words and its state is wanted. States are below 16, so bytes do not carry.
+  std::uint64_t Match(StateRange wanted, std::int64_t word, const WordRange& words) const
   {
     const std::uint64_t states = this->LoadWord(word);
     const std::uint64_t atLeastFirst =
@@ -238,10 +266,8 @@ private:
     const std::uint64_t aboveLast =
       states + (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
     std::uint64_t matches = atLeastFirst & ~aboveLast & (0x80 * EveryByte);
-    const std::int64_t before = first - word * WordSize;
-    const std::int64_t after = (word + 1) * WordSize - last;
-    matches &= before > 0 ? ~std::uint64_t(0) << (8 * before) : ~std::uint64_t(0);
-    matches &= after > 0 ? ~std::uint64_t(0) >> (8 * after) : ~std::uint64_t(0);
+    matches &= word == words.First ? words.FirstMask : ~std::uint64_t(0);
+    matches &= word == words.End - 1 ? words.LastMask : ~std::uint64_t(0);
     return matches;
   }
 

@@ -28,7 +28,7 @@ struct IterationCounts
   std::int64_t Bad = 0; ///< Edges known to be bad and free to flip when it chose.
   std::int64_t Blocked = 0; ///< Bad ones that were not free.
   std::int64_t Flipped = 0;
-  double LargestCotangent = -INFINITY; ///< After it, of the smallest angle, where asked for.
+  double SquaredCotangent = -INFINITY; ///< After it, of the smallest angle, where asked for.
 
   IterationCounts& operator+=(const IterationCounts& other)
   {
@@ -36,7 +36,7 @@ struct IterationCounts
     this->Bad += other.Bad;
     this->Blocked += other.Blocked;
     this->Flipped += other.Flipped;
-    this->LargestCotangent = std::max(this->LargestCotangent, other.LargestCotangent);
+    this->SquaredCotangent = std::max(this->SquaredCotangent, other.SquaredCotangent);
     return *this;
   }
 };
@@ -45,7 +45,7 @@ struct IterationCounts
 struct AdvancePlan
 {
   std::int64_t Iterations; ///< At most so many, >= 1.
-  bool MeasureFirst; ///< Compute LargestCotangent after the first of them.
+  bool MeasureFirst; ///< Compute SquaredCotangent after the first of them.
   bool MeasureAll; ///< And after every one.
 };
 
@@ -71,9 +71,8 @@ public:
   /// themselves, and detects again. @returns the iterations.
   virtual std::vector<IterationCounts> Advance(const AdvancePlan& plan) = 0;
 
-  /// Cotangent of the mesh's smallest angle (SurfaceAngles.h's LargestCotangent over all
-  /// triangles).
-  virtual double FindLargestCotangent() const = 0;
+  /// LargestSquaredCotangent (SurfaceAngles.h) over all triangles.
+  virtual double FindLargestSquaredCotangent() const = 0;
 
 protected:
   StepCounts Found;
@@ -157,17 +156,17 @@ public:
     return iterations;
   }
 
-  double FindLargestCotangent() const override
+  double FindLargestSquaredCotangent() const override
   {
     return this->Backend
       .template Sum<IterationCounts>(this->Mesh.NumberOfTriangles,
         [this](std::int64_t begin, std::int64_t end)
         {
           IterationCounts part;
-          part.LargestCotangent = this->FindLargestCotangent(begin, end);
+          part.SquaredCotangent = this->FindLargestSquaredCotangent(begin, end);
           return part;
         })
-      .LargestCotangent;
+      .SquaredCotangent;
   }
 
 private:
@@ -230,7 +229,7 @@ private:
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
     }
     return { this->Found.Tested, this->Found.Bad, this->Found.Blocked, flips.Flipped,
-      measure ? this->FindLargestCotangent() : -INFINITY };
+      measure ? this->FindLargestSquaredCotangent() : -INFINITY };
   }
 
   /// The rounds that chunks run for themselves, at most as many as the plan and the schedule allow.
@@ -296,8 +295,8 @@ private:
       counts[round] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && round == 0))
       {
-        counts[round].LargestCotangent =
-          this->FindLargestCotangent(chunk.FirstTriangle, chunk.LastTriangle);
+        counts[round].SquaredCotangent =
+          this->FindLargestSquaredCotangent(chunk.FirstTriangle, chunk.LastTriangle);
       }
       worklist.Gather();
       found = worklist.Run(this->Judge(), this->Resolve(), CountStep{ mesh.States });
@@ -333,14 +332,14 @@ private:
     this->Worklist.ActivateAll();
   }
 
-  double FindLargestCotangent(std::int64_t firstTriangle, std::int64_t lastTriangle) const
+  double FindLargestSquaredCotangent(std::int64_t firstTriangle, std::int64_t lastTriangle) const
   {
     double largest = -INFINITY;
     for (std::int64_t t = firstTriangle; t < lastTriangle; ++t)
     {
       const VertexId* v = this->Mesh.Triangles[t].Vertices;
       largest = std::max(largest,
-        LargestCotangent(
+        LargestSquaredCotangent(
           this->GetPosition(v[0]), this->GetPosition(v[1]), this->GetPosition(v[2])));
     }
     return largest;

@@ -31,6 +31,7 @@ struct StateRange
 struct StepCounts
 {
   std::int64_t Tested = 0;
+  std::int64_t Uncertain = 0;
   std::int64_t Bad = 0;
   std::int64_t Blocked = 0;
   std::int64_t Flipped = 0;
@@ -40,6 +41,7 @@ struct StepCounts
   DELAUNAYFLIP_HOST_DEVICE StepCounts& operator+=(const StepCounts& other)
   {
     this->Tested += other.Tested;
+    this->Uncertain += other.Uncertain;
     this->Bad += other.Bad;
     this->Blocked += other.Blocked;
     this->Flipped += other.Flipped;
@@ -102,8 +104,10 @@ struct JudgeStep
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    AtomicStore(&this->Mesh.States[edge], this->Decision.Judge(quad));
+    const EdgeState state = this->Decision.Judge(quad);
+    AtomicStore(&this->Mesh.States[edge], state);
     ++counts.Tested;
+    counts.Uncertain += state == EdgeState::Uncertain ? 1 : 0;
   }
 };
 

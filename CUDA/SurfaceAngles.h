@@ -111,21 +111,25 @@ DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOver(const QuadPoints& quad)
     Dot(AreaVector(quad.B, quad.Q, quad.A), area) > 0.0);
 }
 
-/// Cotangent of the smallest angle of a triangle: infinite without area, -infinite (no angle) with
-/// a coordinate that is NaN or infinite.
-DELAUNAYFLIP_HOST_DEVICE inline double LargestCotangent(
+/// Squared cotangent of the smallest angle of a triangle, which grows as the angle shrinks:
+/// infinite without area, -infinite (no angle) with a coordinate that is NaN or infinite. The
+/// smallest angle is at most 60 degrees, so its cotangent is positive.
+DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
   const Vector3& a, const Vector3& b, const Vector3& c)
 {
-  const double atA = Dot(b - a, c - a);
-  const double atB = Dot(c - b, a - b);
-  const double atC = Dot(a - c, b - c);
-  const double doubleArea = Length(AreaVector(a, b, c));
-  if (!(doubleArea < INFINITY))
+  const Vector3 ab = b - a, ac = c - a, bc = c - b;
+  const double atA = Dot(ab, ac);
+  const double atB = -Dot(ab, bc);
+  const double atC = Dot(ac, bc);
+  const Vector3 normal = Cross(ab, ac);
+  const double squaredArea = Dot(normal, normal);
+  if (!(squaredArea < INFINITY))
   {
     return -INFINITY;
   }
   const double atBOrC = atB > atC ? atB : atC;
-  return doubleArea > 0.0 ? (atA > atBOrC ? atA : atBOrC) / doubleArea : INFINITY;
+  const double largest = atA > atBOrC ? atA : atBOrC;
+  return squaredArea > 0.0 ? largest * largest / squaredArea : INFINITY;
 }
 
 }
