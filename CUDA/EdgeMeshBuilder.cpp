@@ -6,6 +6,7 @@
 #include "FlipError.h"
 #include "SurfaceAngles.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,7 +23,6 @@ constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
 struct FixedSums : EdgeCounts
 {
   std::int64_t OneOfMany = 0; ///< Edge records of non-manifold edges.
-  Defect Duplicates;
 
   FixedSums& operator+=(const FixedSums& part)
   {
@@ -32,7 +32,20 @@ struct FixedSums : EdgeCounts
     this->Region += part.Region;
     this->Fixed += part.Fixed;
     this->OneOfMany += part.OneOfMany;
-    this->Duplicates += part.Duplicates;
+    return *this;
+  }
+};
+
+/// Vertices of a triangle, ascending, and the caller's slot.
+using Suspect = std::array<std::uint32_t, 4>;
+
+struct Suspects
+{
+  std::vector<Suspect> List;
+
+  Suspects& operator+=(const Suspects& part)
+  {
+    this->List.insert(this->List.end(), part.List.begin(), part.List.end());
     return *this;
   }
 };
@@ -55,6 +68,8 @@ public:
     this->NumberEdges();
     this->LinkEdges();
     this->FixEdges();
+    this->FindDuplicateTriangles();
+    this->ForgetRoles();
     this->FixConstraints();
     this->Result.Table.DropWords();
     return std::move(this->Result);
@@ -264,15 +279,75 @@ private:
         }
         return part;
       });
-    this->ForCorners([&](TriangleId t, int) { mesh.Triangles[t].FlipCount = 0; });
     EdgeCounts& counts = this->Result.Counts;
     counts.Boundary = sums.Boundary;
     counts.WronglyWound = sums.WronglyWound;
     counts.Feature = sums.Feature;
     counts.Region = sums.Region;
     counts.Fixed = sums.Fixed - sums.OneOfMany + counts.NonManifold;
-    this->Result.DuplicateTriangles = sums.Duplicates;
+  }
+
+  /// Whether an edge joins more triangles than two, or two on the same three points, as all edges
+  /// of a triangle that another one repeats do.
+  static bool MayJoinDuplicates(const EdgeMeshView& mesh, const TriangleRecord& triangle, int slot)
+  {
+    const CornerRole role = GetRole(triangle, slot);
+    if (role == CornerRole::Alone || role == CornerRole::OneOfMany)
+    {
+      return role == CornerRole::OneOfMany;
+    }
+    const Quad quad = mesh.GetQuad(EdgeOf(triangle.HalfEdges[slot]));
+    return quad.A == quad.B;
+  }
+
+  /// Triangles that another one may repeat: none in a clean mesh.
+  Suspects FindSuspects()
+  {
+    const EdgeMeshView mesh = this->View();
+    return this->Backend.Sum<Suspects>(this->Result.Edges.NumberOfTriangles,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        Suspects part;
+        for (std::int64_t t = begin; t < end; ++t)
+        {
+          const TriangleRecord& triangle = mesh.Triangles[t];
+          if (MayJoinDuplicates(mesh, triangle, 0) && MayJoinDuplicates(mesh, triangle, 1) &&
+            MayJoinDuplicates(mesh, triangle, 2))
+          {
+            const VertexId* v = triangle.Vertices;
+            part.List.push_back({ v[0], v[1], v[2], triangle.InputTriangle });
+            std::sort(part.List.back().begin(), part.List.back().begin() + 3);
+          }
+        }
+        return part;
+      });
+  }
+
+  void FindDuplicateTriangles()
+  {
+    std::vector<Suspect> suspects = this->FindSuspects().List;
+    std::sort(suspects.begin(), suspects.end());
+    std::vector<std::int64_t> repeated;
+    for (std::size_t i = 1; i < suspects.size(); ++i)
+    {
+      if (std::equal(suspects[i].begin(), suspects[i].begin() + 3, suspects[i - 1].begin()))
+      {
+        repeated.push_back(suspects[i][3]);
+      }
+    }
+    std::sort(repeated.begin(), repeated.end());
     this->Result.DuplicateTriangles.What = "triangles that repeat another one's points";
+    for (const std::int64_t triangle : repeated)
+    {
+      Note(this->Result.DuplicateTriangles, triangle);
+    }
+  }
+
+  /// From here on FlipCount counts flips.
+  void ForgetRoles()
+  {
+    TriangleRecord* triangles = this->Result.Edges.Triangles.Data();
+    this->ForCorners([&](TriangleId t, int) { triangles[t].FlipCount = 0; });
   }
 
   bool CountOneSided(const EdgeMeshView& mesh, EdgeId edge, FixedSums& sums) const
@@ -290,17 +365,13 @@ private:
     const TriangleRecord& a = mesh.Triangles[TriangleOf(quad.CornerA)];
     const TriangleRecord& b = mesh.Triangles[TriangleOf(quad.CornerB)];
     const bool wronglyWound = !IsConsistentlyWound(mesh, edge);
-    const bool duplicate = quad.A == quad.B && a.InputTriangle != b.InputTriangle;
+    const bool duplicate = quad.A == quad.B;
     const bool region = this->Input.Mesh.Regions &&
       this->Input.Mesh.Regions[a.InputTriangle] != this->Input.Mesh.Regions[b.InputTriangle];
     const bool feature = !wronglyWound && this->IsFeature(quad);
     sums.WronglyWound += wronglyWound ? 1 : 0;
     sums.Region += region ? 1 : 0;
     sums.Feature += feature ? 1 : 0;
-    if (duplicate)
-    {
-      Note(sums.Duplicates, std::max(a.InputTriangle, b.InputTriangle));
-    }
     return wronglyWound || duplicate || region || feature ||
       ((a.FlipCount | b.FlipCount) & UntouchableBit) != 0;
   }

@@ -58,38 +58,68 @@ private:
   }
 };
 
-/// (u, v) of a point relative to another, exactly.
+/// A point relative to another as expansions of at most N components: 1 where no difference had to
+/// be rounded, as on lattices and for most single-precision input, else 2.
+template <int N>
 struct ExactOffset
 {
-  Expansion<2> U, V;
+  Expansion<N> U, V;
+  Expansion<N> W, WSum; ///< w - w0 and w + w0, for the lift of tilted planes.
 
-  DELAUNAYFLIP_HOST_DEVICE ExactOffset(const PlanePoint& p, const PlanePoint& origin)
-    : U(DifferenceOf(p.U, origin.U)),
-      V(DifferenceOf(p.V, origin.V))
+  DELAUNAYFLIP_HOST_DEVICE bool IsSingle() const
   {
+    return this->U.Size <= 1 && this->V.Size <= 1 && this->W.Size <= 1 && this->WSum.Size <= 1;
+  }
+
+  /// The same with room for fewer components, which must be enough.
+  DELAUNAYFLIP_HOST_DEVICE ExactOffset<1> ToSingle() const
+  {
+    return { { { this->U.Components[0] }, this->U.Size },
+      { { this->V.Components[0] }, this->V.Size }, { { this->W.Components[0] }, this->W.Size },
+      { { this->WSum.Components[0] }, this->WSum.Size } };
+  }
+
+  /// u^2 + v^2 + (w - w0) (w + w0); the last term is 0 where w is.
+  DELAUNAYFLIP_HOST_DEVICE Expansion<6 * N * N> GetLift() const
+  {
+    return Add(
+      Add(Multiply(this->U, this->U), Multiply(this->V, this->V)), Multiply(this->W, this->WSum));
   }
 };
 
-/// u^2 + v^2 + (w - w0) (w + w0) of an offset; the last term is 0 where W is.
-DELAUNAYFLIP_HOST_DEVICE inline Expansion<24> ExactLift(
-  const ExactOffset& offset, const PlanePoint& p, const PlanePoint& origin)
+DELAUNAYFLIP_HOST_DEVICE inline ExactOffset<2> OffsetOf(
+  const PlanePoint& p, const PlanePoint& origin)
 {
-  const Expansion<8> w = Multiply(DifferenceOf(p.W, origin.W), SumOf(p.W, origin.W));
-  return Add(Add(Multiply(offset.U, offset.U), Multiply(offset.V, offset.V)), w);
+  return { DifferenceOf(p.U, origin.U), DifferenceOf(p.V, origin.V), DifferenceOf(p.W, origin.W),
+    SumOf(p.W, origin.W) };
 }
 
-/// Sign of the in-circle determinant with the lift of ExactLift, of scaled points.
+/// u1 v2 - u2 v1.
+template <int N>
+DELAUNAYFLIP_HOST_DEVICE Expansion<4 * N * N> MinorOf(
+  const ExactOffset<N>& first, const ExactOffset<N>& second)
+{
+  return Determinant(first.U, first.V, second.U, second.V);
+}
+
+template <int N>
+DELAUNAYFLIP_HOST_DEVICE int InCircleSign(
+  const ExactOffset<N>& a, const ExactOffset<N>& b, const ExactOffset<N>& c)
+{
+  return Add(Add(Multiply(MinorOf(b, c), a.GetLift()), Multiply(MinorOf(c, a), b.GetLift())),
+    Multiply(MinorOf(a, b), c.GetLift()))
+    .Sign();
+}
+
+/// Sign of the in-circle determinant of scaled points.
 DELAUNAYFLIP_HOST_DEVICE inline int ExpandedInCircle(const PlanePoint (&points)[4])
 {
-  const PlanePoint& d = points[3];
-  const ExactOffset a(points[0], d), b(points[1], d), c(points[2], d);
-  const Expansion<768> aTerm =
-    Multiply(Determinant(b.U, b.V, c.U, c.V), ExactLift(a, points[0], d));
-  const Expansion<768> bTerm =
-    Multiply(Determinant(c.U, c.V, a.U, a.V), ExactLift(b, points[1], d));
-  const Expansion<768> cTerm =
-    Multiply(Determinant(a.U, a.V, b.U, b.V), ExactLift(c, points[2], d));
-  return Add(Add(aTerm, bTerm), cTerm).Sign();
+  const ExactOffset<2> a = OffsetOf(points[0], points[3]);
+  const ExactOffset<2> b = OffsetOf(points[1], points[3]);
+  const ExactOffset<2> c = OffsetOf(points[2], points[3]);
+  return a.IsSingle() && b.IsSingle() && c.IsSingle()
+    ? InCircleSign(a.ToSingle(), b.ToSingle(), c.ToSingle())
+    : InCircleSign(a, b, c);
 }
 
 /// Turn of a, b, c in (u, v). UncertainSign only on a device, where wide integers are needed.
@@ -105,9 +135,9 @@ DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation(
     return WideOrientation(a, b, c);
 #endif
   }
-  const ExactOffset first(scaled.Points[0], scaled.Points[2]);
-  const ExactOffset second(scaled.Points[1], scaled.Points[2]);
-  return Determinant(first.U, first.V, second.U, second.V).Sign();
+  return MinorOf(
+    OffsetOf(scaled.Points[0], scaled.Points[2]), OffsetOf(scaled.Points[1], scaled.Points[2]))
+    .Sign();
 }
 
 /// Sign of the in-circle determinant; `tilted` adds W to the lift. UncertainSign as above.

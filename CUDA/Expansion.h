@@ -46,12 +46,12 @@ DELAUNAYFLIP_HOST_DEVICE inline double TwoProduct(double a, double b, double& er
   return product;
 }
 
-/// At most `Capacity` components; zeros are not stored.
+/// At most `Capacity` components; zeros are not stored. An aggregate.
 template <int Capacity>
 struct Expansion
 {
   double Components[Capacity];
-  int Size = 0;
+  int Size;
 
   DELAUNAYFLIP_HOST_DEVICE void Append(double component)
   {
@@ -82,7 +82,7 @@ struct Expansion
 
 DELAUNAYFLIP_HOST_DEVICE inline Expansion<2> SumOf(double a, double b)
 {
-  Expansion<2> result;
+  Expansion<2> result{};
   double error = 0.0;
   const double sum = TwoSum(a, b, error);
   result.Append(error);
@@ -121,6 +121,7 @@ template <int N, int M>
 DELAUNAYFLIP_HOST_DEVICE Expansion<N + M> Add(const Expansion<N>& e, const Expansion<M>& f)
 {
   Expansion<N + M> result;
+  result.Size = 0;
   AddInto(e, f, result);
   return result;
 }
@@ -130,6 +131,7 @@ template <int N>
 DELAUNAYFLIP_HOST_DEVICE Expansion<2 * N> Scale(const Expansion<N>& e, double factor)
 {
   Expansion<2 * N> result;
+  result.Size = 0;
   double carry = 0.0;
   for (int i = 0; i < e.Size; ++i)
   {
@@ -151,6 +153,7 @@ DELAUNAYFLIP_HOST_DEVICE Expansion<2 * N * M> Multiply(const Expansion<N>& e, co
 {
   // After j of the M summands at most 2 N j components are in use, so each sum fits.
   Expansion<2 * N * M> sums[2];
+  sums[0].Size = 0;
   for (int j = 0; j < f.Size; ++j)
   {
     AddInto(sums[j % 2], Scale(e, f.Components[j]), sums[(j + 1) % 2]);

@@ -11,6 +11,7 @@
 #include "vtkPolyData.h"
 #include "vtkVariant.h"
 
+#include <algorithm>
 #include <map>
 
 namespace delaunayflip

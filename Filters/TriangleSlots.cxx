@@ -100,7 +100,12 @@ void TriangleSlots::ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray
   {
     this->Polygons.push_back({ cell, None });
   }
-  if (size >= 3)
+  if (size == 3)
+  {
+    this->Ids.insert(this->Ids.end(), ids->begin(), ids->end());
+    this->AddTriangles(cell, 1, false);
+  }
+  else if (size > 3)
   {
     const std::vector<std::int64_t> corners(ids->begin(), ids->end());
     SplitPolygon(points, corners.data(), size, this->Ids);

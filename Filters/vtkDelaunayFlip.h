@@ -256,9 +256,7 @@ public:
   void SetConstraintsData(vtkPolyData* constraints);
   ///@}
 
-  /**
-   * The table of iterations, output port 1.
-   */
+  /// The table of iterations, output port 1.
   vtkTable* GetIterations();
 
   ///@{

@@ -42,6 +42,12 @@ class FullDisk(CommandTest):
             for limit in (0, 100, size // 3, size - 1):
                 self.refuse(limit, name, naming=name)
 
+    def test_text_cut_between_lines(self):
+        """What is there reads well; only the number of triangles tells."""
+        self.succeed(self.mesh, "out.obj")
+        limit = self.content("out.obj").index(b"\n", -500) + 1
+        self.refuse(limit, "out.obj", naming="out.obj")
+
     def test_new_mesh(self):
         for extension in FORMATS:
             self.refuse(5000, "new" + extension, naming="new" + extension)

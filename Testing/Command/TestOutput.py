@@ -41,12 +41,13 @@ class Messages(CommandTest):
             self.assertEqual(self.succeed(path, "out.vtk", "--geometry", geometry).stderr, "")
 
     def test_no_height_field(self):
-        """A closed surface, a wall that stands on an edge, and a plane."""
+        """A closed surface, a part of it, a floor with a wall that is edge-on, and a plane."""
         points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
         faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
         for mesh in (
             make_mesh(points, faces),
             make_mesh(points, faces[:2]),
+            make_mesh(points + [(-1, 0, 0)], [(0, 1, 2), (0, 2, 3), (0, 2, 4)]),
             bumpy_grid(5, 0),
         ):
             text = self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtk").stderr

@@ -167,6 +167,22 @@ TEST(Surface, TetrahedraStayAsTheyAre)
   EXPECT_EQ(1, result.Report.NonDelaunayAfter);
 }
 
+/// A sheet folded nearly flat on itself: the angles sum to more than pi, yet the triangles of the
+/// flip would face each other.
+TEST(Surface, FlipsThatFoldItOverAreBlocked)
+{
+  const OwnedMesh<double> folded = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, 3, 1 },
+    { 2, 0, 1, 3, 1, 0 } };
+  const FlipResult result = FlipSurface(folded);
+  EXPECT_EQ(folded.Triangles, result.Triangles);
+  EXPECT_EQ(1, result.Report.NonDelaunayBefore);
+  EXPECT_EQ(1, result.Report.NonDelaunayAfter);
+  // Opened, the same two triangles may.
+  const OwnedMesh<double> opened = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, -3, 1 },
+    { 2, 0, 1, 3, 1, 0 } };
+  EXPECT_EQ(1, FlipSurface(opened).Report.TotalFlips);
+}
+
 TEST(Surface, MoebiusStripsStayOneSided)
 {
   for (std::int32_t columns : { 6, 40, 400 / static_cast<int>(Reduction) })

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Edges that stay: lines, the second input, regions, ghosts, features.
+/// Edges that stay: lines, the second input, regions, ghosts, features, the tolerance.
 
 #include "FilterTestSupport.h"
 
@@ -173,6 +173,22 @@ TEST(VtkDelaunayFlip, FeatureEdgesStay)
   EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_SURFACE);
   EXPECT_EQ(filter->GetTotalFlips(), 0);
   filter->SetFeatureAngle(180.0);
+  RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+}
+
+TEST(VtkDelaunayFlip, ToleranceIsOfOppositeAnglesOnly)
+{
+  // Opposite angles of 95.4 degrees each: 0.19 radians above pi.
+  WatchedFilter filter(MakeMesh(
+    { { -1.1, 0, 0 }, { 0, -1, 0 }, { 1.1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } }));
+  filter->SetTolerance(0.3);
+  RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+  filter->SetCriterionToOppositeAngles();
+  RunCleanly(filter);
+  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  filter->SetTolerance(0.1);
   RunCleanly(filter);
   EXPECT_EQ(filter->GetTotalFlips(), 1);
 }

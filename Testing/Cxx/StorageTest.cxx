@@ -4,6 +4,8 @@
 
 #include "FilterTestSupport.h"
 
+#include "FlipReport.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -118,6 +120,8 @@ TEST(VtkDelaunayFlip, ThreadCountsAgree)
   filter->SetBackendToThreads();
   filter->SetNumberOfThreads(1);
   const Cells cells = GetCells(RunCleanly(filter)->GetPolys());
+  EXPECT_EQ(filter->GetReport().Backend, "Threads: 1");
   filter->SetNumberOfThreads(3);
   EXPECT_EQ(cells, GetCells(RunCleanly(filter)->GetPolys()));
+  EXPECT_EQ(filter->GetReport().Backend, "Threads: 3");
 }
