@@ -177,8 +177,8 @@ private:
     this->AddDefect(survey.NonFinitePoints);
     this->AddDefect(survey.RepeatedIds);
     this->AddDefect(built.DuplicateTriangles);
-    this->AddDefect(
-      { "constraint edges that are not edges of the mesh", built.MissingConstraints, {} });
+    this->AddDefect({ "constraint edges that are not edges of the mesh", built.MissingConstraints,
+      {}, DefectIds::Points });
   }
 
   void AddDefect(const Defect& defect)
@@ -199,7 +199,7 @@ private:
     const PlaneProjection& plane = survey.Projection;
     const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
     const int components = byAngles || plane.Tilted ? 3 : 2;
-    this->Points = PackPoints(points, survey, this->Order,
+    this->Points = PackPoints(points, this->Order,
       { { plane.AxisU, plane.AxisV, plane.AxisW }, components, points.Floats && components == 2,
         byAngles ? survey.Scale : 1.0 },
       this->Backend);
@@ -212,7 +212,8 @@ private:
 
   void MakePlanarLoop(const MeshSurvey& survey, EdgeMeshResult& built, bool byAngles)
   {
-    const bool brokenFans = built.Counts.NonManifold > 0 || built.Counts.WronglyWound > 0;
+    const bool brokenFans = built.Counts.NonManifold > 0 || built.Counts.WronglyWound > 0 ||
+      survey.NonFinitePoints.Count > 0;
     const PlanarSurvey plane = SurveyPlane(this->Mesh, this->Points, brokenFans, this->Backend);
     this->AddDefect(plane.ZeroAreaTriangles);
     this->AddDefect(plane.InvertedTriangles);
@@ -246,7 +247,7 @@ private:
 
   void MakeSurfaceLoop(const PointArray& points, const MeshSurvey& survey, EdgeMeshResult& built)
   {
-    this->Points = PackPoints(points, survey, this->Order,
+    this->Points = PackPoints(points, this->Order,
       { { 0, 1, 2 }, 3, points.Floats != nullptr, survey.Scale }, this->Backend);
     this->AddDefect(FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend));
     EdgeGuard guard = this->MakeGuard(built);

@@ -180,9 +180,11 @@ private:
         ++sums.Failures;
         return;
       }
+      const bool many = AttachCorner(table, entry, MakeCorner(t, slot));
+      const bool isEdge = !IsLoop(triangles[t], slot);
+      sums.Edges += isEdge && inserted ? 1 : 0;
+      sums.NonManifold += isEdge && many ? 1 : 0;
       triangles[t].HalfEdges[slot] = entry;
-      sums.Edges += inserted ? 1 : 0;
-      sums.NonManifold += AttachCorner(table, entry, MakeCorner(t, slot)) ? 1 : 0;
     }
   }
 
@@ -271,11 +273,7 @@ private:
         FixedSums part;
         for (std::int64_t e = begin; e < end; ++e)
         {
-          const bool fixed = mesh.States[e] == EdgeState::Fixed
-            ? this->CountOneSided(mesh, static_cast<EdgeId>(e), part)
-            : this->MustStay(mesh, static_cast<EdgeId>(e), part);
-          mesh.States[e] = fixed ? EdgeState::Fixed : EdgeState::Candidate;
-          part.Fixed += fixed ? 1 : 0;
+          this->FixEdge(mesh, static_cast<EdgeId>(e), part);
         }
         return part;
       });
@@ -350,12 +348,24 @@ private:
     this->ForCorners([&](TriangleId t, int) { triangles[t].FlipCount = 0; });
   }
 
-  bool CountOneSided(const EdgeMeshView& mesh, EdgeId edge, FixedSums& sums) const
+  void FixEdge(const EdgeMeshView& mesh, EdgeId edge, FixedSums& sums) const
   {
     const CornerId corner = mesh.CornerOfHalfEdge[2 * edge];
-    const CornerRole role = GetRole(mesh.Triangles[TriangleOf(corner)], SlotOf(corner));
-    ++(role == CornerRole::Alone ? sums.Boundary : sums.OneOfMany);
-    return true;
+    const TriangleRecord& triangle = mesh.Triangles[TriangleOf(corner)];
+    if (IsLoop(triangle, SlotOf(corner)))
+    {
+      mesh.States[edge] =
+        EdgeState::Fixed; // of a triangle with a repeated id; no edge, not counted
+      return;
+    }
+    const CornerRole role = GetRole(triangle, SlotOf(corner));
+    sums.Boundary += role == CornerRole::Alone ? 1 : 0;
+    sums.OneOfMany += role == CornerRole::OneOfMany ? 1 : 0;
+    if (role != CornerRole::Leader || this->MustStay(mesh, edge, sums))
+    {
+      mesh.States[edge] = EdgeState::Fixed;
+      ++sums.Fixed;
+    }
   }
 
   /// Whether an edge of two triangles must stay.

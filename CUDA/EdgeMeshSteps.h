@@ -35,6 +35,12 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& 
   return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
 }
 
+/// Whether the edge opposite a slot joins a vertex with itself, in a triangle with a repeated id.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int slot)
+{
+  return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
+}
+
 /// Adds a corner to its edge's table entry. @returns whether the edge became non-manifold by it.
 DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
   const EdgeTableView& table, std::uint32_t slot, CornerId corner)

@@ -51,12 +51,20 @@ struct EdgeCounts
   std::int64_t Fixed = 0; ///< Edges that never flip, for any reason.
 };
 
+/// What the ids of a defect number.
+enum class DefectIds
+{
+  Triangles, ///< The caller's triangle slots.
+  Points
+};
+
 /// A kind of dirt met in the input, with how often and where first.
 struct Defect
 {
   std::string What; ///< For people, e.g. "triangles with a repeated point id".
   std::int64_t Count = 0; ///< How many.
-  std::vector<std::int64_t> FirstIds; ///< At most three ids of what What names, ascending.
+  std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty where ids do not help.
+  DefectIds Ids = DefectIds::Triangles;
 };
 
 struct FlipReport

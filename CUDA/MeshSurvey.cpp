@@ -369,6 +369,7 @@ MeshSurvey SurveyMesh(
   survey.UsedPoints = points.Used;
   survey.NonFinitePoints = points.NonFinite;
   survey.NonFinitePoints.What = "points with NaN or infinite coordinates";
+  survey.NonFinitePoints.Ids = DefectIds::Points;
   if (points.Used > points.NonFinite.Count)
   {
     std::copy_n(points.Lower, 3, survey.Lower);

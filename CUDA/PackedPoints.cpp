@@ -5,8 +5,8 @@
 namespace delaunayflip
 {
 
-PackedPoints PackPoints(const PointArray& points, const MeshSurvey& survey,
-  const SpatialOrder& order, const PackingPlan& plan, const ThreadBackend& backend)
+PackedPoints PackPoints(const PointArray& points, const SpatialOrder& order,
+  const PackingPlan& plan, const ThreadBackend& backend)
 {
   PackedPoints packed;
   packed.Components = plan.Components;
@@ -20,10 +20,9 @@ PackedPoints PackPoints(const PointArray& points, const MeshSurvey& survey,
       for (std::int64_t rank = begin; rank < end; ++rank)
       {
         const VertexId point = order.GetVertex(rank);
-        const bool readable = survey.Uses[point] == PointUse::Used;
         for (int k = 0; k < plan.Components; ++k)
         {
-          const double x = readable ? plan.Scale * points.Get(point, plan.Axes[k]) : 0.0;
+          const double x = plan.Scale * points.Get(point, plan.Axes[k]);
           const std::size_t i = std::size_t(plan.Components) * rank + k;
           if (plan.AsFloat)
           {

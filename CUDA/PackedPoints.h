@@ -47,9 +47,9 @@ struct PackingPlan
   double Scale; ///< Power of two; 1 where exact predicates decide.
 };
 
-/// Coordinates of unused and non-finite points are not meant to be read; they become 0.
-PackedPoints PackPoints(const PointArray& points, const MeshSurvey& survey,
-  const SpatialOrder& order, const PackingPlan& plan, const ThreadBackend& backend);
+/// Packs all points, also unused ones and those that are not finite, which no rule will read.
+PackedPoints PackPoints(const PointArray& points, const SpatialOrder& order,
+  const PackingPlan& plan, const ThreadBackend& backend);
 
 }
 

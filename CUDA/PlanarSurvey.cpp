@@ -21,6 +21,8 @@ int FindOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& 
   return certain ? sign : ExactOrientation(a, b, c);
 }
 
+bool IsFinite(const PlanePoint& point) { return std::isfinite(point.U) && std::isfinite(point.V); }
+
 /// Sorts defects' ids of caller's triangles: pieces come in the engine's order.
 void SortFirstIds(Defect& defect) { std::sort(defect.FirstIds.begin(), defect.FirstIds.end()); }
 
@@ -47,9 +49,14 @@ OrientationSums SumOrientations(
       for (std::int64_t t = begin; t < end; ++t)
       {
         const TriangleRecord& triangle = mesh.Triangles[t];
-        const int sign = FindOrientation(points.GetPlanePoint(triangle.Vertices[0]),
-          points.GetPlanePoint(triangle.Vertices[1]), points.GetPlanePoint(triangle.Vertices[2]));
-        Note(sign > 0 ? sums.Left : (sign < 0 ? sums.Right : sums.None), triangle.InputTriangle);
+        const PlanePoint p = points.GetPlanePoint(triangle.Vertices[0]);
+        const PlanePoint q = points.GetPlanePoint(triangle.Vertices[1]);
+        const PlanePoint r = points.GetPlanePoint(triangle.Vertices[2]);
+        if (IsFinite(p) && IsFinite(q) && IsFinite(r))
+        {
+          const int sign = FindOrientation(p, q, r);
+          Note(sign > 0 ? sums.Left : (sign < 0 ? sums.Right : sums.None), triangle.InputTriangle);
+        }
       }
       return sums;
     });

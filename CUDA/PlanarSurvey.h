@@ -28,8 +28,9 @@ struct PlanarSurvey
   Defect InvertedTriangles; ///< Those that turn to the less common side.
 };
 
-/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges; then StarsAreSimple
-/// is not examined and false.
+/// Triangles with a coordinate that is not finite, which never flip, do not count.
+/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges or such triangles;
+/// then StarsAreSimple is not examined and false.
 PlanarSurvey SurveyPlane(const EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans,
   const ThreadBackend& backend);
 

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactPredicates.h"
 
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the unused half of a union inside cpp_int for an uninitialised value.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <boost/multiprecision/cpp_int.hpp>
 
 /// @file

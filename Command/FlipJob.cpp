@@ -183,8 +183,9 @@ private:
     const std::string errors = this->Messages.TakeErrors();
     if (!errors.empty())
     {
-      throw CommandError(this->AcceptsMesh() ? ExitCode::WrongUsage : ExitCode::BadFile,
-        this->Settings.Input + ": " + errors);
+      const bool byOptions = this->Filter->GetFailure() == vtkDelaunayFlip::FAILURE_OPTIONS;
+      throw CommandError(
+        byOptions ? ExitCode::WrongUsage : ExitCode::BadFile, this->Settings.Input + ": " + errors);
     }
   }
 
@@ -199,16 +200,6 @@ private:
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
     }
-  }
-
-  /// Whether the filter takes the mesh with other options: then the given ones were at fault.
-  bool AcceptsMesh()
-  {
-    Arguments lenient;
-    lenient.Flip.MaximumIterations = 0;
-    Configure(this->Filter, lenient);
-    this->Filter->Update();
-    return this->Messages.TakeErrors().empty();
   }
 
   void NoteHeightField() const

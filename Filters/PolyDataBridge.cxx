@@ -116,6 +116,20 @@ void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* output) cons
   RenewNormals(this->Points, this->Slots, output);
 }
 
+void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
+{
+  for (Defect& defect : defects)
+  {
+    if (defect.Ids == DefectIds::Triangles)
+    {
+      for (std::int64_t& id : defect.FirstIds)
+      {
+        id = this->Slots.GetCell(id);
+      }
+    }
+  }
+}
+
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
 {
   std::vector<std::int32_t> counts(this->Slots.GetTriangles().Count);

@@ -4,6 +4,7 @@
 #define PolyDataBridge_h
 
 #include "ConstraintEdges.h"
+#include "FlipReport.h"
 #include "TriangleMesh.h"
 #include "TriangleSlots.h"
 
@@ -42,6 +43,9 @@ public:
 
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
+
+  /// Turns triangle numbers into ids of the mesh's cells, for warnings.
+  void NumberCells(std::vector<Defect>& defects) const;
 
 private:
   void FreezeGhosts();

@@ -90,10 +90,39 @@ int vtkDelaunayFlip::RequestData(
 {
   const Connection data{ vtkPolyData::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
     vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+  this->Failure = this->TryToFlip(data);
+  if (this->Failure == FAILURE_NONE)
+  {
+    return 1;
+  }
+  *this->Report = FlipReport();
+  data.Output->Initialize();
+  data.Iterations->Initialize();
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlip::TryToFlip(const Connection& data)
+{
   try
   {
     this->Flip(data);
-    return 1;
+    return FAILURE_NONE;
+  }
+  catch (const InvalidOptions& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return FAILURE_OPTIONS;
+  }
+  catch (const BackendUnavailable& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return FAILURE_BACKEND;
+  }
+  catch (const FlipError& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return FAILURE_MESH;
   }
   catch (const std::bad_alloc&)
   {
@@ -103,10 +132,7 @@ int vtkDelaunayFlip::RequestData(
   {
     vtkErrorMacro(<< error.what());
   }
-  *this->Report = FlipReport();
-  data.Output->Initialize();
-  data.Iterations->Initialize();
-  return 0;
+  return FAILURE_OTHER;
 }
 
 //------------------------------------------------------------------------------
@@ -125,6 +151,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   FlipSession session(bridge.GetMesh(), this->GetOptions());
   session.Advance(-1, [this](const IterationRecord& record) { return this->Observe(record); });
   *this->Report = session.GetReport();
+  bridge.NumberCells(this->Report->Defects);
 
   bridge.Store(session, data.Output);
   if (this->GenerateFlipCount)

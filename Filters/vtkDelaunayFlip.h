@@ -48,8 +48,8 @@
  * data arrays and the tables are per block.
  *
  * @par References
- * C. Navarro, N. Hitschfeld, E. Scheihing: "Quasi-Delaunay triangulations using GPU-based
- * edge-flips", VISIGRAPP 2013 (the parallel method).
+ * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
+ * triangulations based on edge-flips", GRAPP 2013 (the parallel method).
  * C. L. Lawson: "Software for C1 surface interpolation", in Mathematical Software III, 1977 (edge
  * flips end in the Delaunay triangulation).
  * J. R. Shewchuk: "Adaptive precision floating-point arithmetic and fast robust geometric
@@ -302,6 +302,23 @@ public:
   const char* GetGeometryUsedAsString() const;
   ///@}
 
+  ///@{
+  /**
+   * What was at fault when the last update failed: FAILURE_OPTIONS contradict each other or the
+   * mesh, FAILURE_MESH names points that do not exist or is too large, FAILURE_BACKEND cannot run
+   * here, FAILURE_OTHER (no memory). FAILURE_NONE before any update and after one that succeeded.
+   */
+  enum FailureType
+  {
+    FAILURE_NONE = 0,
+    FAILURE_OPTIONS = 1,
+    FAILURE_MESH = 2,
+    FAILURE_BACKEND = 3,
+    FAILURE_OTHER = 4
+  };
+  vtkGetMacro(Failure, int);
+  ///@}
+
   /**
    * Everything that is known of the last update, for C++ callers that include FlipReport.h.
    */
@@ -336,10 +353,12 @@ private:
   struct Connection;
 
   void Flip(const Connection& data);
+  int TryToFlip(const Connection& data);
   delaunayflip::FlipOptions GetOptions() const;
   bool Observe(const delaunayflip::IterationRecord& record);
   void Warn();
 
+  int Failure = FAILURE_NONE;
   std::unique_ptr<delaunayflip::FlipReport> Report;
 
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
