@@ -17,21 +17,17 @@ constexpr std::size_t HugePage = std::size_t(2) << 20;
 
 void* AllocateMemory(std::size_t bytes)
 {
+  // Only the address is aligned: a rounded size would touch up to a huge page more.
   const std::size_t alignment = bytes >= 2 * HugePage ? HugePage : CacheLine;
-  const std::size_t rounded = (bytes / alignment + 1) * alignment;
-  if (rounded < bytes)
-  {
-    throw std::bad_alloc();
-  }
-  void* memory = std::aligned_alloc(alignment, rounded);
-  if (!memory)
+  void* memory = nullptr;
+  if (posix_memalign(&memory, alignment, bytes > 0 ? bytes : 1) != 0)
   {
     throw std::bad_alloc();
   }
 #if defined(__linux__)
   if (alignment == HugePage)
   {
-    madvise(memory, rounded, MADV_HUGEPAGE);
+    madvise(memory, bytes / HugePage * HugePage, MADV_HUGEPAGE);
   }
 #endif
   return memory;

@@ -180,7 +180,7 @@ private:
         ++sums.Failures;
         return;
       }
-      const bool many = AttachCorner(table, entry, MakeCorner(t, slot));
+      const bool many = AttachCorner(table, entry, MakeCorner(t, slot), inserted);
       const bool isEdge = !IsLoop(triangles[t], slot);
       sums.Edges += isEdge && inserted ? 1 : 0;
       sums.NonManifold += isEdge && many ? 1 : 0;

@@ -41,16 +41,18 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int 
   return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
 }
 
-/// Adds a corner to its edge's table entry. @returns whether the edge became non-manifold by it.
+/// Adds a corner to its edge's table entry; the corner that inserted the entry has the first word
+/// to itself. @returns whether the edge became non-manifold by it.
 DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner)
+  const EdgeTableView& table, std::uint32_t slot, CornerId corner, bool inserted)
 {
-  if (AtomicCompareExchange(&table.First[slot], NoCorner, corner) == NoCorner ||
-    AtomicCompareExchange(&table.Second[slot], NoCorner, corner) == NoCorner)
+  if (inserted)
   {
+    table.First[slot] = corner;
     return false;
   }
-  return AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
+  return AtomicCompareExchange(&table.Second[slot], NoCorner, corner) != NoCorner &&
+    AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(

@@ -177,12 +177,17 @@ private:
     std::int64_t all = 0;
     for (std::int64_t word = words.First; word < words.End; ++word)
     {
-      bad += __builtin_popcountll(this->Match({ EdgeState::Bad, EdgeState::Bad }, word, words));
-      all += __builtin_popcountll(this->Match(CountStep::Wanted, word, words));
+      bad += CountBytes(this->Match({ EdgeState::Bad, EdgeState::Bad }, word, words));
+      all += CountBytes(this->Match(CountStep::Wanted, word, words));
     }
     counts.Bad += bad;
     counts.Blocked += all - bad;
     this->Flags[block - this->FirstBlock] = all > 0;
+  }
+
+  static std::int64_t CountBytes(std::uint64_t topBits)
+  {
+    return static_cast<std::int64_t>(((topBits >> 7) * EveryByte) >> 56);
   }
 
   /// The words of states of a block, and which bytes of the first and the last belong to the range.

@@ -173,7 +173,7 @@ private:
   /// Triangles of a chunk, with their edges and points, fill 3 MB.
   static constexpr int ChunkBits = 16;
   /// Rounds within chunks before iterations span the mesh.
-  static constexpr std::int64_t ChunkRounds = 24;
+  static constexpr std::int64_t ChunkRounds = 12;
 
   /// Triangles [FirstTriangle, LastTriangle) and the edges whose smallest corner they held at
   /// first. As long as only chunks have flipped, every edge within the chunk is among these.
