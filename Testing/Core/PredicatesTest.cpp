@@ -150,11 +150,11 @@ FourPoints DrawWideExponents(std::mt19937& random)
     [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 500) - 250); });
 }
 
-/// Determinants of products that vanish in double, though all coordinates are far from its limits.
+/// Coordinates far from double's limits whose products, of two or of four, are not.
 FourPoints DrawVanishingProducts(std::mt19937& random)
 {
-  return FillPoints(
-    [&] { return std::ldexp(1 + DrawIndex(random, 3), -260 - DrawIndex(random, 4)); });
+  const int exponent = DrawIndex(random, 2) ? -269 : -538;
+  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), exponent); });
 }
 
 FourPoints DrawWithOffset(std::mt19937& random)
