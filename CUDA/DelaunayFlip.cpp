@@ -5,11 +5,11 @@
 #include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipLoop.h"
-#include "FlipRules.h"
+#include "FlipLoopFactory.h"
 #include "MeshSurvey.h"
 #include "PackedPoints.h"
-#include "PlanarSurvey.h"
 #include "SpatialOrder.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
 #include <chrono>
@@ -104,7 +104,7 @@ public:
     this->Order.TriangleOfRank = Array<TriangleId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
-    this->MakeLoop(mesh.Points, survey, built);
+    this->MakeLoop(mesh, survey, std::move(built.Table));
     this->Report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
     this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
     this->Report.BuildSeconds = watch.GetSeconds();
@@ -123,10 +123,7 @@ public:
     {
       this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer);
     }
-    if (!this->IsRunning())
-    {
-      this->MeasureEnd();
-    }
+    this->MeasureEnd();
     this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
     return this->IsRunning();
   }
@@ -189,104 +186,16 @@ private:
     }
   }
 
-  void MakeLoop(const PointArray& points, const MeshSurvey& survey, EdgeMeshResult& built)
+  void MakeLoop(const TriangleMesh& mesh, const MeshSurvey& survey, EdgeTable table)
   {
-    if (survey.Geometry == GeometryKind::Surface)
+    const FlipLoopInput input{ mesh.Points, survey, this->Order, this->Options, this->Report };
+    FlipLoopResult made = MakeFlipLoop(input, this->Mesh, std::move(table), this->Backend);
+    this->Points = std::move(made.Points);
+    this->Loop = std::move(made.Loop);
+    for (const Defect& defect : made.Defects)
     {
-      this->MakeSurfaceLoop(points, survey, built);
-      return;
+      this->AddDefect(defect);
     }
-    const PlaneProjection& plane = survey.Projection;
-    const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
-    const int components = byAngles || plane.Tilted ? 3 : 2;
-    this->Points = PackPoints(points, this->Order,
-      { { plane.AxisU, plane.AxisV, plane.AxisW }, components, points.Floats && components == 2,
-        byAngles ? survey.Scale : 1.0 },
-      this->Backend);
-    if (byAngles && survey.Geometry == GeometryKind::PlanarXY)
-    {
-      this->DropHeights();
-    }
-    this->MakePlanarLoop(survey, built, byAngles);
-  }
-
-  void MakePlanarLoop(const MeshSurvey& survey, EdgeMeshResult& built, bool byAngles)
-  {
-    const bool brokenFans = built.Counts.NonManifold > 0 || built.Counts.WronglyWound > 0 ||
-      survey.NonFinitePoints.Count > 0;
-    const PlanarSurvey plane = SurveyPlane(this->Mesh, this->Points, brokenFans, this->Backend);
-    this->AddDefect(plane.ZeroAreaTriangles);
-    this->AddDefect(plane.InvertedTriangles);
-    EdgeGuard guard = plane.StarsAreSimple ? EdgeGuard() : this->MakeGuard(built);
-    built.Table = EdgeTable();
-    const double* doubles = this->Points.Doubles.Data();
-    const bool canonical = this->Options.TieRule == TieRuleKind::Canonical;
-    if (byAngles)
-    {
-      this->SetLoop(PlanarAngleRule{ doubles, this->GetTolerance() }, 1.0, std::move(guard));
-    }
-    else if (survey.Projection.Tilted)
-    {
-      this->SetLoop(
-        PlanarRule<double, 3>{ doubles, plane.UniformSide, canonical, survey.FiltersApply },
-        survey.Scale, std::move(guard));
-    }
-    else if (this->Points.IsFloat())
-    {
-      this->SetLoop(PlanarRule<float, 2>{ this->Points.Floats.Data(), plane.UniformSide, canonical,
-                      survey.FiltersApply },
-        survey.Scale, std::move(guard));
-    }
-    else
-    {
-      this->SetLoop(
-        PlanarRule<double, 2>{ doubles, plane.UniformSide, canonical, survey.FiltersApply },
-        survey.Scale, std::move(guard));
-    }
-  }
-
-  void MakeSurfaceLoop(const PointArray& points, const MeshSurvey& survey, EdgeMeshResult& built)
-  {
-    this->Points = PackPoints(points, this->Order,
-      { { 0, 1, 2 }, 3, points.Floats != nullptr, survey.Scale }, this->Backend);
-    this->AddDefect(FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend));
-    EdgeGuard guard = this->MakeGuard(built);
-    if (this->Points.IsFloat())
-    {
-      this->SetLoop(SurfaceRule<float>{ this->Points.Floats.Data(), this->GetTolerance() }, 1.0,
-        std::move(guard));
-    }
-    else
-    {
-      this->SetLoop(SurfaceRule<double>{ this->Points.Doubles.Data(), this->GetTolerance() }, 1.0,
-        std::move(guard));
-    }
-  }
-
-  EdgeGuard MakeGuard(EdgeMeshResult& built) const
-  {
-    return EdgeGuard(std::move(built.Table), built.Counts.Edges, this->Report.Points);
-  }
-
-  /// Terrain: angles are those of the projection.
-  void DropHeights()
-  {
-    for (std::int64_t v = 0; v < this->Points.Count; ++v)
-    {
-      this->Points.Doubles[3 * v + 2] = 0.0;
-    }
-  }
-
-  AngleTolerance GetTolerance() const
-  {
-    return { std::sin(this->Options.Tolerance), std::cos(this->Options.Tolerance) };
-  }
-
-  template <typename Rule>
-  void SetLoop(const Rule& rule, double scale, EdgeGuard guard)
-  {
-    this->Loop.reset(
-      new ThreadFlipLoop<Rule>(this->Mesh, rule, scale, std::move(guard), this->Backend));
   }
 
   /// What the input holds, and with nothing to do or no iteration allowed, the end.
@@ -377,9 +286,13 @@ private:
   /// The smallest angle is known at the first and the last iteration, without a pass between.
   void MeasureEnd()
   {
-    if (!this->Report.Iterations.empty())
+    if (this->Report.Iterations.empty())
     {
-      this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestSquaredCotangent());
+      return;
+    }
+    this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestSquaredCotangent());
+    if (!this->IsRunning())
+    {
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlipLoop.h"
+#include "EdgeGuard.h"
 
 namespace delaunayflip
 {

@@ -3,8 +3,8 @@
 #ifndef DELAUNAYFLIP_FLIPLOOP_H
 #define DELAUNAYFLIP_FLIPLOOP_H
 
+#include "EdgeGuard.h"
 #include "EdgeMesh.h"
-#include "EdgeTable.h"
 #include "EdgeWorklist.h"
 #include "FlipSteps.h"
 #include "ThreadBackend.h"
@@ -78,39 +78,6 @@ protected:
   StepCounts Found;
 };
 
-/// The edges that exist, where flips could make one twice; empty where they provably cannot.
-class EdgeGuard
-{
-public:
-  EdgeGuard() = default;
-
-  /// Takes over a table that holds the vertex pairs of all `edges` edges.
-  EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices)
-    : Table(std::move(table)),
-      UsedSlots(edges),
-      NumberOfVertices(vertices)
-  {
-  }
-
-  bool IsActive() const { return !this->Table.IsEmpty(); }
-  EdgeTableView View() { return this->Table.View(); }
-
-  /// An empty table for the claims of an iteration with `bad` bad edges; kept between iterations.
-  EdgeTableView MakeClaims(std::int64_t bad, const ThreadBackend& backend);
-
-  /// Accounts for the flips of an iteration: when too many slots were used or a new edge found
-  /// none, the table is made anew from the mesh.
-  void Maintain(const StepCounts& flips, EdgeMesh& mesh, const ThreadBackend& backend);
-
-private:
-  void Rebuild(EdgeMesh& mesh, const ThreadBackend& backend);
-
-  EdgeTable Table;
-  EdgeTable Claims;
-  std::int64_t UsedSlots = 0;
-  std::int64_t NumberOfVertices = 0;
-};
-
 /// The loop on threads, by one of the rules of FlipRules.h.
 template <typename Rule>
 class ThreadFlipLoop : public FlipLoop
@@ -135,7 +102,7 @@ public:
     this->Worklist.Gather();
     this->Found = this->Guard.IsActive()
       ? this->Worklist.Run(this->Backend, this->Judge(), this->Resolve(),
-          GuardStep{ mesh, this->Guard.View() }, CountStep{ mesh.States })
+          GuardStep{ { mesh }, this->Guard.View() }, CountStep{ mesh.States })
       : this->Worklist.Run(this->Backend, this->Judge(), this->Resolve(), CountStep{ mesh.States });
     return this->Found;
   }
@@ -184,8 +151,8 @@ private:
     std::int64_t Tested; ///< Edges judged since the last choice.
   };
 
-  JudgeStep<Rule> Judge() const { return { this->Mesh.View(), this->Decision }; }
-  ResolveStep<Rule> Resolve() const { return { this->Mesh.View(), this->Decision }; }
+  JudgeStep<Rule> Judge() const { return { { this->Mesh.View() }, this->Decision }; }
+  ResolveStep<Rule> Resolve() const { return { { this->Mesh.View() }, this->Decision }; }
 
   /// A mesh of one chunk has none.
   void CutIntoChunks()
@@ -219,11 +186,11 @@ private:
     if (this->Guard.IsActive())
     {
       const EdgeTableView claims = this->Guard.MakeClaims(this->Found.Bad, this->Backend);
-      this->Worklist.Run(this->Backend, ClaimStep{ mesh, claims });
-      this->Worklist.Run(this->Backend, ConfirmStep{ mesh, claims });
+      this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, claims });
+      this->Worklist.Run(this->Backend, ConfirmStep{ { mesh }, claims });
     }
     const StepCounts flips = this->Worklist.Run(this->Backend,
-      FlipStep{ mesh, this->Worklist.GetFlags(), this->Guard.IsActive(), this->Guard.View() });
+      FlipStep{ { mesh }, this->Worklist.GetFlags(), this->Guard.IsActive(), this->Guard.View() });
     if (this->Guard.IsActive())
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
@@ -283,7 +250,7 @@ private:
   {
     const EdgeMeshView mesh = this->Mesh.View();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge);
-    const FlipStep flip{ mesh, worklist.GetFlags(), false, EdgeTableView{} };
+    const FlipStep flip{ { mesh }, worklist.GetFlags(), false, EdgeTableView{} };
     worklist.Gather();
     StepCounts found = worklist.Run(CountStep{ mesh.States });
     std::vector<IterationCounts> counts(rounds);

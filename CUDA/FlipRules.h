@@ -144,47 +144,11 @@ private:
   }
 };
 
-/// In the plane by the paper's opposite-angle sum; convexity is exact.
-struct PlanarAngleRule
-{
-  const double* Coordinates; ///< u, v, w of every vertex.
-  AngleTolerance Tolerance;
-
-  DELAUNAYFLIP_HOST_DEVICE const double* Address(VertexId vertex) const
-  {
-    return this->Coordinates + std::size_t(3) * vertex;
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE Vector3 Get(VertexId vertex) const
-  {
-    const double* x = this->Address(vertex);
-    return { x[0], x[1], x[2] };
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
-  {
-    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
-      this->Get(quad.B) };
-    return ExceedsPi(points, this->Tolerance) ? EdgeState::Uncertain : EdgeState::Good;
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
-  {
-    const Vector3 a = this->Get(quad.A), p = this->Get(quad.P), q = this->Get(quad.Q),
-                  b = this->Get(quad.B);
-    const PlanePoint apqb[4] = { { a.X, a.Y, 0.0 }, { p.X, p.Y, 0.0 }, { q.X, q.Y, 0.0 },
-      { b.X, b.Y, 0.0 } };
-    bool strict = true;
-    const int side = FindSide<ExactSigns>(apqb, strict);
-    return side == 0 ? EdgeState::Good : CheckConvex<ExactSigns>(apqb, side);
-  }
-};
-
-/// In space by the opposite-angle sum, without folding the surface over.
+/// Three coordinates of every vertex, and the tolerance of the opposite-angle test on them.
 template <typename Real>
-struct SurfaceRule
+struct AnglePoints
 {
-  const Real* Coordinates; ///< x, y, z of every vertex.
+  const Real* Coordinates;
   AngleTolerance Tolerance;
 
   DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
@@ -198,10 +162,41 @@ struct SurfaceRule
     return { x[0], x[1], x[2] };
   }
 
+  DELAUNAYFLIP_HOST_DEVICE QuadPoints Get(const Quad& quad) const
+  {
+    return { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q), this->Get(quad.B) };
+  }
+};
+
+/// In the plane by the paper's opposite-angle sum; coordinates are u, v, w, and convexity in (u, v)
+/// is exact.
+struct PlanarAngleRule : AnglePoints<double>
+{
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
-      this->Get(quad.B) };
+    return ExceedsPi(this->Get(quad), this->Tolerance) ? EdgeState::Uncertain : EdgeState::Good;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
+  {
+    const QuadPoints points = this->Get(quad);
+    const PlanePoint apqb[4] = { { points.A.X, points.A.Y, 0.0 }, { points.P.X, points.P.Y, 0.0 },
+      { points.Q.X, points.Q.Y, 0.0 }, { points.B.X, points.B.Y, 0.0 } };
+    bool strict = true;
+    const int side = FindSide<ExactSigns>(apqb, strict);
+    return side == 0 ? EdgeState::Good : CheckConvex<ExactSigns>(apqb, side);
+  }
+};
+
+/// In space by the opposite-angle sum, without folding the surface over.
+template <typename Real>
+struct SurfaceRule : AnglePoints<Real>
+{
+  using AnglePoints<Real>::Get;
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
+  {
+    const QuadPoints points = this->Get(quad);
     if (!ExceedsPi(points, this->Tolerance))
     {
       return EdgeState::Good;

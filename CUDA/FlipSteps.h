@@ -86,15 +86,22 @@ DELAUNAYFLIP_HOST_DEVICE inline void PrefetchTriangles(const EdgeMeshView& mesh,
   Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
 }
 
-/// Judges candidates by plain arithmetic. Writes the edge's own state, which no one else reads.
-template <typename Rule>
-struct JudgeStep
+/// What steps on quads share.
+struct QuadStep
 {
   EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
+};
+
+/// Judges candidates by plain arithmetic. Writes the edge's own state, which no one else reads.
+template <typename Rule>
+struct JudgeStep : QuadStep
+{
   Rule Decision;
 
   static constexpr StateRange Wanted{ EdgeState::Candidate, EdgeState::Candidate };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
   {
     delaunayflip::Prefetch(this->Decision.Address(quad.A));
@@ -113,14 +120,11 @@ struct JudgeStep
 
 /// Judges exactly what JudgeStep could not. Writes the edge's own state.
 template <typename Rule>
-struct ResolveStep
+struct ResolveStep : QuadStep
 {
-  EdgeMeshView Mesh;
   Rule Decision;
 
   static constexpr StateRange Wanted{ EdgeState::Uncertain, EdgeState::Uncertain };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     AtomicStore(&this->Mesh.States[edge], this->Decision.JudgeExactly(quad));
@@ -129,14 +133,11 @@ struct ResolveStep
 
 /// Blocks bad edges whose flip would make an edge that exists, and frees those whose obstacle has
 /// gone. Reads the guard table, which does not change meanwhile; writes the edge's own state.
-struct GuardStep
+struct GuardStep : QuadStep
 {
-  EdgeMeshView Mesh;
   EdgeTableView Table;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     const bool exists = this->Table.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
@@ -201,14 +202,11 @@ private:
 
 /// Winners claim the edge that they would make: two flips that share no triangle may make the same
 /// one. The claim table keeps the smallest priority of every new edge.
-struct ClaimStep
+struct ClaimStep : QuadStep
 {
-  EdgeMeshView Mesh;
   EdgeTableView Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     bool inserted = false;
@@ -222,14 +220,11 @@ struct ClaimStep
 
 /// Winners that do not hold their claim step back. Writes the edge's own state, which no one else
 /// reads.
-struct ConfirmStep
+struct ConfirmStep : QuadStep
 {
-  EdgeMeshView Mesh;
   EdgeTableView Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     const std::uint32_t slot = this->Claims.Find(EdgeKey(quad.A, quad.B));
@@ -243,15 +238,13 @@ struct ConfirmStep
 /// Flips the winners, which share no triangle, and makes candidates of their outer edges. Two flips
 /// may mark the same outer edge, both with the same value. With a guard table, exchanges the old
 /// vertex pair for the new one.
-struct FlipStep
+struct FlipStep : QuadStep
 {
-  EdgeMeshView Mesh;
   BlockFlags Active;
   bool Guarded;
   EdgeTableView Table;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
   {
     const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
