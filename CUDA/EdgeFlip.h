@@ -17,7 +17,7 @@ struct OuterHalfEdges
   HalfEdgeId AP, QA, PB, BQ;
 };
 
-DELAUNAYFLIP_HOST_DEVICE inline OuterHalfEdges GetOuterHalfEdges(
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
   const EdgeMeshView& mesh, CornerId cornerA, CornerId cornerB)
 {
   const TriangleRecord& upper = mesh.Triangles[TriangleOf(cornerA)];
@@ -51,7 +51,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
     Each triangle keeps two vertices and two edges in their slots; edges p-b and q-a change hands.
     Writes the records of t and s and the words of their own four sides, nothing else.
     @returns the outer half-edges, whose edges must be judged again. */
-DELAUNAYFLIP_HOST_DEVICE inline OuterHalfEdges FlipEdge(
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
   const EdgeMeshView& mesh, EdgeId edge, const Quad& quad)
 {
   const OuterHalfEdges outer = GetOuterHalfEdges(mesh, quad.CornerA, quad.CornerB);

@@ -91,7 +91,10 @@ struct QuadStep
 {
   EdgeMeshView Mesh;
 
-  DELAUNAYFLIP_HOST_DEVICE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE Quad Load(EdgeId edge) const
+  {
+    return this->Mesh.GetQuad(edge);
+  }
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad&) const {}
 };
 
@@ -168,7 +171,7 @@ struct ChooseStep
   EdgeMeshView Mesh;
 
   static constexpr StateRange Wanted{ EdgeState::Bad, EdgeState::Bad };
-  DELAUNAYFLIP_HOST_DEVICE OuterHalfEdges Load(EdgeId edge) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
   {
     return GetOuterHalfEdges(
       this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);

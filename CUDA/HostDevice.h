@@ -15,6 +15,14 @@
 #define DELAUNAYFLIP_HOST_DEVICE
 #endif
 
+/// For small functions that return a struct in the hottest loops: a call would store the struct in
+/// words and load it in vectors, which no processor forwards from its store buffer.
+#if defined(__GNUC__)
+#define DELAUNAYFLIP_ALWAYS_INLINE inline __attribute__((always_inline))
+#else
+#define DELAUNAYFLIP_ALWAYS_INLINE inline
+#endif
+
 namespace delaunayflip
 {
 

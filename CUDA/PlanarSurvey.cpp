@@ -142,7 +142,8 @@ private:
   /// Whether direction v-p lies in the half plane v > 0, or on its border with u > 0.
   bool IsUpper(const PlanePoint& v, const PlanePoint& p) const
   {
-    return p.V > v.V || (p.V == v.V && p.U > v.U);
+    // Without branches, which would be coin tosses.
+    return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
   }
 
   bool CoversPositiveU(VertexId vertex, VertexId first, VertexId last) const
