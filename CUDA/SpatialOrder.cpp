@@ -28,15 +28,16 @@ struct KeyedIndex
 template <int Axes>
 std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes], int bits)
 {
-  for (std::uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1)
+  for (int level = bits - 1; level > 0; --level)
   {
-    const std::uint32_t lower = bit - 1;
+    const std::uint32_t lower = (1u << level) - 1;
     for (std::uint32_t& x : cell)
     {
-      const std::uint32_t exchange = (cell[0] ^ x) & lower;
-      const bool invert = (x & bit) != 0;
-      cell[0] ^= invert ? lower : exchange;
-      x ^= invert ? 0 : exchange;
+      // All ones where the bit of this level is set: invert the first axis, else exchange with it.
+      const std::uint32_t invert = 0u - ((x >> level) & 1u);
+      const std::uint32_t exchange = (cell[0] ^ x) & lower & ~invert;
+      cell[0] ^= (lower & invert) | exchange;
+      x ^= exchange;
     }
   }
   std::uint32_t index = 0;
