@@ -243,10 +243,6 @@ private:
   /// Without a branch per edge: all eight places are written, those beyond the count again later.
   static std::int64_t Store(std::uint64_t matches, std::int64_t word, EdgeId* found)
   {
-    if (matches == 0)
-    {
-      return 0;
-    }
     const BytePlaces::Places& places = BytePlaces::Of(matches);
     for (std::int64_t i = 0; i < WordSize; ++i)
     {
