@@ -11,11 +11,14 @@
 namespace delaunayflip
 {
 
-/// Memory for `bytes` bytes, never null; large blocks ask for huge pages, because scattered
-/// accesses to gigabytes otherwise miss the TLB every time (edge build and flips of 1 M points: 1.5
-/// times the time without). @throws std::bad_alloc.
+/// Memory for `bytes` bytes, never null. Large blocks come from the system and go back to it when
+/// freed (a heap would keep them, and builds need much for a short while), and ask for huge pages,
+/// because scattered accesses to gigabytes otherwise miss the TLB every time.
+/// @throws std::bad_alloc.
 void* AllocateMemory(std::size_t bytes);
-void FreeMemory(void* memory) noexcept;
+
+/// @param bytes as it was allocated.
+void FreeMemory(void* memory, std::size_t bytes) noexcept;
 
 /// A block of uninitialised values of a trivial type, owned; moved, never copied.
 template <typename T>
@@ -35,7 +38,7 @@ public:
     this->Swap(moved);
     return *this;
   }
-  ~Array() { FreeMemory(this->Values); }
+  ~Array() { FreeMemory(this->Values, this->Count * sizeof(T)); }
 
   T* Data() { return this->Values; }
   const T* Data() const { return this->Values; }

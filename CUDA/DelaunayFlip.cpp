@@ -101,7 +101,6 @@ public:
     EdgeMeshResult built =
       BuildEdgeMesh({ mesh, survey, this->Order, options.FeatureAngle }, this->Backend);
     this->Order.RankOfVertex = Array<VertexId>();
-    this->Order.TriangleOfRank = Array<TriangleId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
     this->MakeLoop(mesh, survey, std::move(built.Table));

@@ -29,6 +29,7 @@ public:
   EdgeMeshResult Build()
   {
     this->LoadTriangles();
+    this->Input.Order.TriangleOfRank = Array<TriangleId>();
     this->PairCorners();
     this->FindRoles();
     this->NumberEdges();

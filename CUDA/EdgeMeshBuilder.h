@@ -24,7 +24,7 @@ struct EdgeMeshInput
 {
   const TriangleMesh& Mesh;
   const MeshSurvey& Survey;
-  const SpatialOrder& Order;
+  SpatialOrder& Order; ///< TriangleOfRank is dropped once the triangles are loaded.
   double FeatureAngle; ///< Degrees; 180 fixes none. Surfaces only.
 };
 

@@ -107,7 +107,7 @@ TEST(EdgeMesh, RandomMeshMatchesBruteForce)
   const ThreadBackend backend(2);
   const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1); // large enough to be reordered
   const Built built = Build(mesh.View(), backend);
-  ASSERT_GT(built.Order.TriangleOfRank.Size(), 0u);
+  ASSERT_GT(built.Order.VertexOfRank.Size(), 0u);
   ExpectRecords(built.Result.Edges);
   EXPECT_EQ(0, CountInconsistencies(built.Result.Edges, backend));
 }
