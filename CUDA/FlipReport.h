@@ -31,7 +31,7 @@ struct IterationRecord
   std::int64_t Tested = 0; ///< Edges judged.
   std::int64_t NonDelaunay = 0; ///< Bad edges known when the iteration chose (never fixed ones).
   std::int64_t Flipped = 0;
-  std::int64_t Excluded = 0; ///< Wanted to flip; a neighbour with a better key did.
+  std::int64_t Excluded = 0; ///< Wanted to flip; a neighbour did, or it lay between chunks.
   std::int64_t Blocked = 0; ///< Bad, but the flip would fold the mesh or duplicate an edge.
   double MinimumAngle = 0.0; ///< Degrees, after the iteration; NaN where it was not computed.
   double Seconds = 0.0;
@@ -96,7 +96,9 @@ struct FlipReport
   std::vector<Defect> Defects; ///< Empty for a clean mesh.
 };
 
-/// Called on the calling thread after every iteration; false aborts the run.
+/// Called on the calling thread after every iteration; false aborts the run. Of large planar meshes
+/// the first 12 iterations run together: their calls come one after the other when all of them are
+/// done.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
 
 /// "converged", "iteration limit", "aborted" or "not started".
