@@ -56,35 +56,45 @@ void* MapMemory(std::size_t bytes)
   return begin;
 }
 #endif
+
+class HostMemory : public Memory
+{
+public:
+  void* Allocate(std::size_t bytes) override
+  {
+#if defined(DELAUNAYFLIP_MAPS_MEMORY)
+    if (bytes >= SmallestMapped)
+    {
+      return MapMemory(bytes);
+    }
+#endif
+    void* memory = nullptr;
+    if (posix_memalign(&memory, CacheLine, bytes > 0 ? bytes : 1) != 0)
+    {
+      throw std::bad_alloc();
+    }
+    return memory;
+  }
+
+  void Free(void* memory, std::size_t bytes) noexcept override
+  {
+#if defined(DELAUNAYFLIP_MAPS_MEMORY)
+    if (bytes >= SmallestMapped)
+    {
+      munmap(memory, bytes);
+      return;
+    }
+#endif
+    (void)bytes;
+    std::free(memory);
+  }
+};
 }
 
-void* AllocateMemory(std::size_t bytes)
+Memory& Memory::OfHost()
 {
-#if defined(DELAUNAYFLIP_MAPS_MEMORY)
-  if (bytes >= SmallestMapped)
-  {
-    return MapMemory(bytes);
-  }
-#endif
-  void* memory = nullptr;
-  if (posix_memalign(&memory, CacheLine, bytes > 0 ? bytes : 1) != 0)
-  {
-    throw std::bad_alloc();
-  }
+  static HostMemory memory;
   return memory;
-}
-
-void FreeMemory(void* memory, std::size_t bytes) noexcept
-{
-#if defined(DELAUNAYFLIP_MAPS_MEMORY)
-  if (memory && bytes >= SmallestMapped)
-  {
-    munmap(memory, bytes);
-    return;
-  }
-#endif
-  (void)bytes;
-  std::free(memory);
 }
 
 }

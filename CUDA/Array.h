@@ -11,24 +11,36 @@
 namespace delaunayflip
 {
 
-/// Memory for `bytes` bytes, never null. Large blocks come from the system and go back to it when
-/// freed (a heap would keep them, and builds need much for a short while), and ask for huge pages,
-/// because scattered accesses to gigabytes otherwise miss the TLB every time.
-/// @throws std::bad_alloc.
-void* AllocateMemory(std::size_t bytes);
+/// Where arrays live. Arrays must not outlive it.
+class Memory
+{
+public:
+  virtual ~Memory() = default;
 
-/// @param bytes as it was allocated.
-void FreeMemory(void* memory, std::size_t bytes) noexcept;
+  /// Memory for `bytes` bytes, never null.
+  /// @throws std::bad_alloc.
+  virtual void* Allocate(std::size_t bytes) = 0;
 
-/// A block of uninitialised values of a trivial type, owned; moved, never copied.
+  /// @param bytes as it was allocated.
+  virtual void Free(void* memory, std::size_t bytes) noexcept = 0;
+
+  /// That of this process. Large blocks come from the system and go back to it when freed (a heap
+  /// would keep them, and builds need much for a short while), and ask for huge pages, because
+  /// scattered accesses to gigabytes otherwise miss the TLB every time.
+  static Memory& OfHost();
+};
+
+/// A block of uninitialised values of a trivial type, owned; moved, never copied. Only arrays in
+/// the host's memory may be indexed on the host.
 template <typename T>
 class Array
 {
 public:
   Array() = default;
-  explicit Array(std::size_t size)
-    : Values(static_cast<T*>(AllocateMemory(size * sizeof(T)))),
-      Count(size)
+  explicit Array(std::size_t size, Memory& memory = Memory::OfHost())
+    : Values(static_cast<T*>(memory.Allocate(size * sizeof(T)))),
+      Count(size),
+      Owner(&memory)
   {
   }
   Array(Array&& other) noexcept { this->Swap(other); }
@@ -38,7 +50,13 @@ public:
     this->Swap(moved);
     return *this;
   }
-  ~Array() { FreeMemory(this->Values, this->Count * sizeof(T)); }
+  ~Array()
+  {
+    if (this->Owner)
+    {
+      this->Owner->Free(this->Values, this->Count * sizeof(T));
+    }
+  }
 
   T* Data() { return this->Values; }
   const T* Data() const { return this->Values; }
@@ -51,10 +69,12 @@ private:
   {
     std::swap(this->Values, other.Values);
     std::swap(this->Count, other.Count);
+    std::swap(this->Owner, other.Owner);
   }
 
   T* Values = nullptr;
   std::size_t Count = 0;
+  Memory* Owner = nullptr;
 };
 
 }

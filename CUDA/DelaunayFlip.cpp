@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
-#include "EdgeMeshAudit.h"
-#include "EdgeMeshBuilder.h"
+#include "EngineChoice.h"
+#include "FlipEngine.h"
 #include "FlipLoop.h"
-#include "FlipLoopFactory.h"
-#include "MeshSurvey.h"
-#include "PackedPoints.h"
-#include "SpatialOrder.h"
+#include "InputChecks.h"
 #include "SurfaceAngles.h"
-#include "ThreadBackend.h"
 
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -37,41 +34,6 @@ private:
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
 };
 
-void CheckOptions(const FlipOptions& options)
-{
-  if (!(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
-  {
-    throw InvalidOptions("the tolerance must be at least 0 and below 1 radian");
-  }
-  if (!(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0))
-  {
-    throw InvalidOptions("the feature angle must be from 0 to 180 degrees");
-  }
-  if (options.MaximumIterations < -1)
-  {
-    throw InvalidOptions("the number of iterations must be -1 (until done), 0 or more");
-  }
-  if (options.NumberOfThreads < 0)
-  {
-    throw InvalidOptions("the number of threads must be 0 (all) or more");
-  }
-  if (options.Backend == BackendKind::CUDA)
-  {
-    throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
-  }
-}
-
-void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
-{
-  if (options.TieRule == TieRuleKind::Canonical &&
-    (geometry == GeometryKind::Surface || options.Criterion != CriterionKind::InCircle))
-  {
-    throw InvalidOptions(
-      "the tie rule 'canonical' needs the in-circle criterion in planar geometry; "
-      "use 'keep' for surfaces and opposite angles");
-  }
-}
-
 double ToDegrees(double squaredCotangent)
 {
   if (squaredCotangent == -INFINITY)
@@ -89,22 +51,16 @@ class FlipSession::Implementation
 {
 public:
   Implementation(const TriangleMesh& mesh, const FlipOptions& options)
-    : Options(options),
-      Backend(options.NumberOfThreads)
+    : Options(options)
   {
     const StopWatch watch;
     CheckOptions(options);
     CheckMeshSize(mesh);
-    const MeshSurvey survey = SurveyMesh(mesh, options.Geometry, this->Backend);
-    CheckTieRule(options, survey.Geometry);
-    this->Order = OrderMesh(mesh, survey, this->Backend);
-    EdgeMeshResult built =
-      BuildEdgeMesh({ mesh, survey, this->Order, options.FeatureAngle }, this->Backend);
-    this->Order.RankOfVertex = Array<VertexId>();
-    this->Mesh = std::move(built.Edges);
-    this->StartReport(mesh, survey, built);
-    this->MakeLoop(mesh, survey, std::move(built.Table));
-    this->Report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
+    EngineChoice choice = MakeEngine(mesh, options);
+    this->Engine = std::move(choice.Engine);
+    this->Report = this->Engine->GetInputReport();
+    this->Report.Fallback = choice.Fallback;
+    this->Report.MinimumAngleBefore = this->MeasureAngle();
     this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
     this->Report.BuildSeconds = watch.GetSeconds();
     this->DetectFirst();
@@ -129,79 +85,19 @@ public:
 
   const FlipReport& GetReport() const { return this->Report; }
 
-  void StoreTriangles(const MutableTriangleArray& triangles) const
-  {
-    this->ForTriangles(
-      [&](const TriangleRecord& record)
-      {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          triangles.Set(record.InputTriangle, slot, this->Order.GetVertex(record.Vertices[slot]));
-        }
-      });
-  }
-
-  void StoreFlipCounts(std::int32_t* counts) const
-  {
-    this->ForTriangles([counts](const TriangleRecord& record)
-      { counts[record.InputTriangle] = static_cast<std::int32_t>(record.FlipCount); });
-  }
+  const FlipEngine& GetEngine() const { return *this->Engine; }
 
 private:
-  template <typename Work>
-  void ForTriangles(const Work& work) const
+  double MeasureAngle() const
   {
-    this->Backend.ForRange(this->Mesh.NumberOfTriangles,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t t = begin; t < end; ++t)
-        {
-          work(this->Mesh.Triangles[t]);
-        }
-      });
-  }
-
-  void StartReport(const TriangleMesh& mesh, const MeshSurvey& survey, const EdgeMeshResult& built)
-  {
-    FlipReport& report = this->Report;
-    report.Points = mesh.Points.Count;
-    report.Triangles = mesh.Triangles.Count;
-    report.Edges = built.Counts;
-    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
-    report.GeometryUsed = survey.Geometry;
-    report.Backend = this->Backend.GetName();
-    this->AddDefect(survey.NonFinitePoints);
-    this->AddDefect(survey.RepeatedIds);
-    this->AddDefect(built.DuplicateTriangles);
-    this->AddDefect({ "constraint edges that are not edges of the mesh", built.MissingConstraints,
-      {}, DefectIds::Points });
-  }
-
-  void AddDefect(const Defect& defect)
-  {
-    if (defect.Count > 0)
-    {
-      this->Report.Defects.push_back(defect);
-    }
-  }
-
-  void MakeLoop(const TriangleMesh& mesh, const MeshSurvey& survey, EdgeTable table)
-  {
-    const FlipLoopInput input{ mesh.Points, survey, this->Order, this->Options, this->Report };
-    FlipLoopResult made = MakeFlipLoop(input, this->Mesh, std::move(table), this->Backend);
-    this->Points = std::move(made.Points);
-    this->Loop = std::move(made.Loop);
-    for (const Defect& defect : made.Defects)
-    {
-      this->AddDefect(defect);
-    }
+    return ToDegrees(this->Engine->GetLoop().FindLargestSquaredCotangent());
   }
 
   /// What the input holds, and with nothing to do or no iteration allowed, the end.
   void DetectFirst()
   {
     const StopWatch watch;
-    this->Detected(this->Loop->Detect());
+    this->Detected(this->Engine->GetLoop().Detect());
     this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
     this->Report.FlipSeconds = watch.GetSeconds();
   }
@@ -246,10 +142,10 @@ private:
     const StopWatch watch;
     const bool isFirst = this->Report.Iterations.empty();
     const std::vector<IterationCounts> iterations =
-      this->Loop->Advance({ most, isFirst, this->Options.TrackQuality });
-    this->Detected(this->Loop->GetFound());
+      this->Engine->GetLoop().Advance({ most, isFirst, this->Options.TrackQuality });
+    this->Detected(this->Engine->GetLoop().GetFound());
 #if !defined(NDEBUG)
-    RequireConsistent(this->Mesh, this->Backend);
+    this->Engine->Audit();
 #endif
     const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
     bool goOn = true;
@@ -289,7 +185,7 @@ private:
     {
       return;
     }
-    this->Report.MinimumAngleAfter = ToDegrees(this->Loop->FindLargestSquaredCotangent());
+    this->Report.MinimumAngleAfter = this->MeasureAngle();
     if (!this->IsRunning())
     {
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
@@ -297,11 +193,7 @@ private:
   }
 
   FlipOptions Options;
-  ThreadBackend Backend;
-  SpatialOrder Order;
-  EdgeMesh Mesh;
-  PackedPoints Points;
-  std::unique_ptr<FlipLoop> Loop;
+  std::unique_ptr<FlipEngine> Engine;
   StepCounts Found; ///< By the last Detect.
   FlipReport Report;
 };
@@ -324,12 +216,12 @@ const FlipReport& FlipSession::GetReport() const { return this->Impl->GetReport(
 
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
-  this->Impl->StoreTriangles(triangles);
+  this->Impl->GetEngine().StoreTriangles(triangles);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  this->Impl->StoreFlipCounts(counts);
+  this->Impl->GetEngine().StoreFlipCounts(counts);
 }
 
 FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,

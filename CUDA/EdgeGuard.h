@@ -3,16 +3,24 @@
 #ifndef DELAUNAYFLIP_EDGEGUARD_H
 #define DELAUNAYFLIP_EDGEGUARD_H
 
+#include "EdgeClaims.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
-#include "FlipSteps.h"
-#include "ThreadBackend.h"
+#include "StepCounts.h"
 
 #include <cstdint>
 #include <utility>
 
 namespace delaunayflip
 {
+
+/// Plain pointers to an EdgeGuard, for functions of both backends.
+struct EdgeGuardView
+{
+  bool Active;
+  EdgeTableView Edges; ///< The vertex pairs of the mesh's edges.
+  EdgeClaims Claims;
+};
 
 /// The edges that exist, where flips could make one twice; empty where they provably cannot.
 class EdgeGuard
@@ -21,28 +29,70 @@ public:
   EdgeGuard() = default;
 
   /// Takes over a table that holds the vertex pairs of all `edges` edges.
-  EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices)
+  template <typename Backend>
+  EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices, const Backend& backend)
     : Table(std::move(table)),
+      Claims(backend.template MakeArray<std::uint64_t>(EdgeClaims::GetSize(edges))),
       UsedSlots(edges),
       NumberOfVertices(vertices)
   {
+    std::uint64_t* claims = this->Claims.Data();
+    backend.ForEach(static_cast<std::int64_t>(this->Claims.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = EdgeClaims::Empty; });
   }
 
   bool IsActive() const { return !this->Table.IsEmpty(); }
-  EdgeTableView View() { return this->Table.View(); }
 
-  /// An empty table for the claims of an iteration with `bad` bad edges; kept between iterations.
-  EdgeTableView MakeClaims(std::int64_t bad, const ThreadBackend& backend);
+  EdgeGuardView View()
+  {
+    return { this->IsActive(), this->Table.View(),
+      { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
+  }
 
-  /// Accounts for the flips of an iteration: when too many slots were used or a new edge found
-  /// none, the table is made anew from the mesh.
-  void Maintain(const StepCounts& flips, EdgeMesh& mesh, const ThreadBackend& backend);
+  /// Slots that flips may use for the first time before the table must be made anew.
+  std::int64_t GetFreshSlotsLeft() const
+  {
+    // Share of slots ever used above which searches for absent edges get long.
+    constexpr double LargestUse = 0.8;
+    return static_cast<std::int64_t>(LargestUse * static_cast<double>(this->Table.GetCapacity())) -
+      this->UsedSlots;
+  }
+
+  /// Accounts for flips: when too many slots were used or a new edge found none, the table is made
+  /// anew from the mesh.
+  template <typename Backend>
+  void Maintain(const StepCounts& flips, EdgeMesh& mesh, const Backend& backend)
+  {
+    this->UsedSlots += flips.FreshSlots;
+    if (flips.LostInserts > 0 || this->GetFreshSlotsLeft() < 0)
+    {
+      this->Rebuild(mesh, backend);
+    }
+  }
+
+  /// Public because device lambdas ask for it.
+  template <typename Backend>
+  void Rebuild(EdgeMesh& mesh, const Backend& backend)
+  {
+    this->Table = EdgeTable();
+    this->Table = EdgeTable(mesh.NumberOfEdges, this->NumberOfVertices, false, backend);
+    const EdgeTableView table = this->Table.View();
+    const TriangleRecord* triangles = mesh.Triangles.Data();
+    backend.ForEach(mesh.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        const VertexId* v = triangles[t].Vertices;
+        bool inserted = false;
+        table.FindOrInsert(EdgeKey(v[0], v[1]), inserted);
+        table.FindOrInsert(EdgeKey(v[1], v[2]), inserted);
+        table.FindOrInsert(EdgeKey(v[2], v[0]), inserted);
+      });
+    this->UsedSlots = mesh.NumberOfEdges;
+  }
 
 private:
-  void Rebuild(EdgeMesh& mesh, const ThreadBackend& backend);
-
   EdgeTable Table;
-  EdgeTable Claims;
+  Array<std::uint64_t> Claims;
   std::int64_t UsedSlots = 0;
   std::int64_t NumberOfVertices = 0;
 };

@@ -102,11 +102,14 @@ struct EdgeMeshView
 /// with one side and Fixed.
 struct EdgeMesh
 {
+  /// States are searched many at a time.
+  static constexpr std::int64_t StatePadding = 16;
+
   std::int64_t NumberOfTriangles = 0;
   std::int64_t NumberOfEdges = 0;
   Array<TriangleRecord> Triangles;
   Array<CornerId> CornerOfHalfEdge;
-  Array<EdgeState> States; ///< Padded to a multiple of 8: they are searched a word at a time.
+  Array<EdgeState> States; ///< Padded with Fixed to a multiple of StatePadding.
 
   EdgeMeshView View()
   {

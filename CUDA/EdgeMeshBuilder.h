@@ -4,12 +4,16 @@
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
 #include "EdgeMesh.h"
+#include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
+#include "FixedEdges.h"
 #include "FlipReport.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
-#include "ThreadBackend.h"
-#include "TriangleMesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
 
 /// @file
 /// Triangles into an edge mesh, in time linear in their number whatever the vertex degrees.
@@ -17,25 +21,154 @@
 namespace delaunayflip
 {
 
-/// Throws MeshTooLarge when 32-bit half-edges cannot number the mesh. Allocates nothing.
-void CheckMeshSize(const TriangleMesh& mesh);
-
-struct EdgeMeshInput
+struct PairSums
 {
-  const TriangleMesh& Mesh;
-  const MeshSurvey& Survey;
-  SpatialOrder& Order; ///< TriangleOfRank is dropped once the triangles are loaded.
-  double FeatureAngle; ///< Degrees; 180 fixes none. Surfaces only.
+  std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
+
+  DELAUNAYFLIP_HOST_DEVICE PairSums& operator+=(const PairSums& part)
+  {
+    this->Edges += part.Edges;
+    this->NonManifold += part.NonManifold;
+    this->Failures += part.Failures;
+    return *this;
+  }
 };
 
-struct EdgeMeshResult
+/// Finds or makes the table entries of a triangle's edges and adds its corners to them.
+DELAUNAYFLIP_HOST_DEVICE inline void PairTriangle(
+  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t, PairSums& sums)
 {
-  EdgeMesh Edges;
-  EdgeTable Table; ///< Vertex pairs of all edges, without words.
-  EdgeCounts Counts;
-  Defect DuplicateTriangles;
-  std::int64_t MissingConstraints = 0;
-};
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    bool inserted = false;
+    const std::uint32_t entry = table.FindOrInsert(KeyOpposite(triangles[t], slot), inserted);
+    if (entry == EdgeTableView::NoSlot)
+    {
+      ++sums.Failures;
+      return;
+    }
+    const bool many = AttachCorner(table, entry, MakeCorner(t, slot), inserted);
+    const bool isEdge = !IsLoop(triangles[t], slot);
+    sums.Edges += isEdge && inserted ? 1 : 0;
+    sums.NonManifold += isEdge && many ? 1 : 0;
+    triangles[t].HalfEdges[slot] = entry;
+  }
+}
+
+/// Stores the roles of a triangle's corners. @returns the number of edges that it leads.
+DELAUNAYFLIP_HOST_DEVICE inline int FindRoles(
+  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t)
+{
+  TriangleRecord& triangle = triangles[t];
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const CornerRole role = FindRole(table, triangle.HalfEdges[slot], MakeCorner(t, slot));
+    triangle.FlipCount |= static_cast<std::uint32_t>(role) << (2 * slot);
+  }
+  return CountLeaders(triangle);
+}
+
+/// Numbers the edges that a triangle leads, from `next` on.
+DELAUNAYFLIP_HOST_DEVICE inline void NumberTriangle(
+  const EdgeMeshView& mesh, const EdgeTableView& table, TriangleId t, EdgeId next)
+{
+  const TriangleRecord& triangle = mesh.Triangles[t];
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const CornerRole role = GetRole(triangle, slot);
+    if (role != CornerRole::Follower)
+    {
+      mesh.States[next] = role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
+      NumberEdge(mesh, table, triangle.HalfEdges[slot], MakeCorner(t, slot), next++);
+    }
+  }
+}
+
+template <typename Backend>
+void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& backend)
+{
+  const TriangleMesh mesh = input.Input.Local;
+  const SpatialOrderView order = input.Order.View();
+  const PointUse* uses = input.Survey.Uses.Data();
+  edges.NumberOfTriangles = mesh.Triangles.Count;
+  edges.Triangles = backend.template MakeArray<TriangleRecord>(mesh.Triangles.Count);
+  TriangleRecord* triangles = edges.Triangles.Data();
+  backend.ForEach(mesh.Triangles.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    {
+      TriangleRecord& record = triangles[t];
+      record.InputTriangle = order.GetTriangle(t);
+      record.FlipCount = IsUntouchable(mesh, uses, record.InputTriangle) ? UntouchableBit : 0;
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        record.Vertices[slot] = order.GetRank(mesh.Triangles.Get(record.InputTriangle, slot));
+      }
+    });
+}
+
+/// @returns false when the table is too small.
+template <typename Backend>
+bool TryPairCorners(EdgeMeshResult& result, const Backend& backend)
+{
+  const EdgeTableView table = result.Table.View();
+  TriangleRecord* triangles = result.Edges.Triangles.Data();
+  const PairSums sums = backend.template Sum<PairSums>(result.Edges.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, PairSums & part)
+    {
+      // A table that has failed once is thrown away.
+      if (part.Failures == 0)
+      {
+        PairTriangle(table, triangles, static_cast<TriangleId>(t), part);
+      }
+    });
+  // Above this share of slots in use, later searches would be long.
+  constexpr double LargestFill = 0.8;
+  result.Counts.Edges = sums.Edges;
+  result.Counts.NonManifold = sums.NonManifold;
+  const auto capacity = static_cast<double>(result.Table.GetCapacity());
+  return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
+}
+
+/// A closed mesh has 3/2 edges a triangle; others show by a table that runs full.
+template <typename Backend>
+void PairCorners(EdgeMeshResult& result, std::int64_t points, const Backend& backend)
+{
+  const std::int64_t corners = 3 * result.Edges.NumberOfTriangles;
+  std::int64_t expected = corners / 2 + corners / 100;
+  do
+  {
+    result.Table = EdgeTable();
+    result.Table = EdgeTable(std::min(expected, corners), points, true, backend);
+    expected = 2 * expected;
+  } while (!TryPairCorners(result, backend));
+}
+
+template <typename Backend>
+void NumberEdges(EdgeMeshResult& result, const Backend& backend)
+{
+  EdgeMesh& edges = result.Edges;
+  const std::int64_t size = edges.NumberOfTriangles;
+  const EdgeTableView table = result.Table.View();
+  TriangleRecord* triangles = edges.Triangles.Data();
+  const auto numbering = backend.Count(size,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    { return FindRoles(table, triangles, static_cast<TriangleId>(t)); });
+  edges.NumberOfEdges = numbering.Total;
+  const std::int64_t padded = (edges.NumberOfEdges + EdgeMesh::StatePadding - 1) /
+    EdgeMesh::StatePadding * EdgeMesh::StatePadding;
+  edges.CornerOfHalfEdge = backend.template MakeArray<CornerId>(2 * edges.NumberOfEdges);
+  edges.States = backend.template MakeArray<EdgeState>(padded);
+  const EdgeMeshView mesh = edges.View();
+  const std::int64_t numberOfEdges = edges.NumberOfEdges;
+  backend.ForEach(padded - numberOfEdges,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    { mesh.States[numberOfEdges + i] = EdgeState::Fixed; });
+  backend.ForEachNumbered(
+    numbering, size,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { return CountLeaders(mesh.Triangles[t]); },
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t first)
+    { NumberTriangle(mesh, table, static_cast<TriangleId>(t), static_cast<EdgeId>(first)); });
+}
 
 /// Pairs the triangles' sides through an EdgeTable and fixes the edges that must stay: boundary,
 /// non-manifold and wrongly wound ones, those of frozen, repeated-id, duplicate and non-finite
@@ -43,7 +176,21 @@ struct EdgeMeshResult
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
 /// @throws InvalidMesh for a constraint that names no point.
-EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, const ThreadBackend& backend);
+template <typename Backend>
+EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, const Backend& backend)
+{
+  EdgeMeshResult result;
+  LoadTriangles(input, result.Edges, backend);
+  input.Order.TriangleOfRank = Array<TriangleId>();
+  PairCorners(result, input.Input.Local.Points.Count, backend);
+  NumberEdges(result, backend);
+  const EdgeMeshView mesh = result.Edges.View();
+  backend.ForEach(result.Edges.NumberOfEdges,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) { LinkEdge(mesh, static_cast<EdgeId>(e)); });
+  FixEdges(input, result, backend);
+  result.Table.DropWords();
+  return result;
+}
 
 }
 

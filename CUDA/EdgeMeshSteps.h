@@ -76,6 +76,17 @@ DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangl
   return static_cast<CornerRole>((triangle.FlipCount >> (2 * slot)) & 3);
 }
 
+/// How many edges a triangle's corners lead.
+DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
+{
+  int leaders = 0;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
+  }
+  return leaders;
+}
+
 /// Gives a corner that is no follower the number `edge`: writes the words of both sides, and leaves
 /// the number in the table for look-ups by vertex pair.
 DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(const EdgeMeshView& mesh,

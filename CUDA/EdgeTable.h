@@ -6,8 +6,8 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
-#include "ThreadBackend.h"
 
+#include <algorithm>
 #include <cstdint>
 
 /// @file
@@ -150,18 +150,54 @@ public:
   EdgeTable() = default;
 
   /// An empty table with room for `edges` edges, with or without the two words a key.
-  EdgeTable(
-    std::int64_t edges, std::int64_t vertices, bool withWords, const ThreadBackend& backend);
+  template <typename Backend>
+  EdgeTable(std::int64_t edges, std::int64_t vertices, bool withWords, const Backend& backend)
+    : NumberOfVertices(static_cast<std::uint32_t>(std::max<std::int64_t>(1, vertices)))
+  {
+    // Share of slots in use when every expected edge is in: searches stay short, memory small.
+    constexpr double FillFactor = 0.6;
+    const std::int64_t wanted =
+      static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
+    const std::int64_t capacity = std::min<std::int64_t>(wanted, EdgeTableView::NoSlot);
+    this->Keys = backend.template MakeArray<std::uint64_t>(capacity);
+    this->First = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
+    this->Second = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
+    Clear(this->View(), withWords, backend);
+  }
 
-  EdgeTableView View();
+  EdgeTableView View()
+  {
+    const std::uint64_t capacity = this->Keys.Size();
+    return { this->Keys.Data(), this->First.Data(), this->Second.Data(),
+      static_cast<std::uint32_t>(capacity),
+      (capacity << EdgeTableView::StrideBits) / this->NumberOfVertices };
+  }
   bool IsEmpty() const { return this->Keys.Size() == 0; }
   std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
 
-  /// Forgets all keys; words become NoCorner.
-  void Clear(const ThreadBackend& backend);
-
   /// Gives back the words' memory; the keys stay.
-  void DropWords();
+  void DropWords()
+  {
+    this->First = Array<std::uint32_t>();
+    this->Second = Array<std::uint32_t>();
+  }
+
+  /// Forgets all keys; words become NoCorner. Public because device lambdas ask for it.
+  template <typename Backend>
+  static void Clear(const EdgeTableView& table, bool withWords, const Backend& backend)
+  {
+    backend.ForEach(table.Capacity,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { table.Keys[i] = EdgeTableView::Empty; });
+    if (withWords)
+    {
+      backend.ForEach(table.Capacity,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+        {
+          table.First[i] = NoCorner;
+          table.Second[i] = NoCorner;
+        });
+    }
+  }
 
 private:
   Array<std::uint64_t> Keys;

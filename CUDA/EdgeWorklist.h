@@ -63,13 +63,18 @@ public:
     : States(states),
       FirstEdge(first),
       LastEdge(last),
-      FirstBlock(first >> BlockFlags::BlockBits),
-      Flags(first < last ? ((last - 1) >> BlockFlags::BlockBits) - FirstBlock + 1 : 0, 1)
+      FirstBlock(first >> BlockBits),
+      Flags(first < last ? ((last - 1) >> BlockBits) - FirstBlock + 1 : 0, 1)
   {
   }
 
+  static constexpr int BlockBits = 10;
+
   /// Where steps flag the blocks of edges that they make candidates.
-  BlockFlags GetFlags() { return { this->Flags.data(), this->FirstEdge, this->LastEdge }; }
+  BlockFlags GetFlags()
+  {
+    return { this->Flags.data(), this->FirstEdge, this->LastEdge, BlockBits };
+  }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
@@ -92,7 +97,7 @@ public:
   template <typename... Steps>
   StepCounts Run(const ThreadBackend& backend, const Steps&... steps)
   {
-    return backend.Sum<StepCounts>(
+    return backend.SumRanges<StepCounts>(
       static_cast<std::int64_t>(this->Blocks.size()),
       [&](std::int64_t begin, std::int64_t end) { return this->RunBlocks(begin, end, steps...); },
       BlocksPerTask);
@@ -106,6 +111,7 @@ public:
   }
 
 private:
+  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
   static constexpr std::int64_t BlocksPerTask = 8;
   static constexpr std::int64_t WordSize = 8; ///< Edges whose states fill a machine word.
   static constexpr std::int64_t WordsPerGroup = 8;
@@ -154,7 +160,7 @@ private:
   template <typename Step>
   void RunOnBlock(const Step& step, std::int64_t block, StepCounts& counts)
   {
-    EdgeId edges[BlockFlags::BlockSize + WordSize];
+    EdgeId edges[BlockSize + WordSize];
     RunOnEdges(step, edges, this->Find(Step::Wanted, this->GetWords(block), edges), counts);
   }
 
@@ -164,7 +170,7 @@ private:
   {
     if (counts.Uncertain > 0)
     {
-      EdgeId edges[BlockFlags::BlockSize + WordSize];
+      EdgeId edges[BlockSize + WordSize];
       const std::int64_t size = this->Find(ResolveStep<Rule>::Wanted, this->GetWords(block), edges);
       RunOnEdges(step, edges, size, counts);
     }
@@ -199,8 +205,8 @@ private:
 
   WordRange GetWords(std::int64_t block) const
   {
-    const std::int64_t first = std::max(this->FirstEdge, block << BlockFlags::BlockBits);
-    const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockFlags::BlockBits);
+    const std::int64_t first = std::max(this->FirstEdge, block << BlockBits);
+    const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockBits);
     const std::uint64_t all = ~std::uint64_t(0);
     return { first / WordSize, (last + WordSize - 1) / WordSize, all << (8 * (first % WordSize)),
       all >> (8 * ((WordSize - last % WordSize) % WordSize)) };

@@ -3,12 +3,12 @@
 #ifndef DELAUNAYFLIP_EXACTPREDICATES_H
 #define DELAUNAYFLIP_EXACTPREDICATES_H
 
-#include "Expansion.h"
 #include "FilteredPredicates.h"
+#include "FixedPoint.h"
 
 /// @file
-/// Signs that are always right: expansions for coordinates whose exponents fit degree 4, wide
-/// integers for the others.
+/// Signs that are always right: fixed-point integers for points that lie close together compared
+/// with their last bits, which nearly all quads do; integers of any width for the others.
 
 namespace delaunayflip
 {
@@ -17,147 +17,147 @@ namespace delaunayflip
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 int WideInCircle(const PlanePoint (&points)[4], bool tilted);
 
-/// Points moved by an exact power of two to where degree-4 expansions neither overflow nor lose
-/// bits. The largest magnitude becomes 2^240 at most; with exponents no further apart than 440 the
-/// last bit of the smallest coordinate is 2^-252 at least, and its fourth power is still a double.
-template <int Count>
-struct ScaledPoints
+/// A point relative to an origin, in units; no member exceeds 2^62 in magnitude.
+struct FixedPointOffset
 {
-  static constexpr int LargestExponent = 240;
-  static constexpr int LargestSpread = 440;
+  std::int64_t U, V;
+  std::int64_t W, WSum; ///< w - w0 and w + w0, for the lift of tilted planes; else 0.
 
-  PlanePoint Points[Count];
-  bool Fits = true;
-
-  DELAUNAYFLIP_HOST_DEVICE explicit ScaledPoints(const PlanePoint (&points)[Count])
+  /// u^2 + v^2 + (w - w0) (w + w0): at most 3 * 2^124.
+  DELAUNAYFLIP_HOST_DEVICE Integer128 GetLift() const
   {
-    double largest = 0.0;
-    double smallest = INFINITY;
-    for (const PlanePoint& point : points)
-    {
-      Survey(point.U, largest, smallest);
-      Survey(point.V, largest, smallest);
-      Survey(point.W, largest, smallest);
-    }
-    const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-    this->Fits = largest == 0.0 || exponent - std::ilogb(smallest) <= LargestSpread;
-    const int shift = LargestExponent - exponent;
-    for (int i = 0; i < Count; ++i)
-    {
-      this->Points[i] = { std::scalbn(points[i].U, shift), std::scalbn(points[i].V, shift),
-        std::scalbn(points[i].W, shift) };
-    }
+    return Integer128(this->U) * this->U + Integer128(this->V) * this->V +
+      Integer128(this->W) * this->WSum;
   }
+};
+
+/// u1 v2 - u2 v1: at most 2^125.
+DELAUNAYFLIP_HOST_DEVICE inline Integer128 MinorOf(
+  const FixedPointOffset& first, const FixedPointOffset& second)
+{
+  return Integer128(first.U) * second.V - Integer128(second.U) * first.V;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline void IncludePoint(
+  FixedPointUnit& unit, const PlanePoint& p, bool tilted)
+{
+  unit.Include(p.U);
+  unit.Include(p.V);
+  unit.Include(tilted ? p.W : 0.0);
+}
+
+/// Makes offsets from one origin, and remembers whether all of them fit.
+class FixedPointFrame
+{
+public:
+  DELAUNAYFLIP_HOST_DEVICE FixedPointFrame(
+    const FixedPointUnit& unit, const PlanePoint& origin, bool tilted)
+    : Unit(unit),
+      U(unit.Convert(origin.U, this->Fits)),
+      V(unit.Convert(origin.V, this->Fits)),
+      W(tilted ? unit.Convert(origin.W, this->Fits) : 0),
+      Tilted(tilted)
+  {
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE FixedPointOffset OffsetOf(const PlanePoint& p)
+  {
+    const Integer128 w = this->Tilted ? this->Unit.Convert(p.W, this->Fits) : 0;
+    return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
+      this->Narrow(this->Unit.Convert(p.V, this->Fits) - this->V), this->Narrow(w - this->W),
+      this->Narrow(w + this->W) };
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool AllFit() const { return this->Fits; }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE static void Survey(double value, double& largest, double& smallest)
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t Narrow(Integer128 value)
   {
-    const double magnitude = std::fabs(value);
-    largest = magnitude > largest ? magnitude : largest;
-    smallest = magnitude > 0.0 && magnitude < smallest ? magnitude : smallest;
+    constexpr Integer128 Largest = Integer128(1) << 62;
+    this->Fits = this->Fits && -Largest <= value && value <= Largest;
+    return static_cast<std::int64_t>(value);
   }
+
+  bool Fits = true;
+  const FixedPointUnit Unit;
+  const Integer128 U, V, W;
+  const bool Tilted;
 };
 
-/// A point relative to another as expansions of at most N components: 1 where no difference had to
-/// be rounded, as on lattices and for most single-precision input, else 2.
-template <int N>
-struct ExactOffset
+/// Turn of a, b, c in (u, v), or UncertainSign where they do not fit. Points come by value, here
+/// and below, because compilers for GPUs put what a call refers to in memory.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation(
+  PlanePoint a, PlanePoint b, PlanePoint c)
 {
-  Expansion<N> U, V;
-  Expansion<N> W, WSum; ///< w - w0 and w + w0, for the lift of tilted planes.
-
-  DELAUNAYFLIP_HOST_DEVICE bool IsSingle() const
+  FixedPointUnit unit;
+  IncludePoint(unit, a, false);
+  IncludePoint(unit, b, false);
+  IncludePoint(unit, c, false);
+  FixedPointFrame frame(unit, c, false);
+  const FixedPointOffset first = frame.OffsetOf(a);
+  const FixedPointOffset second = frame.OffsetOf(b);
+  if (!frame.AllFit())
   {
-    return this->U.Size <= 1 && this->V.Size <= 1 && this->W.Size <= 1 && this->WSum.Size <= 1;
+    return UncertainSign;
   }
-
-  /// The same with room for fewer components, which must be enough.
-  DELAUNAYFLIP_HOST_DEVICE ExactOffset<1> ToSingle() const
-  {
-    return { { { this->U.Components[0] }, this->U.Size },
-      { { this->V.Components[0] }, this->V.Size }, { { this->W.Components[0] }, this->W.Size },
-      { { this->WSum.Components[0] }, this->WSum.Size } };
-  }
-
-  /// u^2 + v^2 + (w - w0) (w + w0); the last term is 0 where w is.
-  DELAUNAYFLIP_HOST_DEVICE Expansion<6 * N * N> GetLift() const
-  {
-    return Add(
-      Add(Multiply(this->U, this->U), Multiply(this->V, this->V)), Multiply(this->W, this->WSum));
-  }
-};
-
-DELAUNAYFLIP_HOST_DEVICE inline ExactOffset<2> OffsetOf(
-  const PlanePoint& p, const PlanePoint& origin)
-{
-  return { DifferenceOf(p.U, origin.U), DifferenceOf(p.V, origin.V), DifferenceOf(p.W, origin.W),
-    SumOf(p.W, origin.W) };
+  const Integer128 determinant = MinorOf(first, second);
+  return determinant < 0 ? -1 : (determinant > 0 ? 1 : 0);
 }
 
-/// u1 v2 - u2 v1.
-template <int N>
-DELAUNAYFLIP_HOST_DEVICE Expansion<4 * N * N> MinorOf(
-  const ExactOffset<N>& first, const ExactOffset<N>& second)
+/// Sign of the in-circle determinant of a, b, c, d, or UncertainSign where they do not fit;
+/// `tilted` adds W to the lift.
+///
+/// Offsets of at most 2^62 suffice: minors are at most 2^125 and lifts 3 * 2^124, both below the
+/// 2^126 that Multiply takes; a product of the two stays below 2^251, the sum of three below 2^253.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointInCircle(
+  PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d, bool tilted)
 {
-  return Determinant(first.U, first.V, second.U, second.V);
+  FixedPointUnit unit;
+  IncludePoint(unit, a, tilted);
+  IncludePoint(unit, b, tilted);
+  IncludePoint(unit, c, tilted);
+  IncludePoint(unit, d, tilted);
+  FixedPointFrame frame(unit, d, tilted);
+  const FixedPointOffset first = frame.OffsetOf(a);
+  const FixedPointOffset second = frame.OffsetOf(b);
+  const FixedPointOffset third = frame.OffsetOf(c);
+  if (!frame.AllFit())
+  {
+    return UncertainSign;
+  }
+  const Integer256 firstTerm = Multiply(MinorOf(second, third), first.GetLift());
+  const Integer256 secondTerm = Multiply(MinorOf(third, first), second.GetLift());
+  const Integer256 thirdTerm = Multiply(MinorOf(first, second), third.GetLift());
+  return Add(Add(firstTerm, secondTerm), thirdTerm).Sign();
 }
 
-template <int N>
-DELAUNAYFLIP_HOST_DEVICE int InCircleSign(
-  const ExactOffset<N>& a, const ExactOffset<N>& b, const ExactOffset<N>& c)
+/// The same for points in an array.
+DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points)[4], bool tilted)
 {
-  return Add(Add(Multiply(MinorOf(b, c), a.GetLift()), Multiply(MinorOf(c, a), b.GetLift())),
-    Multiply(MinorOf(a, b), c.GetLift()))
-    .Sign();
-}
-
-/// Sign of the in-circle determinant of scaled points.
-DELAUNAYFLIP_HOST_DEVICE inline int ExpandedInCircle(const PlanePoint (&points)[4])
-{
-  const ExactOffset<2> a = OffsetOf(points[0], points[3]);
-  const ExactOffset<2> b = OffsetOf(points[1], points[3]);
-  const ExactOffset<2> c = OffsetOf(points[2], points[3]);
-  return a.IsSingle() && b.IsSingle() && c.IsSingle()
-    ? InCircleSign(a.ToSingle(), b.ToSingle(), c.ToSingle())
-    : InCircleSign(a, b, c);
+  return FixedPointInCircle(points[0], points[1], points[2], points[3], tilted);
 }
 
 /// Turn of a, b, c in (u, v). UncertainSign only on a device, where wide integers are needed.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
-  const ScaledPoints<3> scaled({ { a.U, a.V, 0.0 }, { b.U, b.V, 0.0 }, { c.U, c.V, 0.0 } });
-  if (!scaled.Fits)
-  {
+  const int sign = FixedPointOrientation(a, b, c);
 #if defined(__CUDA_ARCH__)
-    return UncertainSign;
+  return sign;
 #else
-    return WideOrientation(a, b, c);
+  return sign != UncertainSign ? sign : WideOrientation(a, b, c);
 #endif
-  }
-  return MinorOf(
-    OffsetOf(scaled.Points[0], scaled.Points[2]), OffsetOf(scaled.Points[1], scaled.Points[2]))
-    .Sign();
 }
 
 /// Sign of the in-circle determinant; `tilted` adds W to the lift. UncertainSign as above.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactInCircle(const PlanePoint (&points)[4], bool tilted)
 {
-  PlanePoint lifted[4];
-  for (int i = 0; i < 4; ++i)
-  {
-    lifted[i] = { points[i].U, points[i].V, tilted ? points[i].W : 0.0 };
-  }
-  const ScaledPoints<4> scaled(lifted);
-  if (!scaled.Fits)
-  {
+  const int sign = FixedPointInCircle(points, tilted);
 #if defined(__CUDA_ARCH__)
-    return UncertainSign;
+  return sign;
 #else
-    return WideInCircle(points, tilted);
+  return sign != UncertainSign ? sign : WideInCircle(points, tilted);
 #endif
-  }
-  return ExpandedInCircle(scaled.Points);
 }
 
 }

@@ -50,6 +50,17 @@ public:
   using FlipError::FlipError;
 };
 
+/// The coordinates need exact arithmetic that only the CPU has; the other backend takes over.
+class BeyondDevice : public FlipError
+{
+public:
+  BeyondDevice()
+    : FlipError("coordinates of one triangle differ by more than a factor of 2^62, for which exact "
+                "arithmetic needs the CPU")
+  {
+  }
+};
+
 /// The backend asked for cannot run here.
 class BackendUnavailable : public FlipError
 {

@@ -3,17 +3,21 @@
 #ifndef DELAUNAYFLIP_FLIPLOOPFACTORY_H
 #define DELAUNAYFLIP_FLIPLOOPFACTORY_H
 
+#include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "FlipRules.h"
 #include "MeshSurvey.h"
 #include "PackedPoints.h"
+#include "PlanarSurvey.h"
 #include "SpatialOrder.h"
-#include "ThreadBackend.h"
 
+#include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -24,7 +28,7 @@ namespace delaunayflip
 
 struct FlipLoopInput
 {
-  const PointArray& Points;
+  const PointArray& Points; ///< In the backend's memory.
   const MeshSurvey& Survey;
   const SpatialOrder& Order;
   const FlipOptions& Options;
@@ -38,10 +42,141 @@ struct FlipLoopResult
   std::vector<Defect> Defects; ///< Of triangles: without area, turned over.
 };
 
-/// @param mesh must live as long as the loop, as backend must.
-/// @param table the vertex pairs of all edges; kept where flips could make an edge that exists.
-FlipLoopResult MakeFlipLoop(
-  const FlipLoopInput& input, EdgeMesh& mesh, EdgeTable table, const ThreadBackend& backend);
+/// The loop of a backend by a rule: LoopOf<Backend, Rule>::Type.
+template <typename Backend, typename Rule>
+struct LoopOf;
+
+/// Makes a loop. The mesh must live as long as the loop, as the backend must.
+template <typename Backend>
+class FlipLoopFactory
+{
+public:
+  /// @param table the vertex pairs of all edges; kept where flips could make an edge that exists.
+  FlipLoopFactory(
+    const FlipLoopInput& input, EdgeMesh& mesh, EdgeTable table, const Backend& backend)
+    : Input(input),
+      Mesh(mesh),
+      Table(std::move(table)),
+      Engine(backend)
+  {
+  }
+
+  FlipLoopResult Make()
+  {
+    if (this->Input.Survey.Geometry == GeometryKind::Surface)
+    {
+      this->MakeSurfaceLoop();
+    }
+    else
+    {
+      this->MakePlanarLoop();
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  /// Terrain by angles: those of the projection.
+  void MakePlanarLoop()
+  {
+    const MeshSurvey& survey = this->Input.Survey;
+    const PointArray& points = this->Input.Points;
+    const PlaneProjection& plane = survey.Projection;
+    const bool byAngles = this->Input.Options.Criterion == CriterionKind::OppositeAngles;
+    const int components = byAngles || plane.Tilted ? 3 : 2;
+    this->Pack(
+      { { plane.AxisU, plane.AxisV, plane.AxisW }, components, points.Floats && components == 2,
+        byAngles && survey.Geometry == GeometryKind::PlanarXY, byAngles ? survey.Scale : 1.0 });
+    this->SetPlanarRule(byAngles);
+  }
+
+  void SetPlanarRule(bool byAngles)
+  {
+    const MeshSurvey& survey = this->Input.Survey;
+    const EdgeCounts& edges = this->Input.Counts.Edges;
+    const bool brokenFans =
+      edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
+    const PlanarSurvey plane =
+      SurveyPlane(this->Mesh, this->Result.Points, brokenFans, this->Engine);
+    this->Result.Defects = { plane.ZeroAreaTriangles, plane.InvertedTriangles };
+    this->Guard = plane.StarsAreSimple ? EdgeGuard() : this->MakeGuard();
+    const double* doubles = this->Result.Points.Doubles.Data();
+    if (byAngles)
+    {
+      this->SetLoop(PlanarAngleRule{ { doubles, this->GetTolerance() } }, 1.0);
+    }
+    else if (survey.Projection.Tilted)
+    {
+      this->SetInCircleRule<double, 3>(doubles, plane.UniformSide);
+    }
+    else if (this->Result.Points.IsFloat())
+    {
+      this->SetInCircleRule<float, 2>(this->Result.Points.Floats.Data(), plane.UniformSide);
+    }
+    else
+    {
+      this->SetInCircleRule<double, 2>(doubles, plane.UniformSide);
+    }
+  }
+
+  template <typename Real, int Components>
+  void SetInCircleRule(const Real* coordinates, int uniformSide)
+  {
+    const bool canonical = this->Input.Options.TieRule == TieRuleKind::Canonical;
+    const MeshSurvey& survey = this->Input.Survey;
+    this->SetLoop(
+      PlanarRule<Real, Components>{ coordinates, uniformSide, canonical, survey.FiltersApply },
+      survey.Scale);
+  }
+
+  void MakeSurfaceLoop()
+  {
+    this->Pack(
+      { { 0, 1, 2 }, 3, this->Input.Points.Floats != nullptr, false, this->Input.Survey.Scale });
+    const PackedPoints& points = this->Result.Points;
+    this->Result.Defects = { FindZeroAreaTriangles(this->Mesh, points, this->Engine) };
+    this->Guard = this->MakeGuard();
+    if (points.IsFloat())
+    {
+      this->SetLoop(SurfaceRule<float>{ { points.Floats.Data(), this->GetTolerance() } }, 1.0);
+    }
+    else
+    {
+      this->SetLoop(SurfaceRule<double>{ { points.Doubles.Data(), this->GetTolerance() } }, 1.0);
+    }
+  }
+
+  void Pack(const PackingPlan& plan)
+  {
+    this->Result.Points =
+      PackPoints(this->Input.Points, this->Input.Order.View(), plan, this->Engine);
+  }
+
+  EdgeGuard MakeGuard()
+  {
+    return EdgeGuard(std::move(this->Table), this->Input.Counts.Edges.Edges,
+      this->Input.Counts.Points, this->Engine);
+  }
+
+  AngleTolerance GetTolerance() const
+  {
+    return { std::sin(this->Input.Options.Tolerance), std::cos(this->Input.Options.Tolerance) };
+  }
+
+  template <typename Rule>
+  void SetLoop(const Rule& rule, double scale)
+  {
+    this->Table = EdgeTable();
+    this->Result.Loop.reset(new typename LoopOf<Backend, Rule>::Type(
+      this->Mesh, rule, scale, std::move(this->Guard), this->Engine));
+  }
+
+  const FlipLoopInput& Input;
+  EdgeMesh& Mesh;
+  EdgeTable Table;
+  const Backend& Engine;
+  EdgeGuard Guard;
+  FlipLoopResult Result;
+};
 
 }
 

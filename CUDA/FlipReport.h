@@ -75,7 +75,8 @@ struct FlipReport
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
-  std::string Backend; ///< E.g. "Threads: 8".
+  std::string Backend; ///< E.g. "Threads: 8" or "CUDA: NVIDIA H200".
+  std::string Fallback; ///< Why the CPU stood in for a GPU that is there; else empty.
 
   std::vector<IterationRecord> Iterations;
   std::int64_t TotalFlips = 0;

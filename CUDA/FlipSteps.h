@@ -4,10 +4,11 @@
 #define DELAUNAYFLIP_FLIPSTEPS_H
 
 #include "EdgeFlip.h"
+#include "EdgeGuard.h"
 #include "EdgeMesh.h"
-#include "EdgeTable.h"
 #include "FlipRules.h"
 #include "HostDevice.h"
+#include "StepCounts.h"
 
 #include <cstdint>
 
@@ -27,39 +28,13 @@ struct StateRange
   EdgeState Last;
 };
 
-/// What the steps count.
-struct StepCounts
-{
-  std::int64_t Tested = 0;
-  std::int64_t Uncertain = 0;
-  std::int64_t Bad = 0;
-  std::int64_t Blocked = 0;
-  std::int64_t Flipped = 0;
-  std::int64_t FreshSlots = 0; ///< Slots of the guard table used for the first time.
-  std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
-
-  DELAUNAYFLIP_HOST_DEVICE StepCounts& operator+=(const StepCounts& other)
-  {
-    this->Tested += other.Tested;
-    this->Uncertain += other.Uncertain;
-    this->Bad += other.Bad;
-    this->Blocked += other.Blocked;
-    this->Flipped += other.Flipped;
-    this->FreshSlots += other.FreshSlots;
-    this->LostInserts += other.LostInserts;
-    return *this;
-  }
-};
-
-/// One flag a block of 1024 edges, for the edges [First, Last).
+/// One flag a block of 2^BlockBits edges, for the edges [First, Last).
 struct BlockFlags
 {
-  static constexpr int BlockBits = 10;
-  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
-
   std::uint8_t* Flags;
   std::int64_t First;
   std::int64_t Last;
+  int BlockBits;
 
   /// Flags the block of an edge of the range.
   DELAUNAYFLIP_HOST_DEVICE void Set(EdgeId edge) const
@@ -68,7 +43,7 @@ struct BlockFlags
     {
       return;
     }
-    std::uint8_t* flag = &this->Flags[(edge >> BlockBits) - (this->First >> BlockBits)];
+    std::uint8_t* flag = &this->Flags[(edge >> this->BlockBits) - (this->First >> this->BlockBits)];
     if (AtomicLoad(flag) == 0)
     {
       AtomicStore(flag, std::uint8_t(1));
@@ -138,12 +113,12 @@ struct ResolveStep : QuadStep
 /// gone. Reads the guard table, which does not change meanwhile; writes the edge's own state.
 struct GuardStep : QuadStep
 {
-  EdgeTableView Table;
+  EdgeTableView Edges;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    const bool exists = this->Table.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
+    const bool exists = this->Edges.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
     AtomicStore(&this->Mesh.States[edge], exists ? EdgeState::BlockedByEdge : EdgeState::Bad);
   }
 };
@@ -203,21 +178,15 @@ private:
   }
 };
 
-/// Winners claim the edge that they would make: two flips that share no triangle may make the same
-/// one. The claim table keeps the smallest priority of every new edge.
+/// Winners claim the edge that they would make (EdgeClaims.h).
 struct ClaimStep : QuadStep
 {
-  EdgeTableView Claims;
+  EdgeClaims Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    bool inserted = false;
-    const std::uint32_t slot = this->Claims.FindOrInsert(EdgeKey(quad.A, quad.B), inserted);
-    if (slot != EdgeTableView::NoSlot)
-    {
-      AtomicMin(&this->Claims.First[slot], Priority(edge));
-    }
+    this->Claims.Claim(quad.A, quad.B, Priority(edge));
   }
 };
 
@@ -225,13 +194,12 @@ struct ClaimStep : QuadStep
 /// reads.
 struct ConfirmStep : QuadStep
 {
-  EdgeTableView Claims;
+  EdgeClaims Claims;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    const std::uint32_t slot = this->Claims.Find(EdgeKey(quad.A, quad.B));
-    if (slot == EdgeTableView::NoSlot || this->Claims.First[slot] != Priority(edge))
+    if (!this->Claims.Holds(quad.A, quad.B, Priority(edge)))
     {
       AtomicStore(&this->Mesh.States[edge], EdgeState::Bad);
     }
@@ -239,13 +207,12 @@ struct ConfirmStep : QuadStep
 };
 
 /// Flips the winners, which share no triangle, and makes candidates of their outer edges. Two flips
-/// may mark the same outer edge, both with the same value. With a guard table, exchanges the old
-/// vertex pair for the new one.
+/// may mark the same outer edge, both with the same value. With a guard, gives the claim
+/// back and exchanges the old vertex pair for the new one.
 struct FlipStep : QuadStep
 {
   BlockFlags Active;
-  bool Guarded;
-  EdgeTableView Table;
+  EdgeGuardView Guard;
 
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
@@ -263,9 +230,9 @@ struct FlipStep : QuadStep
     this->Mark(EdgeOf(outer.PB));
     this->Mark(EdgeOf(outer.BQ));
     ++counts.Flipped;
-    if (this->Guarded)
+    if (this->Guard.Active)
     {
-      this->ExchangeEdge(quad, counts);
+      this->ExchangeEdge(edge, quad, counts);
     }
   }
 
@@ -281,11 +248,13 @@ private:
     AtomicStore(state, EdgeState::Candidate);
     this->Active.Set(edge);
   }
-  DELAUNAYFLIP_HOST_DEVICE void ExchangeEdge(const Quad& quad, StepCounts& counts) const
+  DELAUNAYFLIP_HOST_DEVICE void ExchangeEdge(
+    EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
     bool fresh = false;
-    this->Table.Remove(EdgeKey(quad.P, quad.Q));
-    counts.LostInserts += this->Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+    this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+    this->Guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
+    counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
     counts.FreshSlots += fresh ? 1 : 0;
   }
 };

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_HOSTDEVICE_H
 #define DELAUNAYFLIP_HOSTDEVICE_H
 
+#include <cstddef>
 #include <cstdint>
 
 /// @file
@@ -23,43 +24,118 @@
 #define DELAUNAYFLIP_ALWAYS_INLINE inline
 #endif
 
+/// For large functions that are called seldom: inlined, they would swell every kernel
+/// around them, once for each call.
+#if defined(__CUDACC__)
+#define DELAUNAYFLIP_NO_INLINE __noinline__
+#elif defined(__GNUC__)
+#define DELAUNAYFLIP_NO_INLINE __attribute__((noinline))
+#else
+#define DELAUNAYFLIP_NO_INLINE
+#endif
+
 namespace delaunayflip
 {
 
-/// Relaxed atomics: phases end with a barrier, so nothing inside one needs an order.
-template <typename T>
-inline T AtomicLoad(const T* address)
+/// Relaxed atomics on words of 4 and 8 bytes, loads and stores also on bytes: phases end with a
+/// barrier, so nothing inside one needs an order. Where the CPU takes a word of any type, a device
+/// wants its own names for the unsigned ones.
+#if defined(__CUDA_ARCH__)
+#define DELAUNAYFLIP_ON_DEVICE 1
+template <std::size_t Size>
+struct DeviceWord;
+template <>
+struct DeviceWord<4>
 {
+  using Type = unsigned int;
+};
+template <>
+struct DeviceWord<8>
+{
+  using Type = unsigned long long;
+};
+template <typename T>
+using DeviceWordOf = typename DeviceWord<sizeof(T)>::Type;
+#else
+#define DELAUNAYFLIP_ON_DEVICE 0
+#endif
+
+template <typename T>
+DELAUNAYFLIP_HOST_DEVICE inline T AtomicLoad(const T* address)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  return *const_cast<const volatile T*>(address);
+#else
   T value;
   __atomic_load(address, &value, __ATOMIC_RELAXED);
   return value;
+#endif
 }
 
 template <typename T>
-inline void AtomicStore(T* address, T value)
+DELAUNAYFLIP_HOST_DEVICE inline void AtomicStore(T* address, T value)
 {
+#if DELAUNAYFLIP_ON_DEVICE
+  *const_cast<volatile T*>(address) = value;
+#else
   __atomic_store(address, &value, __ATOMIC_RELAXED);
+#endif
 }
 
 /// Stores `desired` where *address equals `expected`. @returns what was there before.
 template <typename T>
-inline T AtomicCompareExchange(T* address, T expected, T desired)
+DELAUNAYFLIP_HOST_DEVICE inline T AtomicCompareExchange(T* address, T expected, T desired)
 {
+#if DELAUNAYFLIP_ON_DEVICE
+  using Word = DeviceWordOf<T>;
+  return atomicCAS(
+    reinterpret_cast<Word*>(address), static_cast<Word>(expected), static_cast<Word>(desired));
+#else
   __atomic_compare_exchange(
     address, &expected, &desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
   return expected;
+#endif
 }
 
 /// @returns what was there before.
 template <typename T>
-inline T AtomicExchange(T* address, T value)
+DELAUNAYFLIP_HOST_DEVICE inline T AtomicExchange(T* address, T value)
 {
+#if DELAUNAYFLIP_ON_DEVICE
+  using Word = DeviceWordOf<T>;
+  return atomicExch(reinterpret_cast<Word*>(address), static_cast<Word>(value));
+#else
   return __atomic_exchange_n(address, value, __ATOMIC_RELAXED);
+#endif
+}
+
+/// @returns what was there before.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicAdd(std::uint32_t* address, std::uint32_t value)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  return atomicAdd(address, value);
+#else
+  return __atomic_fetch_add(address, value, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Sets bits. @returns what was there before.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicOr(std::uint32_t* address, std::uint32_t bits)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  return atomicOr(address, bits);
+#else
+  return __atomic_fetch_or(address, bits, __ATOMIC_RELAXED);
+#endif
 }
 
 template <typename T>
-inline void AtomicMin(T* address, T value)
+DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
 {
+#if DELAUNAYFLIP_ON_DEVICE
+  using Word = DeviceWordOf<T>;
+  atomicMin(reinterpret_cast<Word*>(address), static_cast<Word>(value));
+#else
   T seen = AtomicLoad(address);
   while (value < seen)
   {
@@ -70,12 +146,13 @@ inline void AtomicMin(T* address, T value)
     }
     seen = before;
   }
+#endif
 }
 
 /// Asks for the cache line of `address`; a hint without effect on results.
-inline void Prefetch(const void* address)
+DELAUNAYFLIP_HOST_DEVICE inline void Prefetch(const void* address)
 {
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
   __builtin_prefetch(address);
 #else
   (void)address;

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
 
-#include "MeshSurvey.h"
 #include "Predicates.h"
 #include "ScaledOffsets.h"
+#include "SurveyMesh.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,6 @@ namespace delaunayflip
 
 namespace
 {
-
-constexpr double Pi = 3.14159265358979323846;
 
 using Vector3 = std::array<double, 3>;
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
@@ -158,7 +157,8 @@ public:
     : Mesh(mesh),
       Options(options)
   {
-    const MeshSurvey survey = SurveyMesh(mesh, options.Geometry, ThreadBackend(1));
+    const MeshSurvey survey =
+      SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, ThreadBackend(1));
     this->Geometry = survey.Geometry;
     this->Projection = survey.Projection;
     for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)

@@ -4,21 +4,27 @@
 #define DELAUNAYFLIP_MESHSURVEY_H
 
 #include "Array.h"
+#include "Defects.h"
 #include "FilteredPredicates.h"
 #include "FlipOptions.h"
-#include "FlipReport.h"
 #include "HostDevice.h"
-#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
 
 /// @file
 /// The first look at an input: are its ids valid, which points are used, in which space do edges
-/// live.
+/// live. SurveyMesh.h makes it.
 
 namespace delaunayflip
 {
+
+/// An input as a backend sees it.
+struct MeshInput
+{
+  const TriangleMesh& Caller; ///< The caller's arrays, in the host's memory.
+  TriangleMesh Local; ///< The same in the backend's memory; of the constraints the caller's.
+};
 
 /// Which coordinates decide in planar geometry: U and V span the plane's projection along its
 /// dominant axis W. The handedness of (U, V, W) is that of (x, y, z).
@@ -43,33 +49,35 @@ enum class PointUse : std::uint8_t
   NotFinite ///< Used, and a coordinate that matters is NaN or infinite.
 };
 
+struct BoundingBox
+{
+  double Lower[3] = { 0.0, 0.0, 0.0 };
+  double Upper[3] = { 0.0, 0.0, 0.0 };
+};
+
 struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   PlaneProjection Projection; ///< For the planar kinds.
-  Array<PointUse> Uses; ///< One a point.
+  Array<PointUse> Uses; ///< One a point, in the backend's memory.
   std::int64_t UsedPoints = 0;
-  double Lower[3] = { 0.0, 0.0, 0.0 }; ///< Bounding box of the used, finite points.
-  double Upper[3] = { 0.0, 0.0, 0.0 };
+  BoundingBox Box; ///< Of the used, finite points.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
   double Scale = 1.0; ///< Power of two that brings extreme coordinates near 1; 1 for usual ones.
   Defect NonFinitePoints;
   Defect RepeatedIds;
 };
 
-/// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
-/// without a plane.
-MeshSurvey SurveyMesh(
-  const TriangleMesh& mesh, GeometryKind requested, const ThreadBackend& backend);
-
-/// "x, y and z" of the three numbers is finite; only the first two matter for PlanarXY.
-bool IsFinitePoint(const PointArray& points, std::int64_t point, GeometryKind geometry);
-
-/// A defect's count and first ids, summed over pieces of the mesh in order.
-Defect& operator+=(Defect& total, const Defect& part);
-
-/// Counts `id` and keeps it if it is among the first three.
-void Note(Defect& defect, std::int64_t id);
+/// "x, y and z" of a point is finite; only the first two matter for PlanarXY.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(
+  const PointArray& points, std::int64_t point, GeometryKind geometry)
+{
+  // A difference with itself is 0 for finite numbers only.
+  const double x = points.Get(point, 0);
+  const double y = points.Get(point, 1);
+  const double z = geometry == GeometryKind::PlanarXY ? 0.0 : points.Get(point, 2);
+  return x - x == 0.0 && y - y == 0.0 && z - z == 0.0;
+}
 
 }
 

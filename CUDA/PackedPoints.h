@@ -8,7 +8,7 @@
 #include "FilteredPredicates.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
-#include "ThreadBackend.h"
+#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -18,6 +18,28 @@
 
 namespace delaunayflip
 {
+
+/// Plain pointers to PackedPoints, for functions of both backends.
+struct PackedPointsView
+{
+  int Components;
+  const float* Floats; ///< Or null, then Doubles.
+  const double* Doubles;
+
+  DELAUNAYFLIP_HOST_DEVICE double Get(VertexId vertex, int component) const
+  {
+    const std::size_t i = std::size_t(this->Components) * vertex + component;
+    return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
+  }
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPlanePoint(VertexId vertex) const
+  {
+    return { this->Get(vertex, 0), this->Get(vertex, 1), 0.0 };
+  }
+  DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
+  {
+    return { this->Get(vertex, 0), this->Get(vertex, 1), this->Get(vertex, 2) };
+  }
+};
 
 /// Components numbers a vertex: (u, v) in the plane, (u, v, w) in a tilted one, (x, y, z) on
 /// surfaces.
@@ -30,11 +52,10 @@ struct PackedPoints
 
   bool IsFloat() const { return this->Floats.Size() > 0; }
 
-  PlanePoint GetPlanePoint(VertexId vertex) const
+  PackedPointsView View() const
   {
-    const std::size_t i = std::size_t(this->Components) * vertex;
-    return this->IsFloat() ? PlanePoint{ this->Floats[i], this->Floats[i + 1], 0.0 }
-                           : PlanePoint{ this->Doubles[i], this->Doubles[i + 1], 0.0 };
+    return { this->Components, this->IsFloat() ? this->Floats.Data() : nullptr,
+      this->Doubles.Data() };
   }
 };
 
@@ -44,12 +65,50 @@ struct PackingPlan
   int Axes[3];
   int Components;
   bool AsFloat;
+  bool Flat; ///< The third component is 0.
   double Scale; ///< Power of two; 1 where exact predicates decide.
+
+  DELAUNAYFLIP_HOST_DEVICE double GetValue(
+    const PointArray& points, std::int64_t point, int component) const
+  {
+    const double x = this->Scale * points.Get(point, this->Axes[component]);
+    return this->Flat && component == 2 ? 0.0 : x;
+  }
 };
 
 /// Packs all points, also unused ones and those that are not finite, which no rule will read.
-PackedPoints PackPoints(const PointArray& points, const SpatialOrder& order,
-  const PackingPlan& plan, const ThreadBackend& backend);
+template <typename Backend>
+PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
+  const PackingPlan& plan, const Backend& backend)
+{
+  PackedPoints packed;
+  packed.Components = plan.Components;
+  packed.Count = points.Count;
+  const std::int64_t size = plan.Components * points.Count;
+  packed.Floats = backend.template MakeArray<float>(plan.AsFloat ? size : 0);
+  packed.Doubles = backend.template MakeArray<double>(plan.AsFloat ? 0 : size);
+  float* floats = packed.Floats.Data();
+  double* doubles = packed.Doubles.Data();
+  backend.ForEach(points.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t rank)
+    {
+      const VertexId point = order.GetVertex(rank);
+      for (int k = 0; k < plan.Components; ++k)
+      {
+        const std::size_t i = std::size_t(plan.Components) * rank + k;
+        const double x = plan.GetValue(points, point, k);
+        if (plan.AsFloat)
+        {
+          floats[i] = static_cast<float>(x);
+        }
+        else
+        {
+          doubles[i] = x;
+        }
+      }
+    });
+  return packed;
+}
 
 }
 

@@ -5,7 +5,6 @@
 
 #include "MeshSurvey.h"
 #include "SurfaceAngles.h"
-#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
@@ -24,9 +23,10 @@ struct Farthest
   std::int64_t Point = -1;
   double Value = -1.0;
 
-  Farthest& operator+=(const Farthest& other)
+  DELAUNAYFLIP_HOST_DEVICE Farthest& operator+=(const Farthest& other)
   {
-    if (other.Value > this->Value)
+    const bool first = other.Value == this->Value && other.Point < this->Point;
+    if (other.Value > this->Value || first)
     {
       *this = other;
     }
@@ -34,55 +34,88 @@ struct Farthest
   }
 };
 
+/// A power of two by repeated scaling, the same on every backend.
+struct PlaneScale
+{
+  double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.
+
+  explicit PlaneScale(int exponent)
+  {
+    this->Factors[0] = std::scalbn(1.0, exponent / 2);
+    this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(double x, double y, double z) const
+  {
+    return { x * this->Factors[0] * this->Factors[1], y * this->Factors[0] * this->Factors[1],
+      z * this->Factors[0] * this->Factors[1] };
+  }
+};
+
+/// What to maximise: squared distance from an origin, squared area with a vector, or distance from
+/// a plane times the length of its normal.
+struct DistanceFrom
+{
+  Vector3 Origin;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    const Vector3 d = p - this->Origin;
+    return Dot(d, d);
+  }
+};
+
+struct AreaWith
+{
+  Vector3 Origin, Along;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    const Vector3 n = Cross(this->Along, p - this->Origin);
+    return Dot(n, n);
+  }
+};
+
+struct HeightAbove
+{
+  Vector3 Origin, Normal;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    return std::fabs(Dot(this->Normal, p - this->Origin));
+  }
+};
+
 /// Finds the plane of a survey's points.
+template <typename Backend>
 class PlaneFinder
 {
 public:
-  PlaneFinder(const PointArray& points, const MeshSurvey& survey, const ThreadBackend& backend)
-    : Points(points),
-      Survey(survey),
-      Backend(backend)
+  PlaneFinder(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
+    : Input(input),
+      Uses(survey.Uses.Data()),
+      Scale(FindShift(survey.Box)),
+      Engine(backend)
   {
-    // Lengths relative to the largest coordinate neither overflow nor underflow to nothing.
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      largest = std::max({ largest, std::fabs(survey.Lower[axis]), std::fabs(survey.Upper[axis]) });
-    }
-    this->Shift = largest > 0.0 ? -std::ilogb(largest) : 0;
-    const Vector3 diagonal = this->Scaled(survey.Upper[0], survey.Upper[1], survey.Upper[2]) -
-      this->Scaled(survey.Lower[0], survey.Lower[1], survey.Lower[2]);
-    this->Diagonal = std::sqrt(Dot(diagonal, diagonal));
+    const BoundingBox& box = survey.Box;
+    this->Diagonal = Length(this->Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
+      this->Scale(box.Lower[0], box.Lower[1], box.Lower[2]));
   }
 
   /// Whether all used points lie in one plane; its normal is then known.
   bool Find()
   {
-    const std::int64_t first = this->FirstPoint();
+    // The first point: all of them are equally far from nothing.
+    const std::int64_t first = this->ArgMax(HeightAbove{});
     if (first < 0)
     {
       this->Normal = { 0.0, 0.0, 1.0 };
       return true;
     }
-    this->Origin = this->Get(first);
-    const Vector3 along = this->Get(this->ArgMax(
-                            [this](const Vector3& p)
-                            {
-                              const Vector3 d = p - this->Origin;
-                              return Dot(d, d);
-                            })) -
-      this->Origin;
-    const Vector3 across = this->Get(this->ArgMax(
-                             [&](const Vector3& p)
-                             {
-                               const Vector3 n = Cross(along, p - this->Origin);
-                               return Dot(n, n);
-                             })) -
-      this->Origin;
+    const Vector3 origin = this->Get(first);
+    const Vector3 along = this->Get(this->ArgMax(DistanceFrom{ origin })) - origin;
+    const Vector3 across = this->Get(this->ArgMax(AreaWith{ origin, along })) - origin;
     this->Normal = Cross(along, across);
-    const double length = std::sqrt(Dot(this->Normal, this->Normal));
-    this->Off = this->ArgMax([this](const Vector3& p) { return this->Height(p); });
-    return this->Height(this->Get(this->Off)) <= PlanarTolerance * this->Diagonal * length;
+    const HeightAbove height{ origin, this->Normal };
+    this->Off = this->ArgMax(height);
+    return height(this->Get(this->Off)) <= PlanarTolerance * this->Diagonal * Length(this->Normal);
   }
 
   int DominantAxis() const
@@ -99,58 +132,49 @@ public:
 
   std::int64_t FarthestOff() const { return this->Off; }
 
-private:
-  Vector3 Scaled(double x, double y, double z) const
-  {
-    return { std::scalbn(x, this->Shift), std::scalbn(y, this->Shift),
-      std::scalbn(z, this->Shift) };
-  }
-
-  Vector3 Get(std::int64_t i) const
-  {
-    return this->Scaled(this->Points.Get(i, 0), this->Points.Get(i, 1), this->Points.Get(i, 2));
-  }
-
-  double Height(const Vector3& p) const { return std::fabs(Dot(this->Normal, p - this->Origin)); }
-
-  std::int64_t FirstPoint() const
-  {
-    for (std::int64_t i = 0; i < this->Points.Count; ++i)
-    {
-      if (this->Survey.Uses[i] == PointUse::Used)
-      {
-        return i;
-      }
-    }
-    return -1;
-  }
-
+  /// The used point of the largest measure; public because device lambdas ask for it.
   template <typename Measure>
   std::int64_t ArgMax(const Measure& measure) const
   {
-    return this->Backend
-      .Sum<Farthest>(this->Points.Count,
-        [&](std::int64_t begin, std::int64_t end)
+    const PointArray points = this->Input.Local.Points;
+    const PointUse* uses = this->Uses;
+    const PlaneScale scale = this->Scale;
+    return this->Engine
+      .template Sum<Farthest>(points.Count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
         {
-          Farthest farthest;
-          for (std::int64_t i = begin; i < end; ++i)
+          if (uses[i] == PointUse::Used)
           {
-            if (this->Survey.Uses[i] == PointUse::Used)
-            {
-              farthest += { i, measure(this->Get(i)) };
-            }
+            farthest += { i, measure(scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2))) };
           }
-          return farthest;
         })
       .Point;
   }
 
-  const PointArray& Points;
-  const MeshSurvey& Survey;
-  const ThreadBackend& Backend;
-  int Shift = 0;
+private:
+  /// Lengths relative to the largest coordinate neither overflow nor underflow to nothing.
+  static int FindShift(const BoundingBox& box)
+  {
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
+    }
+    return largest > 0.0 ? -std::ilogb(largest) : 0;
+  }
+
+  Vector3 Get(std::int64_t i) const
+  {
+    const PointArray& points = this->Input.Caller.Points;
+    return this->Scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2));
+  }
+
+  const MeshInput& Input;
+  const PointUse* Uses;
+  PlaneScale Scale;
+  const Backend& Engine;
   double Diagonal = 0.0;
-  Vector3 Origin, Normal;
+  Vector3 Normal;
   std::int64_t Off = -1;
 };
 

@@ -5,6 +5,7 @@
 
 #include "Array.h"
 #include "EdgeMesh.h"
+#include "HilbertCurve.h"
 #include "MeshSurvey.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
@@ -17,6 +18,30 @@
 namespace delaunayflip
 {
 
+/// Smaller meshes fit a second-level cache in any order.
+constexpr std::int64_t SmallestOrderedMesh = 1 << 14; // triangles
+
+/// Plain pointers to a SpatialOrder, for functions of both backends.
+struct SpatialOrderView
+{
+  const VertexId* RankOfVertex;
+  const VertexId* VertexOfRank;
+  const TriangleId* TriangleOfRank;
+
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetRank(std::int64_t vertex) const
+  {
+    return this->RankOfVertex ? this->RankOfVertex[vertex] : static_cast<VertexId>(vertex);
+  }
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::int64_t rank) const
+  {
+    return this->VertexOfRank ? this->VertexOfRank[rank] : static_cast<VertexId>(rank);
+  }
+  DELAUNAYFLIP_HOST_DEVICE TriangleId GetTriangle(std::int64_t rank) const
+  {
+    return this->TriangleOfRank ? this->TriangleOfRank[rank] : static_cast<TriangleId>(rank);
+  }
+};
+
 /// Permutations between the caller's ids and ranks; empty for meshes small enough for the caches,
 /// which keep the caller's order.
 struct SpatialOrder
@@ -25,25 +50,81 @@ struct SpatialOrder
   Array<VertexId> VertexOfRank;
   Array<TriangleId> TriangleOfRank;
 
-  VertexId GetRank(std::int64_t vertex) const
+  SpatialOrderView View() const
   {
-    return this->RankOfVertex.Size() ? this->RankOfVertex[vertex] : static_cast<VertexId>(vertex);
-  }
-  VertexId GetVertex(std::int64_t rank) const
-  {
-    return this->VertexOfRank.Size() ? this->VertexOfRank[rank] : static_cast<VertexId>(rank);
-  }
-  TriangleId GetTriangle(std::int64_t rank) const
-  {
-    return this->TriangleOfRank.Size() ? this->TriangleOfRank[rank] : static_cast<TriangleId>(rank);
+    return { this->RankOfVertex.Data(), this->VertexOfRank.Data(), this->TriangleOfRank.Data() };
   }
 };
+
+/// Where keys come from.
+struct OrderingFrame
+{
+  BoundingBox Box;
+  GeometryKind Geometry;
+  PlaneProjection Projection;
+
+  /// Cell of a point along an axis. Half of each number, so that a box as wide as the range of
+  /// double does not overflow.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetCell(
+    const PointArray& points, std::int64_t point, int axis, int bits) const
+  {
+    return CellOf(0.5 * points.Get(point, axis), 0.5 * this->Box.Lower[axis],
+      0.5 * this->Box.Upper[axis] - 0.5 * this->Box.Lower[axis], bits);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetKey(const PointArray& points, std::int64_t i) const
+  {
+    if (this->Geometry == GeometryKind::Surface)
+    {
+      constexpr int Bits = SortKeyBits / 3;
+      std::uint32_t cell[3] = { this->GetCell(points, i, 0, Bits),
+        this->GetCell(points, i, 1, Bits), this->GetCell(points, i, 2, Bits) };
+      return HilbertIndex(cell, Bits);
+    }
+    constexpr int Bits = SortKeyBits / 2;
+    std::uint32_t cell[2] = { this->GetCell(points, i, this->Projection.AxisU, Bits),
+      this->GetCell(points, i, this->Projection.AxisV, Bits) };
+    return HilbertIndex(cell, Bits);
+  }
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t MedianOf(
+  std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
 
 /// Vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in planar
 /// geometry, 128^3 on surfaces), triangles by the median rank of their vertices: a long triangle
 /// lies near its short edge, where it will be flipped away.
-SpatialOrder OrderMesh(
-  const TriangleMesh& mesh, const MeshSurvey& survey, const ThreadBackend& backend);
+template <typename Backend>
+SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
+{
+  const TriangleArray triangles = input.Local.Triangles;
+  const PointArray points = input.Local.Points;
+  SpatialOrder order;
+  if (triangles.Count < SmallestOrderedMesh)
+  {
+    return order;
+  }
+  const OrderingFrame frame{ survey.Box, survey.Geometry, survey.Projection };
+  order.VertexOfRank = backend.SortIndices(
+    points.Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.GetKey(points, i); });
+  order.RankOfVertex = backend.template MakeArray<VertexId>(points.Count);
+  const VertexId* vertexOfRank = order.VertexOfRank.Data();
+  VertexId* rankOfVertex = order.RankOfVertex.Data();
+  backend.ForEach(points.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t rank)
+    { rankOfVertex[vertexOfRank[rank]] = static_cast<VertexId>(rank); });
+  order.TriangleOfRank = backend.SortIndices(triangles.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    {
+      const std::uint64_t median = MedianOf(rankOfVertex[triangles.Get(t, 0)],
+        rankOfVertex[triangles.Get(t, 1)], rankOfVertex[triangles.Get(t, 2)]);
+      return static_cast<std::uint32_t>((median << SortKeyBits) / points.Count);
+    });
+  return order;
+}
 
 }
 

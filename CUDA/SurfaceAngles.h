@@ -46,7 +46,8 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 Cross(const Vector3& a, const Vector3& b
 DELAUNAYFLIP_HOST_DEVICE inline double Length(const Vector3& a) { return std::sqrt(Dot(a, a)); }
 
 /// Coordinates of a point times a power of two.
-inline Vector3 LoadScaled(const PointArray& points, std::int64_t point, double scale)
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 LoadScaled(
+  const PointArray& points, std::int64_t point, double scale)
 {
   return { scale * points.Get(point, 0), scale * points.Get(point, 1),
     scale * points.Get(point, 2) };

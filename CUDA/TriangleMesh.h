@@ -3,6 +3,8 @@
 #ifndef DELAUNAYFLIP_TRIANGLEMESH_H
 #define DELAUNAYFLIP_TRIANGLEMESH_H
 
+#include "HostDevice.h"
+
 #include <cstdint>
 
 /// @file
@@ -27,7 +29,7 @@ struct PointArray
   }
 
   /// Coordinate `axis` (0, 1, 2) of point `point` (0 .. Count - 1).
-  double Get(std::int64_t point, int axis) const
+  DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
   {
     const std::int64_t i = 3 * point + axis;
     return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
@@ -56,14 +58,14 @@ struct BasicTriangleArray
   }
 
   /// Vertex id at `slot` (0, 1, 2) of `triangle` (0 .. Count - 1).
-  std::int64_t Get(std::int64_t triangle, int slot) const
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t Get(std::int64_t triangle, int slot) const
   {
     const std::int64_t i = 3 * triangle + slot;
     return this->Ids32 ? static_cast<std::int64_t>(this->Ids32[i])
                        : static_cast<std::int64_t>(this->Ids64[i]);
   }
 
-  void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
   {
     const std::int64_t i = 3 * triangle + slot;
     if (this->Ids32)

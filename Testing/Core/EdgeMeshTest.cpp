@@ -3,8 +3,9 @@
 #include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "GeneratedMeshes.h"
-#include "MeshSurvey.h"
 #include "SpatialOrder.h"
+#include "SurveyMesh.h"
+#include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
 
@@ -33,9 +34,10 @@ struct Built
 Built Build(const TriangleMesh& mesh, const ThreadBackend& backend)
 {
   Built built;
-  built.Survey = SurveyMesh(mesh, GeometryKind::Auto, backend);
-  built.Order = OrderMesh(mesh, built.Survey, backend);
-  built.Result = BuildEdgeMesh({ mesh, built.Survey, built.Order, 180.0 }, backend);
+  const MeshInput input{ mesh, mesh };
+  built.Survey = SurveyMesh(input, GeometryKind::Auto, backend);
+  built.Order = OrderMesh(input, built.Survey, backend);
+  built.Result = BuildEdgeMesh({ input, built.Survey, built.Order, 180.0 }, backend);
   return built;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates.h"
-#include "ExactReference.h"
+#include "ExactPredicates.h"
 #include "FlipTestSupport.h"
+#include "PointFamilies.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,163 +16,7 @@ namespace delaunayflip
 namespace
 {
 
-using FourPoints = std::array<Point3, 4>;
-
-double DrawUnit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
-
-/// Fills all twelve coordinates from draw().
-template <typename Draw>
-FourPoints FillPoints(const Draw& draw)
-{
-  FourPoints points;
-  for (Point3& point : points)
-  {
-    point = { draw(), draw(), draw() };
-  }
-  return points;
-}
-
-FourPoints DrawUniform(std::mt19937& random)
-{
-  return FillPoints([&] { return DrawUnit(random) - 0.5; });
-}
-
-FourPoints DrawSmallGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return double(DrawIndex(random, 4)); });
-}
-
-FourPoints DrawFloats(std::mt19937& random)
-{
-  return FillPoints([&] { return static_cast<float>(DrawUnit(random)); });
-}
-
-/// Lattice points on one circle: 5 * 13 * 17 has 14 Pythagorean triples.
-FourPoints DrawCircle(std::mt19937& random)
-{
-  constexpr int Radius = 1105;
-  const double center = DrawIndex(random, 2) * 1e7;
-  FourPoints points;
-  for (Point3& point : points)
-  {
-    int x = 0;
-    int y = 1;
-    while (x * x + y * y != Radius * Radius)
-    {
-      x = DrawIndex(random, 2 * Radius + 1) - Radius;
-      y = static_cast<int>(std::lround(std::sqrt(double(Radius * Radius - x * x))));
-    }
-    point = { center + x, center + (DrawIndex(random, 2) ? y : -y), 0.0 };
-  }
-  return points;
-}
-
-/// One coordinate of one point a few steps of the last bit away.
-FourPoints Nudge(FourPoints points, std::mt19937& random)
-{
-  double& x = points[DrawIndex(random, 4)][DrawIndex(random, 2)];
-  const int steps = DrawIndex(random, 5) - 2;
-  for (int i = 0; i < std::abs(steps); ++i)
-  {
-    x = std::nextafter(x, steps * std::numeric_limits<double>::infinity());
-  }
-  return points;
-}
-
-FourPoints DrawNudgedCircle(std::mt19937& random) { return Nudge(DrawCircle(random), random); }
-
-FourPoints DrawNudgedLine(std::mt19937& random)
-{
-  const Point3 direction = { DrawUnit(random), DrawUnit(random), DrawUnit(random) };
-  FourPoints points;
-  for (Point3& point : points)
-  {
-    const double step = std::ldexp(1.0, DrawIndex(random, 8));
-    point = { step * direction[0], step * direction[1], step * direction[2] };
-  }
-  return Nudge(points, random);
-}
-
-/// The neighbourhoods in which naive orientation tests show their noise: a few last bits about
-/// (0.5, 0.5), beside two far points of the diagonal.
-FourPoints DrawNearDiagonal(std::mt19937& random)
-{
-  const auto near = [&] { return 0.5 + std::ldexp(DrawIndex(random, 64), -53); };
-  return { { { near(), near(), 0.0 }, { 12.0, 12.0, 0.0 }, { 24.0, 24.0, 0.0 },
-    { near(), near(), near() } } };
-}
-
-FourPoints DrawTiny(std::mt19937& random)
-{
-  return FillPoints([&] { return 1e-300 * (DrawUnit(random) - 0.5); });
-}
-
-FourPoints DrawHuge(std::mt19937& random)
-{
-  return FillPoints([&] { return 3e300 * (DrawUnit(random) - 0.5); });
-}
-
-FourPoints DrawTinyGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), -1000); });
-}
-
-FourPoints DrawHugeGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); });
-}
-
-FourPoints DrawSubnormal(std::mt19937& random)
-{
-  return FillPoints(
-    [&] { return std::numeric_limits<double>::denorm_min() * (DrawIndex(random, 9) - 4); });
-}
-
-FourPoints DrawMixedMagnitudes(std::mt19937& random)
-{
-  constexpr double Magnitudes[] = { 0.0, 1.0, 1e-300, 1e300, 1.7e308, 5e-324, 3e100, 1e-100 };
-  return FillPoints(
-    [&]
-    {
-      const double magnitude = Magnitudes[DrawIndex(random, 8)];
-      return DrawIndex(random, 2) ? magnitude : -magnitude;
-    });
-}
-
-FourPoints DrawAnyExponents(std::mt19937& random)
-{
-  return FillPoints(
-    [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 2090) - 1070); });
-}
-
-/// Spreads about what expansions can hold.
-FourPoints DrawWideExponents(std::mt19937& random)
-{
-  return FillPoints(
-    [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 500) - 250); });
-}
-
-/// Coordinates far from double's limits whose products, of two or of four, are not.
-FourPoints DrawVanishingProducts(std::mt19937& random)
-{
-  const int exponent = DrawIndex(random, 2) ? -269 : -538;
-  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), exponent); });
-}
-
-FourPoints DrawWithOffset(std::mt19937& random)
-{
-  return FillPoints([&] { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); });
-}
-
-struct Family
-{
-  const char* Name;
-  FourPoints (*Draw)(std::mt19937&);
-};
-
-void PrintTo(const Family& family, std::ostream* stream) { *stream << family.Name; }
-
-class PredicatesTest : public testing::TestWithParam<Family>
+class PredicatesTest : public testing::TestWithParam<PointFamily>
 {
 protected:
   /// Calls check(points) for many cases of the family.
@@ -237,16 +83,42 @@ TEST_P(PredicatesTest, InCircleTiltedIsExact)
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, PredicatesTest,
-  testing::Values(Family{ "Uniform", DrawUniform }, Family{ "SmallGrid", DrawSmallGrid },
-    Family{ "Floats", DrawFloats }, Family{ "Circle", DrawCircle },
-    Family{ "NudgedCircle", DrawNudgedCircle }, Family{ "NudgedLine", DrawNudgedLine },
-    Family{ "NearDiagonal", DrawNearDiagonal }, Family{ "Tiny", DrawTiny },
-    Family{ "Huge", DrawHuge }, Family{ "TinyGrid", DrawTinyGrid },
-    Family{ "HugeGrid", DrawHugeGrid }, Family{ "Subnormal", DrawSubnormal },
-    Family{ "MixedMagnitudes", DrawMixedMagnitudes }, Family{ "AnyExponents", DrawAnyExponents },
-    Family{ "WideExponents", DrawWideExponents },
-    Family{ "VanishingProducts", DrawVanishingProducts }, Family{ "Offset", DrawWithOffset }),
+/// Reports a failure unless `sign` is right, or says that the points do not fit and they may not.
+void ExpectFixedPointSign(int expected, int sign, Fit fit, const FourPoints& points)
+{
+  EXPECT_NE(sign == UncertainSign ? Fit::Always : Fit::Never, fit) << Describe(points);
+  if (sign != UncertainSign)
+  {
+    EXPECT_EQ(expected, sign) << Describe(points);
+  }
+}
+
+/// Without the filters, which leave little to these.
+TEST_P(PredicatesTest, FixedPointIsExact)
+{
+  const Fit fit = GetParam().FixedPoint;
+  this->ForCases(
+    [fit](const FourPoints& p)
+    {
+      PlanePoint points[4];
+      std::transform(p.begin(), p.end(), points,
+        [](const Point3& x) {
+          return PlanePoint{ x[0], x[1], x[2] };
+        });
+      const int turn = RationalTurn(p[0], p[1], p[2]);
+      const int fixedTurn = FixedPointOrientation(points[0], points[1], points[2]);
+      ExpectFixedPointSign(turn, fixedTurn, fit, p);
+      EXPECT_EQ(turn, ExactOrientation(points[0], points[1], points[2])) << Describe(p);
+      for (const bool tilted : { false, true })
+      {
+        const int expected = RationalInCircle(p[0], p[1], p[2], p[3], tilted);
+        ExpectFixedPointSign(expected, FixedPointInCircle(points, tilted), fit, p);
+        EXPECT_EQ(expected, ExactInCircle(points, tilted)) << Describe(p);
+      }
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()),
   [](const auto& test) { return std::string(test.param.Name); });
 
 /// (x, y) -> (3 x, 5 y, 4 x) is a similarity onto a tilted plane, exact on a lattice.

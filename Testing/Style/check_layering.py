@@ -21,6 +21,7 @@ DOORS = {
     "FlipError.h",
     "FlipOptions.h",
     "FlipReport.h",
+    "HostDevice.h",
     "MeshAudit.h",
     "PolygonSplit.h",
     "Predicates.h",

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_ANGLESURVEY_H
+#define DELAUNAYFLIP_ANGLESURVEY_H
+
+#include "EdgeMesh.h"
+#include "FilteredPredicates.h"
+#include "HostDevice.h"
+#include "SurfaceAngles.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// A maximum as a sum.
+struct LargestValue
+{
+  double Value = -INFINITY;
+
+  DELAUNAYFLIP_HOST_DEVICE LargestValue& operator+=(const LargestValue& other)
+  {
+    this->Value = other.Value > this->Value ? other.Value : this->Value;
+    return *this;
+  }
+};
+
+/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle, in the coordinates of a rule.
+template <typename Rule>
+struct AngleSurvey
+{
+  const TriangleRecord* Triangles;
+  Rule Decision;
+  double Scale; ///< Power of two that brings the rule's coordinates near 1.
+
+  DELAUNAYFLIP_HOST_DEVICE LargestValue operator()(std::int64_t t) const
+  {
+    const VertexId* v = this->Triangles[t].Vertices;
+    LargestValue largest;
+    largest.Value = LargestSquaredCotangent(
+      this->GetPosition(v[0]), this->GetPosition(v[1]), this->GetPosition(v[2]));
+    return largest;
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
+  {
+    const Vector3 position = ToPosition(this->Decision.Get(vertex));
+    return { this->Scale * position.X, this->Scale * position.Y, this->Scale * position.Z };
+  }
+  DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const Vector3& point) { return point; }
+  DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const PlanePoint& point)
+  {
+    return { point.U, point.V, point.W };
+  }
+};
+
+}
+
+#endif

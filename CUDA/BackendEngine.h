@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_BACKENDENGINE_H
+#define DELAUNAYFLIP_BACKENDENGINE_H
+
+#include "EdgeMeshAudit.h"
+#include "EdgeMeshBuilder.h"
+#include "FlipEngine.h"
+#include "FlipLoopFactory.h"
+#include "InputChecks.h"
+#include "MeshSurvey.h"
+#include "PackedPoints.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
+#include "SurveyMesh.h"
+
+#include <utility>
+
+namespace delaunayflip
+{
+
+/// From the caller's arrays to a loop, on a backend.
+template <typename Backend>
+class BackendEngine : public FlipEngine
+{
+public:
+  /// Keeps nothing of `mesh`.
+  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, Backend backend)
+    : Engine(std::move(backend))
+  {
+    typename Backend::LocalMesh local = this->Engine.Localize(mesh);
+    const MeshInput input{ mesh, local.View() };
+    const MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
+    CheckTieRule(options, survey.Geometry);
+    this->Order = OrderMesh(input, survey, this->Engine);
+    EdgeMeshResult built =
+      BuildEdgeMesh({ input, survey, this->Order, options.FeatureAngle }, this->Engine);
+    this->Order.RankOfVertex = Array<VertexId>();
+    local.DropTriangles();
+    this->Mesh = std::move(built.Edges);
+    this->StartReport(mesh, survey, built);
+    FlipLoopResult made =
+      FlipLoopFactory<Backend>({ input.Local.Points, survey, this->Order, options, this->Report },
+        this->Mesh, std::move(built.Table), this->Engine)
+        .Make();
+    this->Points = std::move(made.Points);
+    this->Loop = std::move(made.Loop);
+    for (const Defect& defect : made.Defects)
+    {
+      this->AddDefect(defect);
+    }
+  }
+
+  FlipLoop& GetLoop() override { return *this->Loop; }
+
+  const FlipReport& GetInputReport() const override { return this->Report; }
+
+  void StoreTriangles(const MutableTriangleArray& triangles) const override
+  {
+    const TriangleRecord* records = this->Mesh.Triangles.Data();
+    const SpatialOrderView order = this->Order.View();
+    this->Engine.StoreTriangles(triangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const MutableTriangleArray& target)
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          target.Set(records[t].InputTriangle, slot, order.GetVertex(records[t].Vertices[slot]));
+        }
+      });
+  }
+
+  void StoreFlipCounts(std::int32_t* counts) const override
+  {
+    const TriangleRecord* records = this->Mesh.Triangles.Data();
+    this->Engine.StoreValues(this->Mesh.NumberOfTriangles, counts,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int32_t * target)
+      { target[records[t].InputTriangle] = static_cast<std::int32_t>(records[t].FlipCount); });
+  }
+
+  void Audit() const override { RequireConsistent(this->Mesh, this->Engine); }
+
+private:
+  void StartReport(const TriangleMesh& mesh, const MeshSurvey& survey, const EdgeMeshResult& built)
+  {
+    FlipReport& report = this->Report;
+    report.Points = mesh.Points.Count;
+    report.Triangles = mesh.Triangles.Count;
+    report.Edges = built.Counts;
+    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
+    report.GeometryUsed = survey.Geometry;
+    report.Backend = this->Engine.GetName();
+    this->AddDefect(survey.NonFinitePoints);
+    this->AddDefect(survey.RepeatedIds);
+    this->AddDefect(built.DuplicateTriangles);
+    this->AddDefect({ "constraint edges that are not edges of the mesh", built.MissingConstraints,
+      {}, DefectIds::Points });
+  }
+
+  void AddDefect(const Defect& defect)
+  {
+    if (defect.Count > 0)
+    {
+      this->Report.Defects.push_back(defect);
+    }
+  }
+
+  Backend Engine;
+  SpatialOrder Order;
+  EdgeMesh Mesh;
+  PackedPoints Points;
+  std::unique_ptr<FlipLoop> Loop;
+  FlipReport Report;
+};
+
+}
+
+#endif

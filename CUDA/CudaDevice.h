@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CUDADEVICE_H
+#define DELAUNAYFLIP_CUDADEVICE_H
+
+#include <cstdint>
+
+/// @file
+/// What is known of the GPU without using it. Part of every build: without the CUDA backend there
+/// is no device.
+
+namespace delaunayflip
+{
+
+/// Triangles from which on BackendKind::Auto takes a GPU.
+constexpr std::int64_t SmallestMeshForCuda = 20000;
+
+/// Whether there is a GPU that this build can use. Never throws.
+bool HasCudaDevice();
+
+/// Gives back the memory that the CUDA backend keeps between runs, on the device and the host.
+/// Nothing happens while no run is under way and nothing is kept.
+void ReleaseCudaMemory();
+
+}
+
+#endif

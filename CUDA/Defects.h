@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_DEFECTS_H
+#define DELAUNAYFLIP_DEFECTS_H
+
+#include "FlipReport.h"
+#include "HostDevice.h"
+
+#include <cstdint>
+
+/// @file
+/// Dirt in an input, counted by either backend.
+
+namespace delaunayflip
+{
+
+/// How many, and the three smallest ids, in any order of counting.
+struct IdSample
+{
+  static constexpr int Kept = 3;
+
+  std::int64_t Count = 0;
+  std::int64_t Smallest[Kept] = { 0, 0, 0 }; ///< The first min(Count, 3), ascending.
+
+  DELAUNAYFLIP_HOST_DEVICE void Note(std::int64_t id)
+  {
+    this->Keep(id, this->Count);
+    ++this->Count;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE IdSample& operator+=(const IdSample& other)
+  {
+    for (int i = 0; i < Kept && i < other.Count; ++i)
+    {
+      this->Keep(other.Smallest[i], this->Count + i);
+    }
+    this->Count += other.Count;
+    return *this;
+  }
+
+private:
+  /// Inserts an id where `count` are known.
+  DELAUNAYFLIP_HOST_DEVICE void Keep(std::int64_t id, std::int64_t count)
+  {
+    for (int i = 0; i < Kept; ++i)
+    {
+      if (i >= count)
+      {
+        this->Smallest[i] = id;
+        return;
+      }
+      if (id < this->Smallest[i])
+      {
+        const std::int64_t next = this->Smallest[i];
+        this->Smallest[i] = id;
+        id = next;
+      }
+    }
+  }
+};
+
+inline Defect MakeDefect(
+  const char* what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
+{
+  Defect defect{ what, sample.Count, {}, ids };
+  for (int i = 0; i < IdSample::Kept && i < sample.Count; ++i)
+  {
+    defect.FirstIds.push_back(sample.Smallest[i]);
+  }
+  return defect;
+}
+
+}
+
+#endif

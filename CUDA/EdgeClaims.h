@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGECLAIMS_H
+#define DELAUNAYFLIP_EDGECLAIMS_H
+
+#include "EdgeTable.h"
+#include "HostDevice.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// The claims of an iteration on the edges that flips would make. Two flips that share no triangle
+/// may make the same edge; then the smaller priority holds it.
+///
+/// A hash table of words (tag of the edge, smallest priority). Edges with the same tag next to each
+/// other, one pair in billions, are taken for one, which costs one of them an iteration. All words
+/// are Empty between iterations: the holder of a claim gives it back.
+struct EdgeClaims
+{
+  static constexpr std::uint64_t Empty = ~std::uint64_t(0);
+
+  std::uint64_t* Words;
+  std::uint32_t Size;
+
+  /// Words for a mesh: winners share no triangle, so they are at most a third of the edges.
+  static std::int64_t GetSize(std::int64_t edges) { return edges / 2 + 64; }
+
+  DELAUNAYFLIP_HOST_DEVICE void Claim(VertexId a, VertexId b, std::uint32_t priority) const
+  {
+    const std::uint64_t word = MakeWord(a, b, priority);
+    std::uint32_t slot = this->FirstSlot(word);
+    for (;;)
+    {
+      std::uint64_t seen = AtomicLoad(&this->Words[slot]);
+      if (seen == Empty)
+      {
+        seen = AtomicCompareExchange(&this->Words[slot], Empty, word);
+      }
+      if (seen == Empty)
+      {
+        return;
+      }
+      if (seen >> 32 == word >> 32)
+      {
+        AtomicMin(&this->Words[slot], word);
+        return;
+      }
+      slot = this->Next(slot);
+    }
+  }
+
+  /// Whether an edge that was claimed is held by this priority.
+  DELAUNAYFLIP_HOST_DEVICE bool Holds(VertexId a, VertexId b, std::uint32_t priority) const
+  {
+    const std::uint64_t word = MakeWord(a, b, priority);
+    std::uint32_t slot = this->FirstSlot(word);
+    while (AtomicLoad(&this->Words[slot]) >> 32 != word >> 32)
+    {
+      slot = this->Next(slot);
+    }
+    return AtomicLoad(&this->Words[slot]) == word;
+  }
+
+  /// Gives back a claim that is held. Others may be given back meanwhile.
+  DELAUNAYFLIP_HOST_DEVICE void Release(VertexId a, VertexId b, std::uint32_t priority) const
+  {
+    const std::uint64_t word = MakeWord(a, b, priority);
+    std::uint32_t slot = this->FirstSlot(word);
+    while (AtomicLoad(&this->Words[slot]) != word)
+    {
+      slot = this->Next(slot);
+    }
+    AtomicStore(&this->Words[slot], Empty);
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE static std::uint64_t MakeWord(
+    VertexId a, VertexId b, std::uint32_t priority)
+  {
+    const std::uint64_t key = EdgeKey(a, b);
+    const std::uint32_t tag =
+      Scatter(static_cast<std::uint32_t>(key) + Scatter(static_cast<std::uint32_t>(key >> 32)));
+    // The largest tag would look Empty with the largest priority.
+    return (std::uint64_t(tag & 0x7FFFFFFFu) << 32) | priority;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FirstSlot(std::uint64_t word) const
+  {
+    return static_cast<std::uint32_t>(((word >> 32) * this->Size) >> 31);
+  }
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Next(std::uint32_t slot) const
+  {
+    return slot + 1 < this->Size ? slot + 1 : 0;
+  }
+};
+
+}
+
+#endif

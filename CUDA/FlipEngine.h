@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPENGINE_H
+#define DELAUNAYFLIP_FLIPENGINE_H
+
+#include "FlipLoop.h"
+#include "FlipOptions.h"
+#include "FlipReport.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace delaunayflip
+{
+
+/// A mesh on a backend, ready to flip: what a session drives. BackendEngine.h makes one.
+class FlipEngine
+{
+public:
+  virtual ~FlipEngine() = default;
+
+  virtual FlipLoop& GetLoop() = 0;
+
+  /// What the input holds, as far as it is known before the first iteration.
+  virtual const FlipReport& GetInputReport() const = 0;
+
+  /// As FlipSession's.
+  virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
+  virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
+
+  /// Throws std::logic_error when the edge mesh is inconsistent: a fault of ours.
+  virtual void Audit() const = 0;
+};
+
+std::unique_ptr<FlipEngine> MakeThreadEngine(const TriangleMesh& mesh, const FlipOptions& options);
+
+/// @throws BackendUnavailable: no GPU, no memory on it, a failure of the driver; or what it was
+/// asked for needs the CPU. The message says why.
+std::unique_ptr<FlipEngine> MakeCudaEngine(const TriangleMesh& mesh, const FlipOptions& options);
+
+}
+
+#endif

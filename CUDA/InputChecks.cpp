@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InputChecks.h"
+
+#include "FlipError.h"
+
+#include <cstdint>
+#include <string>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// 4 * triangle + slot, and 2 * edge + side with at most 3 edges a triangle, must stay below 2^32.
+constexpr std::int64_t LargestMesh = ((std::int64_t(1) << 32) - 2) / 6;
+constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
+}
+
+void CheckOptions(const FlipOptions& options)
+{
+  if (!(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
+  {
+    throw InvalidOptions("the tolerance must be at least 0 and below 1 radian");
+  }
+  if (!(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0))
+  {
+    throw InvalidOptions("the feature angle must be from 0 to 180 degrees");
+  }
+  if (options.MaximumIterations < -1)
+  {
+    throw InvalidOptions("the number of iterations must be -1 (until done), 0 or more");
+  }
+  if (options.NumberOfThreads < 0)
+  {
+    throw InvalidOptions("the number of threads must be 0 (all) or more");
+  }
+}
+
+void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
+{
+  if (options.TieRule == TieRuleKind::Canonical &&
+    (geometry == GeometryKind::Surface || options.Criterion != CriterionKind::InCircle))
+  {
+    throw InvalidOptions(
+      "the tie rule 'canonical' needs the in-circle criterion in planar geometry; "
+      "use 'keep' for surfaces and opposite angles");
+  }
+}
+
+void CheckMeshSize(const TriangleMesh& mesh)
+{
+  if (mesh.Triangles.Count > LargestMesh || mesh.Points.Count > MostPoints)
+  {
+    throw MeshTooLarge("the mesh has " + std::to_string(mesh.Triangles.Count) + " triangles and " +
+      std::to_string(mesh.Points.Count) + " points; at most " + std::to_string(LargestMesh) +
+      " triangles and " + std::to_string(MostPoints) +
+      " points are supported: split the mesh into parts");
+  }
+}
+
+}

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
+#include "FlipEngine.h"
+#include "FlipError.h"
+
+/// @file
+/// Stands in for the CUDA backend in a build without it.
+
+namespace delaunayflip
+{
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(const TriangleMesh&, const FlipOptions&)
+{
+  throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+}
+
+bool HasCudaDevice() { return false; }
+
+void ReleaseCudaMemory() {}
+
+}

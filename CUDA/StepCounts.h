@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_STEPCOUNTS_H
+#define DELAUNAYFLIP_STEPCOUNTS_H
+
+#include "HostDevice.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// What the steps count.
+struct StepCounts
+{
+  std::int64_t Tested = 0;
+  std::int64_t Uncertain = 0;
+  std::int64_t Bad = 0;
+  std::int64_t Blocked = 0;
+  std::int64_t Flipped = 0;
+  std::int64_t FreshSlots = 0; ///< Slots of the guard table used for the first time.
+  std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
+
+  DELAUNAYFLIP_HOST_DEVICE StepCounts& operator+=(const StepCounts& other)
+  {
+    this->Tested += other.Tested;
+    this->Uncertain += other.Uncertain;
+    this->Bad += other.Bad;
+    this->Blocked += other.Blocked;
+    this->Flipped += other.Flipped;
+    this->FreshSlots += other.FreshSlots;
+    this->LostInserts += other.LostInserts;
+    return *this;
+  }
+};
+
+}
+
+#endif

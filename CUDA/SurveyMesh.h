@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SURVEYMESH_H
+#define DELAUNAYFLIP_SURVEYMESH_H
+
+#include "FlipError.h"
+#include "MeshSurvey.h"
+#include "PlaneFinder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+/// @file
+/// Makes a MeshSurvey on a backend.
+
+namespace delaunayflip
+{
+
+[[noreturn]] inline void ThrowInvalidId(const TriangleMesh& mesh, std::int64_t triangle)
+{
+  std::int64_t id = 0;
+  for (int slot = 2; slot >= 0; --slot)
+  {
+    const std::int64_t candidate = mesh.Triangles.Get(triangle, slot);
+    if (candidate < 0 || candidate >= mesh.Points.Count)
+    {
+      id = candidate;
+    }
+  }
+  throw InvalidMesh("triangle " + std::to_string(triangle) + " names point " + std::to_string(id) +
+      ", but the mesh has points 0 to " + std::to_string(mesh.Points.Count - 1) +
+      "; repair the file or remove the triangle",
+    triangle, id);
+}
+
+struct IdSurvey
+{
+  IdSample Invalid; ///< Triangles that name no point.
+  IdSample Repeated;
+
+  DELAUNAYFLIP_HOST_DEVICE IdSurvey& operator+=(const IdSurvey& part)
+  {
+    this->Invalid += part.Invalid;
+    this->Repeated += part.Repeated;
+    return *this;
+  }
+};
+
+/// Looks at the ids of a triangle and marks its points as used.
+DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
+  const TriangleMesh& mesh, PointUse* uses, std::int64_t t, IdSurvey& survey)
+{
+  const std::int64_t p = mesh.Triangles.Get(t, 0);
+  const std::int64_t q = mesh.Triangles.Get(t, 1);
+  const std::int64_t r = mesh.Triangles.Get(t, 2);
+  const std::int64_t count = mesh.Points.Count;
+  if (p < 0 || p >= count || q < 0 || q >= count || r < 0 || r >= count)
+  {
+    survey.Invalid.Note(t);
+    return;
+  }
+  AtomicStore(&uses[p], PointUse::Used);
+  AtomicStore(&uses[q], PointUse::Used);
+  AtomicStore(&uses[r], PointUse::Used);
+  if (p == q || q == r || r == p)
+  {
+    survey.Repeated.Note(t);
+  }
+}
+
+/// Bounding box and counts of the used points.
+struct PointSurvey
+{
+  double Lower[3] = { INFINITY, INFINITY, INFINITY };
+  double Upper[3] = { -INFINITY, -INFINITY, -INFINITY };
+  std::int64_t Used = 0;
+  IdSample NonFinite;
+
+  DELAUNAYFLIP_HOST_DEVICE void Include(int axis, double lower, double upper)
+  {
+    this->Lower[axis] = lower < this->Lower[axis] ? lower : this->Lower[axis];
+    this->Upper[axis] = upper > this->Upper[axis] ? upper : this->Upper[axis];
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE PointSurvey& operator+=(const PointSurvey& part)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Include(axis, part.Lower[axis], part.Upper[axis]);
+    }
+    this->Used += part.Used;
+    this->NonFinite += part.NonFinite;
+    return *this;
+  }
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, GeometryKind geometry,
+  PointUse* uses, std::int64_t i, PointSurvey& survey)
+{
+  if (uses[i] == PointUse::Unused)
+  {
+    return;
+  }
+  ++survey.Used;
+  if (!IsFinitePoint(points, i, geometry))
+  {
+    uses[i] = PointUse::NotFinite;
+    survey.NonFinite.Note(i);
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    survey.Include(axis, points.Get(i, axis), points.Get(i, axis));
+  }
+}
+
+template <typename Backend>
+void ResolveGeometry(
+  MeshSurvey& survey, const MeshInput& input, GeometryKind requested, const Backend& backend)
+{
+  survey.Geometry = requested;
+  if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface)
+  {
+    return;
+  }
+  PlaneFinder<Backend> finder(input, survey, backend);
+  const bool planar = finder.Find();
+  if (!planar && requested == GeometryKind::Planar)
+  {
+    throw InvalidOptions("geometry 'planar' was asked for, but the points do not lie in one plane: "
+                         "point " +
+      std::to_string(finder.FarthestOff()) +
+      " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' for "
+      "terrain");
+  }
+  survey.Geometry = planar ? GeometryKind::Planar : GeometryKind::Surface;
+  const int axis = finder.DominantAxis();
+  survey.Projection.AxisU = (axis + 1) % 3;
+  survey.Projection.AxisV = (axis + 2) % 3;
+  survey.Projection.AxisW = axis;
+  survey.Projection.Tilted = planar && survey.Box.Lower[axis] < survey.Box.Upper[axis];
+}
+
+/// Range of the coordinates, and what follows from it.
+inline void ResolveRange(MeshSurvey& survey)
+{
+  double largest = 0.0;
+  for (int axis = 0; axis < (survey.Geometry == GeometryKind::PlanarXY ? 2 : 3); ++axis)
+  {
+    largest =
+      std::max({ largest, std::fabs(survey.Box.Lower[axis]), std::fabs(survey.Box.Upper[axis]) });
+  }
+  survey.FiltersApply = largest <= LargestFilteredDifference / 2;
+  // Products of six lengths must neither overflow nor vanish where surfaces are judged.
+  constexpr int UsualExponent = 100;
+  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  survey.Scale = std::abs(exponent) > UsualExponent ? std::scalbn(1.0, -exponent) : 1.0;
+}
+
+template <typename Backend>
+void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend& backend)
+{
+  const TriangleMesh mesh = input.Local;
+  PointUse* uses = survey.Uses.Data();
+  backend.ForEach(mesh.Points.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { uses[i] = PointUse::Unused; });
+  const IdSurvey ids = backend.template Sum<IdSurvey>(mesh.Triangles.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, IdSurvey & sum)
+    { SurveyIds(mesh, uses, t, sum); });
+  if (ids.Invalid.Count > 0)
+  {
+    ThrowInvalidId(input.Caller, ids.Invalid.Smallest[0]);
+  }
+  survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
+}
+
+/// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
+/// without a plane.
+template <typename Backend>
+MeshSurvey SurveyMesh(const MeshInput& input, GeometryKind requested, const Backend& backend)
+{
+  MeshSurvey survey;
+  survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
+  SurveyTriangleIds(survey, input, backend);
+  const PointArray array = input.Local.Points;
+  PointUse* uses = survey.Uses.Data();
+  const PointSurvey points = backend.template Sum<PointSurvey>(array.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
+    { SurveyPoint(array, requested, uses, i, sum); });
+  survey.UsedPoints = points.Used;
+  survey.NonFinitePoints =
+    MakeDefect("points with NaN or infinite coordinates", points.NonFinite, DefectIds::Points);
+  if (points.Used > points.NonFinite.Count)
+  {
+    std::copy_n(points.Lower, 3, survey.Box.Lower);
+    std::copy_n(points.Upper, 3, survey.Box.Upper);
+  }
+  ResolveGeometry(survey, input, requested, backend);
+  ResolveRange(survey);
+  return survey;
+}
+
+}
+
+#endif

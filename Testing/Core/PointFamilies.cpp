@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointFamilies.h"
+
+#include "FlipTestSupport.h"
+
+#include <cmath>
+#include <limits>
+
+namespace delaunayflip
+{
+namespace
+{
+
+double DrawUnit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
+
+/// Fills all twelve coordinates from draw().
+template <typename Draw>
+FourPoints FillPoints(const Draw& draw)
+{
+  FourPoints points;
+  for (Point3& point : points)
+  {
+    point = { draw(), draw(), draw() };
+  }
+  return points;
+}
+
+}
+
+FourPoints DrawSmallGrid(std::mt19937& random)
+{
+  return FillPoints([&] { return double(DrawIndex(random, 4)); });
+}
+
+/// Lattice points on one circle: 5 * 13 * 17 has 14 Pythagorean triples.
+FourPoints DrawCircle(std::mt19937& random)
+{
+  constexpr int Radius = 1105;
+  const double center = DrawIndex(random, 2) * 1e7;
+  FourPoints points;
+  for (Point3& point : points)
+  {
+    int x = 0;
+    int y = 1;
+    while (x * x + y * y != Radius * Radius)
+    {
+      x = DrawIndex(random, 2 * Radius + 1) - Radius;
+      y = static_cast<int>(std::lround(std::sqrt(double(Radius * Radius - x * x))));
+    }
+    point = { center + x, center + (DrawIndex(random, 2) ? y : -y), 0.0 };
+  }
+  return points;
+}
+
+namespace
+{
+
+FourPoints DrawUniform(std::mt19937& random)
+{
+  return FillPoints([&] { return DrawUnit(random) - 0.5; });
+}
+
+FourPoints DrawFloats(std::mt19937& random)
+{
+  return FillPoints([&] { return static_cast<float>(DrawUnit(random)); });
+}
+
+/// One coordinate of one point a few steps of the last bit away.
+FourPoints Nudge(FourPoints points, std::mt19937& random)
+{
+  double& x = points[DrawIndex(random, 4)][DrawIndex(random, 2)];
+  const int steps = DrawIndex(random, 5) - 2;
+  for (int i = 0; i < std::abs(steps); ++i)
+  {
+    x = std::nextafter(x, steps * std::numeric_limits<double>::infinity());
+  }
+  return points;
+}
+
+FourPoints DrawNudgedCircle(std::mt19937& random) { return Nudge(DrawCircle(random), random); }
+
+FourPoints DrawNudgedLine(std::mt19937& random)
+{
+  const Point3 direction = { DrawUnit(random), DrawUnit(random), DrawUnit(random) };
+  FourPoints points;
+  for (Point3& point : points)
+  {
+    const double step = std::ldexp(1.0, DrawIndex(random, 8));
+    point = { step * direction[0], step * direction[1], step * direction[2] };
+  }
+  return Nudge(points, random);
+}
+
+/// The neighbourhoods in which naive orientation tests show their noise: a few last bits about
+/// (0.5, 0.5), beside two far points of the diagonal.
+FourPoints DrawNearDiagonal(std::mt19937& random)
+{
+  const auto near = [&] { return 0.5 + std::ldexp(DrawIndex(random, 64), -53); };
+  return { { { near(), near(), 0.0 }, { 12.0, 12.0, 0.0 }, { 24.0, 24.0, 0.0 },
+    { near(), near(), near() } } };
+}
+
+FourPoints DrawTiny(std::mt19937& random)
+{
+  return FillPoints([&] { return 1e-300 * (DrawUnit(random) - 0.5); });
+}
+
+FourPoints DrawHuge(std::mt19937& random)
+{
+  return FillPoints([&] { return 3e300 * (DrawUnit(random) - 0.5); });
+}
+
+FourPoints DrawTinyGrid(std::mt19937& random)
+{
+  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), -1000); });
+}
+
+FourPoints DrawHugeGrid(std::mt19937& random)
+{
+  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); });
+}
+
+/// Subnormal numbers about zero, and those about the border to normal ones.
+FourPoints DrawSubnormal(std::mt19937& random)
+{
+  return FillPoints(
+    [&]
+    {
+      const double multiple = std::ldexp(DrawIndex(random, 2), 52) + DrawIndex(random, 9) - 4;
+      return std::numeric_limits<double>::denorm_min() * multiple;
+    });
+}
+
+FourPoints DrawMixedMagnitudes(std::mt19937& random)
+{
+  constexpr double Magnitudes[] = { 0.0, 1.0, 1e-300, 1e300, 1.7e308, 5e-324, 3e100, 1e-100 };
+  return FillPoints(
+    [&]
+    {
+      const double magnitude = Magnitudes[DrawIndex(random, 8)];
+      return DrawIndex(random, 2) ? magnitude : -magnitude;
+    });
+}
+
+FourPoints DrawAnyExponents(std::mt19937& random)
+{
+  return FillPoints(
+    [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 2090) - 1070); });
+}
+
+/// Spreads about what fixed-point integers can hold.
+FourPoints DrawWideExponents(std::mt19937& random)
+{
+  return FillPoints([&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 30) - 15); });
+}
+
+/// Coordinates far from double's limits whose products, of two or of four, are not.
+FourPoints DrawVanishingProducts(std::mt19937& random)
+{
+  const int exponent = DrawIndex(random, 2) ? -269 : -538;
+  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), exponent); });
+}
+
+FourPoints DrawWithOffset(std::mt19937& random)
+{
+  return FillPoints([&] { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); });
+}
+
+/// Integers of any size up to 2^61, so that differences and sums reach 2^62.
+FourPoints DrawLargestOffsets(std::mt19937& random)
+{
+  return FillPoints(
+    [&]
+    {
+      const int bits = DrawIndex(random, 62);
+      const double power = std::ldexp(1.0, DrawIndex(random, 2) ? 61 : bits);
+      const double noise = std::floor(std::ldexp(DrawUnit(random), bits - 9));
+      return (DrawIndex(random, 2) ? 1 : -1) * (power - (DrawIndex(random, 2) ? noise : 0.0));
+    });
+}
+
+/// Offsets in x that are the next double above 2^62, in units of 1.
+FourPoints DrawTooLargeOffsets(std::mt19937& random)
+{
+  FourPoints points = FillPoints([&] { return 2.0 * DrawIndex(random, 100) - 99.0; });
+  for (Point3& point : points)
+  {
+    point[0] = -std::ldexp(1.0, 61);
+  }
+  points[0][0] = std::ldexp(1.0, 61) + 512.0;
+  return points;
+}
+
+FourPoints DrawExtremes(std::mt19937& random)
+{
+  FourPoints points = FillPoints([&] { return DrawIndex(random, 2) ? 1e-300 : -1e300; });
+  points[0] = { 1e-300, 1e300, 0.0 };
+  return points;
+}
+
+/// Axis-aligned rectangles whose sides are no multiples of a power of two that anyone thought of.
+FourPoints DrawRectangle(std::mt19937& random)
+{
+  const auto draw = [&] { return 0.1 * DrawIndex(random, 300); };
+  const double x[] = { draw(), draw() };
+  const double y[] = { draw(), draw() };
+  return { { { x[0], y[0], draw() }, { x[1], y[0], draw() }, { x[1], y[1], draw() },
+    { x[0], y[1], draw() } } };
+}
+
+}
+
+std::vector<PointFamily> ListPointFamilies()
+{
+  return {
+    { "Uniform", DrawUniform, Fit::Always },
+    { "SmallGrid", DrawSmallGrid, Fit::Always },
+    { "Floats", DrawFloats, Fit::Always },
+    { "Circle", DrawCircle, Fit::Always },
+    { "NudgedCircle", DrawNudgedCircle, Fit::Sometimes },
+    { "NudgedLine", DrawNudgedLine, Fit::Sometimes },
+    { "NearDiagonal", DrawNearDiagonal, Fit::Always },
+    { "Tiny", DrawTiny, Fit::Sometimes },
+    { "Huge", DrawHuge, Fit::Sometimes },
+    { "TinyGrid", DrawTinyGrid, Fit::Always },
+    { "HugeGrid", DrawHugeGrid, Fit::Always },
+    { "Subnormal", DrawSubnormal, Fit::Always },
+    { "MixedMagnitudes", DrawMixedMagnitudes, Fit::Sometimes },
+    { "AnyExponents", DrawAnyExponents, Fit::Sometimes },
+    { "WideExponents", DrawWideExponents, Fit::Sometimes },
+    { "VanishingProducts", DrawVanishingProducts, Fit::Always },
+    { "Offset", DrawWithOffset, Fit::Always },
+    { "LargestOffsets", DrawLargestOffsets, Fit::Always },
+    { "TooLargeOffsets", DrawTooLargeOffsets, Fit::Never },
+    { "Extremes", DrawExtremes, Fit::Never },
+    { "Rectangle", DrawRectangle, Fit::Always },
+  };
+}
+
+}
