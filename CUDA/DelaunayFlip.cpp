@@ -3,7 +3,6 @@
 #include "DelaunayFlip.h"
 
 #include "EngineChoice.h"
-#include "FlipEngine.h"
 #include "FlipLoop.h"
 #include "InputChecks.h"
 #include "SurfaceAngles.h"
@@ -51,18 +50,13 @@ class FlipSession::Implementation
 {
 public:
   Implementation(const TriangleMesh& mesh, const FlipOptions& options)
-    : Options(options)
+    : Options(Checked(mesh, options)),
+      Engine(mesh, options)
   {
-    const StopWatch watch;
-    CheckOptions(options);
-    CheckMeshSize(mesh);
-    EngineChoice choice = MakeEngine(mesh, options);
-    this->Engine = std::move(choice.Engine);
-    this->Report = this->Engine->GetInputReport();
-    this->Report.Fallback = choice.Fallback;
+    this->Report = this->Engine.GetInputReport();
     this->Report.MinimumAngleBefore = this->MeasureAngle();
     this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
-    this->Report.BuildSeconds = watch.GetSeconds();
+    this->Report.BuildSeconds = this->Life.GetSeconds();
     this->DetectFirst();
   }
 
@@ -83,21 +77,30 @@ public:
     return this->IsRunning();
   }
 
-  const FlipReport& GetReport() const { return this->Report; }
+  const FlipReport& GetReport()
+  {
+    this->Report.Backend = this->Engine.GetInputReport().Backend;
+    this->Report.Fallback = this->Engine.GetFallback();
+    return this->Report;
+  }
 
-  const FlipEngine& GetEngine() const { return *this->Engine; }
+  ChosenEngine& GetEngine() { return this->Engine; }
 
 private:
-  double MeasureAngle() const
+  static const FlipOptions& Checked(const TriangleMesh& mesh, const FlipOptions& options)
   {
-    return ToDegrees(this->Engine->GetLoop().FindLargestSquaredCotangent());
+    CheckOptions(options);
+    CheckMeshSize(mesh);
+    return options;
   }
+
+  double MeasureAngle() { return ToDegrees(this->Engine.FindLargestSquaredCotangent()); }
 
   /// What the input holds, and with nothing to do or no iteration allowed, the end.
   void DetectFirst()
   {
     const StopWatch watch;
-    this->Detected(this->Engine->GetLoop().Detect());
+    this->Detected(this->Engine.Detect());
     this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
     this->Report.FlipSeconds = watch.GetSeconds();
   }
@@ -142,10 +145,10 @@ private:
     const StopWatch watch;
     const bool isFirst = this->Report.Iterations.empty();
     const std::vector<IterationCounts> iterations =
-      this->Engine->GetLoop().Advance({ most, isFirst, this->Options.TrackQuality });
-    this->Detected(this->Engine->GetLoop().GetFound());
+      this->Engine.Advance({ most, isFirst, this->Options.TrackQuality });
+    this->Detected(this->Engine.GetFound());
 #if !defined(NDEBUG)
-    this->Engine->Audit();
+    this->Engine.Audit();
 #endif
     const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
     bool goOn = true;
@@ -192,8 +195,9 @@ private:
     }
   }
 
+  StopWatch Life;
   FlipOptions Options;
-  std::unique_ptr<FlipEngine> Engine;
+  ChosenEngine Engine;
   StepCounts Found; ///< By the last Detect.
   FlipReport Report;
 };

@@ -17,7 +17,9 @@ namespace delaunayflip
 {
 
 /// A mesh on its way to Delaunay: made once from the caller's arrays, advanced by iterations, read
-/// out at any time between them. The caller's arrays are not needed after the constructor.
+/// out at any time between them. With BackendKind::Auto the caller's arrays must stay as they are
+/// as long as it lives: where a GPU fails, the CPU starts from them. Else they are not needed after
+/// the constructor.
 ///
 /// Same mesh and options, same result, bit for bit, for any number of threads and any backend.
 class FlipSession

@@ -36,9 +36,7 @@ public:
       UsedSlots(edges),
       NumberOfVertices(vertices)
   {
-    std::uint64_t* claims = this->Claims.Data();
-    backend.ForEach(static_cast<std::int64_t>(this->Claims.Size()),
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = EdgeClaims::Empty; });
+    this->ClearClaims(backend);
   }
 
   bool IsActive() const { return !this->Table.IsEmpty(); }
@@ -70,7 +68,15 @@ public:
     }
   }
 
-  /// Public because device lambdas ask for it.
+  // Public because device lambdas ask for it.
+  template <typename Backend>
+  void ClearClaims(const Backend& backend)
+  {
+    std::uint64_t* claims = this->Claims.Data();
+    backend.ForEach(static_cast<std::int64_t>(this->Claims.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = EdgeClaims::Empty; });
+  }
+
   template <typename Backend>
   void Rebuild(EdgeMesh& mesh, const Backend& backend)
   {

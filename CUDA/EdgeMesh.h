@@ -103,7 +103,7 @@ struct EdgeMeshView
 struct EdgeMesh
 {
   /// States are searched many at a time.
-  static constexpr std::int64_t StatePadding = 16;
+  static constexpr std::int64_t StatePadding = 256;
 
   std::int64_t NumberOfTriangles = 0;
   std::int64_t NumberOfEdges = 0;

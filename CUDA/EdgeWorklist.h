@@ -113,9 +113,8 @@ public:
 private:
   static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
   static constexpr std::int64_t BlocksPerTask = 8;
-  static constexpr std::int64_t WordSize = 8; ///< Edges whose states fill a machine word.
+  static constexpr std::int64_t WordSize = StatesPerWord;
   static constexpr std::int64_t WordsPerGroup = 8;
-  static constexpr std::uint64_t EveryByte = 0x0101010101010101u;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 8;
 
@@ -263,16 +262,10 @@ private:
     return __atomic_load_n(reinterpret_cast<const Word*>(this->States) + word, __ATOMIC_RELAXED);
   }
 
-  /// The eight states of a word at once: the top bit of every byte tells whether that edge belongs
-  /// to the words and its state is wanted. States are below 16, so bytes do not carry.
+  /// MatchStates for the edges of the range.
   std::uint64_t Match(StateRange wanted, std::int64_t word, const WordRange& words) const
   {
-    const std::uint64_t states = this->LoadWord(word);
-    const std::uint64_t atLeastFirst =
-      states + (0x80 - static_cast<std::uint64_t>(wanted.First)) * EveryByte;
-    const std::uint64_t aboveLast =
-      states + (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
-    std::uint64_t matches = atLeastFirst & ~aboveLast & (0x80 * EveryByte);
+    std::uint64_t matches = MatchStates(this->LoadWord(word), wanted);
     matches &= word == words.First ? words.FirstMask : ~std::uint64_t(0);
     matches &= word == words.End - 1 ? words.LastMask : ~std::uint64_t(0);
     return matches;

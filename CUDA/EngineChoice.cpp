@@ -2,35 +2,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineChoice.h"
 
+#include "Array.h"
 #include "CudaDevice.h"
-#include "FlipError.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace delaunayflip
 {
 
-EngineChoice MakeEngine(const TriangleMesh& mesh, const FlipOptions& options)
+namespace
 {
-  EngineChoice choice;
-  if (options.Backend == BackendKind::CUDA)
-  {
-    choice.Engine = MakeCudaEngine(mesh, options);
-    return choice;
-  }
-  if (options.Backend == BackendKind::Auto && mesh.Triangles.Count >= SmallestMeshForCuda &&
-    HasCudaDevice())
-  {
-    try
+bool WantsCuda(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  return options.Backend == BackendKind::CUDA ||
+    (options.Backend == BackendKind::Auto && mesh.Triangles.Count >= SmallestMeshForCuda &&
+      HasCudaDevice());
+}
+
+/// Stores into memory of its own first, so that a failure leaves the target as it was.
+template <typename Id>
+void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
+{
+  Array<Id> stored(static_cast<std::size_t>(3 * count));
+  engine.StoreTriangles(MutableTriangleArray(stored.Data(), count));
+  std::copy_n(stored.Data(), 3 * count, ids);
+}
+}
+
+ChosenEngine::ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options)
+  : Mesh(mesh),
+    Options(options)
+{
+  this->Run(
+    [this]
     {
-      choice.Engine = MakeCudaEngine(mesh, options);
-      return choice;
-    }
-    catch (const BackendUnavailable& error)
+      const bool onGpu = this->Fallback.empty() && WantsCuda(this->Mesh, this->Options);
+      this->Engine = onGpu ? MakeCudaEngine(this->Mesh, this->Options)
+                           : MakeThreadEngine(this->Mesh, this->Options);
+    });
+}
+
+StepCounts ChosenEngine::Detect()
+{
+  const StepCounts found = this->Run([this] { return this->Engine->GetLoop().Detect(); });
+  this->HasDetected = true;
+  return found;
+}
+
+std::vector<IterationCounts> ChosenEngine::Advance(const AdvancePlan& plan)
+{
+  std::vector<IterationCounts> iterations =
+    this->Run([&] { return this->Engine->GetLoop().Advance(plan); });
+  this->Iterations += static_cast<std::int64_t>(iterations.size());
+  return iterations;
+}
+
+double ChosenEngine::FindLargestSquaredCotangent()
+{
+  return this->Run([this] { return this->Engine->GetLoop().FindLargestSquaredCotangent(); });
+}
+
+void ChosenEngine::StoreTriangles(const MutableTriangleArray& triangles)
+{
+  const bool isInput = (triangles.Ids32 && triangles.Ids32 == this->Mesh.Triangles.Ids32) ||
+    (triangles.Ids64 && triangles.Ids64 == this->Mesh.Triangles.Ids64);
+  this->Run(
+    [&]
     {
-      choice.Fallback = error.what();
-    }
+      if (isInput && triangles.Ids32)
+      {
+        StoreAtOnce(*this->Engine, triangles.Ids32, triangles.Count);
+      }
+      else if (isInput)
+      {
+        StoreAtOnce(*this->Engine, triangles.Ids64, triangles.Count);
+      }
+      else
+      {
+        this->Engine->StoreTriangles(triangles);
+      }
+    });
+}
+
+void ChosenEngine::StoreFlipCounts(std::int32_t* counts)
+{
+  this->Run([&] { this->Engine->StoreFlipCounts(counts); });
+}
+
+void ChosenEngine::FallBack(const std::string& reason)
+{
+  this->Fallback = reason;
+  this->Engine.reset();
+  this->Engine = MakeThreadEngine(this->Mesh, this->Options);
+  if (this->HasDetected)
+  {
+    this->Engine->GetLoop().Detect();
   }
-  choice.Engine = MakeThreadEngine(mesh, options);
-  return choice;
+  for (std::int64_t done = 0; done < this->Iterations;)
+  {
+    const AdvancePlan plan{ this->Iterations - done, false, false };
+    done += static_cast<std::int64_t>(this->Engine->GetLoop().Advance(plan).size());
+  }
 }
 
 }

@@ -4,25 +4,74 @@
 #define DELAUNAYFLIP_ENGINECHOICE_H
 
 #include "FlipEngine.h"
+#include "FlipError.h"
+#include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "TriangleMesh.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace delaunayflip
 {
 
-struct EngineChoice
+/// A mesh on the backend of the options. BackendKind::Auto takes the GPU where there is one and the
+/// mesh is large enough for it; where the GPU fails, at any time, the CPU repeats what was done,
+/// which gives the same bits, and goes on.
+class ChosenEngine
 {
-  std::unique_ptr<FlipEngine> Engine;
-  std::string Fallback; ///< Why the CPU stands in for a GPU that is there; else empty.
-};
+public:
+  /// The arrays of `mesh` must stay as they are for as long as this lives.
+  /// @throws BackendUnavailable for BackendKind::CUDA, as every function does.
+  ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options);
 
-/// Prepares a mesh on the backend of the options. BackendKind::Auto takes the GPU where there is
-/// one and the mesh is large enough for it, and the CPU where the GPU fails.
-/// @throws BackendUnavailable for BackendKind::CUDA.
-EngineChoice MakeEngine(const TriangleMesh& mesh, const FlipOptions& options);
+  /// Why the CPU stands in for a GPU that is there; else empty.
+  const std::string& GetFallback() const { return this->Fallback; }
+
+  const FlipReport& GetInputReport() const { return this->Engine->GetInputReport(); }
+
+  // As FlipLoop's.
+  StepCounts Detect();
+  std::vector<IterationCounts> Advance(const AdvancePlan& plan);
+  StepCounts GetFound() const { return this->Engine->GetLoop().GetFound(); }
+  double FindLargestSquaredCotangent();
+
+  // As FlipEngine's. The triangles may be those of the input.
+  void StoreTriangles(const MutableTriangleArray& triangles);
+  void StoreFlipCounts(std::int32_t* counts);
+  void Audit() const { this->Engine->Audit(); }
+
+private:
+  /// Calls work(), and again on the CPU when the GPU failed.
+  template <typename Work>
+  auto Run(const Work& work)
+  {
+    try
+    {
+      return work();
+    }
+    catch (const BackendUnavailable& error)
+    {
+      if (this->Options.Backend == BackendKind::CUDA)
+      {
+        throw;
+      }
+      this->FallBack(error.what());
+    }
+    return work();
+  }
+
+  void FallBack(const std::string& reason);
+
+  TriangleMesh Mesh;
+  FlipOptions Options;
+  std::unique_ptr<FlipEngine> Engine;
+  std::string Fallback;
+  bool HasDetected = false;
+  std::int64_t Iterations = 0;
+};
 
 }
 

@@ -7,8 +7,8 @@
 #include "FixedPoint.h"
 
 /// @file
-/// Signs that are always right: fixed-point integers for points that lie close together compared
-/// with their last bits, which nearly all quads do; integers of any width for the others.
+/// Signs that are always right: fixed-point integers for coordinates below 2^125 in units of the
+/// last bit of any, which those of nearly all quads are; integers of any width for the others.
 
 namespace delaunayflip
 {
@@ -17,25 +17,26 @@ namespace delaunayflip
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 int WideInCircle(const PlanePoint (&points)[4], bool tilted);
 
-/// A point relative to an origin, in units; no member exceeds 2^62 in magnitude.
+/// A point relative to an origin, in units. Lifts and minors are of the next wider integers.
+template <typename Integer>
 struct FixedPointOffset
 {
-  std::int64_t U, V;
-  std::int64_t W, WSum; ///< w - w0 and w + w0, for the lift of tilted planes; else 0.
+  Integer U, V;
+  Integer W, WSum; ///< w - w0 and w + w0, for the lift of tilted planes; else 0.
 
-  /// u^2 + v^2 + (w - w0) (w + w0): at most 3 * 2^124.
-  DELAUNAYFLIP_HOST_DEVICE Integer128 GetLift() const
+  /// u^2 + v^2 + (w - w0) (w + w0).
+  DELAUNAYFLIP_HOST_DEVICE auto GetLift() const
   {
-    return Integer128(this->U) * this->U + Integer128(this->V) * this->V +
-      Integer128(this->W) * this->WSum;
+    return Multiply(this->U, this->U) + Multiply(this->V, this->V) + Multiply(this->W, this->WSum);
   }
 };
 
-/// u1 v2 - u2 v1: at most 2^125.
-DELAUNAYFLIP_HOST_DEVICE inline Integer128 MinorOf(
-  const FixedPointOffset& first, const FixedPointOffset& second)
+/// u1 v2 - u2 v1.
+template <typename Integer>
+DELAUNAYFLIP_HOST_DEVICE auto MinorOf(
+  const FixedPointOffset<Integer>& first, const FixedPointOffset<Integer>& second)
 {
-  return Integer128(first.U) * second.V - Integer128(second.U) * first.V;
+  return Multiply(first.U, second.V) - Multiply(second.U, first.V);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline void IncludePoint(
@@ -46,7 +47,10 @@ DELAUNAYFLIP_HOST_DEVICE inline void IncludePoint(
   unit.Include(tilted ? p.W : 0.0);
 }
 
-/// Makes offsets from one origin, and remembers whether all of them fit.
+/// Makes offsets from one origin, and remembers whether all of them fit. 64 bits hold offsets of at
+/// most 2^62. 128 bits hold those of all coordinates that convert: below 2^125, their differences
+/// and sums are below 2^126.
+template <typename Integer>
 class FixedPointFrame
 {
 public:
@@ -60,7 +64,7 @@ public:
   {
   }
 
-  DELAUNAYFLIP_HOST_DEVICE FixedPointOffset OffsetOf(const PlanePoint& p)
+  DELAUNAYFLIP_HOST_DEVICE FixedPointOffset<Integer> OffsetOf(const PlanePoint& p)
   {
     const Integer128 w = this->Tilted ? this->Unit.Convert(p.W, this->Fits) : 0;
     return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
@@ -71,11 +75,11 @@ public:
   DELAUNAYFLIP_HOST_DEVICE bool AllFit() const { return this->Fits; }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE std::int64_t Narrow(Integer128 value)
+  DELAUNAYFLIP_HOST_DEVICE Integer Narrow(Integer128 value)
   {
-    constexpr Integer128 Largest = Integer128(1) << 62;
+    constexpr Integer128 Largest = Integer128(1) << (8 * sizeof(Integer) - 2);
     this->Fits = this->Fits && -Largest <= value && value <= Largest;
-    return static_cast<std::int64_t>(value);
+    return static_cast<Integer>(value);
   }
 
   bool Fits = true;
@@ -86,6 +90,8 @@ private:
 
 /// Turn of a, b, c in (u, v), or UncertainSign where they do not fit. Points come by value, here
 /// and below, because compilers for GPUs put what a call refers to in memory.
+///
+/// Offsets below 2^126 are what Multiply takes; the difference of their products is below 2^253.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation(
   PlanePoint a, PlanePoint b, PlanePoint c)
 {
@@ -93,23 +99,22 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation
   IncludePoint(unit, a, false);
   IncludePoint(unit, b, false);
   IncludePoint(unit, c, false);
-  FixedPointFrame frame(unit, c, false);
-  const FixedPointOffset first = frame.OffsetOf(a);
-  const FixedPointOffset second = frame.OffsetOf(b);
-  if (!frame.AllFit())
-  {
-    return UncertainSign;
-  }
-  const Integer128 determinant = MinorOf(first, second);
-  return determinant < 0 ? -1 : (determinant > 0 ? 1 : 0);
+  FixedPointFrame<Integer128> frame(unit, c, false);
+  const auto first = frame.OffsetOf(a);
+  const auto second = frame.OffsetOf(b);
+  return frame.AllFit() ? SignOf(MinorOf(first, second)) : UncertainSign;
 }
 
-/// Sign of the in-circle determinant of a, b, c, d, or UncertainSign where they do not fit;
-/// `tilted` adds W to the lift.
+/// Sign of the in-circle determinant of a, b, c, d, or UncertainSign where their offsets do not fit
+/// Integer; `tilted` adds W to the lift.
 ///
-/// Offsets of at most 2^62 suffice: minors are at most 2^125 and lifts 3 * 2^124, both below the
-/// 2^126 that Multiply takes; a product of the two stays below 2^251, the sum of three below 2^253.
-DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointInCircle(
+/// With offsets of at most 2^k, products of two are at most 2^2k, minors 2^(2k + 1), lifts
+/// 3 * 2^2k < 2^(2k + 2), products of these less than 2^(4k + 3), the sum of three less than
+/// 2^(4k + 5). 64 bits, k = 62: lifts are below 2^126, as Multiply takes them, and the sum is below
+/// 2^253, in 256 bits. 128 bits, k = 126: lifts are below 2^254, and the sum is below 2^509, in
+/// 512.
+template <typename Integer>
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointInCircleIn(
   PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d, bool tilted)
 {
   FixedPointUnit unit;
@@ -117,24 +122,29 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointInCircle(
   IncludePoint(unit, b, tilted);
   IncludePoint(unit, c, tilted);
   IncludePoint(unit, d, tilted);
-  FixedPointFrame frame(unit, d, tilted);
-  const FixedPointOffset first = frame.OffsetOf(a);
-  const FixedPointOffset second = frame.OffsetOf(b);
-  const FixedPointOffset third = frame.OffsetOf(c);
+  FixedPointFrame<Integer> frame(unit, d, tilted);
+  const auto first = frame.OffsetOf(a);
+  const auto second = frame.OffsetOf(b);
+  const auto third = frame.OffsetOf(c);
   if (!frame.AllFit())
   {
     return UncertainSign;
   }
-  const Integer256 firstTerm = Multiply(MinorOf(second, third), first.GetLift());
-  const Integer256 secondTerm = Multiply(MinorOf(third, first), second.GetLift());
-  const Integer256 thirdTerm = Multiply(MinorOf(first, second), third.GetLift());
-  return Add(Add(firstTerm, secondTerm), thirdTerm).Sign();
+  const auto firstTerm = Multiply(MinorOf(second, third), first.GetLift());
+  const auto secondTerm = Multiply(MinorOf(third, first), second.GetLift());
+  const auto thirdTerm = Multiply(MinorOf(first, second), third.GetLift());
+  return SignOf(firstTerm + secondTerm + thirdTerm);
 }
 
-/// The same for points in an array.
+/// In 64 bits what fits them, which takes a third of the time, else in 128; UncertainSign where
+/// neither suffices.
 DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points)[4], bool tilted)
 {
-  return FixedPointInCircle(points[0], points[1], points[2], points[3], tilted);
+  const int sign =
+    FixedPointInCircleIn<std::int64_t>(points[0], points[1], points[2], points[3], tilted);
+  return sign != UncertainSign
+    ? sign
+    : FixedPointInCircleIn<Integer128>(points[0], points[1], points[2], points[3], tilted);
 }
 
 /// Turn of a, b, c in (u, v). UncertainSign only on a device, where wide integers are needed.

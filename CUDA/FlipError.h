@@ -50,22 +50,22 @@ public:
   using FlipError::FlipError;
 };
 
-/// The coordinates need exact arithmetic that only the CPU has; the other backend takes over.
-class BeyondDevice : public FlipError
-{
-public:
-  BeyondDevice()
-    : FlipError("coordinates of one triangle differ by more than a factor of 2^62, for which exact "
-                "arithmetic needs the CPU")
-  {
-  }
-};
-
 /// The backend asked for cannot run here.
 class BackendUnavailable : public FlipError
 {
 public:
   using FlipError::FlipError;
+};
+
+/// The coordinates need exact arithmetic that only the CPU has; the other backend takes over.
+class BeyondDevice : public BackendUnavailable
+{
+public:
+  BeyondDevice()
+    : BackendUnavailable("coordinates of one triangle span more than 125 bits, for which exact "
+                         "arithmetic needs the CPU")
+  {
+  }
 };
 
 }

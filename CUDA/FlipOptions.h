@@ -65,6 +65,9 @@ struct FlipOptions
   /// Threads to use; 0: as many as the machine has. The result does not depend on it.
   int NumberOfThreads = 0;
 
+  /// CUDA's number of the GPU to use; -1: the one that is current in the calling thread.
+  int Device = -1;
+
   /// Compute the smallest angle after every iteration (a pass over the mesh each time).
   bool TrackQuality = false;
 };

@@ -8,6 +8,7 @@
 #include "EdgeMesh.h"
 #include "FlipRules.h"
 #include "HostDevice.h"
+#include "StateWords.h"
 #include "StepCounts.h"
 
 #include <cstdint>
@@ -20,13 +21,6 @@
 
 namespace delaunayflip
 {
-
-/// The states that a step wants, first to last.
-struct StateRange
-{
-  EdgeState First;
-  EdgeState Last;
-};
 
 /// One flag a block of 2^BlockBits edges, for the edges [First, Last).
 struct BlockFlags
@@ -61,7 +55,8 @@ DELAUNAYFLIP_HOST_DEVICE inline void PrefetchTriangles(const EdgeMeshView& mesh,
   Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
 }
 
-/// What steps on quads share.
+/// What steps on quads share. Steps that Decide the edge's own state from what they loaded, and
+/// write nothing else, let a backend load for several edges before it decides on any.
 struct QuadStep
 {
   EdgeMeshView Mesh;
@@ -87,12 +82,19 @@ struct JudgeStep : QuadStep
     delaunayflip::Prefetch(this->Decision.Address(quad.Q));
     delaunayflip::Prefetch(this->Decision.Address(quad.B));
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(EdgeId, const Quad& quad) const
   {
-    const EdgeState state = this->Decision.Judge(quad);
+    return this->Decision.Judge(quad);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Store(EdgeId edge, EdgeState state, StepCounts& counts) const
+  {
     AtomicStore(&this->Mesh.States[edge], state);
     ++counts.Tested;
     counts.Uncertain += state == EdgeState::Uncertain ? 1 : 0;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  {
+    this->Store(edge, this->Decide(edge, quad), counts);
   }
 };
 
@@ -158,15 +160,24 @@ struct ChooseStep
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(
-    EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(EdgeId edge, const OuterHalfEdges& outer) const
   {
     const std::uint32_t own = Priority(edge);
-    if (!this->IsBeatenBy(own, outer.AP) && !this->IsBeatenBy(own, outer.QA) &&
-      !this->IsBeatenBy(own, outer.PB) && !this->IsBeatenBy(own, outer.BQ))
+    const bool beaten = this->IsBeatenBy(own, outer.AP) || this->IsBeatenBy(own, outer.QA) ||
+      this->IsBeatenBy(own, outer.PB) || this->IsBeatenBy(own, outer.BQ);
+    return beaten ? EdgeState::Bad : EdgeState::Winner;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Store(EdgeId edge, EdgeState state, StepCounts&) const
+  {
+    if (state == EdgeState::Winner)
     {
-      AtomicStore(&this->Mesh.States[edge], EdgeState::Winner);
+      AtomicStore(&this->Mesh.States[edge], state);
     }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(
+    EdgeId edge, const OuterHalfEdges& outer, StepCounts& counts) const
+  {
+    this->Store(edge, this->Decide(edge, outer), counts);
   }
 
 private:

@@ -6,7 +6,7 @@
 /// @file
 /// Exact signs of orientation and in-circle determinants, for any finite double coordinates: a
 /// floating-point filter with a proven error bound (Shewchuk 1997), fixed-point integers of at most
-/// 256 bits behind it, integers of any width where the exponents spread too far for those. Never
+/// 512 bits behind it, integers of any width where the exponents spread too far for those. Never
 /// wrong by rounding, overflow or underflow. A coordinate that is NaN or infinite gives 0.
 
 namespace delaunayflip

@@ -4,6 +4,7 @@
 
 #include "FlipTestSupport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -149,7 +150,7 @@ FourPoints DrawAnyExponents(std::mt19937& random)
     [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 2090) - 1070); });
 }
 
-/// Spreads about what fixed-point integers can hold.
+/// Spreads about what the narrow fixed-point integers can hold.
 FourPoints DrawWideExponents(std::mt19937& random)
 {
   return FillPoints([&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 30) - 15); });
@@ -180,8 +181,8 @@ FourPoints DrawLargestOffsets(std::mt19937& random)
     });
 }
 
-/// Offsets in x that are the next double above 2^62, in units of 1.
-FourPoints DrawTooLargeOffsets(std::mt19937& random)
+/// Offsets in x that are the next double above 2^62, in units of 1: these need the wide integers.
+FourPoints DrawOffsetsAbove62Bits(std::mt19937& random)
 {
   FourPoints points = FillPoints([&] { return 2.0 * DrawIndex(random, 100) - 99.0; });
   for (Point3& point : points)
@@ -189,6 +190,90 @@ FourPoints DrawTooLargeOffsets(std::mt19937& random)
     point[0] = -std::ldexp(1.0, 61);
   }
   points[0][0] = std::ldexp(1.0, 61) + 512.0;
+  return points;
+}
+
+/// A quad of an O-grid about the origin, on two circles: where an axis crosses, rounding noise of
+/// 6e-17 stands for zero.
+FourPoints DrawGridAboutOrigin(std::mt19937& random)
+{
+  const int steps = 4 << DrawIndex(random, 6);
+  const int first = DrawIndex(random, steps + 1);
+  const double radius = 0.5 + DrawIndex(random, 8);
+  FourPoints points;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double angle = 2.0 * std::acos(-1.0) * (first + i % 2) / steps;
+    const double r = radius * (i < 2 ? 1.0 : 1.1);
+    points[i] = { r * std::cos(angle), r * std::sin(angle), r * std::cos(3.0 * angle) };
+  }
+  std::shuffle(points.begin(), points.end(), random);
+  return points;
+}
+
+/// An isosceles trapezoid about the y axis is exactly on one circle whatever its numbers are. The z
+/// of its two parallel sides keeps the tie.
+template <typename Draw>
+FourPoints DrawTrapezoidOf(std::mt19937& random, const Draw& draw)
+{
+  const Point3 low = { draw(), draw(), draw() };
+  const Point3 high = { draw(), draw(), draw() };
+  FourPoints points = { { low, { -low[0], low[1], low[2] }, high,
+    { -high[0], high[1], high[2] } } };
+  std::shuffle(points.begin(), points.end(), random);
+  return points;
+}
+
+/// Some of its numbers are rounding noise.
+FourPoints DrawNoisyTrapezoid(std::mt19937& random)
+{
+  return DrawTrapezoidOf(
+    random, [&] { return (1.0 + DrawUnit(random)) * (DrawIndex(random, 2) ? 1.0 : 6e-17); });
+}
+
+FourPoints DrawNudgedTrapezoid(std::mt19937& random)
+{
+  return Nudge(DrawNoisyTrapezoid(random), random);
+}
+
+/// An integer that is less than 2^bits in magnitude and uses all of a double's bits where it can,
+/// often as the largest.
+double DrawInteger(std::mt19937& random, int bits)
+{
+  const int used = DrawIndex(random, 2) ? bits : 1 + DrawIndex(random, bits);
+  const double fraction = DrawIndex(random, 4) == 0
+    ? std::nextafter(1.0, 0.0)
+    : 0.5 * (1.0 + DrawUnit(random) + std::ldexp(random() >> 12, -52));
+  const double integer = std::floor(std::ldexp(fraction, used));
+  return DrawIndex(random, 2) ? integer : -integer;
+}
+
+/// Any number of bits up to the largest that the wide integers take.
+FourPoints DrawLongIntegers(std::mt19937& random)
+{
+  const int bits = 62 + DrawIndex(random, 64);
+  return FillPoints([&] { return DrawInteger(random, bits); });
+}
+
+FourPoints DrawLongTrapezoid(std::mt19937& random)
+{
+  const int bits = 62 + DrawIndex(random, 64);
+  return DrawTrapezoidOf(random, [&] { return DrawInteger(random, bits); });
+}
+
+/// Near ties; a small number that moves by its last bit may no longer fit.
+FourPoints DrawNudgedLongTrapezoid(std::mt19937& random)
+{
+  return Nudge(DrawLongTrapezoid(random), random);
+}
+
+/// One coordinate a bit too long.
+FourPoints DrawTooLongIntegers(std::mt19937& random)
+{
+  FourPoints points = DrawLongIntegers(random);
+  const int large = DrawIndex(random, 3);
+  points[large][DrawIndex(random, 2)] = std::ldexp(DrawIndex(random, 2) ? 1.0 : -1.0, 125);
+  points[(large + 1) % 3][DrawIndex(random, 2)] = 2.0 * DrawIndex(random, 100) + 1.0;
   return points;
 }
 
@@ -221,18 +306,25 @@ std::vector<PointFamily> ListPointFamilies()
     { "NudgedCircle", DrawNudgedCircle, Fit::Sometimes },
     { "NudgedLine", DrawNudgedLine, Fit::Sometimes },
     { "NearDiagonal", DrawNearDiagonal, Fit::Always },
-    { "Tiny", DrawTiny, Fit::Sometimes },
-    { "Huge", DrawHuge, Fit::Sometimes },
+    { "Tiny", DrawTiny, Fit::Always },
+    { "Huge", DrawHuge, Fit::Always },
     { "TinyGrid", DrawTinyGrid, Fit::Always },
     { "HugeGrid", DrawHugeGrid, Fit::Always },
     { "Subnormal", DrawSubnormal, Fit::Always },
     { "MixedMagnitudes", DrawMixedMagnitudes, Fit::Sometimes },
     { "AnyExponents", DrawAnyExponents, Fit::Sometimes },
-    { "WideExponents", DrawWideExponents, Fit::Sometimes },
+    { "WideExponents", DrawWideExponents, Fit::Always },
     { "VanishingProducts", DrawVanishingProducts, Fit::Always },
     { "Offset", DrawWithOffset, Fit::Always },
     { "LargestOffsets", DrawLargestOffsets, Fit::Always },
-    { "TooLargeOffsets", DrawTooLargeOffsets, Fit::Never },
+    { "OffsetsAbove62Bits", DrawOffsetsAbove62Bits, Fit::Always },
+    { "GridAboutOrigin", DrawGridAboutOrigin, Fit::Always },
+    { "NoisyTrapezoid", DrawNoisyTrapezoid, Fit::Always },
+    { "NudgedTrapezoid", DrawNudgedTrapezoid, Fit::Always },
+    { "LongIntegers", DrawLongIntegers, Fit::Always },
+    { "LongTrapezoid", DrawLongTrapezoid, Fit::Always },
+    { "NudgedLongTrapezoid", DrawNudgedLongTrapezoid, Fit::Sometimes },
+    { "TooLongIntegers", DrawTooLongIntegers, Fit::Never },
     { "Extremes", DrawExtremes, Fit::Never },
     { "Rectangle", DrawRectangle, Fit::Always },
   };

@@ -121,6 +121,17 @@ TEST_P(PredicatesTest, FixedPointIsExact)
 INSTANTIATE_TEST_SUITE_P(Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()),
   [](const auto& test) { return std::string(test.param.Name); });
 
+/// The bound that the proof for 64 bits assumes.
+TEST(FixedPointPredicate, HoldsOffsetsOfAtMost2To62In64Bits)
+{
+  const double half = std::ldexp(1.0, 61);
+  const PlanePoint a{ half, 0, 0 }, b{ 0, 1, 0 }, c{ 0, -1, 0 }, d{ -half, 0, 0 };
+  EXPECT_EQ(-1, FixedPointInCircleIn<std::int64_t>(a, b, c, d, false));
+  const PlanePoint next{ std::nextafter(half, 2 * half), 0, 0 };
+  EXPECT_EQ(UncertainSign, FixedPointInCircleIn<std::int64_t>(next, b, c, d, false));
+  EXPECT_EQ(-1, FixedPointInCircleIn<Integer128>(next, b, c, d, false));
+}
+
 /// (x, y) -> (3 x, 5 y, 4 x) is a similarity onto a tilted plane, exact on a lattice.
 TEST(TiltedPredicate, IsInCircleOnAPlane)
 {

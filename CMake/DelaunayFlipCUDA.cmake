@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+
+# Resolves DELAUNAYFLIP_ENABLE_CUDA into DELAUNAYFLIP_HAS_CUDA and enables the language.
+set(DELAUNAYFLIP_HAS_CUDA OFF)
+if(DELAUNAYFLIP_ENABLE_CUDA STREQUAL "OFF" OR DELAUNAYFLIP_SANITIZER)
+  return() # sanitizers of the CPU know nothing of a GPU
+endif()
+
+include(CheckLanguage)
+check_language(CUDA)
+if(NOT CMAKE_CUDA_COMPILER)
+  if(NOT DELAUNAYFLIP_ENABLE_CUDA STREQUAL "AUTO")
+    message(FATAL_ERROR "DELAUNAYFLIP_ENABLE_CUDA is ${DELAUNAYFLIP_ENABLE_CUDA}, but no CUDA "
+      "compiler was found; install the CUDA Toolkit or set CMAKE_CUDA_COMPILER")
+  endif()
+  message(STATUS "CUDA backend: not built, no CUDA compiler")
+  return()
+endif()
+
+# Every generation from Turing on; newer ones than the toolkit knows through PTX.
+if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+  if(CMAKE_VERSION VERSION_LESS 3.23)
+    set(CMAKE_CUDA_ARCHITECTURES 75 80 86 90)
+  else()
+    set(CMAKE_CUDA_ARCHITECTURES all-major)
+  endif()
+endif()
+set(CMAKE_CUDA_STANDARD 17)
+set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
+set(CMAKE_CUDA_VISIBILITY_PRESET hidden)
+enable_language(CUDA)
+find_package(CUDAToolkit REQUIRED)
+set(DELAUNAYFLIP_HAS_CUDA ON)
+message(STATUS "CUDA backend: for architectures ${CMAKE_CUDA_ARCHITECTURES}")

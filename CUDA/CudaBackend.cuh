@@ -1,0 +1,339 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CUDABACKEND_CUH
+#define DELAUNAYFLIP_CUDABACKEND_CUH
+
+#include "Array.h"
+#include "CudaContext.h"
+#include "CudaError.h"
+#include "CudaKernels.cuh"
+#include "StagedCopy.h"
+#include "ThreadBackend.h"
+#include "TriangleMesh.h"
+
+#include <cub/cub.cuh>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// The caller's mesh in device memory.
+struct DeviceMesh
+{
+  TriangleMesh Mesh; ///< Views of the arrays below.
+  Array<float> Floats;
+  Array<double> Doubles;
+  Array<std::int32_t> Triangles, Regions;
+  Array<unsigned char> Frozen;
+
+  const TriangleMesh& View() const { return this->Mesh; }
+
+  /// Gives back all but the points.
+  void DropTriangles()
+  {
+    this->Triangles = Array<std::int32_t>();
+    this->Regions = Array<std::int32_t>();
+    this->Frozen = Array<unsigned char>();
+  }
+};
+
+/// Number of the first item of every tile of a range, in device memory, and of all items.
+struct DeviceNumbering
+{
+  Array<std::int64_t> FirstOfTile;
+  std::int64_t Total = 0;
+};
+
+/// "For every item do this" on a GPU: what ThreadBackend is on the CPU, with the same results.
+/// Calls return before the work is done, except those that bring something to the host.
+///
+/// Every call may throw BackendUnavailable.
+class CudaBackend
+{
+public:
+  /// @param device -1: the current one.
+  /// @param threads of the CPU, for conversions on the way.
+  CudaBackend(int device, int threads)
+    : Context(ResolveDevice(device)),
+      Threads(threads)
+  {
+  }
+
+  /// E.g. "CUDA: NVIDIA H200".
+  std::string GetName() const { return "CUDA: " + this->Context->Name; }
+
+  CudaContext& GetContext() const { return *this->Context; }
+  cudaStream_t GetStream() const { return this->Context->Stream; }
+
+  template <typename T>
+  Array<T> MakeArray(std::int64_t size) const
+  {
+    return Array<T>(static_cast<std::size_t>(size), *this->Context->Pool);
+  }
+
+  template <typename Work>
+  void ForEach(std::int64_t size, const Work& work) const
+  {
+    if (size > 0)
+    {
+      this->Launch([&](cudaStream_t stream)
+        { ForEachKernel<<<this->GetBlocks(size), ThreadsPerBlock, 0, stream>>>(size, work); });
+    }
+  }
+
+  template <typename Result, typename Work>
+  Result Sum(std::int64_t size, const Work& work) const
+  {
+    const int blocks = this->GetBlocks(size);
+    Array<Result> partials = this->MakeArray<Result>(blocks);
+    this->Launch([&](cudaStream_t stream)
+      { SumKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(size, work, partials.Data()); });
+    std::vector<Result> parts(blocks);
+    this->Download(partials.Data(), blocks, parts.data());
+    Result total{};
+    for (const Result& part : parts)
+    {
+      total += part;
+    }
+    return total;
+  }
+
+  using Numbering = DeviceNumbering;
+
+  template <typename CountOf>
+  Numbering Count(std::int64_t size, const CountOf& count) const
+  {
+    const std::int64_t tiles = (size + TileSize - 1) / TileSize;
+    Numbering numbering;
+    numbering.FirstOfTile = this->MakeArray<std::int64_t>(tiles + 1);
+    std::int64_t* firsts = numbering.FirstOfTile.Data();
+    this->Fill(firsts, 0, tiles + 1);
+    if (tiles > 0)
+    {
+      this->Launch([&](cudaStream_t stream)
+        { CountKernel<<<GridOf(tiles), ThreadsPerBlock, 0, stream>>>(size, count, firsts); });
+    }
+    this->RunCub(
+      [&](void* temporary, std::size_t& bytes)
+      {
+        return cub::DeviceScan::ExclusiveSum(
+          temporary, bytes, firsts, firsts, static_cast<int>(tiles + 1), this->GetStream());
+      });
+    this->Download(firsts + tiles, 1, &numbering.Total);
+    return numbering;
+  }
+
+  template <typename CountOf, typename Visit>
+  void ForEachNumbered(
+    const Numbering& numbering, std::int64_t size, const CountOf& count, const Visit& visit) const
+  {
+    const std::int64_t tiles = (size + TileSize - 1) / TileSize;
+    if (tiles > 0)
+    {
+      this->Launch(
+        [&](cudaStream_t stream)
+        {
+          ForEachNumberedKernel<<<GridOf(tiles), ThreadsPerBlock, 0, stream>>>(
+            size, count, visit, numbering.FirstOfTile.Data());
+        });
+    }
+  }
+
+  template <typename KeyOf>
+  Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
+
+  /// Sets the bytes of `size` values.
+  template <typename T>
+  void Fill(T* values, int byte, std::int64_t size) const
+  {
+    CallCuda("fill memory",
+      [&] { return cudaMemsetAsync(values, byte, size * sizeof(T), this->GetStream()); });
+  }
+
+  /// Waits until the values are there.
+  template <typename T>
+  void Download(const T* values, std::int64_t size, T* host) const
+  {
+    CallCuda("copy from the GPU",
+      [&]
+      {
+        return cudaMemcpyAsync(
+          host, values, size * sizeof(T), cudaMemcpyDeviceToHost, this->GetStream());
+      });
+    this->Synchronize();
+  }
+
+  /// Waits until `host` has been read.
+  template <typename T>
+  void Upload(const T* host, std::int64_t size, T* values) const
+  {
+    StagedCopy(*this->Context, this->Threads)
+      .Upload(size, values, [host](std::int64_t i) { return host[i]; });
+  }
+
+  void Synchronize() const
+  {
+    CallCuda("finish the work", [&] { return cudaStreamSynchronize(this->GetStream()); });
+  }
+
+  /// Brings the caller's arrays to the device.
+  using LocalMesh = DeviceMesh;
+  LocalMesh Localize(const TriangleMesh& mesh) const;
+
+  template <typename Store>
+  void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
+  {
+    const std::int64_t size = 3 * triangles.Count;
+    Array<std::int32_t> ids = this->MakeArray<std::int32_t>(size);
+    const MutableTriangleArray local(ids.Data(), triangles.Count);
+    this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, local); });
+    // A vertex id is a number of 32 bits without a sign.
+    const auto* words = reinterpret_cast<const std::uint32_t*>(ids.Data());
+    StagedCopy copy(*this->Context, this->Threads);
+    if (triangles.Ids32)
+    {
+      copy.Download(size, words,
+        [&](std::int64_t i, std::uint32_t id)
+        { triangles.Ids32[i] = static_cast<std::int32_t>(id); });
+    }
+    else
+    {
+      copy.Download(
+        size, words, [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[i] = id; });
+    }
+  }
+
+  template <typename T, typename Store>
+  void StoreValues(std::int64_t size, T* values, const Store& store) const
+  {
+    Array<T> local = this->MakeArray<T>(size);
+    T* target = local.Data();
+    this->ForEach(size, [=] __device__(std::int64_t i) { store(i, target); });
+    StagedCopy(*this->Context, this->Threads)
+      .Download(size, target, [values](std::int64_t i, T value) { values[i] = value; });
+  }
+
+  /// Calls launch(stream), which launches a kernel, and checks it.
+  template <typename LaunchKernel>
+  void Launch(const LaunchKernel& launch) const
+  {
+    CallCuda("start a kernel",
+      [&]
+      {
+        launch(this->GetStream());
+        return cudaGetLastError();
+      });
+  }
+
+private:
+  static int ResolveDevice(int device)
+  {
+    if (device < 0)
+    {
+      CallCuda("ask for the current device", [&] { return cudaGetDevice(&device); });
+    }
+    return device;
+  }
+
+  static unsigned GridOf(std::int64_t blocks) { return static_cast<unsigned>(blocks); }
+
+  /// Enough for every item or for several waves, whichever is less.
+  int GetBlocks(std::int64_t size) const
+  {
+    constexpr std::int64_t BlocksPerMultiprocessor = 32;
+    const std::int64_t wanted = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
+    return static_cast<int>(std::max<std::int64_t>(
+      1, std::min(wanted, BlocksPerMultiprocessor * this->Context->Multiprocessors)));
+  }
+
+  /// Calls a CUB algorithm as it wants to be: first for the size of its memory, then with it.
+  template <typename Algorithm>
+  void RunCub(const Algorithm& algorithm) const
+  {
+    std::size_t bytes = 0;
+    CallCuda("plan a sort or scan", [&] { return algorithm(nullptr, bytes); });
+    Array<char> temporary = this->MakeArray<char>(static_cast<std::int64_t>(bytes));
+    CallCuda("sort or scan", [&] { return algorithm(temporary.Data(), bytes); });
+  }
+
+  ContextLease Context;
+  ThreadBackend Threads;
+};
+
+template <typename KeyOf>
+Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
+{
+  Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
+  Array<std::uint32_t> sortedKeys = this->MakeArray<std::uint32_t>(size);
+  Array<std::uint32_t> indices = this->MakeArray<std::uint32_t>(size);
+  Array<std::uint32_t> sorted = this->MakeArray<std::uint32_t>(size);
+  std::uint32_t* keyOfItem = keys.Data();
+  std::uint32_t* indexOfItem = indices.Data();
+  this->ForEach(size,
+    [=] __device__(std::int64_t i)
+    {
+      keyOfItem[i] = keyOf(i);
+      indexOfItem[i] = static_cast<std::uint32_t>(i);
+    });
+  cub::DoubleBuffer<std::uint32_t> keyBuffer(keys.Data(), sortedKeys.Data());
+  cub::DoubleBuffer<std::uint32_t> indexBuffer(indices.Data(), sorted.Data());
+  this->RunCub(
+    [&](void* temporary, std::size_t& bytes)
+    {
+      return cub::DeviceRadixSort::SortPairs(
+        temporary, bytes, keyBuffer, indexBuffer, size, 0, SortKeyBits, this->GetStream());
+    });
+  return indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
+}
+
+inline DeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
+{
+  DeviceMesh local;
+  StagedCopy copy(*this->Context, this->Threads);
+  const PointArray& points = mesh.Points;
+  const TriangleArray& triangles = mesh.Triangles;
+  const auto bring = [&](auto& array, const auto* host, std::int64_t size)
+  {
+    array = this->MakeArray<std::remove_cv_t<std::remove_pointer_t<decltype(host)>>>(size);
+    copy.Upload(size, array.Data(), [host](std::int64_t i) { return host[i]; });
+  };
+  local.Mesh = mesh;
+  local.Triangles = this->MakeArray<std::int32_t>(3 * triangles.Count);
+  copy.Upload(3 * triangles.Count, local.Triangles.Data(),
+    [&](std::int64_t i)
+    {
+      // What does not fit is no point, and stays none.
+      const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
+      return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
+    });
+  local.Mesh.Triangles = TriangleArray(local.Triangles.Data(), triangles.Count);
+  if (points.Floats)
+  {
+    bring(local.Floats, points.Floats, 3 * points.Count);
+    local.Mesh.Points = PointArray(local.Floats.Data(), points.Count);
+  }
+  else
+  {
+    bring(local.Doubles, points.Doubles, 3 * points.Count);
+    local.Mesh.Points = PointArray(local.Doubles.Data(), points.Count);
+  }
+  if (mesh.Regions)
+  {
+    bring(local.Regions, mesh.Regions, triangles.Count);
+    local.Mesh.Regions = local.Regions.Data();
+  }
+  if (mesh.FrozenTriangles)
+  {
+    bring(local.Frozen, mesh.FrozenTriangles, triangles.Count);
+    local.Mesh.FrozenTriangles = local.Frozen.Data();
+  }
+  return local;
+}
+
+}
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CUDACONTEXT_H
+#define DELAUNAYFLIP_CUDACONTEXT_H
+
+#include "Array.h"
+#include "CudaError.h"
+
+#include <cuda_runtime_api.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace delaunayflip
+{
+
+/// Memory of a device, in the order of a stream. Blocks that are freed stay with it, so that the
+/// next run of the same size asks the driver for nothing.
+class DeviceMemory : public Memory
+{
+public:
+  DeviceMemory(int device, cudaStream_t stream);
+  ~DeviceMemory() override;
+  DeviceMemory(const DeviceMemory&) = delete;
+  DeviceMemory& operator=(const DeviceMemory&) = delete;
+
+  /// @throws BackendUnavailable.
+  void* Allocate(std::size_t bytes) override;
+  void Free(void* memory, std::size_t bytes) noexcept override;
+
+  /// Most bytes that were in use at a time since the last call.
+  std::size_t TakePeak();
+
+private:
+  cudaStream_t Stream;
+  cudaMemPool_t Pool = nullptr; ///< Null where the device has none: then cudaMalloc and cudaFree.
+};
+
+/// What a run needs besides its mesh: a stream, memory, and page-locked buffers on the way between
+/// host and device. One run at a time uses a context; it is kept for the next.
+class CudaContext
+{
+public:
+  static constexpr int StagingSlots = 4;
+  static constexpr std::size_t StagingBytes = std::size_t(8) << 20; ///< Of one slot.
+
+  /// @throws BackendUnavailable.
+  explicit CudaContext(int device);
+  ~CudaContext();
+  CudaContext(const CudaContext&) = delete;
+  CudaContext& operator=(const CudaContext&) = delete;
+
+  int Device;
+  std::string Name; ///< E.g. "NVIDIA H200".
+  int Multiprocessors = 0;
+  std::size_t CacheBytes = 0; ///< Of the second level.
+  cudaStream_t Stream = nullptr;
+  std::unique_ptr<DeviceMemory> Pool;
+  void* Staging[StagingSlots] = {};
+  cudaEvent_t StagingDone[StagingSlots] = {};
+
+private:
+  void Open();
+  void Close() noexcept;
+};
+
+/// Makes a device current for the calling thread, and its old one again.
+class CurrentDevice
+{
+public:
+  explicit CurrentDevice(int device);
+  ~CurrentDevice();
+  CurrentDevice(const CurrentDevice&) = delete;
+  CurrentDevice& operator=(const CurrentDevice&) = delete;
+
+private:
+  int Previous = -1;
+};
+
+/// A context for as long as it is held; then it waits for the next run, unless `broken`.
+class ContextLease
+{
+public:
+  explicit ContextLease(int device);
+  ~ContextLease();
+  ContextLease(ContextLease&&) noexcept;
+  ContextLease& operator=(ContextLease&&) = delete;
+
+  CudaContext& operator*() const { return *this->Context; }
+  CudaContext* operator->() const { return this->Context.get(); }
+
+private:
+  std::unique_ptr<CudaContext> Context;
+};
+
+}
+
+#endif

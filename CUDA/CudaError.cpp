@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaError.h"
+
+#include "FlipError.h"
+
+#include <atomic>
+#include <string>
+
+namespace delaunayflip
+{
+
+namespace
+{
+std::atomic<std::int64_t> NumberOfCalls{ 0 };
+std::atomic<std::int64_t> FailingCall{ -1 };
+std::atomic<cudaError_t> InjectedError{ cudaSuccess };
+
+/// What to do about the errors that users meet.
+std::string Advise(cudaError_t error)
+{
+  switch (error)
+  {
+    case cudaErrorMemoryAllocation:
+      return "; the mesh is too large for what is free on the GPU";
+    case cudaErrorNoDevice:
+      return "; is a GPU of NVIDIA in this machine?";
+    case cudaErrorInsufficientDriver:
+      return "; update NVIDIA's driver";
+    case cudaErrorNoKernelImageForDevice:
+      return "; this build has no code for this GPU, set CMAKE_CUDA_ARCHITECTURES";
+    default:
+      return "";
+  }
+}
+}
+
+void ThrowCudaError(cudaError_t error, const char* action)
+{
+  cudaGetLastError();
+  throw BackendUnavailable(
+    std::string("CUDA could not ") + action + ": " + cudaGetErrorString(error) + Advise(error));
+}
+
+void InjectCudaError(std::int64_t calls, cudaError_t error)
+{
+  InjectedError = error;
+  FailingCall = calls > 0 ? NumberOfCalls + calls : -1;
+}
+
+std::int64_t CountCudaCalls() { return NumberOfCalls; }
+
+cudaError_t BeginCudaCall()
+{
+  return ++NumberOfCalls == FailingCall ? InjectedError.load() : cudaSuccess;
+}
+
+}

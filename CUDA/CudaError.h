@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CUDAERROR_H
+#define DELAUNAYFLIP_CUDAERROR_H
+
+#include <cuda_runtime_api.h>
+
+#include <cstdint>
+
+/// @file
+/// How calls of the CUDA runtime fail.
+
+namespace delaunayflip
+{
+
+/// Throws BackendUnavailable that says what was tried and why it failed, and takes the error off
+/// the runtime's record, so that nobody else meets it.
+[[noreturn]] void ThrowCudaError(cudaError_t error, const char* action);
+
+/// For tests: the call of CallCuda that is `calls` from now (1: the next) fails with `error`
+/// instead of being made; 0 takes the order back.
+void InjectCudaError(std::int64_t calls, cudaError_t error);
+
+/// Calls of CallCuda so far in this process.
+std::int64_t CountCudaCalls();
+
+/// Counts a call. @returns the error that it must fail with, usually cudaSuccess.
+cudaError_t BeginCudaCall();
+
+/// Makes a call of the CUDA runtime, or a launch followed by cudaGetLastError().
+/// @param action what it does, for the message, e.g. "allocate memory".
+/// @throws BackendUnavailable.
+template <typename Call>
+void CallCuda(const char* action, const Call& call)
+{
+  const cudaError_t injected = BeginCudaCall();
+  const cudaError_t error = injected == cudaSuccess ? call() : injected;
+  if (error != cudaSuccess)
+  {
+    ThrowCudaError(error, action);
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
+#include "FlipTestSupport.h"
+
+#include <gtest/gtest.h>
+
+/// @file
+/// The GPU's mesh is the CPU's, bit for bit, and so are its statistics.
+
+namespace delaunayflip
+{
+namespace
+{
+
+struct AgreementCase
+{
+  const char* Name;
+  OwnedMesh<double> (*Make)();
+  GeometryKind Geometry;
+  CriterionKind Criterion = CriterionKind::InCircle;
+  TieRuleKind TieRule = TieRuleKind::Keep;
+  double FeatureAngle = 180.0;
+};
+
+void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
+
+OwnedMesh<double> MakeSmallPlane() { return MakeRandomBadMeshDouble(500, 11); }
+OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(150000, 12); }
+OwnedMesh<double> MakeGrid() { return MakeGridMesh(300, 200); }
+OwnedMesh<double> MakeChain() { return MakeWorstCaseMesh(60); }
+OwnedMesh<double> MakeSphere() { return MakeBadSphere(300, 150, 13); }
+OwnedMesh<double> MakeStrip() { return MakeMoebiusStrip(1000, 8, 14); }
+
+OwnedMesh<double> MakeTiltedPlane()
+{
+  const AffineMap map = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 2, -3, 0, 0 } } };
+  return Transform(MakeRandomBadMeshDouble(50000, 15), map);
+}
+
+/// A grid whose points are lattice points far from the origin, cut at random: ties and violations.
+OwnedMesh<double> MakeFarPlane()
+{
+  return Transform(MakeRandomBadMeshDouble(30000, 16), ScaleAndMove(1000.0, 1e7));
+}
+
+/// A wave, so that planes fold over themselves and edges would double.
+OwnedMesh<double> MakeFoldedPlane()
+{
+  OwnedMesh<double> mesh = MakeBadSphere(200, 100, 17);
+  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] = 0.0;
+  }
+  return mesh;
+}
+
+/// Every tenth triangle twice, so that edges of three and more triangles abound.
+OwnedMesh<double> MakeDirtySphere()
+{
+  OwnedMesh<double> mesh = MakeSphere();
+  const std::vector<std::int32_t> clean = mesh.Triangles;
+  for (std::size_t i = 0; i + 3 <= clean.size(); i += 30)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), &clean[i], &clean[i] + 3);
+  }
+  return mesh;
+}
+
+FlipOptions MakeOptions(BackendKind backend)
+{
+  FlipOptions options;
+  options.Backend = backend;
+  options.FeatureAngle = 180.0;
+  return options;
+}
+
+void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
+{
+  EXPECT_TRUE(expected.Triangles == actual.Triangles);
+  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
+  ExpectSameStatistics(expected.Report, actual.Report);
+}
+
+class AgreementTest : public testing::TestWithParam<AgreementCase>
+{
+protected:
+  void SetUp() override
+  {
+    if (!HasCudaDevice())
+    {
+      GTEST_SKIP() << "no GPU";
+    }
+    this->Mesh = GetParam().Make();
+  }
+
+  FlipOptions GetOptions(BackendKind backend) const
+  {
+    FlipOptions options = MakeOptions(backend);
+    options.Geometry = GetParam().Geometry;
+    options.Criterion = GetParam().Criterion;
+    options.TieRule = GetParam().TieRule;
+    options.FeatureAngle = GetParam().FeatureAngle;
+    return options;
+  }
+
+  OwnedMesh<double> Mesh;
+};
+
+TEST_P(AgreementTest, TheGpuGivesTheCpusBits)
+{
+  const FlipResult expected = Flip(this->Mesh.View(), this->GetOptions(BackendKind::Threads));
+  const FlipResult actual = Flip(this->Mesh.View(), this->GetOptions(BackendKind::CUDA));
+  EXPECT_EQ(0u, actual.Report.Backend.rfind("CUDA: ", 0)) << actual.Report.Backend;
+  ExpectSameResult(expected, actual);
+  ExpectSameResult(actual, Flip(this->Mesh.View(), this->GetOptions(BackendKind::CUDA)));
+}
+
+TEST_P(AgreementTest, EveryIterationAgrees)
+{
+  FlipOptions options = this->GetOptions(BackendKind::Threads);
+  options.TrackQuality = true;
+  options.MaximumIterations = 20;
+  const FlipResult expected = Flip(this->Mesh.View(), options);
+  options.Backend = BackendKind::CUDA;
+  ExpectSameResult(expected, Flip(this->Mesh.View(), options));
+}
+
+TEST_P(AgreementTest, SingleStepsGiveTheSameBits)
+{
+  FlipOptions options = this->GetOptions(BackendKind::CUDA);
+  FlipSession session(this->Mesh.View(), options);
+  while (session.Advance(1))
+  {
+  }
+  FlipResult result;
+  result.Triangles.resize(this->Mesh.Triangles.size());
+  result.FlipCounts.resize(this->Mesh.Triangles.size() / 3);
+  session.StoreTriangles(
+    MutableTriangleArray(result.Triangles.data(), this->Mesh.NumberOfTriangles()));
+  session.StoreFlipCounts(result.FlipCounts.data());
+  result.Report = session.GetReport();
+  options.Backend = BackendKind::Threads;
+  ExpectSameResult(Flip(this->Mesh.View(), options), result);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
+  testing::Values(AgreementCase{ "SmallPlane", MakeSmallPlane, GeometryKind::Auto },
+    AgreementCase{ "LargePlane", MakeLargePlane, GeometryKind::Auto },
+    AgreementCase{
+      "PlaneByAngles", MakeSmallPlane, GeometryKind::Auto, CriterionKind::OppositeAngles },
+    AgreementCase{ "TiltedPlane", MakeTiltedPlane, GeometryKind::Auto },
+    AgreementCase{ "Terrain", MakeTiltedPlane, GeometryKind::PlanarXY },
+    AgreementCase{
+      "TerrainByAngles", MakeTiltedPlane, GeometryKind::PlanarXY, CriterionKind::OppositeAngles },
+    AgreementCase{ "PlaneAsSurface", MakeTiltedPlane, GeometryKind::Surface },
+    AgreementCase{ "FarPlane", MakeFarPlane, GeometryKind::Auto },
+    AgreementCase{ "FoldedPlane", MakeFoldedPlane, GeometryKind::Auto },
+    AgreementCase{ "Grid", MakeGrid, GeometryKind::Auto },
+    AgreementCase{ "CanonicalGrid", MakeGrid, GeometryKind::Auto, CriterionKind::InCircle,
+      TieRuleKind::Canonical },
+    AgreementCase{ "Chain", MakeChain, GeometryKind::Auto },
+    AgreementCase{ "Sphere", MakeSphere, GeometryKind::Auto },
+    AgreementCase{ "SphereWithFeatures", MakeSphere, GeometryKind::Auto, CriterionKind::InCircle,
+      TieRuleKind::Keep, 30.0 },
+    AgreementCase{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
+    AgreementCase{ "DirtySphere", MakeDirtySphere, GeometryKind::Auto }),
+  [](const auto& test) { return std::string(test.param.Name); });
+
+TEST(FloatAgreementTest, TheGpuGivesTheCpusBits)
+{
+  if (!HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU";
+  }
+  const OwnedMesh<float> mesh = MakeRandomBadMesh(200000, 21);
+  ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
+    Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
+  FlipOptions surface = MakeOptions(BackendKind::Threads);
+  surface.Geometry = GeometryKind::Surface;
+  const FlipResult expected = Flip(mesh.View(), surface);
+  surface.Backend = BackendKind::CUDA;
+  ExpectSameResult(expected, Flip(mesh.View(), surface));
+}
+
+}
+}
