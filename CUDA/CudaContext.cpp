@@ -135,6 +135,7 @@ CudaContext::~CudaContext() { this->Close(); }
 void CudaContext::Open()
 {
   cudaGetLastError(); // what others left behind
+  const CurrentDevice current(this->Device); // streams and events belong to it
   cudaDeviceProp properties;
   CallCuda("read the device's properties",
     [&] { return cudaGetDeviceProperties(&properties, this->Device); });
@@ -210,11 +211,9 @@ ContextLease::~ContextLease()
 
 bool HasCudaDevice()
 {
-  // Version 0 tells that no driver is installed; one that is there but too old is worth a warning.
-  int version = 0;
+  // A driver that is there but too old is worth a warning.
   int devices = 0;
-  const bool hasDriver = cudaDriverGetVersion(&version) == cudaSuccess && version > 0;
-  const cudaError_t error = hasDriver ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
+  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
   cudaGetLastError();
   return error != cudaErrorNoDevice;
 }

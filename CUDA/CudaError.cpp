@@ -25,14 +25,22 @@ std::string Advise(cudaError_t error)
       return "; the mesh is too large for what is free on the GPU";
     case cudaErrorNoDevice:
       return "; is a GPU of NVIDIA in this machine?";
+    case cudaErrorInvalidDevice:
+      return "; CUDA numbers the GPUs of a machine from 0";
     case cudaErrorInsufficientDriver:
-      return "; update NVIDIA's driver";
+      return HasCudaDriver() ? "; update NVIDIA's driver" : "; no driver of NVIDIA is installed";
     case cudaErrorNoKernelImageForDevice:
       return "; this build has no code for this GPU, set CMAKE_CUDA_ARCHITECTURES";
     default:
       return "";
   }
 }
+}
+
+bool HasCudaDriver()
+{
+  int version = 0;
+  return cudaDriverGetVersion(&version) == cudaSuccess && version > 0;
 }
 
 void ThrowCudaError(cudaError_t error, const char* action)

@@ -17,6 +17,9 @@ namespace delaunayflip
 /// the runtime's record, so that nobody else meets it.
 [[noreturn]] void ThrowCudaError(cudaError_t error, const char* action);
 
+/// Whether a driver is installed, of any version. Never throws.
+bool HasCudaDriver();
+
 /// For tests: the call of CallCuda that is `calls` from now (1: the next) fails with `error`
 /// instead of being made; 0 takes the order back.
 void InjectCudaError(std::int64_t calls, cudaError_t error);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,6 @@ public:
     this->Allocate();
     this->PlanGrids();
     this->CutIntoChunks();
-    this->ActivateAll();
   }
 
   StepCounts Detect() override
@@ -85,7 +85,7 @@ public:
       [=] __device__(std::int64_t c)
       {
         chunks[c] = { FirstEdgeOf(words, edges, c << ChunkBits),
-          FirstEdgeOf(words, edges, (c + 1) << ChunkBits), StepCounts() };
+          FirstEdgeOf(words, edges, (c + 1) << ChunkBits), 0 };
       });
   }
 
@@ -102,7 +102,6 @@ public:
           mesh.States[e] = EdgeState::Deferred;
         }
       });
-    this->ActivateAll();
   }
 
   void RecallEdges()
@@ -116,7 +115,25 @@ public:
           states[e] = EdgeState::Candidate;
         }
       });
-    this->ActivateAll();
+  }
+
+  /// Marks what is to become no candidate.
+  void ResetMarks()
+  {
+    const EdgeState* states = this->Mesh.States.Data();
+    const std::int64_t edges = this->Mesh.NumberOfEdges;
+    std::uint32_t* marks = this->Marks.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(this->Marks.Size()),
+      [=] __device__(std::int64_t word)
+      {
+        std::uint32_t bits = 0;
+        for (int i = 0; i < 32 && 32 * word + i < edges; ++i)
+        {
+          const EdgeState state = states[32 * word + i];
+          bits |= state == EdgeState::Fixed || state == EdgeState::Deferred ? 1u << i : 0;
+        }
+        marks[word] = bits;
+      });
   }
 
   double MeasureAngles() const
@@ -153,22 +170,41 @@ private:
   /// Iterations of a launch: a batch ends soon enough for whoever watches.
   static constexpr int MostIterations = 128;
   /// With fewer bad edges one block is faster than the whole grid, with its slower barrier.
-  static constexpr std::int64_t SmallTail = 256;
-  static constexpr std::int64_t LargeTail = 4 * SmallTail;
+  static constexpr unsigned SmallTail = 512;
+  static constexpr unsigned LargeTail = 4 * SmallTail;
   /// Of the second-level cache, for chunks at work: half, the rest is others'.
   static constexpr std::size_t ChunkBytes = std::size_t(7) << 20;
 
-  /// The head of the results that a launch leaves behind; rounds follow.
+  /// What a launch leaves behind.
   struct Results
   {
     int RoundsDone;
-    StepCounts Rounds[MostIterations + 1];
+    RoundSums Rounds[MostIterations + 1];
+  };
+
+  /// What is bad, by why it does not flip.
+  struct BadEdges
+  {
+    std::int64_t Tested = 0, Bad = 0, Misshapen = 0, BlockedByEdge = 0;
+
+    StepCounts ToCounts() const
+    {
+      StepCounts counts;
+      counts.Tested = this->Tested;
+      counts.Bad = this->Bad;
+      counts.Blocked = this->Misshapen + this->BlockedByEdge;
+      return counts;
+    }
   };
 
   void Allocate()
   {
-    const std::int64_t blocks = (this->Mesh.NumberOfEdges >> DeviceWorklist::BlockBits) + 1;
-    this->Flags = this->Backend.template MakeArray<std::uint8_t>(blocks + this->NumberOfChunks);
+    const std::int64_t edges = this->Mesh.NumberOfEdges;
+    // With a guard, winners that step back are for a moment on two lists.
+    this->ListSize = this->Guard.IsActive() ? edges + edges / 3 + 1 : edges;
+    this->Lists[0] = this->Backend.template MakeArray<EdgeId>(this->ListSize);
+    this->Lists[1] = this->Backend.template MakeArray<EdgeId>(this->ListSize);
+    this->Marks = this->Backend.template MakeArray<std::uint32_t>(edges / 32 + 1);
     this->Chunks = this->Backend.template MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = this->Backend.template MakeArray<Results>(1);
   }
@@ -194,27 +230,22 @@ private:
     const auto teams = static_cast<int>(this->Backend.GetContext().CacheBytes / ChunkBytes);
     this->Teams = std::max(1, std::min({ teams, this->NumberOfChunks, blocks }));
     this->BlocksOfTeam = blocks / this->Teams;
-    this->Barriers = this->Backend.template MakeArray<TeamBarrier>(this->Teams);
-  }
-
-  void ActivateAll()
-  {
-    this->Backend.Fill(this->Flags.Data(), 1, static_cast<std::int64_t>(this->Flags.Size()));
+    this->TeamStates = this->Backend.template MakeArray<TeamState>(this->Teams);
   }
 
   LoopView<Rule> View()
   {
     Results* results = this->DeviceResults.Data();
-    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Flags.Data(),
-      this->Mesh.NumberOfEdges, this->Chunks.Data(), this->NumberOfChunks, this->Barriers.Data(),
-      results->Rounds, &results->RoundsDone };
+    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Mesh.NumberOfEdges,
+      { this->Lists[0].Data(), this->Lists[1].Data() }, this->Marks.Data(), this->Chunks.Data(),
+      this->NumberOfChunks, this->TeamStates.Data(), results->Rounds, &results->RoundsDone };
   }
 
   /// Clears what kernels count in.
   void Prepare()
   {
     this->Backend.Fill(this->DeviceResults.Data(), 0, 1);
-    this->Backend.Fill(this->Barriers.Data(), 0, static_cast<std::int64_t>(this->Barriers.Size()));
+    this->Backend.Fill(this->TeamStates.Data(), 0, this->Teams);
   }
 
   /// Launches a kernel whose blocks wait for each other.
@@ -241,9 +272,9 @@ private:
   {
     auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0]);
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
-    for (const StepCounts& round : results->Rounds)
+    for (const RoundSums& round : results->Rounds)
     {
-      if (round.Uncertain > 0)
+      if (GetSum(round, RoundSum::Uncertain) > 0)
       {
         throw BeyondDevice();
       }
@@ -251,13 +282,39 @@ private:
     return *results;
   }
 
+  static std::int64_t GetSum(const RoundSums& round, RoundSum sum)
+  {
+    return static_cast<std::int64_t>(round.Values[static_cast<int>(sum)]);
+  }
+
   void DetectAll()
   {
     this->Prepare();
     const LoopView<Rule> view = this->View();
-    this->Backend.Launch([&](cudaStream_t stream)
-      { DetectKernel<<<this->GridBlocks, LoopThreads, 0, stream>>>(view); });
-    this->Found = this->FetchResults().Rounds[0];
+    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, view);
+    const RoundSums& sums = this->FetchResults().Rounds[0];
+    this->Edges = { GetSum(sums, RoundSum::Tested), GetSum(sums, RoundSum::NewlyBad),
+      GetSum(sums, RoundSum::NewlyMisshapen), GetSum(sums, RoundSum::GuardedBlocked) };
+    this->Found = this->Edges.ToCounts();
+  }
+
+  /// What is bad after a round.
+  BadEdges Follow(const BadEdges& before, const RoundSums& round) const
+  {
+    const std::int64_t listed = GetSum(round, RoundSum::Carried) +
+      GetSum(round, RoundSum::NewlyBad) - GetSum(round, RoundSum::Cured);
+    const bool guarded = this->Guard.IsActive();
+    return { GetSum(round, RoundSum::Tested),
+      guarded ? GetSum(round, RoundSum::GuardedBad) : listed,
+      before.Misshapen + GetSum(round, RoundSum::NewlyMisshapen) -
+        GetSum(round, RoundSum::Reshaped),
+      GetSum(round, RoundSum::GuardedBlocked) };
+  }
+
+  static IterationCounts ToIteration(const BadEdges& before, const RoundSums& round)
+  {
+    return { before.Tested, before.Bad, before.Misshapen + before.BlockedByEdge,
+      GetSum(round, RoundSum::Flipped), -INFINITY };
   }
 
   /// A launch of iterations on the whole mesh.
@@ -266,31 +323,16 @@ private:
     const bool measure = plan.MeasureFirst || plan.MeasureAll;
     const std::int64_t most = measure ? 1 : std::min<std::int64_t>(plan.Iterations, MostIterations);
     const bool small = this->Found.Bad < SmallTail;
+    const std::int64_t freshSlots =
+      this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
     const IterationLimits limits{ static_cast<int>(most), small ? 1 : SmallTail,
-      small ? LargeTail : this->Mesh.NumberOfEdges,
-      this->Guard.IsActive() ? this->Guard.GetFreshSlotsLeft() : 0 };
+      small ? LargeTail : static_cast<unsigned>(this->Mesh.NumberOfEdges),
+      static_cast<unsigned long long>(freshSlots) };
+    this->ResetMarks();
     this->Prepare();
-    this->LaunchTogether(small ? 1 : this->GridBlocks, IterateKernel<Rule>, this->View(), limits);
-    const Results& results = this->FetchResults();
-    std::vector<IterationCounts> iterations;
-    StepCounts flips;
-    for (int i = 0; i < results.RoundsDone; ++i)
-    {
-      const StepCounts& found = i == 0 ? this->Found : results.Rounds[i];
-      iterations.push_back(
-        { found.Tested, found.Bad, found.Blocked, results.Rounds[i].Flipped, -INFINITY });
-      flips += results.Rounds[i];
-    }
-    this->Found = results.Rounds[results.RoundsDone];
-    if (this->Guard.IsActive() && this->NeedsCare(flips, limits))
-    {
-      this->Guard.Maintain(flips, this->Mesh, this->Backend);
-      this->DetectAll();
-    }
-    else if (this->Guard.IsActive())
-    {
-      this->Guard.Maintain(flips, this->Mesh, this->Backend);
-    }
+    this->LaunchTogether(small ? 1 : this->GridBlocks, IterateKernel<Rule>, this->View(),
+      static_cast<unsigned>(this->ListSize), limits);
+    std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
     if (measure)
     {
       iterations.back().SquaredCotangent = this->MeasureAngles();
@@ -298,10 +340,29 @@ private:
     return iterations;
   }
 
-  /// Whether the kernel stopped before its last detection.
-  static bool NeedsCare(const StepCounts& flips, const IterationLimits& limits)
+  std::vector<IterationCounts> ReadIterations(std::int64_t freshSlots)
   {
-    return flips.FreshSlots > limits.FreshSlots || flips.LostInserts > 0;
+    const Results& results = this->FetchResults();
+    std::vector<IterationCounts> iterations;
+    StepCounts flips;
+    for (int i = 0; i < results.RoundsDone; ++i)
+    {
+      const RoundSums& round = results.Rounds[i];
+      iterations.push_back(ToIteration(this->Edges, round));
+      this->Edges = this->Follow(this->Edges, round);
+      flips.FreshSlots += GetSum(round, RoundSum::FreshSlots);
+      flips.LostInserts += GetSum(round, RoundSum::LostInserts);
+    }
+    this->Found = this->Edges.ToCounts();
+    if (this->Guard.IsActive())
+    {
+      this->Guard.Maintain(flips, this->Mesh, this->Backend);
+      if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
+      {
+        this->DetectAll(); // which the kernel left to us
+      }
+    }
+    return iterations;
   }
 
   /// The rounds that chunks run for themselves, at most as many as the plan and the schedule allow.
@@ -311,6 +372,7 @@ private:
     const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
     const bool isFirst = this->RoundsLeft == ChunkRounds;
     this->DeferEdgesBetweenChunks();
+    this->ResetMarks();
     std::vector<IterationCounts> total;
     while (static_cast<std::int64_t>(total.size()) < rounds)
     {
@@ -345,10 +407,13 @@ private:
     this->LaunchTogether(this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>, this->View(),
       this->BlocksOfTeam, rounds);
     const Results& results = this->FetchResults();
+    const RoundSums& sums = results.Rounds[rounds];
+    BadEdges edges{ GetSum(sums, RoundSum::Tested), GetSum(sums, RoundSum::Carried),
+      GetSum(sums, RoundSum::NewlyMisshapen), 0 };
     for (int i = 0; i < rounds; ++i)
     {
-      const StepCounts& round = results.Rounds[i];
-      total.push_back({ round.Tested, round.Bad, round.Blocked, round.Flipped, -INFINITY });
+      total.push_back(ToIteration(edges, results.Rounds[i]));
+      edges = this->Follow(edges, results.Rounds[i]);
     }
   }
 
@@ -362,10 +427,13 @@ private:
   int GridBlocks = 1;
   int Teams = 1;
   int BlocksOfTeam = 1;
-  Array<std::uint8_t> Flags;
+  std::int64_t ListSize = 0;
+  Array<EdgeId> Lists[2];
+  Array<std::uint32_t> Marks;
   Array<DeviceChunk> Chunks;
-  Array<TeamBarrier> Barriers;
+  Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
+  BadEdges Edges; ///< As Found, in detail.
 };
 
 template <typename Backend, typename Rule>

@@ -18,23 +18,27 @@ struct OuterHalfEdges
 };
 
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
+  const TriangleRecord& upper, int slotA, const TriangleRecord& lower, int slotB)
+{
+  return { GetAt(upper.HalfEdges, PreviousSlot(slotA)), GetAt(upper.HalfEdges, NextSlot(slotA)),
+    GetAt(lower.HalfEdges, NextSlot(slotB)), GetAt(lower.HalfEdges, PreviousSlot(slotB)) };
+}
+
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
   const EdgeMeshView& mesh, CornerId cornerA, CornerId cornerB)
 {
-  const TriangleRecord& upper = mesh.Triangles[TriangleOf(cornerA)];
-  const TriangleRecord& lower = mesh.Triangles[TriangleOf(cornerB)];
-  const int slotA = SlotOf(cornerA);
-  const int slotB = SlotOf(cornerB);
-  return { upper.HalfEdges[PreviousSlot(slotA)], upper.HalfEdges[NextSlot(slotA)],
-    lower.HalfEdges[NextSlot(slotB)], lower.HalfEdges[PreviousSlot(slotB)] };
+  ConstTriangleAccess upper = mesh.Triangles[TriangleOf(cornerA)];
+  ConstTriangleAccess lower = mesh.Triangles[TriangleOf(cornerB)];
+  return GetOuterHalfEdges(upper, SlotOf(cornerA), lower, SlotOf(cornerB));
 }
 
 /// Puts `vertex` where the flip takes one away, and the two half-edges that move with it.
 DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
   TriangleRecord& triangle, int slot, VertexId vertex, HalfEdgeId facing, HalfEdgeId diagonal)
 {
-  triangle.Vertices[PreviousSlot(slot)] = vertex;
-  triangle.HalfEdges[slot] = facing;
-  triangle.HalfEdges[NextSlot(slot)] = diagonal;
+  SetAt(triangle.Vertices, PreviousSlot(slot), vertex);
+  SetAt(triangle.HalfEdges, slot, facing);
+  SetAt(triangle.HalfEdges, NextSlot(slot), diagonal);
   ++triangle.FlipCount;
 }
 
@@ -54,14 +58,20 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
   const EdgeMeshView& mesh, EdgeId edge, const Quad& quad)
 {
-  const OuterHalfEdges outer = GetOuterHalfEdges(mesh, quad.CornerA, quad.CornerB);
   const TriangleId t = TriangleOf(quad.CornerA);
   const TriangleId s = TriangleOf(quad.CornerB);
   const int slotA = SlotOf(quad.CornerA);
   const int slotB = SlotOf(quad.CornerB);
+  TriangleAccess upper = mesh.Triangles[t];
+  TriangleAccess lower = mesh.Triangles[s];
+  const OuterHalfEdges outer = GetOuterHalfEdges(upper, slotA, lower, slotB);
 
-  ReplaceAfter(mesh.Triangles[t], slotA, quad.B, outer.PB, 2 * edge);
-  ReplaceAfter(mesh.Triangles[s], slotB, quad.A, outer.QA, 2 * edge + 1);
+  ReplaceAfter(upper, slotA, quad.B, outer.PB, 2 * edge);
+  ReplaceAfter(lower, slotB, quad.A, outer.QA, 2 * edge + 1);
+#if DELAUNAYFLIP_ON_DEVICE
+  mesh.Triangles[t] = upper;
+  mesh.Triangles[s] = lower;
+#endif
   mesh.CornerOfHalfEdge[2 * edge] = MakeCorner(t, NextSlot(slotA));
   mesh.CornerOfHalfEdge[2 * edge + 1] = MakeCorner(s, NextSlot(slotB));
   mesh.CornerOfHalfEdge[outer.PB] = quad.CornerA;

@@ -32,6 +32,8 @@ using CornerId = std::uint32_t;
 /// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
 constexpr CornerId NoCorner = 0xFFFFFFFFu;
 
+constexpr EdgeId NoEdge = 0xFFFFFFFFu;
+
 /// What the loop knows of an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
 /// blocked.
 enum class EdgeState : std::uint8_t
@@ -60,13 +62,50 @@ DELAUNAYFLIP_HOST_DEVICE inline TriangleId TriangleOf(CornerId corner) { return 
 DELAUNAYFLIP_HOST_DEVICE inline int SlotOf(CornerId corner) { return static_cast<int>(corner & 3); }
 DELAUNAYFLIP_HOST_DEVICE inline EdgeId EdgeOf(HalfEdgeId halfEdge) { return halfEdge >> 1; }
 
-/// A triangle in one aligned 32-byte sector.
+/// A triangle in one aligned 32-byte sector: two words of 16 bytes, as GPUs load them.
 struct alignas(32) TriangleRecord
 {
   VertexId Vertices[3];
-  HalfEdgeId HalfEdges[3]; ///< This triangle's side of the edge opposite each slot.
   TriangleId InputTriangle; ///< The caller's slot.
+  HalfEdgeId HalfEdges[3]; ///< This triangle's side of the edge opposite each slot.
   std::uint32_t FlipCount; ///< Flips that this slot was part of.
+};
+
+/// The value at a slot. A device keeps what it loaded in registers, which have no index.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t GetAt(const std::uint32_t (&values)[3], int slot)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  return slot == 0 ? values[0] : (slot == 1 ? values[1] : values[2]);
+#else
+  return values[slot];
+#endif
+}
+DELAUNAYFLIP_HOST_DEVICE inline void SetAt(
+  std::uint32_t (&values)[3], int slot, std::uint32_t value)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  values[0] = slot == 0 ? value : values[0];
+  values[1] = slot == 1 ? value : values[1];
+  values[2] = slot == 2 ? value : values[2];
+#else
+  values[slot] = value;
+#endif
+}
+
+/// A triangle to read from or to change and write back: on a device a copy in registers, else the
+/// record itself.
+#if DELAUNAYFLIP_ON_DEVICE
+using TriangleAccess = TriangleRecord;
+using ConstTriangleAccess = const TriangleRecord;
+#else
+using TriangleAccess = TriangleRecord&;
+using ConstTriangleAccess = const TriangleRecord&;
+#endif
+
+/// Both words of an edge.
+struct alignas(8) CornerPair
+{
+  CornerId A, B;
 };
 
 /// The quadrilateral around an edge of two triangles, every index named (see EdgeFlip.h's picture).
@@ -83,17 +122,27 @@ struct EdgeMeshView
   CornerId* CornerOfHalfEdge;
   EdgeState* States;
 
+  DELAUNAYFLIP_HOST_DEVICE CornerPair GetCorners(EdgeId edge) const
+  {
+#if DELAUNAYFLIP_ON_DEVICE
+    return reinterpret_cast<const CornerPair*>(this->CornerOfHalfEdge)[edge];
+#else
+    return { this->CornerOfHalfEdge[2 * edge], this->CornerOfHalfEdge[2 * edge + 1] };
+#endif
+  }
+
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE Quad GetQuad(EdgeId edge) const
   {
     Quad quad;
-    quad.CornerA = this->CornerOfHalfEdge[2 * edge];
-    quad.CornerB = this->CornerOfHalfEdge[2 * edge + 1];
-    const TriangleRecord& triangle = this->Triangles[TriangleOf(quad.CornerA)];
-    const int slot = SlotOf(quad.CornerA);
-    quad.A = triangle.Vertices[slot];
-    quad.P = triangle.Vertices[NextSlot(slot)];
-    quad.Q = triangle.Vertices[PreviousSlot(slot)];
-    quad.B = this->Triangles[TriangleOf(quad.CornerB)].Vertices[SlotOf(quad.CornerB)];
+    const CornerPair corners = this->GetCorners(edge);
+    quad.CornerA = corners.A;
+    quad.CornerB = corners.B;
+    ConstTriangleAccess triangle = this->Triangles[TriangleOf(corners.A)];
+    const int slot = SlotOf(corners.A);
+    quad.A = GetAt(triangle.Vertices, slot);
+    quad.P = GetAt(triangle.Vertices, NextSlot(slot));
+    quad.Q = GetAt(triangle.Vertices, PreviousSlot(slot));
+    quad.B = this->Triangles[TriangleOf(corners.B)].Vertices[SlotOf(corners.B)];
     return quad;
   }
 };

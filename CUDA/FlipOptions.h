@@ -39,8 +39,9 @@ enum class TieRuleKind
 /// Where the flips run.
 enum class BackendKind
 {
-  Auto, ///< The fastest that is available.
-  CUDA, ///< A GPU; BackendUnavailable if there is none.
+  Auto, ///< CUDA from SmallestMeshForCuda triangles (CudaDevice.h) on where there is a GPU, else
+        ///< Threads. Where the GPU fails, Threads do the work.
+  CUDA, ///< A GPU; BackendUnavailable if there is none or it fails.
   Threads ///< Threads of the CPU.
 };
 

@@ -97,9 +97,9 @@ struct FlipReport
   std::vector<Defect> Defects; ///< Empty for a clean mesh.
 };
 
-/// Called on the calling thread after every iteration; false aborts the run. Of large planar meshes
-/// the first 12 iterations run together: their calls come one after the other when all of them are
-/// done.
+/// Called on the calling thread after every iteration; false aborts the run. Where iterations run
+/// together, their calls come one after the other when all of them are done, and an abort takes
+/// effect there: the first 12 of large planar meshes, and on a GPU batches of up to 128.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
 
 /// "converged", "iteration limit", "aborted" or "not started".

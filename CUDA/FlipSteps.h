@@ -31,7 +31,7 @@ struct BlockFlags
   int BlockBits;
 
   /// Flags the block of an edge of the range.
-  DELAUNAYFLIP_HOST_DEVICE void Set(EdgeId edge) const
+  void Set(EdgeId edge) const
   {
     if (edge < this->First || edge >= this->Last)
     {
@@ -55,8 +55,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void PrefetchTriangles(const EdgeMeshView& mesh,
   Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
 }
 
-/// What steps on quads share. Steps that Decide the edge's own state from what they loaded, and
-/// write nothing else, let a backend load for several edges before it decides on any.
+/// What steps on quads share.
 struct QuadStep
 {
   EdgeMeshView Mesh;
@@ -82,19 +81,12 @@ struct JudgeStep : QuadStep
     delaunayflip::Prefetch(this->Decision.Address(quad.Q));
     delaunayflip::Prefetch(this->Decision.Address(quad.B));
   }
-  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(EdgeId, const Quad& quad) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    return this->Decision.Judge(quad);
-  }
-  DELAUNAYFLIP_HOST_DEVICE void Store(EdgeId edge, EdgeState state, StepCounts& counts) const
-  {
+    const EdgeState state = this->Decision.Judge(quad);
     AtomicStore(&this->Mesh.States[edge], state);
     ++counts.Tested;
     counts.Uncertain += state == EdgeState::Uncertain ? 1 : 0;
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
-  {
-    this->Store(edge, this->Decide(edge, quad), counts);
   }
 };
 
@@ -118,10 +110,14 @@ struct GuardStep : QuadStep
   EdgeTableView Edges;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
   {
     const bool exists = this->Edges.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
-    AtomicStore(&this->Mesh.States[edge], exists ? EdgeState::BlockedByEdge : EdgeState::Bad);
+    return exists ? EdgeState::BlockedByEdge : EdgeState::Bad;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  {
+    AtomicStore(&this->Mesh.States[edge], this->Decide(quad));
   }
 };
 
@@ -162,30 +158,35 @@ struct ChooseStep
   }
   DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(EdgeId edge, const OuterHalfEdges& outer) const
   {
+    // All four states are asked for before any is looked at.
+    const EdgeState ap = this->LoadState(outer.AP);
+    const EdgeState qa = this->LoadState(outer.QA);
+    const EdgeState pb = this->LoadState(outer.PB);
+    const EdgeState bq = this->LoadState(outer.BQ);
     const std::uint32_t own = Priority(edge);
-    const bool beaten = this->IsBeatenBy(own, outer.AP) || this->IsBeatenBy(own, outer.QA) ||
-      this->IsBeatenBy(own, outer.PB) || this->IsBeatenBy(own, outer.BQ);
+    const bool beaten = IsBeatenBy(own, outer.AP, ap) || IsBeatenBy(own, outer.QA, qa) ||
+      IsBeatenBy(own, outer.PB, pb) || IsBeatenBy(own, outer.BQ, bq);
     return beaten ? EdgeState::Bad : EdgeState::Winner;
   }
-  DELAUNAYFLIP_HOST_DEVICE void Store(EdgeId edge, EdgeState state, StepCounts&) const
-  {
-    if (state == EdgeState::Winner)
-    {
-      AtomicStore(&this->Mesh.States[edge], state);
-    }
-  }
   DELAUNAYFLIP_HOST_DEVICE void operator()(
-    EdgeId edge, const OuterHalfEdges& outer, StepCounts& counts) const
+    EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
   {
-    this->Store(edge, this->Decide(edge, outer), counts);
+    if (this->Decide(edge, outer) == EdgeState::Winner)
+    {
+      AtomicStore(&this->Mesh.States[edge], EdgeState::Winner);
+    }
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE bool IsBeatenBy(std::uint32_t own, HalfEdgeId halfEdge) const
+  DELAUNAYFLIP_HOST_DEVICE EdgeState LoadState(HalfEdgeId halfEdge) const
   {
-    const EdgeId other = EdgeOf(halfEdge);
-    const EdgeState state = AtomicLoad(&this->Mesh.States[other]);
-    return (state == EdgeState::Bad || state == EdgeState::Winner) && Priority(other) < own;
+    return AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]);
+  }
+  DELAUNAYFLIP_HOST_DEVICE static bool IsBeatenBy(
+    std::uint32_t own, HalfEdgeId halfEdge, EdgeState state)
+  {
+    return (state == EdgeState::Bad || state == EdgeState::Winner) &&
+      Priority(EdgeOf(halfEdge)) < own;
   }
 };
 
@@ -217,56 +218,62 @@ struct ConfirmStep : QuadStep
   }
 };
 
-/// Flips the winners, which share no triangle, and makes candidates of their outer edges. Two flips
-/// may mark the same outer edge, both with the same value. With a guard, gives the claim
-/// back and exchanges the old vertex pair for the new one.
-struct FlipStep : QuadStep
+/// Flips winners, which share no triangle. With a guard, gives the claim back and exchanges the old
+/// vertex pair for the new one. Writes the edge's own state.
+struct SurgeryStep : QuadStep
 {
-  BlockFlags Active;
   EdgeGuardView Guard;
 
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Flip(
+    EdgeId edge, const Quad& quad, StepCounts& counts) const
+  {
+    const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
+    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
+    ++counts.Flipped;
+    if (this->Guard.Active)
+    {
+      bool fresh = false;
+      this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+      this->Guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
+      counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+      counts.FreshSlots += fresh ? 1 : 0;
+    }
+    return outer;
+  }
+};
+
+/// Flips the winners and makes candidates of their outer edges. Two flips may mark the same outer
+/// edge, both with the same value.
+struct FlipStep : SurgeryStep
+{
+  BlockFlags Active;
+
   static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
+  void Prefetch(const Quad& quad) const
   {
     const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
-    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
+    const OuterHalfEdges outer = this->Flip(edge, quad, counts);
     this->Mark(EdgeOf(outer.AP));
     this->Mark(EdgeOf(outer.QA));
     this->Mark(EdgeOf(outer.PB));
     this->Mark(EdgeOf(outer.BQ));
-    ++counts.Flipped;
-    if (this->Guard.Active)
-    {
-      this->ExchangeEdge(edge, quad, counts);
-    }
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE void Mark(EdgeId edge) const
+  void Mark(EdgeId edge) const
   {
     EdgeState* state = &this->Mesh.States[edge];
     const EdgeState seen = AtomicLoad(state);
-    if (seen == EdgeState::Fixed || seen == EdgeState::Candidate || seen == EdgeState::Deferred)
+    if (seen != EdgeState::Fixed && seen != EdgeState::Candidate && seen != EdgeState::Deferred)
     {
-      return;
+      AtomicStore(state, EdgeState::Candidate);
+      this->Active.Set(edge);
     }
-    AtomicStore(state, EdgeState::Candidate);
-    this->Active.Set(edge);
-  }
-  DELAUNAYFLIP_HOST_DEVICE void ExchangeEdge(
-    EdgeId edge, const Quad& quad, StepCounts& counts) const
-  {
-    bool fresh = false;
-    this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
-    this->Guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
-    counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
-    counts.FreshSlots += fresh ? 1 : 0;
   }
 };
 

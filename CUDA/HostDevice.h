@@ -129,6 +129,16 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicOr(std::uint32_t* address, s
 #endif
 }
 
+/// Clears all bits but these.
+DELAUNAYFLIP_HOST_DEVICE inline void AtomicAnd(std::uint32_t* address, std::uint32_t bits)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  atomicAnd(address, bits);
+#else
+  __atomic_fetch_and(address, bits, __ATOMIC_RELAXED);
+#endif
+}
+
 template <typename T>
 DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
 {

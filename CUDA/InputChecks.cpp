@@ -35,6 +35,10 @@ void CheckOptions(const FlipOptions& options)
   {
     throw InvalidOptions("the number of threads must be 0 (all) or more");
   }
+  if (options.Device < -1)
+  {
+    throw InvalidOptions("the number of the GPU must be -1 (CUDA's current one), 0 or more");
+  }
 }
 
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry)

@@ -3,117 +3,150 @@
 #ifndef DELAUNAYFLIP_TEAM_CUH
 #define DELAUNAYFLIP_TEAM_CUH
 
-#include "DeviceWorklist.cuh"
-#include "StepCounts.h"
-
-#include <cstdint>
+#include "EdgeMesh.h"
+#include "HostDevice.h"
+#include "RoundSums.h"
 
 namespace delaunayflip
 {
 
-/// Threads of a block in the loop's kernels.
-constexpr int LoopThreads = 256;
-constexpr int LoopWarps = LoopThreads / WarpSize;
+constexpr int WarpSize = 32;
+constexpr unsigned WholeWarp = 0xFFFFFFFFu;
 
-/// A team's barrier, in device memory, a cache line of its own; zero before the launch.
-struct alignas(128) TeamBarrier
+/// Threads of a block in the loop's kernels, and blocks on a multiprocessor, which leaves 64
+/// registers a thread.
+constexpr int LoopThreads = 512;
+constexpr int LoopBlocks = 2;
+
+/// What the blocks of a team share in device memory; zero before a launch.
+struct alignas(128) TeamState
 {
   unsigned int Arrivals;
+  /// Lengths of the lists that a round writes (DeviceLists); a round uses those of its parity.
+  unsigned int Carried[2], Winners[2], Candidates[2];
 };
 
 /// Shared memory of a block.
 struct TeamMemory
 {
-  EdgeId Found[LoopWarps][DeviceWorklist::BlockSize];
-  unsigned int Sums[7]; ///< The members of StepCounts.
+  unsigned int Sums[NumberOfRoundSums];
 };
 
-/// Blocks of a cooperative launch that work on one worklist and wait for each other: the whole
-/// grid, or the blocks on a chunk. All threads of a team make the same calls in the same order.
+/// Blocks of a cooperative launch that work together and wait for each other: the whole grid, or
+/// the blocks on a chunk. All threads of a team make the same calls in the same order.
 class Team
 {
 public:
-  /// Blocks [team * size, (team + 1) * size) of the grid are a team.
-  __device__ Team(TeamMemory& memory, TeamBarrier* barriers, int size)
+  /// Blocks [team * size, (team + 1) * size) of the grid are a team. @param first block of the
+  /// grid that belongs to it.
+  __device__ Team(TeamMemory& memory, TeamState* states, unsigned size)
     : Memory(memory),
-      Barrier(&barriers[blockIdx.x / size].Arrivals),
+      State(&states[blockIdx.x / size]),
       Size(size)
   {
+    if (threadIdx.x < NumberOfRoundSums)
+    {
+      memory.Sums[threadIdx.x] = 0;
+    }
+    __syncthreads();
   }
 
-  __device__ int GetIndex() const { return blockIdx.x / this->Size; }
+  __device__ unsigned GetIndex() const { return blockIdx.x / this->Size; }
+  __device__ TeamState& GetState() const { return *this->State; }
 
-  /// Whether this is one thread of the team.
-  __device__ bool IsFirstThread() const { return blockIdx.x % this->Size == 0 && threadIdx.x == 0; }
-
-  __device__ WarpPlace GetPlace() const
+  /// This thread among those of the team, and their number.
+  __device__ unsigned GetThread() const
   {
-    const int warp = threadIdx.x / WarpSize;
-    // Warps of a block are far apart in the list, so that busy regions spread over the blocks.
-    return { std::int64_t(blockIdx.x % this->Size) + std::int64_t(warp) * this->Size,
-      std::int64_t(LoopWarps) * this->Size, this->Memory.Found[warp] };
+    return (blockIdx.x % this->Size) * LoopThreads + threadIdx.x;
+  }
+  __device__ unsigned GetNumberOfThreads() const { return this->Size * LoopThreads; }
+  __device__ bool IsFirstThread() const { return this->GetThread() == 0; }
+
+  /// Counts what the threads of a warp say. All of them call it.
+  __device__ void Add(RoundSum sum, unsigned value) const
+  {
+    for (int distance = WarpSize / 2; distance > 0; distance /= 2)
+    {
+      value += __shfl_down_sync(WholeWarp, value, distance);
+    }
+    if (threadIdx.x % WarpSize == 0 && value != 0)
+    {
+      atomicAdd(&this->Memory.Sums[static_cast<int>(sum)], value);
+    }
   }
 
-  /// Waits for all threads of the team; what they wrote before is then seen.
-  __device__ void Wait()
+  /// Adds what was counted to `round` and waits for all threads of the team; what they wrote before
+  /// is then seen.
+  __device__ void Wait(RoundSums* round)
   {
     __syncthreads();
-    if (threadIdx.x == 0 && this->Size > 1)
+    if (threadIdx.x == 0)
     {
+      this->FlushSums(round);
       __threadfence();
-      this->Expected += this->Size;
-      atomicAdd(this->Barrier, 1u);
-      while (static_cast<int>(AtomicLoad(this->Barrier) - this->Expected) < 0)
+      if (this->Size > 1)
       {
+        this->Expected += this->Size;
+        atomicAdd(&this->State->Arrivals, 1u);
+        while (static_cast<int>(AtomicLoad(&this->State->Arrivals) - this->Expected) < 0)
+        {
+        }
+        __threadfence();
       }
-      __threadfence();
     }
     __syncthreads();
-  }
-
-  /// Adds what the threads of this block counted to a total in device memory.
-  __device__ void Add(const StepCounts& counts, StepCounts* total)
-  {
-    if (threadIdx.x < 7)
-    {
-      this->Memory.Sums[threadIdx.x] = 0;
-    }
-    __syncthreads();
-    this->AddMember(0, counts.Tested);
-    this->AddMember(1, counts.Uncertain);
-    this->AddMember(2, counts.Bad);
-    this->AddMember(3, counts.Blocked);
-    this->AddMember(4, counts.Flipped);
-    this->AddMember(5, counts.FreshSlots);
-    this->AddMember(6, counts.LostInserts);
-    __syncthreads();
-    static_assert(sizeof(StepCounts) == 7 * sizeof(unsigned long long), "seven sums");
-    if (threadIdx.x < 7 && this->Memory.Sums[threadIdx.x] != 0)
-    {
-      auto* sums = reinterpret_cast<unsigned long long*>(total);
-      atomicAdd(&sums[threadIdx.x], this->Memory.Sums[threadIdx.x]);
-    }
   }
 
 private:
-  __device__ void AddMember(int member, std::int64_t value)
+  __device__ void FlushSums(RoundSums* round) const
   {
-    unsigned int sum = static_cast<unsigned int>(value);
-    for (int distance = WarpSize / 2; distance > 0; distance /= 2)
+    for (int i = 0; i < NumberOfRoundSums; ++i)
     {
-      sum += __shfl_down_sync(WholeWarp, sum, distance);
-    }
-    if (threadIdx.x % WarpSize == 0 && sum != 0)
-    {
-      atomicAdd(&this->Memory.Sums[member], sum);
+      if (this->Memory.Sums[i] != 0)
+      {
+        atomicAdd(&round->Values[i], static_cast<unsigned long long>(this->Memory.Sums[i]));
+        this->Memory.Sums[i] = 0;
+      }
     }
   }
 
   TeamMemory& Memory;
-  unsigned int* Barrier;
-  int Size;
-  unsigned int Expected = 0;
+  TeamState* State;
+  unsigned Size;
+  unsigned Expected = 0;
 };
+
+/// Reserves room at the end of a list for `count` items of this thread: one atomic a warp. All
+/// threads of a warp call it. @returns the place of the first.
+__device__ inline unsigned Reserve(unsigned int* length, unsigned count)
+{
+  const unsigned lane = threadIdx.x % WarpSize;
+  unsigned end = count;
+  for (unsigned distance = 1; distance < WarpSize; distance *= 2)
+  {
+    const unsigned other = __shfl_up_sync(WholeWarp, end, distance);
+    end += lane >= distance ? other : 0;
+  }
+  unsigned first = 0;
+  if (lane == WarpSize - 1 && end != 0)
+  {
+    first = atomicAdd(length, end);
+  }
+  return __shfl_sync(WholeWarp, first, WarpSize - 1) + end - count;
+}
+
+/// The same for at most one item a thread.
+__device__ inline unsigned ReserveOne(unsigned int* length, bool wanted)
+{
+  const unsigned lane = threadIdx.x % WarpSize;
+  const unsigned wanting = __ballot_sync(WholeWarp, wanted);
+  unsigned first = 0;
+  if (lane == 0 && wanting != 0)
+  {
+    first = atomicAdd(length, static_cast<unsigned>(__popc(wanting)));
+  }
+  return __shfl_sync(WholeWarp, first, 0) + __popc(wanting & ((1u << lane) - 1));
+}
 
 }
 

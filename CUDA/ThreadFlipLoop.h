@@ -123,7 +123,7 @@ private:
       this->Worklist.Run(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
     }
     const StepCounts flips =
-      this->Worklist.Run(this->Backend, FlipStep{ { mesh }, this->Worklist.GetFlags(), guard });
+      this->Worklist.Run(this->Backend, FlipStep{ { { mesh }, guard }, this->Worklist.GetFlags() });
     if (this->Guard.IsActive())
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
@@ -183,7 +183,7 @@ private:
   {
     const EdgeMeshView mesh = this->Mesh.View();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge);
-    const FlipStep flip{ { mesh }, worklist.GetFlags(), EdgeGuardView{} };
+    const FlipStep flip{ { { mesh }, EdgeGuardView{} }, worklist.GetFlags() };
     worklist.Gather();
     StepCounts found = worklist.Run(CountStep{ mesh.States });
     std::vector<IterationCounts> counts(rounds);

@@ -4,12 +4,14 @@
 
 #include "CommandError.h"
 #include "Console.h"
+#include "CudaDevice.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 namespace delaunayflip
@@ -79,7 +81,14 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
   AddChoice<BackendKind>(app, "--backend", arguments.Flip.Backend,
     { { "auto", BackendKind::Auto }, { "cuda", BackendKind::CUDA },
       { "threads", BackendKind::Threads } },
-    "Where the flips run [auto]");
+    "Where the flips run; the result is the same. auto: on a GPU if there is one and the mesh has "
+    "at least " +
+      std::to_string(SmallestMeshForCuda) +
+      " triangles, else, or if the GPU fails, on the CPU [auto]");
+  app
+    .add_option("--device", arguments.Flip.Device,
+      "Which GPU, by CUDA's number, 0 or more; -1: CUDA's default [-1]")
+    ->check(Within(-1.0, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
   app
     .add_option("--threads", arguments.Flip.NumberOfThreads,
       "Number of CPU threads; 0: all. The result does not depend on it [0]")

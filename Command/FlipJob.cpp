@@ -70,7 +70,22 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetFeatureAngle(flip.FeatureAngle);
   filter->SetMaximumIterations(flip.MaximumIterations);
   filter->SetNumberOfThreads(flip.NumberOfThreads);
+  filter->SetDeviceId(flip.Device);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
+}
+
+/// The exit code for what the filter calls a failure.
+ExitCode ToExitCode(int failure)
+{
+  switch (failure)
+  {
+    case vtkDelaunayFlip::FAILURE_OPTIONS:
+      return ExitCode::WrongUsage;
+    case vtkDelaunayFlip::FAILURE_BACKEND:
+      return ExitCode::NoBackend;
+    default:
+      return ExitCode::BadFile;
+  }
 }
 
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
@@ -183,9 +198,8 @@ private:
     const std::string errors = this->Messages.TakeErrors();
     if (!errors.empty())
     {
-      const bool byOptions = this->Filter->GetFailure() == vtkDelaunayFlip::FAILURE_OPTIONS;
       throw CommandError(
-        byOptions ? ExitCode::WrongUsage : ExitCode::BadFile, this->Settings.Input + ": " + errors);
+        ToExitCode(this->Filter->GetFailure()), this->Settings.Input + ": " + errors);
     }
   }
 

@@ -23,6 +23,10 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["non_manifold_edges"] = flip.Edges.NonManifold;
   json["geometry"] = ToString(flip.GeometryUsed);
   json["backend"] = flip.Backend;
+  if (!flip.Fallback.empty())
+  {
+    json["fallback"] = flip.Fallback;
+  }
   json["iterations"] = flip.Iterations.size();
   json["total_flips"] = flip.TotalFlips;
   json["total_excluded"] = flip.TotalExcluded;

@@ -35,7 +35,7 @@ public:
   /// @throws InvalidMesh, InvalidOptions.
   PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings);
 
-  /// Views of the mesh or of this bridge.
+  /// Views of the mesh or of this bridge, none of them of an output.
   TriangleMesh GetMesh() const;
 
   /// Writes the session's triangles and all that passes of the mesh.

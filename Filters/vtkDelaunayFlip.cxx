@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlip.h"
 
+#include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "PolyDataBridge.h"
 #include "ReportTables.h"
@@ -32,6 +33,8 @@ static_assert(static_cast<int>(BackendKind::Threads) == vtkDelaunayFlip::BACKEND
 static_assert(
   static_cast<int>(StopReasonKind::Aborted) == vtkDelaunayFlip::STOP_REASON_ABORTED, "");
 
+static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 20,000");
+
 vtkStandardNewMacro(vtkDelaunayFlip);
 
 //------------------------------------------------------------------------------
@@ -51,7 +54,26 @@ vtkDelaunayFlip::vtkDelaunayFlip()
   this->SetNumberOfOutputPorts(2);
 }
 
-vtkDelaunayFlip::~vtkDelaunayFlip() = default;
+vtkDelaunayFlip::~vtkDelaunayFlip()
+{
+  if (this->HasExecuted)
+  {
+    this->ReleaseDeviceMemory();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::ReleaseDeviceMemory()
+{
+  try
+  {
+    ReleaseCudaMemory();
+  }
+  catch (...)
+  {
+    // The destructor comes here. What could not be given back stays for the next run.
+  }
+}
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlip::SetConstraintsData(vtkPolyData* constraints)
@@ -90,6 +112,7 @@ int vtkDelaunayFlip::RequestData(
 {
   const Connection data{ vtkPolyData::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
     vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+  this->HasExecuted = true;
   this->Failure = this->TryToFlip(data);
   if (this->Failure == FAILURE_NONE)
   {
@@ -146,18 +169,19 @@ void vtkDelaunayFlip::Flip(const Connection& data)
     AddIterationColumns(*this->Report, data.Iterations->GetRowData());
     return;
   }
+  // The session looks at the arrays of the bridge and of the input for as long as it lives.
   const PolyDataBridge bridge(data.Input, data.Constraints,
     { this->Triangulate, this->LinesAsConstraints, this->RegionArray });
   FlipSession session(bridge.GetMesh(), this->GetOptions());
   session.Advance(-1, [this](const IterationRecord& record) { return this->Observe(record); });
-  *this->Report = session.GetReport();
-  bridge.NumberCells(this->Report->Defects);
-
   bridge.Store(session, data.Output);
   if (this->GenerateFlipCount)
   {
     bridge.StoreFlipCounts(session, data.Output);
   }
+  // Not before: a GPU may fail while its result is fetched.
+  *this->Report = session.GetReport();
+  bridge.NumberCells(this->Report->Defects);
   AddIterationColumns(*this->Report, data.Iterations->GetRowData());
   AddIterationColumns(*this->Report, data.Output->GetFieldData());
   AddTotals(*this->Report, data.Output->GetFieldData());
@@ -176,6 +200,7 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
   options.FeatureAngle = this->FeatureAngle;
   options.MaximumIterations = this->MaximumIterations;
   options.NumberOfThreads = this->NumberOfThreads;
+  options.Device = this->DeviceId;
   options.TrackQuality = this->TrackQuality;
   return options;
 }
@@ -197,11 +222,16 @@ bool vtkDelaunayFlip::Observe(const IterationRecord& record)
 void vtkDelaunayFlip::Warn()
 {
   std::string text = DescribeDefects(this->Report->Defects);
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (this->Report->StopReason == StopReasonKind::IterationLimit &&
     this->Report->NonDelaunayAfter > 0)
   {
-    text += (text.empty() ? "" : "; ") + std::string("stopped by the iteration limit with ") +
-      std::to_string(this->Report->NonDelaunayAfter) + " edges left that are not Delaunay";
+    add("stopped by the iteration limit with " + std::to_string(this->Report->NonDelaunayAfter) +
+      " edges left that are not Delaunay");
+  }
+  if (!this->Report->Fallback.empty())
+  {
+    add("the GPU could not be used, the CPU did the work: " + this->Report->Fallback);
   }
   if (!text.empty())
   {
@@ -256,6 +286,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
   os << indent << "Triangulate: " << this->Triangulate << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
+  os << indent << "DeviceId: " << this->DeviceId << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "TrackQuality: " << this->TrackQuality << "\n";

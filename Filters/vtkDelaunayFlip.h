@@ -35,8 +35,12 @@
  * How it differs from its neighbours: vtkDelaunay2D makes a triangulation of points from nothing
  * and in x and y only; this filter improves a mesh that exists, planar in any orientation or a
  * surface in space, keeps its holes, borders and constraints, and is exact in the plane: by default
- * each edge is judged by an error-free in-circle predicate. The same input gives the same output,
- * bit for bit, for any number of threads; Seconds and Backend are the only values that may differ.
+ * each edge is judged by an error-free in-circle predicate.
+ *
+ * Where the work is done: on a GPU, in a build with the CUDA backend, where there is one and the
+ * mesh is large enough for it, else on threads of the CPU (see Backend). The same input gives the
+ * same output, bit for bit, on either and for any number of threads; Seconds and Backend are the
+ * only values that may differ.
  *
  * @warning
  * Points that do not belong to any triangle stay unused: nothing is inserted. On surfaces the
@@ -193,8 +197,11 @@ public:
 
   ///@{
   /**
-   * Where the flips run. AUTO (default) takes the fastest that is available; THREADS are those of
-   * the CPU; CUDA is a GPU, and the update fails if there is none.
+   * Where the flips run; the result is the same, bit for bit. AUTO (default) takes a GPU where
+   * there is one that this build can use and there are at least 20,000 triangles, after polygons
+   * and strips were split; where that GPU fails, for want of memory say, the CPU does the work and
+   * the update gives one warning that says why. CUDA is a GPU for meshes of any size, and the
+   * update fails if there is none or if it fails. THREADS are those of the CPU.
    */
   enum BackendType
   {
@@ -207,6 +214,16 @@ public:
   void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
   void SetBackendToCUDA() { this->SetBackend(BACKEND_CUDA); }
   void SetBackendToThreads() { this->SetBackend(BACKEND_THREADS); }
+  ///@}
+
+  ///@{
+  /**
+   * CUDA's number of the GPU to use, 0 or more; -1 (default): the one that is current in the thread
+   * that updates, usually 0. Where there is no such GPU, AUTO warns and takes the CPU, and CUDA
+   * fails. Without effect where the flips run on the CPU.
+   */
+  vtkSetClampMacro(DeviceId, int, -1, VTK_INT_MAX);
+  vtkGetMacro(DeviceId, int);
   ///@}
 
   ///@{
@@ -256,13 +273,22 @@ public:
   void SetConstraintsData(vtkPolyData* constraints);
   ///@}
 
+  /**
+   * Gives back the memory, of GPUs and of the host, that the CUDA backend keeps from one update for
+   * the next. All filters of a process share it; updates under way in other threads keep theirs.
+   * The next update on a GPU begins a little slower. A filter that has been updated does this when
+   * it is deleted. Never fails; does nothing where no GPU was used.
+   */
+  void ReleaseDeviceMemory();
+
   /// The table of iterations, output port 1.
   vtkTable* GetIterations();
 
   ///@{
   /**
    * What the last update did. From an observer of ProgressEvent, NumberOfIterations and TotalFlips
-   * are those up to now.
+   * are those up to now. Progress is told after every iteration; where iterations run together (up
+   * to 128 on a GPU), when all of them are done, and only then does AbortExecute take effect.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
@@ -344,6 +370,7 @@ protected:
   bool LinesAsConstraints = true;
   bool Triangulate = true;
   int Backend = BACKEND_AUTO;
+  int DeviceId = -1;
   int NumberOfThreads = 0;
   vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;
@@ -359,6 +386,7 @@ private:
   void Warn();
 
   int Failure = FAILURE_NONE;
+  bool HasExecuted = false;
   std::unique_ptr<delaunayflip::FlipReport> Report;
 
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;

@@ -57,7 +57,9 @@ attribute()
 "$root/Utilities/install-packages.sh" test
 
 launcher=()
-check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON
+# With a CUDA compiler, for one architecture, in a quarter of the time that all take: its PTX runs on
+# every newer one.
+check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DCMAKE_CUDA_ARCHITECTURES=75
 # Without NDEBUG, so that the edge mesh is audited after every iteration.
 check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
   -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address

@@ -52,6 +52,7 @@ class WrongUsage(CommandTest):
             "--feature-angle": ["-1", "180.5", "nan", "x"],
             "--tolerance": ["-1e-9", "1", "nan", "inf"],
             "--threads": ["-1", "1.5", "99999999"],
+            "--device": ["-2", "0.5", "x", "nan", "9999999999", "gpu0"],
             "--max-iterations": ["-2", "1e30", "x"],
         }.items():
             for value in values:
@@ -108,7 +109,7 @@ class Success(CommandTest):
             *(mesh, "out.vtk", "--geometry", "planar-xy", "--criterion", "in-circle"),
             *("--feature-angle", "20", "--tolerance", "1e-8", "--tie-rule", "canonical"),
             *("--ignore-lines", "--max-iterations", "-1", "--backend", "threads"),
-            *("--threads", "2", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
+            *("--device", "0", "--threads", "2", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
         )
         self.assertLess({"out.vtk", "s.csv", "r.json"}, set(os.listdir(self.folder)))
 
@@ -128,16 +129,6 @@ class Success(CommandTest):
         )
         before, after = (triangles_of(read_mesh(self.path(n))) for n in ("mesh.vtk", "out.vtk"))
         self.assertEqual(before, after)
-
-    def test_forced_backend(self):
-        """A machine with a GPU, and a build that can use it, runs; any other one says why not."""
-        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
-        arguments = (mesh, "out.vtk", "--backend", "cuda")
-        if self.run_command(*arguments).returncode == 0:
-            self.assertIn("CUDA", self.report(*arguments)["backend"])
-        else:
-            self.fail_with(5, *arguments, naming=["CUDA"])
-            self.assertFalse(os.path.exists(self.path("out.vtk")))
 
 
 if __name__ == "__main__":

@@ -58,6 +58,7 @@ protected:
     this->Options.Geometry = GetParam().Geometry;
     this->Options.FeatureAngle = 180.0;
     this->Options.TrackQuality = true;
+    this->Options.Backend = BackendKind::Threads;
     this->Options.NumberOfThreads = 1;
     this->Expected = Flip(this->Mesh.View(), this->Options);
     ASSERT_LT(0, this->Expected.Report.TotalFlips);

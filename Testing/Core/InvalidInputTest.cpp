@@ -96,6 +96,7 @@ TEST(InvalidOptions, AreRefused)
   }
   ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.MaximumIterations = -2; });
   ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.NumberOfThreads = -1; });
+  ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.Device = -2; });
 }
 
 TEST(InvalidOptions, AreThoseThatTheMeshCannotHonour)

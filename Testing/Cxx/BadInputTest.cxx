@@ -291,16 +291,3 @@ TEST(VtkDelaunayFlip, ContradictingOptionsAreErrors)
   planar->SetGeometryToPlanar();
   EXPECT_TRUE(Holds(GetError(planar), "plane"));
 }
-
-TEST(VtkDelaunayFlip, ForcedBackendThatIsAbsentIsAnError)
-{
-  WatchedFilter filter(MakeRhombus());
-  filter->SetBackendToCUDA();
-  filter.Run();
-  if (filter->GetConverged())
-  {
-    GTEST_SKIP() << "there is a GPU";
-  }
-  ASSERT_EQ(filter.GetErrors().size(), 1u);
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-}

@@ -158,8 +158,8 @@ TEST(VtkDelaunayFlip, PrintSelfNamesEveryProperty)
   vtkNew<vtkDelaunayFlip> filter;
   filter->Print(text);
   for (const char* name : { "Geometry", "Criterion", "Tolerance", "TieRule", "FeatureAngle",
-         "RegionArray", "LinesAsConstraints", "Triangulate", "Backend", "NumberOfThreads",
-         "MaximumIterations", "TrackQuality", "GenerateFlipCount" })
+         "RegionArray", "LinesAsConstraints", "Triangulate", "Backend", "DeviceId",
+         "NumberOfThreads", "MaximumIterations", "TrackQuality", "GenerateFlipCount" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

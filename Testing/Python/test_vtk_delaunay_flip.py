@@ -276,6 +276,22 @@ class Pipeline(unittest.TestCase):
         self.assertEqual(watched.filter.GetStopReasonAsString(), "iteration limit")
         self.assertIn("iteration limit", watched.warnings[0])
 
+    def test_backend(self):
+        watched = Watched(make_rhombus())
+        self.assertEqual(watched.filter.GetBackend(), vtkDelaunayFlip.BACKEND_AUTO)
+        self.assertEqual(watched.filter.GetDeviceId(), -1)
+        watched.filter.SetDeviceId(-5)
+        self.assertEqual(watched.filter.GetDeviceId(), -1)
+        watched.filter.SetDeviceId(1000000)
+        watched.run()  # too small for a GPU
+        self.assertEqual(watched.errors + watched.warnings, [])
+        watched.filter.SetBackendToCUDA()
+        self.assertEqual(watched.run().GetNumberOfCells(), 0)
+        self.assertEqual(watched.filter.GetFailure(), vtkDelaunayFlip.FAILURE_BACKEND)
+        self.assertEqual(len(watched.errors), 1)
+        self.assertIn("CUDA", watched.errors[0])
+        watched.filter.ReleaseDeviceMemory()
+
     def test_composite(self):
         blocks = vtkMultiBlockDataSet()
         blocks.SetBlock(0, make_rhombus())

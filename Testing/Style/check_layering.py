@@ -17,6 +17,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 # The headers of the engine that other layers may include; they include only each other.
 DOORS = {
+    "CudaDevice.h",
     "DelaunayFlip.h",
     "FlipError.h",
     "FlipOptions.h",

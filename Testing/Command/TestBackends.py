@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the flips run: on machines with a GPU and without, and in builds with CUDA and without."""
+
+import os
+import unittest
+
+from CommandTesting import CommandTest, bumpy_grid, read_report, worst_case, write_mesh
+
+# The folder of a driver that is too old; none in a build without the CUDA backend.
+OLD_DRIVER = os.environ.get("DELAUNAYFLIP_OLD_DRIVER", "")
+REASON = "CUDA could not " if OLD_DRIVER else "this build has no CUDA backend"
+NO_SUCH_DEVICE = "1000000"
+
+
+def with_old_driver():
+    paths = [OLD_DRIVER, os.environ.get("LD_LIBRARY_PATH", "")]
+    return {**os.environ, "LD_LIBRARY_PATH": ":".join(filter(None, paths))}
+
+
+class Backends(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.small = write_mesh(worst_case(4), self.path("small.vtk"))
+        # Just large enough for a GPU to be chosen: 20,402 triangles.
+        self.large = write_mesh(bumpy_grid(102, 0), self.path("large.vtk"))
+
+    def run_on(self, mesh, *arguments, **options):
+        """The report, and the lines of standard error, of a run that succeeds."""
+        path = self.path("report.json")
+        result = self.run_command(mesh, "out.vtk", "--report", path, *arguments, **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return read_report(path), result.stderr.splitlines()
+
+    def output(self):
+        with open(self.path("out.vtk"), "rb") as file:
+            return file.read()
+
+    def test_help_tells_the_rule(self):
+        text = " ".join(self.succeed("--help").stdout.split())
+        self.assertIn("at least 20000 triangles", text)
+        self.assertIn("--device", text)
+
+    def test_auto_is_silent(self):
+        for mesh in (self.small, self.large):
+            report, lines = self.run_on(mesh)
+            self.assertEqual(lines, [])
+            self.assertNotIn("fallback", report)
+            self.assertRegex(report["backend"], r"^(Threads: \d+|CUDA: .+)$")
+
+    def test_device_is_nothing_to_the_cpu(self):
+        for mesh, backend in ((self.small, "auto"), (self.large, "threads")):
+            for device in ("-1", "0", NO_SUCH_DEVICE):
+                report, lines = self.run_on(mesh, "--backend", backend, "--device", device)
+                self.assertEqual(lines, [])
+                self.assertRegex(report["backend"], r"^Threads: \d+$")
+
+    def test_forced(self):
+        """A machine with a GPU, and a build that can use it, runs; any other one says why not."""
+        arguments = (self.small, "out.vtk", "--backend", "cuda")
+        if self.run_command(*arguments).returncode == 0:
+            self.assertRegex(self.report(*arguments)["backend"], r"^CUDA: .+$")
+            os.remove(self.path("out.vtk"))
+            arguments += ("--device", NO_SUCH_DEVICE)
+        self.fail_with(5, *arguments, naming=[REASON])
+        self.assertFalse(os.path.exists(self.path("out.vtk")))
+
+    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
+    def test_fallback(self):
+        self.run_on(self.large, "--backend", "threads")
+        expected = self.output()
+        report, lines = self.run_on(self.large, env=with_old_driver())
+        self.assertEqual(self.output(), expected)
+        self.assertRegex(report["backend"], r"^Threads: \d+$")
+        self.assertEqual(list(report).index("fallback"), list(report).index("backend") + 1)
+        self.assertRegex(report["fallback"], "^CUDA could not .*update NVIDIA's driver$")
+        warning = "warning: the GPU could not be used, the CPU did the work: "
+        self.assertEqual(lines, [warning + report["fallback"]])
+
+    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
+    def test_a_small_mesh_does_not_ask_for_a_gpu(self):
+        report, lines = self.run_on(self.small, env=with_old_driver())
+        self.assertEqual(lines, [])
+        self.assertNotIn("fallback", report)
+
+    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
+    def test_forced_does_not_fall_back(self):
+        arguments = (self.large, "out.vtk", "--backend", "cuda")
+        result = self.run_command(*arguments, env=with_old_driver())
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stderr, "^error: CUDA could not .*update NVIDIA's driver\n$")
+        self.assertFalse(os.path.exists(self.path("out.vtk")))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

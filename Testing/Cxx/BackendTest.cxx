@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where the flips run. On a machine without a GPU some of these skip, on one with a GPU others.
+
+#include "FilterTestSupport.h"
+
+#include "CudaDevice.h"
+#include "FlipReport.h"
+
+#include "vtkCellArray.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+constexpr int NoSuchDevice = 1000000;
+
+#ifdef DELAUNAYFLIP_HAS_CUDA
+const char* const Reason = "CUDA could not ";
+#else
+const char* const Reason = "this build has no CUDA backend";
+#endif
+
+/// Just large enough for a GPU to be chosen.
+vtkSmartPointer<vtkPolyData> MakeLargeMesh()
+{
+  auto mesh = ToPolyData(delaunayflip::MakeRandomBadMesh(10300, 5));
+  EXPECT_GE(mesh->GetNumberOfPolys(), delaunayflip::SmallestMeshForCuda);
+  return mesh;
+}
+
+Cells RunOnThreads(vtkPolyData* mesh)
+{
+  WatchedFilter filter(mesh);
+  filter->SetBackendToThreads();
+  return GetCells(RunCleanly(filter)->GetPolys());
+}
+
+bool RanOn(WatchedFilter& filter, const std::string& backend)
+{
+  return filter->GetReport().Backend.rfind(backend + ": ", 0) == 0;
+}
+
+}
+
+TEST(VtkDelaunayFlip, DeviceIdIsAProperty)
+{
+  vtkNew<vtkDelaunayFlip> filter;
+  EXPECT_EQ(filter->GetDeviceId(), -1);
+  const vtkMTimeType before = filter->GetMTime();
+  filter->SetDeviceId(3);
+  EXPECT_EQ(filter->GetDeviceId(), 3);
+  EXPECT_GT(filter->GetMTime(), before);
+  filter->SetDeviceId(-7);
+  EXPECT_EQ(filter->GetDeviceId(), -1);
+}
+
+TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)
+{
+  auto large = MakeLargeMesh();
+  WatchedFilter threads(large);
+  threads->SetBackendToThreads();
+  threads->SetDeviceId(NoSuchDevice);
+  RunCleanly(threads);
+
+  WatchedFilter small(MakeRhombus());
+  small->SetDeviceId(NoSuchDevice);
+  RunCleanly(small);
+  EXPECT_TRUE(RanOn(small, "Threads"));
+}
+
+TEST(VtkDelaunayFlip, AutoIsSilent)
+{
+  auto mesh = MakeLargeMesh();
+  WatchedFilter filter(mesh);
+  EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), RunOnThreads(mesh));
+  EXPECT_TRUE(RanOn(filter, delaunayflip::HasCudaDevice() ? "CUDA" : "Threads"));
+  EXPECT_EQ(filter->GetReport().Fallback, "");
+}
+
+/// Also run with OldDriver, which makes any machine one whose GPU fails.
+TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
+{
+  if (!delaunayflip::HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU";
+  }
+  auto mesh = MakeLargeMesh();
+  WatchedFilter filter(mesh);
+  filter->SetDeviceId(NoSuchDevice);
+  filter->SetMaximumIterations(100000); // no second cause to warn
+  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), RunOnThreads(mesh));
+  EXPECT_TRUE(filter.GetErrors().empty());
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  const std::string& warning = filter.GetWarnings()[0];
+  EXPECT_NE(warning.find("the GPU could not be used, the CPU did the work: CUDA could not "),
+    std::string::npos)
+    << warning;
+  EXPECT_NE(warning.find(filter->GetReport().Fallback), std::string::npos);
+  EXPECT_TRUE(RanOn(filter, "Threads"));
+}
+
+TEST(VtkDelaunayFlip, FallbackSharesTheWarning)
+{
+  if (!delaunayflip::HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU";
+  }
+  WatchedFilter filter(MakeLargeMesh());
+  filter->SetDeviceId(NoSuchDevice);
+  filter->SetMaximumIterations(1);
+  filter.Run();
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_NE(filter.GetWarnings()[0].find("iteration limit"), std::string::npos);
+  EXPECT_NE(filter.GetWarnings()[0].find("the GPU could not be used"), std::string::npos);
+}
+
+TEST(VtkDelaunayFlip, ForcedBackendThatIsAbsentIsAnError)
+{
+  WatchedFilter filter(MakeRhombus());
+  filter->SetBackendToCUDA();
+  filter->SetDeviceId(delaunayflip::HasCudaDevice() ? NoSuchDevice : -1);
+  vtkPolyData* output = filter.Run();
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_NE(filter.GetErrors()[0].find(Reason), std::string::npos) << filter.GetErrors()[0];
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_BACKEND);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_EQ(output->GetNumberOfCells(), 0);
+  EXPECT_EQ(output->GetNumberOfPoints(), 0);
+
+  filter->SetBackendToThreads(); // and the error is over
+  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
+}
+
+TEST(VtkDelaunayFlip, ForcedBackendThatIsThereRuns)
+{
+  if (!delaunayflip::HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU";
+  }
+  for (const auto& mesh : { MakeRhombus(), MakeLargeMesh() })
+  {
+    WatchedFilter filter(mesh);
+    filter->SetBackendToCUDA();
+    filter->SetDeviceId(0);
+    EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), RunOnThreads(mesh));
+    EXPECT_TRUE(RanOn(filter, "CUDA"));
+  }
+}
+
+TEST(VtkDelaunayFlip, DeviceMemoryMayBeReleasedAtAnyTime)
+{
+  auto mesh = MakeLargeMesh();
+  WatchedFilter filter(mesh);
+  filter->ReleaseDeviceMemory();
+  const Cells cells = GetCells(RunCleanly(filter)->GetPolys());
+  {
+    WatchedFilter other(mesh);
+    RunCleanly(other);
+  } // it gives back what both have kept
+  filter->ReleaseDeviceMemory();
+  filter->ReleaseDeviceMemory();
+  filter->Modified();
+  EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), cells);
+}
