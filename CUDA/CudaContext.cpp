@@ -46,6 +46,17 @@ struct IdleContexts
     this->Contexts.push_back(std::move(context));
   }
 
+  std::size_t TakePeak()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    std::size_t peak = 0;
+    for (const std::unique_ptr<CudaContext>& context : this->Contexts)
+    {
+      peak = std::max(peak, context->Pool->TakePeak());
+    }
+    return peak;
+  }
+
   std::vector<std::unique_ptr<CudaContext>> TakeAll()
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -219,5 +230,7 @@ bool HasCudaDevice()
 }
 
 void ReleaseCudaMemory() { IdleContexts::Get().TakeAll().clear(); }
+
+std::size_t TakePeakCudaMemory() { return IdleContexts::Get().TakePeak(); }
 
 }

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_CUDADEVICE_H
 #define DELAUNAYFLIP_CUDADEVICE_H
 
+#include <cstddef>
 #include <cstdint>
 
 /// @file
@@ -21,6 +22,10 @@ bool HasCudaDevice();
 /// Gives back the memory that the CUDA backend keeps between runs, on the device and the host.
 /// Nothing happens while no run is under way and nothing is kept.
 void ReleaseCudaMemory();
+
+/// Most bytes of device memory that a run had in use at a time since the last call, of the runs
+/// that have ended; 0 without the backend, and where the device has no memory pools.
+std::size_t TakePeakCudaMemory();
 
 }
 

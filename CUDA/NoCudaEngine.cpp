@@ -19,4 +19,6 @@ bool HasCudaDevice() { return false; }
 
 void ReleaseCudaMemory() {}
 
+std::size_t TakePeakCudaMemory() { return 0; }
+
 }

@@ -99,7 +99,7 @@ TEST_P(DeterminismTest, RepeatedRunsGiveTheSameBits)
 TEST_P(DeterminismTest, SingleStepsGiveTheSameBits)
 {
   this->Options.NumberOfThreads = 3;
-  FlipSession session(this->Mesh.View(), this->Options);
+  FlipSession session = MakeSession(this->Mesh.View(), this->Options);
   std::size_t steps = 0;
   while (session.Advance(1))
   {

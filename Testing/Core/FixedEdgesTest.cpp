@@ -93,8 +93,7 @@ TEST(ConstraintEdges, CountOnceAndAreReportedWhenMissing)
   const OwnedMesh<double> grid = MakeGridMesh(2, 1);
   // 0-4 is a diagonal, given thrice; 1-3 the other diagonal; 0-1 a boundary edge; 5-5 no edge.
   const std::vector<std::int64_t> constraints = { 0, 4, 4, 0, 0, 4, 1, 3, 0, 1, 5, 5 };
-  const FlipReport report =
-    FlipSession(WithConstraints(grid.View(), constraints), FlipOptions()).GetReport();
+  const FlipReport report = MakeSession(WithConstraints(grid.View(), constraints)).GetReport();
   EXPECT_EQ(2, report.Edges.Constraint);
   EXPECT_EQ(1 + report.Edges.Boundary, report.Edges.Fixed);
   ASSERT_EQ(1u, report.Defects.size());
@@ -179,12 +178,12 @@ TEST(FeatureEdges, AreDecidedByTheFeatureAngle)
   for (double angle : { 0.0, 30.0, 89.9 })
   {
     options.FeatureAngle = angle;
-    EXPECT_EQ(1, FlipSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+    EXPECT_EQ(1, MakeSession(roof.View(), options).GetReport().Edges.Feature) << angle;
   }
   for (double angle : { 90.1, 180.0 })
   {
     options.FeatureAngle = angle;
-    EXPECT_EQ(0, FlipSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+    EXPECT_EQ(0, MakeSession(roof.View(), options).GetReport().Edges.Feature) << angle;
   }
   options.FeatureAngle = 30.0;
   const FlipResult result = Flip(roof.View(), options);

@@ -37,7 +37,18 @@ struct FlipResult
   FlipReport Report;
 };
 
-/// Runs all flips on a copy of the triangles.
+/// Whether the environment variable DELAUNAYFLIP_TEST_BACKEND is "cuda": tests that leave the
+/// backend open then run on the GPU, whatever the size of their meshes.
+bool IsTestBackendCuda();
+
+/// The options with the backend of DELAUNAYFLIP_TEST_BACKEND where they leave it open.
+FlipOptions OnTestBackend(FlipOptions options);
+
+/// A session on that backend. Coordinates that need the CPU's exact arithmetic get the CPU, as they
+/// do with BackendKind::Auto.
+FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options = {});
+
+/// Runs all flips on a copy of the triangles, on the backend that MakeSession takes.
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options = {});
 
 TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles);

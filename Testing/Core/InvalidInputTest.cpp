@@ -20,7 +20,8 @@ void ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t point)
   const std::vector<std::int64_t> before = output;
   try
   {
-    FlipToDelaunay(mesh, FlipOptions(), MutableTriangleArray(output.data(), mesh.Triangles.Count));
+    FlipToDelaunay(
+      mesh, OnTestBackend({}), MutableTriangleArray(output.data(), mesh.Triangles.Count));
     ADD_FAILURE() << "no exception for point " << point;
   }
   catch (const InvalidMesh& error)
@@ -78,7 +79,7 @@ void ExpectRefused(const TriangleMesh& mesh, const Change& change)
 {
   FlipOptions options;
   change(options);
-  EXPECT_THROW(FlipSession(mesh, options), Error);
+  EXPECT_THROW(MakeSession(mesh, options), Error);
 }
 
 TEST(InvalidOptions, AreRefused)
@@ -130,10 +131,10 @@ TEST(TooLargeMeshes, AreRefusedUnread)
   {
     TriangleMesh mesh = grid.View();
     mesh.Triangles.Count = count;
-    EXPECT_THROW(FlipSession(mesh, FlipOptions()), MeshTooLarge);
+    EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
     mesh = grid.View();
     mesh.Points.Count = count << 2;
-    EXPECT_THROW(FlipSession(mesh, FlipOptions()), MeshTooLarge);
+    EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
   }
 }
 

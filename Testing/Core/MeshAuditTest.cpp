@@ -78,7 +78,7 @@ TEST(EdgeCounts, AgreeWithBruteForce)
       mesh.Points.push_back(DrawIndex(random, 10));
     }
     const std::set<std::int32_t> used(soup.begin(), soup.end());
-    const FlipReport report = FlipSession(mesh.View(), FlipOptions()).GetReport();
+    const FlipReport report = MakeSession(mesh.View()).GetReport();
     ExpectSameCounts(expected, report.Edges);
     EXPECT_EQ(static_cast<std::int64_t>(used.size()) - expected.Edges + mesh.NumberOfTriangles(),
       report.EulerCharacteristic);

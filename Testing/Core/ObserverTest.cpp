@@ -24,6 +24,8 @@ std::vector<std::int32_t> Store(const FlipSession& session)
 class ObserverTest : public testing::Test
 {
 protected:
+  void SetUp() override { this->Complete = Flip(this->Mesh.View()); }
+
   /// The session's mesh is valid and its report says how many violations are left.
   void ExpectValid(const FlipSession& session) const
   {
@@ -35,14 +37,14 @@ protected:
   }
 
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(5000, 51);
-  FlipResult Complete = Flip(this->Mesh.View());
+  FlipResult Complete;
 };
 
 TEST_F(ObserverTest, SeesEveryIterationOnTheCallingThread)
 {
   std::vector<IterationRecord> seen;
   const std::thread::id caller = std::this_thread::get_id();
-  FlipSession session(this->Mesh.View(), FlipOptions());
+  FlipSession session = MakeSession(this->Mesh.View());
   session.Advance(-1,
     [&](const IterationRecord& record)
     {
@@ -63,7 +65,11 @@ TEST_F(ObserverTest, SeesEveryIterationOnTheCallingThread)
 
 TEST_F(ObserverTest, MayAbortAndTheRunMayGoOn)
 {
-  FlipSession session(this->Mesh.View(), FlipOptions());
+  if (IsTestBackendCuda())
+  {
+    GTEST_SKIP() << "the GPU aborts at the end of a batch of iterations: BatchTest";
+  }
+  FlipSession session = MakeSession(this->Mesh.View());
   session.Advance(-1, [](const IterationRecord& record) { return record.Iteration < 3; });
   EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
   EXPECT_FALSE(session.GetReport().Converged());
@@ -79,7 +85,7 @@ TEST_F(ObserverTest, MayAbortAndTheRunMayGoOn)
 TEST_F(ObserverTest, AbortStopsTheOneCallDoorToo)
 {
   std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
-  const FlipReport report = FlipToDelaunay(this->Mesh.View(), FlipOptions(),
+  const FlipReport report = FlipToDelaunay(this->Mesh.View(), OnTestBackend({}),
     MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()),
     [](const IterationRecord&) { return false; });
   EXPECT_EQ(StopReasonKind::Aborted, report.StopReason);
@@ -89,7 +95,7 @@ TEST_F(ObserverTest, AbortStopsTheOneCallDoorToo)
 
 TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
 {
-  FlipSession session(this->Mesh.View(), FlipOptions());
+  FlipSession session = MakeSession(this->Mesh.View());
   const auto throwing = [](const IterationRecord& record) -> bool
   {
     if (record.Iteration == 2)
@@ -109,7 +115,7 @@ TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
 TEST_F(ObserverTest, NothingIsWrittenWhenAnExceptionLeaves)
 {
   std::vector<std::int32_t> triangles = this->Mesh.Triangles;
-  EXPECT_THROW(FlipToDelaunay(this->Mesh.View(), FlipOptions(),
+  EXPECT_THROW(FlipToDelaunay(this->Mesh.View(), OnTestBackend({}),
                  MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()),
                  [](const IterationRecord&) -> bool { throw std::logic_error("at once"); }),
     std::logic_error);
@@ -124,7 +130,7 @@ TEST_F(ObserverTest, TheIterationLimitHolds)
   {
     FlipOptions options;
     options.MaximumIterations = limit;
-    FlipSession session(this->Mesh.View(), options);
+    FlipSession session = MakeSession(this->Mesh.View(), options);
     EXPECT_FALSE(session.Advance());
     EXPECT_EQ(StopReasonKind::IterationLimit, session.GetReport().StopReason);
     EXPECT_EQ(limit, static_cast<std::int64_t>(session.GetReport().Iterations.size()));
@@ -153,7 +159,7 @@ TEST_F(ObserverTest, AnglesAreMeasuredAtBothEndsOrEverywhere)
 
   FlipOptions options;
   options.TrackQuality = true;
-  FlipSession session(this->Mesh.View(), options);
+  FlipSession session = MakeSession(this->Mesh.View(), options);
   while (session.Advance(1))
   {
     const std::vector<std::int32_t> triangles = Store(session);

@@ -121,7 +121,7 @@ TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
     mesh.Points[3 * point] = DrawIndex(random, 1000) / 1000.0;
   }
   FlipOverlapping(mesh);
-  const FlipReport report = FlipSession(mesh.View(), FlipOptions()).GetReport();
+  const FlipReport report = MakeSession(mesh.View()).GetReport();
   EXPECT_FALSE(DescribeDefects(report.Defects).empty());
 }
 

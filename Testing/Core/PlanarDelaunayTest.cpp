@@ -78,7 +78,7 @@ TEST_P(RandomMeshTest, DoublesAnd64BitIdsGiveTheSame)
   TriangleMesh mesh = doubles.View();
   mesh.Triangles = TriangleArray(ids.data(), doubles.NumberOfTriangles());
   // The output may be the input's own array.
-  FlipToDelaunay(mesh, FlipOptions(), MutableTriangleArray(ids.data(), mesh.Triangles.Count));
+  FlipToDelaunay(mesh, OnTestBackend({}), MutableTriangleArray(ids.data(), mesh.Triangles.Count));
   EXPECT_TRUE(std::equal(ids.begin(), ids.end(), expected.Triangles.begin()));
 }
 
@@ -260,7 +260,7 @@ TEST(Terrain, IsJudgedByXAndYAlone)
   const FlipResult result = Flip(mesh.View(), options);
   EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed);
   EXPECT_TRUE(expected == ToTriangleSet(result.Triangles));
-  EXPECT_EQ(GeometryKind::Surface, FlipSession(mesh.View(), {}).GetReport().GeometryUsed);
+  EXPECT_EQ(GeometryKind::Surface, MakeSession(mesh.View()).GetReport().GeometryUsed);
 }
 
 TEST(FlipCounts, SumToTwiceTheFlips)

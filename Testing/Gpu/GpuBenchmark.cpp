@@ -1,88 +1,286 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BenchmarkArguments.h"
+#include "BenchmarkTable.h"
 #include "CudaDevice.h"
-#include "DelaunayFlip.h"
-#include "GeneratedMeshes.h"
+#include "GpuDescription.h"
+#include "Machine.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
-#include <vector>
+#include <fstream>
+#include <future>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+/// @file
+/// delaunay-flip-gpu-benchmark: whole runs on the GPU beside the threads of the CPU and CGAL, from
+/// the caller's arrays to the caller's arrays. Google Benchmark, which repeats what takes
+/// microseconds until its mean settles, has nothing to add to runs of many milliseconds: here each
+/// is timed on its own, and the median of a few stands.
 
 namespace delaunayflip
 {
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
-
-double MillisecondsSince(Clock::time_point start)
+bool Holds(const std::vector<std::int64_t>& values, std::int64_t value)
 {
-  return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
+  return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-double MedianOf(std::vector<double> values)
+/// Bytes of memory that this machine has left; no limit where it does not tell.
+double GetFreeMemory()
 {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-template <typename Real>
-void Measure(
-  const char* name, const OwnedMesh<Real>& mesh, BackendKind backend, int threads, int repetitions)
-{
-  FlipOptions options;
-  options.Backend = backend;
-  options.NumberOfThreads = threads;
-  std::vector<double> build, flip, store;
-  std::vector<std::int64_t> ids(mesh.Triangles.begin(), mesh.Triangles.end());
-  std::vector<std::int64_t> out(ids.size());
-  TriangleMesh view = mesh.View();
-  view.Triangles = TriangleArray(ids.data(), mesh.NumberOfTriangles());
-  FlipReport report;
-  for (int i = 0; i < repetitions + 1; ++i)
+  std::ifstream file("/proc/meminfo");
+  std::string word;
+  while (file >> word)
   {
-    auto start = Clock::now();
-    FlipSession session(view, options);
-    const double buildTime = MillisecondsSince(start);
-    start = Clock::now();
-    session.Advance();
-    const double flipTime = MillisecondsSince(start);
-    start = Clock::now();
-    session.StoreTriangles(MutableTriangleArray(out.data(), mesh.NumberOfTriangles()));
-    const double storeTime = MillisecondsSince(start);
-    report = session.GetReport();
-    if (i > 0)
+    double kilobytes = 0.0;
+    if (word == "MemAvailable:" && file >> kilobytes)
     {
-      build.push_back(buildTime);
-      flip.push_back(flipTime);
-      store.push_back(storeTime);
+      return 1024.0 * kilobytes;
     }
   }
-  std::printf(
-    "%-12s %10lld points %-22s build %9.2f  flips %9.2f  store %8.2f ms  %10lld flips %6zu "
-    "iterations %lld left\n",
-    name, static_cast<long long>(mesh.NumberOfPoints()), report.Backend.c_str(), MedianOf(build),
-    MedianOf(flip), MedianOf(store), static_cast<long long>(report.TotalFlips),
-    report.Iterations.size(), static_cast<long long>(report.NonDelaunayAfter));
-  std::fflush(stdout);
+  return INFINITY;
 }
+
+class GpuBenchmark
+{
+public:
+  explicit GpuBenchmark(const BenchmarkArguments& arguments)
+    : Arguments(arguments)
+  {
+    const std::int64_t cores = std::max(1u, std::thread::hardware_concurrency());
+    for (const std::int64_t threads : arguments.Threads)
+    {
+      if (threads <= cores)
+      {
+        this->Threads.push_back(static_cast<int>(threads));
+      }
+    }
+  }
+
+  void Run()
+  {
+    std::printf("%s\n", FormatHeading().c_str());
+    this->StartMeshes();
+    for (const std::int64_t size : this->Arguments.Sizes)
+    {
+      this->RunSize(size);
+    }
+    this->RunSpecialMeshes();
+    for (const BenchmarkMesh& mesh : ReadRealMeshes(this->Arguments.MeshFolder))
+    {
+      this->RunBeside(mesh);
+    }
+  }
+
+  bool HasFailed() const
+  {
+    return std::any_of(
+      this->Rows.begin(), this->Rows.end(), [](const BenchmarkRow& row) { return row.HasFailed; });
+  }
+
+  const std::vector<BenchmarkRow>& GetRows() const { return this->Rows; }
+
+private:
+  /// Whether anything here measures random bad meshes of this size.
+  bool IsMeasured(std::int64_t size) const
+  {
+    return this->HasGpu || Holds(this->Arguments.CpuSizes, size);
+  }
+
+  /// Meshes that one thread must make are made side by side, before the first is timed.
+  void StartMeshes()
+  {
+    for (const std::int64_t size : this->Arguments.Sizes)
+    {
+      if (size <= LargestUntiledMesh && this->IsMeasured(size))
+      {
+        this->Meshes[size] = std::async(std::launch::async, MakeRandomMesh, size);
+      }
+    }
+    for (auto& [size, mesh] : this->Meshes)
+    {
+      mesh.wait();
+    }
+  }
+
+  void RunSize(std::int64_t size)
+  {
+    constexpr double BytesPerPoint =
+      160.0; // the mesh as it is made, as it is given, and its result
+    if (!this->IsMeasured(size))
+    {
+      this->SkipSize(size, "skipped: no GPU");
+      return;
+    }
+    if (BytesPerPoint * static_cast<double>(size) > GetFreeMemory())
+    {
+      this->SkipSize(size, "skipped: too little memory on the host");
+      return;
+    }
+    const auto made = this->Meshes.find(size);
+    const BenchmarkMesh mesh =
+      made == this->Meshes.end() ? MakeRandomMesh(size) : made->second.get();
+    this->RunCuda(mesh);
+    if (Holds(this->Arguments.CpuSizes, size))
+    {
+      this->RunThreads(mesh, this->Threads);
+      this->Add(TimeCgal(mesh, this->Arguments.Plan));
+    }
+    if (size <= LargestUntiledMesh && mesh.Ids.size() == this->Output.size())
+    {
+      this->Delaunay = mesh;
+      this->Delaunay.Name = "already Delaunay";
+      this->Delaunay.Ids = this->Output;
+    }
+  }
+
+  void SkipSize(std::int64_t size, const std::string& note)
+  {
+    BenchmarkRow row;
+    row.Mesh = size <= LargestUntiledMesh ? "random bad" : "random bad, tiled";
+    row.Program = "CUDA";
+    row.Points = size;
+    row.Note = note;
+    this->Add(row);
+  }
+
+  void RunSpecialMeshes()
+  {
+    if (!this->Delaunay.Ids.empty())
+    {
+      const std::int64_t points = this->Delaunay.CountPoints();
+      this->RunBeside(this->Delaunay);
+      this->Delaunay = BenchmarkMesh();
+      this->RunBeside(MakeLatticeMesh(points));
+    }
+    this->RunBeside(MakeChainMesh());
+  }
+
+  /// The GPU beside all threads of the CPU.
+  void RunBeside(const BenchmarkMesh& mesh)
+  {
+    this->RunCuda(mesh);
+    if (!this->Threads.empty())
+    {
+      this->RunThreads(mesh, { this->Threads.back() });
+    }
+  }
+
+  void RunCuda(const BenchmarkMesh& mesh)
+  {
+    this->CudaTotal = NAN;
+    this->TotalFlips = -1;
+    if (!this->HasGpu)
+    {
+      BenchmarkRow row;
+      row.Mesh = mesh.Name;
+      row.Program = "CUDA";
+      row.Points = mesh.CountPoints();
+      row.Triangles = mesh.CountTriangles();
+      row.Note = "skipped: no GPU";
+      this->Add(row);
+      return;
+    }
+    FlipOptions options;
+    options.Backend = BackendKind::CUDA;
+    BenchmarkRow row = TimeEngine(mesh, options, this->Arguments.Plan, this->Output);
+    this->CudaTotal = row.Total;
+    this->Add(row);
+  }
+
+  void RunThreads(const BenchmarkMesh& mesh, const std::vector<int>& counts)
+  {
+    for (const int threads : counts)
+    {
+      FlipOptions options;
+      options.Backend = BackendKind::Threads;
+      options.NumberOfThreads = threads;
+      this->Add(TimeEngine(mesh, options, this->Arguments.Plan, this->Output));
+    }
+  }
+
+  /// Prints a row at once: the next may take long. Every backend must take the same flips.
+  void Add(BenchmarkRow row)
+  {
+    row.TimesCuda = row.Total / this->CudaTotal;
+    if (row.TotalFlips >= 0 && this->TotalFlips >= 0 && row.TotalFlips != this->TotalFlips)
+    {
+      row.HasFailed = true;
+      row.Note = "FAILED: another number of flips";
+    }
+    this->TotalFlips = row.TotalFlips >= 0 ? row.TotalFlips : this->TotalFlips;
+    std::printf("%s\n", FormatRow(row).c_str());
+    std::fflush(stdout);
+    this->Rows.push_back(std::move(row));
+  }
+
+  const BenchmarkArguments Arguments;
+  const bool HasGpu = HasCudaDevice();
+  std::vector<int> Threads;
+  std::map<std::int64_t, std::future<BenchmarkMesh>> Meshes;
+  BenchmarkMesh Delaunay; ///< The largest untiled mesh after its flips.
+  std::vector<std::int64_t> Output;
+  double CudaTotal = NAN; ///< Of the mesh at hand.
+  std::int64_t TotalFlips = -1; ///< Of the mesh at hand.
+  std::vector<BenchmarkRow> Rows;
+};
+
+std::string DescribeInJson()
+{
+  return "\"machine\": " + QuoteJson(DescribeMachine()) +
+    ",\n  \"cores\": " + std::to_string(std::thread::hardware_concurrency()) +
+    ",\n  \"gpu\": " + DescribeGpuInJson();
+}
+
+void WriteJson(const std::string& path, const std::vector<BenchmarkRow>& rows)
+{
+  std::ofstream file(path);
+  file << "{\n  " << DescribeInJson() << ",\n  \"rows\": " << FormatJson(rows) << "\n}\n";
+  if (!file.flush())
+  {
+    throw std::runtime_error("cannot write " + path);
+  }
+}
+
+int RunProgram(const BenchmarkArguments& arguments)
+{
+  if (arguments.DescribeOnly)
+  {
+    std::printf("{\n  %s\n}\n", DescribeInJson().c_str());
+    return 0;
+  }
+  GpuBenchmark benchmark(arguments);
+  benchmark.Run();
+  if (!arguments.JsonPath.empty())
+  {
+    WriteJson(arguments.JsonPath, benchmark.GetRows());
+  }
+  return benchmark.HasFailed() ? 1 : 0;
+}
+
 }
 }
 
 int main(int argc, char** argv)
 {
   using namespace delaunayflip;
-  const BackendKind cuda = HasCudaDevice() ? BackendKind::CUDA : BackendKind::Threads;
-  for (int i = 1; i < argc; ++i)
+  try
   {
-    const auto mesh = MakeRandomBadMesh(std::atoll(argv[i]), 2013);
-    Measure("random bad", mesh, cuda, 0, 5);
-    Measure("random bad", mesh, BackendKind::Threads, 0, 1);
+    return RunProgram(ParseArguments(argc, argv));
   }
-  Measure("chain", MakeWorstCaseMesh(1000), cuda, 0, 2);
-  Measure("grid", MakeGridMesh(1000, 1000), cuda, 0, 3);
-  return 0;
+  catch (const std::invalid_argument& error)
+  {
+    std::fprintf(stderr, "%s\n%s", error.what(), BenchmarkUsage);
+    return 2;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

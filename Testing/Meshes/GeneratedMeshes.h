@@ -43,6 +43,13 @@ OwnedMesh<float> MakeRandomBadMesh(std::int64_t points, std::uint32_t seed);
 /// The same in double precision.
 OwnedMesh<double> MakeRandomBadMeshDouble(std::int64_t points, std::uint32_t seed);
 
+/// A random bad mesh for large sizes, made by many threads (0: as many as the machine has): a
+/// square of tilesPerSide x tilesPerSide squares that share their corners and borders, each split
+/// as above by random points inside it. The same for any number of threads. `points` >=
+/// (tilesPerSide + 1)^2, and some hundred thousand a tile at most.
+OwnedMesh<float> MakeTiledBadMesh(
+  std::int64_t points, std::int32_t tilesPerSide, std::uint32_t seed, int threads = 0);
+
 /// The paper's Fig. 6 with 2 * size points and 2 * size - 2 triangles: size 4 is the paper's own
 /// case, 6 triangles that take flips {1, 2, 3, 2, 1}; (size - 1)^2 flips in 2 * size - 3
 /// iterations.

@@ -1,150 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GeneratedMeshes.h"
+#include "SplitHistory.h"
 
-#include <array>
 #include <random>
 
 namespace delaunayflip
 {
 namespace
 {
-
-/// Coordinates count steps of 2^-24: float holds every one of them exactly, and an orientation
-/// determinant of them fits 64 bits with room to spare.
-constexpr std::int64_t LatticeSize = std::int64_t(1) << 24;
-
-struct LatticePoint
-{
-  std::int32_t X;
-  std::int32_t Y;
-};
-
-bool operator==(const LatticePoint& a, const LatticePoint& b) { return a.X == b.X && a.Y == b.Y; }
-
-/// A triangle that is, or once was, part of the mesh. Its children cover it and share their last
-/// vertex, the point that split it.
-struct HistoryNode
-{
-  std::array<std::int32_t, 3> Vertices;
-  std::int32_t FirstChild = -1;
-  std::int32_t NumberOfChildren = 0;
-};
-
-/// The tree of all splits: a point goes down from the square to the triangle that holds it, in
-/// O(log n) expected steps and without any adjacency between triangles.
-class SplitHistory
-{
-public:
-  explicit SplitHistory(std::int64_t expectedPoints)
-  {
-    this->Points.reserve(static_cast<std::size_t>(expectedPoints));
-    this->Nodes.reserve(static_cast<std::size_t>(3 * expectedPoints));
-    const auto last = static_cast<std::int32_t>(LatticeSize);
-    this->Points = { { 0, 0 }, { last, 0 }, { last, last }, { 0, last } };
-    this->Nodes = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-  }
-
-  /// Adds a point inside the square; false, and no change, when it is already there.
-  bool Insert(const LatticePoint& point)
-  {
-    this->FindLeaves(point);
-    for (std::int32_t leaf : this->Leaves)
-    {
-      for (std::int32_t vertex : this->Nodes[leaf].Vertices)
-      {
-        if (this->Points[vertex] == point)
-        {
-          return false;
-        }
-      }
-    }
-    this->Points.push_back(point);
-    for (std::int32_t leaf : this->Leaves)
-    {
-      this->Split(leaf);
-    }
-    return true;
-  }
-
-  std::vector<LatticePoint> Points;
-  std::vector<HistoryNode> Nodes;
-
-private:
-  std::int64_t Turn(std::int32_t from, std::int32_t to, const LatticePoint& point) const
-  {
-    const LatticePoint& a = this->Points[from];
-    const LatticePoint& b = this->Points[to];
-    return (std::int64_t(b.X) - a.X) * (std::int64_t(point.Y) - a.Y) -
-      (std::int64_t(b.Y) - a.Y) * (std::int64_t(point.X) - a.X);
-  }
-
-  /// Whether a child holds a point that its parent holds. Only the two sides at the last vertex are
-  /// new; the third is the parent's.
-  bool ChildHolds(const HistoryNode& child, const LatticePoint& point) const
-  {
-    return this->Turn(child.Vertices[1], child.Vertices[2], point) >= 0 &&
-      this->Turn(child.Vertices[2], child.Vertices[0], point) >= 0;
-  }
-
-  /// All leaves that hold the point: one, two when it lies on an edge, more when it is a vertex.
-  void FindLeaves(const LatticePoint& point)
-  {
-    this->Leaves.clear();
-    this->Pending.clear();
-    for (std::int32_t root = 0; root < 2; ++root)
-    {
-      const std::int64_t side = this->Turn(0, 2, point);
-      if (root == 0 ? side <= 0 : side >= 0)
-      {
-        this->Pending.push_back(root);
-      }
-    }
-    while (!this->Pending.empty())
-    {
-      const std::int32_t node = this->Pending.back();
-      this->Pending.pop_back();
-      this->Visit(node, point);
-    }
-  }
-
-  void Visit(std::int32_t index, const LatticePoint& point)
-  {
-    const HistoryNode& node = this->Nodes[index];
-    if (node.NumberOfChildren == 0)
-    {
-      this->Leaves.push_back(index);
-    }
-    for (std::int32_t i = 0; i < node.NumberOfChildren; ++i)
-    {
-      if (this->ChildHolds(this->Nodes[node.FirstChild + i], point))
-      {
-        this->Pending.push_back(node.FirstChild + i);
-      }
-    }
-  }
-
-  /// Splits a leaf at the newest point. An edge that the point lies on spans no triangle with it.
-  void Split(std::int32_t leaf)
-  {
-    const auto newest = static_cast<std::int32_t>(this->Points.size()) - 1;
-    const std::array<std::int32_t, 3> corners = this->Nodes[leaf].Vertices;
-    this->Nodes[leaf].FirstChild = static_cast<std::int32_t>(this->Nodes.size());
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::int32_t from = corners[i];
-      const std::int32_t to = corners[(i + 1) % 3];
-      if (this->Turn(from, to, this->Points[newest]) != 0)
-      {
-        this->Nodes.push_back({ { from, to, newest } });
-        this->Nodes[leaf].NumberOfChildren++;
-      }
-    }
-  }
-
-  std::vector<std::int32_t> Leaves;
-  std::vector<std::int32_t> Pending;
-};
 
 /// Strictly inside the square, so that its boundary stays four edges.
 std::int32_t DrawCoordinate(std::mt19937& random)
@@ -161,7 +25,7 @@ template <typename Real>
 OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  SplitHistory history(points);
+  SplitHistory history(points, LatticeSize);
   while (static_cast<std::int64_t>(history.Points.size()) < points)
   {
     const std::int32_t x = DrawCoordinate(random);
@@ -176,13 +40,8 @@ OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
     mesh.Points.insert(mesh.Points.end(), { Real(point.X) * step, Real(point.Y) * step, Real(0) });
   }
   mesh.Triangles.reserve(6 * history.Points.size());
-  for (const HistoryNode& node : history.Nodes)
-  {
-    if (node.NumberOfChildren == 0)
-    {
-      mesh.Triangles.insert(mesh.Triangles.end(), node.Vertices.begin(), node.Vertices.end());
-    }
-  }
+  history.ForEachTriangle([&](const std::array<std::int32_t, 3>& ids)
+    { mesh.Triangles.insert(mesh.Triangles.end(), ids.begin(), ids.end()); });
   return mesh;
 }
 

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RANDOMMESS_H
+#define DELAUNAYFLIP_RANDOMMESS_H
+
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A small mesh of every kind of dirt, with constraints and options drawn at random.
+struct RandomMess
+{
+  OwnedMesh<double> Mesh;
+  std::vector<std::int64_t> Constraints; ///< Pairs of point ids.
+  FlipOptions Options;
+
+  TriangleMesh View() const;
+};
+
+/// The same for a seed on every machine.
+RandomMess MakeRandomMess(std::uint32_t seed);
+
+}
+
+#endif

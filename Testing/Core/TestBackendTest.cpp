@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
+#include "FlipTestSupport.h"
+
+#include <gtest/gtest.h>
+
+/// @file
+/// With DELAUNAYFLIP_TEST_BACKEND=cuda this whole program tests the GPU; without a GPU it then runs
+/// nothing, rather than pass on the CPU.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Skips every test, one by one: an environment that skips all leaves them reported as passed.
+class GpuOrNothing : public testing::EmptyTestEventListener
+{
+public:
+  void OnTestStart(const testing::TestInfo&) override
+  {
+    if (this->IsGpuMissing)
+    {
+      GTEST_SKIP() << "no GPU for DELAUNAYFLIP_TEST_BACKEND=cuda";
+    }
+  }
+
+private:
+  const bool IsGpuMissing = IsTestBackendCuda() && !HasCudaDevice();
+};
+
+const bool IsRegistered = []
+{
+  testing::UnitTest::GetInstance()->listeners().Append(new GpuOrNothing);
+  return true;
+}();
+
+TEST(TestBackend, IsTheOneAskedFor)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(100, 1);
+  const std::string expected = IsTestBackendCuda() ? "CUDA: " : "Threads: ";
+  EXPECT_EQ(0u, Flip(mesh.View()).Report.Backend.rfind(expected, 0));
+  EXPECT_EQ(0u, MakeSession(mesh.View()).GetReport().Backend.rfind(expected, 0));
+}
+
+}
+}

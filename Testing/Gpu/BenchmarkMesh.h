@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_BENCHMARKMESH_H
+#define DELAUNAYFLIP_BENCHMARKMESH_H
+
+#include "FlipOptions.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// What a program hands to the engine: coordinates in single precision (in double for some real
+/// meshes) and triangles of 64-bit ids, which is what VTK has.
+struct BenchmarkMesh
+{
+  std::string Name;
+  std::vector<float> Floats; ///< Of Floats and Doubles one is empty.
+  std::vector<double> Doubles;
+  std::vector<std::int64_t> Ids;
+  std::vector<std::int64_t> ConstraintEdges;
+  GeometryKind Geometry = GeometryKind::Auto;
+  bool EndsDelaunay = true; ///< Whether no bad edge may be left.
+
+  std::int64_t CountPoints() const
+  {
+    return static_cast<std::int64_t>(this->Floats.size() + this->Doubles.size()) / 3;
+  }
+  std::int64_t CountTriangles() const { return static_cast<std::int64_t>(this->Ids.size()) / 3; }
+  TriangleMesh View() const;
+};
+
+/// Points up to which a random bad mesh is made as one; beyond, in tiles.
+constexpr std::int64_t LargestUntiledMesh = 5000000;
+
+BenchmarkMesh MakeRandomMesh(std::int64_t points);
+
+/// About `points` points of a square lattice: every edge is a tie or clearly good.
+BenchmarkMesh MakeLatticeMesh(std::int64_t points);
+
+/// The paper's Fig. 6 with 10,000 triangles.
+BenchmarkMesh MakeChainMesh();
+
+/// The real meshes of a folder that are large enough to time, height fields both by x and y and in
+/// space.
+std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder);
+
+}
+
+#endif

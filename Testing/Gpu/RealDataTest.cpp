@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuTestSupport.h"
+#include "MeshFile.h"
+
+#include <cmath>
+#include <cstdlib>
+
+/// @file
+/// Real meshes, which do not belong to this project: the folder that DELAUNAYFLIP_MESH_DIR names
+/// holds what export_meshes.py wrote; skipped without.
+
+namespace delaunayflip
+{
+namespace
+{
+
+std::string GetFolder()
+{
+  const char* folder = std::getenv("DELAUNAYFLIP_MESH_DIR");
+  return folder ? folder : "";
+}
+
+/// The path of a mesh, or nothing where the folder lacks it.
+std::string FindMesh(const std::string& name)
+{
+  const std::string end = "/" + name + ".dfmesh";
+  for (const std::string& path : ListMeshFiles(GetFolder()))
+  {
+    if (path.size() > end.size() && path.substr(path.size() - end.size()) == end)
+    {
+      return path;
+    }
+  }
+  return "";
+}
+
+class RealDataTest : public GpuTest
+{
+protected:
+  void SetUp() override
+  {
+    GpuTest::SetUp();
+    if (!IsSkipped() && ListMeshFiles(GetFolder()).empty())
+    {
+      GTEST_SKIP() << "no meshes: DELAUNAYFLIP_MESH_DIR is '" << GetFolder() << "'";
+    }
+  }
+
+  static FlipOptions WithGeometry(GeometryKind geometry)
+  {
+    FlipOptions options;
+    options.Geometry = geometry;
+    options.FeatureAngle = 180.0;
+    return options;
+  }
+};
+
+TEST_F(RealDataTest, TheGpuGivesTheCpusBits)
+{
+  for (const std::string& path : ListMeshFiles(GetFolder()))
+  {
+    SCOPED_TRACE(path);
+    const FileMesh mesh = ReadMeshFile(path);
+    ExpectGpuAgrees(mesh.View(), FlipOptions());
+    ExpectGpuAgrees(mesh.View(), WithGeometry(GeometryKind::Surface));
+    if (mesh.IsHeightField)
+    {
+      ExpectGpuAgrees(mesh.View(), WithGeometry(GeometryKind::PlanarXY));
+    }
+  }
+}
+
+/// What is known of a mesh from other programs. Where several orders of flips lead to the end,
+/// their number is known but for a share.
+struct KnownAnswer
+{
+  const char* Name;
+  GeometryKind Geometry;
+  std::int64_t Bad;
+  std::int64_t Flips;
+  std::int64_t MostLeft;
+  double Share;
+};
+
+constexpr GeometryKind XY = GeometryKind::PlanarXY;
+constexpr GeometryKind Space = GeometryKind::Auto;
+
+constexpr KnownAnswer KnownAnswers[] = {
+  { "greenland_cdt", XY, 0, 0, 0, 0.0 },
+  { "lake_superior_cdt_constrained", XY, 0, 0, 0, 0.0 },
+  { "su2_cht_3cyl_mixed", XY, 12047, 12047, 0, 0.0 },
+  { "adcirc_alaska", XY, 5196, 5575, 0, 0.05 },
+  { "tin_bigtujunga_bad_60k", XY, 34770, 335500, 0, 0.05 },
+  { "turbine_siting_terrain_utm", XY, 0, 0, 0, 0.0 },
+  { "turbine_siting_terrain_utm", Space, 5176, 5176, 0, 0.0 },
+  { "dragon_vrip_res2", Space, 41911, 48600, 250, 0.05 },
+  { "horse_cyberware", Space, 3188, 3596, 6, 0.05 },
+  { "bunny_zipper", Space, 2116, 2189, 0, 0.05 },
+  { "lucy_100k", Space, 19741, 25600, 5, 0.05 },
+  { "turbineblade", Space, 23377, 27268, 0, 0.05 },
+  { "dtc_ship_hull", Space, 1176, 1176, 0, 0.0 },
+  { "pv_42400-IDGH", Space, 1845, 3100, 16, 0.05 },
+  { "tm_featuretype", Space, 386, 1450, 0, 0.05 },
+  { "mf_openscad", Space, 315, 1330, 50, 0.15 },
+  { "cm_fandisk", Space, 551, 551, 0, 0.0 },
+  { "gc_moebius", Space, 17, 17, 0, 0.0 },
+  { "gc_lego", Space, 97, 97, 0, 0.0 },
+  { "gc_triple_vierbein", Space, 0, 0, 0, 0.0 },
+};
+
+void ExpectAbout(std::int64_t expected, std::int64_t actual, double share)
+{
+  EXPECT_LE(std::abs(static_cast<double>(actual - expected)), share * static_cast<double>(expected))
+    << actual << " instead of " << expected;
+}
+
+TEST_F(RealDataTest, KnownAnswersHold)
+{
+  int found = 0;
+  for (const KnownAnswer& known : KnownAnswers)
+  {
+    SCOPED_TRACE(known.Name);
+    const std::string path = FindMesh(known.Name);
+    if (path.empty())
+    {
+      continue;
+    }
+    ++found;
+    const FileMesh mesh = ReadMeshFile(path);
+    FlipOptions options = WithGeometry(known.Geometry);
+    options.Backend = BackendKind::CUDA;
+    const FlipReport report = Flip(mesh.View(), options).Report;
+    EXPECT_TRUE(report.Converged());
+    ExpectAbout(known.Bad, report.NonDelaunayBefore, known.Share);
+    ExpectAbout(known.Flips, report.TotalFlips, known.Share);
+    EXPECT_LE(report.NonDelaunayAfter, known.MostLeft);
+  }
+  EXPECT_LT(0, found);
+}
+
+/// Constraint edges keep a constrained Delaunay mesh; without them it takes 32 flips.
+TEST_F(RealDataTest, ConstraintsHold)
+{
+  const std::string path = FindMesh("lake_superior_cdt_constrained");
+  if (path.empty())
+  {
+    GTEST_SKIP() << "no Lake Superior in " << GetFolder();
+  }
+  const FileMesh mesh = ReadMeshFile(path);
+  TriangleMesh free = mesh.View();
+  free.NumberOfConstraintEdges = 0;
+  const FlipReport report = ExpectGpuAgrees(free, WithGeometry(GeometryKind::PlanarXY)).Report;
+  EXPECT_EQ(29, report.NonDelaunayBefore);
+  EXPECT_EQ(32, report.TotalFlips);
+  ASSERT_EQ(2u, report.Iterations.size());
+  EXPECT_EQ(29, report.Iterations[0].Flipped);
+  EXPECT_EQ(3, report.Iterations[1].Flipped);
+}
+
+}
+}

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Usage: bundle.sh [OUTPUT.tar.gz or FOLDER] (default: delaunay-flip-gpu.tar.gz)
+# Builds in build-gpu/ and packs what a machine with a GPU needs to run run.sh, without development
+# packages there: programs, the shared libraries that not every Linux has, real meshes. Unpack it,
+# then run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than
+# this one's and python3; compute-sanitizer is used where it is there. CUDA_ARCHITECTURES chooses
+# other GPUs than the project's default, JOBS the number of compilers at a time.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+build=$root/build-gpu
+output=${1:-delaunay-flip-gpu.tar.gz}
+programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark)
+
+# Usage: list_libraries PROGRAM... - paths of their shared libraries but those of every Linux.
+list_libraries()
+{
+  ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' |
+    grep -v -E '/(libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s)\.so' | sort -u
+}
+
+describe()
+{
+  echo "commit: $(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)"
+  echo "built: $(date -u +%Y-%m-%dT%H:%MZ) with $(c++ --version | head -n 1)"
+  echo "CUDA architectures: $architectures"
+}
+
+# Usage: fill FOLDER
+fill()
+{
+  local folder=$1 program library
+  mkdir -p "$folder/libs"
+  for program in "${programs[@]}"; do
+    strip -o "$folder/$program" "$build/bin/$program"
+  done
+  list_libraries "${programs[@]/#/$build/bin/}" | while read -r library; do
+    cp -L "$library" "$folder/libs/"
+  done
+  cp "$here/run.sh" "$here/summarize.py" "$root/LICENSE" "$folder/"
+  if [ -d "$build/meshes" ]; then
+    cp -r "$build/meshes" "$folder/"
+  fi
+  describe >"$folder/BUILD.txt"
+}
+
+"$here/build.sh" "$build"
+# Not in the cache where it is the project's default.
+architectures=$(sed -n 's/^CMAKE_CUDA_ARCHITECTURES:[A-Z]*=//p' "$build/CMakeCache.txt")
+architectures=${architectures:-the default of the project}
+
+case "$output" in
+  *.tar.gz | *.tgz)
+    temporary=$(mktemp -d)
+    trap 'rm -rf "$temporary"' EXIT
+    fill "$temporary/delaunay-flip-gpu"
+    tar -C "$temporary" -czf "$output" delaunay-flip-gpu
+    ;;
+  *) fill "$output" ;;
+esac
+echo "$output: $(du -sh "$output" | cut -f 1), for CUDA architectures $architectures"

@@ -1,0 +1,162 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Everything that needs a GPU, in one command: the tests of the CUDA backend, the engine's whole test
+# suite on the GPU, compute-sanitizer, and benchmarks beside the CPU. In a source tree it builds into
+# build-gpu/ first; in a bundle (bundle.sh) it runs the programs beside it. results.txt and
+# results.json in the output folder hold what came out. The exit status is 0 only when nothing
+# failed; what cannot run here is reported as skipped, and a machine without a GPU passes nothing.
+set -euo pipefail
+
+usage()
+{
+  cat <<'END'
+Usage: run.sh [OPTION...] [OUTPUT_FOLDER]
+  --output FOLDER     where results.txt, results.json and the logs go (default: ./gpu-results)
+  --quick             few sizes and repetitions
+  --tests-only        no benchmarks
+  --benchmarks-only   no tests and no compute-sanitizer
+  --filter PATTERN    only the tests of this --gtest_filter; no compute-sanitizer
+END
+}
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+output=gpu-results
+filter=
+tests=yes benchmarks=yes
+quick=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --output | --filter)
+      if [ $# -lt 2 ]; then
+        echo "$1 needs a value" >&2
+        exit 2
+      fi
+      if [ "$1" = --output ]; then output=$2; else filter=$2; fi
+      shift
+      ;;
+    --quick) quick=(--quick) ;;
+    --tests-only) benchmarks=no ;;
+    --benchmarks-only) tests=no ;;
+    --help)
+      usage
+      exit 0
+      ;;
+    -*)
+      usage >&2
+      exit 2
+      ;;
+    *) output=$1 ;;
+  esac
+  shift
+done
+
+if [ -x "$here/DelaunayFlipGpuTests" ]; then
+  programs=$here
+  meshes=$here/meshes
+  export LD_LIBRARY_PATH=$here/libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+else
+  build=$(cd "$here/../.." && pwd)/build-gpu
+  "$here/build.sh" "$build"
+  programs=$build/bin
+  meshes=$build/meshes
+fi
+if [ -d "$meshes" ]; then
+  export DELAUNAYFLIP_MESH_DIR=$meshes
+fi
+
+mkdir -p "$output"
+output=$(cd "$output" && pwd)
+(
+  cd "$output"
+  rm -f results.txt results.json machine.json steps.tsv benchmarks.* gpu-tests.* sanitizer-*.log \
+    engine-tests-on-cuda.*
+)
+"$programs/delaunay-flip-gpu-benchmark" --describe >"$output/machine.json"
+has_gpu=yes
+if grep -q '"gpu": null' "$output/machine.json"; then
+  has_gpu=no
+  echo "no GPU: what needs one is skipped"
+fi
+
+# Usage: note STEP STATUS [REASON] - STATUS is an exit status, or "skipped" for REASON.
+note() { printf '%s\t%s\t%s\n' "$1" "$2" "${3:-}" >>"$output/steps.tsv"; }
+
+# Usage: run_step NAME COMMAND... - the output goes to NAME.log and, where it matters, to the screen.
+run_step()
+{
+  local name=$1 status=0
+  shift
+  printf '\n== %s\n' "$name"
+  "$@" >"$output/$name.log" 2>&1 || status=$?
+  note "$name" "$status"
+  if [ "$status" -ne 0 ]; then
+    echo "exit status $status; the end of $name.log:"
+    tail -n 40 "$output/$name.log"
+  else
+    tail -n 2 "$output/$name.log"
+  fi
+}
+
+run_tests()
+{
+  local pattern=${filter:-*}
+  run_step gpu-tests "$programs/DelaunayFlipGpuTests" "--gtest_filter=$pattern" \
+    --gtest_brief=1 "--gtest_output=json:$output/gpu-tests.json"
+  run_step engine-tests-on-cuda env DELAUNAYFLIP_TEST_BACKEND=cuda \
+    "$programs/DelaunayFlipCoreTests" "--gtest_filter=$pattern" \
+    --gtest_brief=1 "--gtest_output=json:$output/engine-tests-on-cuda.json"
+}
+
+find_sanitizer()
+{
+  local program
+  for program in compute-sanitizer "${CUDA_HOME:-/usr/local/cuda}/bin/compute-sanitizer"; do
+    if command -v "$program"; then
+      return
+    fi
+  done
+}
+
+# Small meshes: every access of every kernel is watched. racecheck sees shared memory only.
+run_sanitizer()
+{
+  local sanitizer tool
+  sanitizer=$(find_sanitizer)
+  for tool in memcheck racecheck initcheck synccheck; do
+    if [ "$has_gpu" = no ]; then
+      note "sanitizer-$tool" skipped "no GPU"
+    elif [ -n "$filter" ]; then
+      note "sanitizer-$tool" skipped "--filter"
+    elif [ -z "$sanitizer" ]; then
+      note "sanitizer-$tool" skipped "no compute-sanitizer"
+    else
+      run_step "sanitizer-$tool" timeout 300 "$sanitizer" --tool "$tool" --error-exitcode 86 \
+        "$programs/DelaunayFlipGpuTests" --gtest_brief=1 '--gtest_filter=SmallMeshTest.*'
+    fi
+  done
+}
+
+run_benchmarks()
+{
+  local real=()
+  if [ -d "$meshes" ]; then
+    real=(--meshes "$meshes")
+  fi
+  printf '\n== benchmarks\n'
+  local status=0
+  "$programs/delaunay-flip-gpu-benchmark" "${quick[@]}" "${real[@]}" \
+    --json "$output/benchmarks.json" 2>&1 | tee "$output/benchmarks.log" || status=$?
+  note benchmarks "$status"
+}
+
+if [ "$tests" = yes ]; then
+  run_tests
+  run_sanitizer
+fi
+if [ "$benchmarks" = yes ]; then
+  run_benchmarks
+fi
+printf '\n'
+python3 "$here/summarize.py" "$output"

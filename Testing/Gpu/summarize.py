@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Usage: summarize.py FOLDER
+
+Makes results.json and results.txt of what run.sh left in FOLDER and prints a summary; the table of
+the benchmarks has been on the screen already. Exits with 0 when nothing failed, else with 1.
+"""
+
+import json
+import os
+import platform
+import subprocess
+import sys
+
+SANITIZER_FINDINGS = 86  # the exit status that run.sh asks compute-sanitizer for
+TIMED_OUT = 124
+
+
+def load(folder, name):
+    """A JSON file's content, or None where it is missing or torn."""
+    try:
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return None
+
+
+def load_steps(folder):
+    """(name, status, reason) of every step; the status is a number or "skipped"."""
+    with open(os.path.join(folder, "steps.tsv"), encoding="utf-8") as file:
+        return [tuple(line.rstrip("\n").split("\t")) for line in file]
+
+
+def driver_version():
+    command = ["nvidia-smi", "--query-gpu=driver_version", "--format=csv,noheader"]
+    try:
+        output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return output.split("\n", 1)[0].strip() or None
+
+
+def count_tests(report, status):
+    """Tests passed, failed and skipped of one GoogleTest program, and the names of the failed."""
+    counts = {"passed": 0, "failed": 0, "skipped": 0, "failed_tests": [], "status": status}
+    for suite in (report or {}).get("testsuites", []):
+        for test in suite["testsuite"]:
+            if test.get("failures"):
+                counts["failed"] += 1
+                counts["failed_tests"].append(f"{suite['name']}.{test['name']}")
+            elif test["result"] == "COMPLETED":
+                counts["passed"] += 1
+            else:
+                counts["skipped"] += 1
+    if status != "0" and counts["failed"] == 0:
+        counts["failed"] = 1  # it ended before it could say more
+        counts["failed_tests"].append(f"the program ended with status {status}")
+    return counts
+
+
+def judge_sanitizer(status, reason):
+    if status == "skipped":
+        return f"skipped: {reason}"
+    if status == "0":
+        return "passed"
+    what = {SANITIZER_FINDINGS: "findings", TIMED_OUT: "took too long"}
+    return "FAILED: " + what.get(int(status), f"exit status {status}")
+
+
+def collect(folder):
+    machine = load(folder, "machine.json") or {}
+    results = {
+        "machine": {
+            "processor": machine.get("machine"),
+            "cores": machine.get("cores"),
+            "system": platform.platform(),
+        },
+        "gpu": machine.get("gpu"),
+        "tests": {},
+        "sanitizer": {},
+        "benchmarks": None,
+    }
+    if results["gpu"]:
+        results["gpu"]["driver"] = driver_version()
+    for name, status, reason in load_steps(folder):
+        if name == "benchmarks":
+            rows = (load(folder, "benchmarks.json") or {}).get("rows", [])
+            results["benchmarks"] = {"status": status, "rows": rows}
+        elif name.startswith("sanitizer-"):
+            results["sanitizer"][name.split("-", 1)[1]] = judge_sanitizer(status, reason)
+        else:
+            results["tests"][name] = count_tests(load(folder, f"{name}.json"), status)
+    return results
+
+
+def describe_machine(results):
+    machine, gpu = results["machine"], results["gpu"]
+    yield f"machine: {machine['processor']}; {machine['system']}"
+    if not gpu:
+        yield "GPU: none"
+        return
+    yield (
+        f"GPU: {gpu['name']}, compute capability {gpu['compute_capability']}, "
+        f"{gpu['multiprocessors']} multiprocessors, {gpu['memory_bytes'] / 2**30:.0f} GiB; "
+        f"driver {gpu['driver']} (CUDA {gpu['cuda_of_driver']}), runtime {gpu['cuda_runtime']}"
+    )
+
+
+def describe_checks(results):
+    for name, counts in results["tests"].items():
+        yield (
+            f"{name}: {counts['passed']} passed, {counts['failed']} failed, "
+            f"{counts['skipped']} skipped"
+        )
+        yield from (f"  FAILED {test}" for test in counts["failed_tests"])
+    for tool, verdict in results["sanitizer"].items():
+        yield f"compute-sanitizer {tool}: {verdict}"
+
+
+def has_failed(results):
+    benchmarks = results["benchmarks"]
+    return (
+        any(counts["failed"] for counts in results["tests"].values())
+        or any(verdict.startswith("FAILED") for verdict in results["sanitizer"].values())
+        or (benchmarks is not None and benchmarks["status"] != "0")
+    )
+
+
+def verdict_of(results):
+    if has_failed(results):
+        return "FAILED"
+    return "nothing failed" if results["gpu"] else "no GPU: skipped"
+
+
+def table_of(folder, results):
+    """The benchmark's own table, if it ran."""
+    if results["benchmarks"] is None:
+        return
+    with open(os.path.join(folder, "benchmarks.log"), encoding="utf-8") as file:
+        yield from file.read().splitlines()
+    if results["benchmarks"]["status"] != "0":
+        yield f"FAILED: the benchmarks ended with status {results['benchmarks']['status']}"
+    yield ""
+
+
+def main():
+    folder = sys.argv[1]
+    results = collect(folder)
+    results["verdict"] = verdict_of(results)
+    with open(os.path.join(folder, "results.json"), "w", encoding="utf-8") as file:
+        json.dump(results, file, indent=1)
+        file.write("\n")
+    summary = [*describe_checks(results), results["verdict"]]
+    lines = [*describe_machine(results), "", *table_of(folder, results), *summary]
+    with open(os.path.join(folder, "results.txt"), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    print("\n".join([*describe_machine(results), *summary]))
+    sys.exit(1 if has_failed(results) else 0)
+
+
+if __name__ == "__main__":
+    main()
