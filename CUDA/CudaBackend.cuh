@@ -7,6 +7,7 @@
 #include "CudaContext.h"
 #include "CudaError.h"
 #include "CudaKernels.cuh"
+#include "FlipError.h"
 #include "StagedCopy.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -295,6 +297,11 @@ inline DeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
   DeviceMesh local;
   StagedCopy copy(*this->Context, this->Threads);
   const PointArray& points = mesh.Points;
+  if (points.Count > std::numeric_limits<std::int32_t>::max())
+  {
+    throw BackendUnavailable("the mesh has " + std::to_string(points.Count) +
+      " points; the CUDA backend numbers them with 31 bits, use 'threads'");
+  }
   const TriangleArray& triangles = mesh.Triangles;
   const auto bring = [&](auto& array, const auto* host, std::int64_t size)
   {

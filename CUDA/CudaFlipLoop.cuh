@@ -42,6 +42,7 @@ public:
     this->Allocate();
     this->PlanGrids();
     this->CutIntoChunks();
+    this->LoadStates();
   }
 
   StepCounts Detect() override
@@ -85,54 +86,84 @@ public:
       [=] __device__(std::int64_t c)
       {
         chunks[c] = { FirstEdgeOf(words, edges, c << ChunkBits),
-          FirstEdgeOf(words, edges, (c + 1) << ChunkBits), 0 };
+          FirstEdgeOf(words, edges, (c + 1) << ChunkBits) };
+      });
+  }
+
+  /// The states at first as bits; what is behind the last edge is fixed.
+  void LoadStates()
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeState* states = this->Mesh.States.Data();
+    const std::int64_t edges = this->Mesh.NumberOfEdges;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        std::uint32_t fixed = 0;
+        for (int i = 0; i < 32; ++i)
+        {
+          const std::int64_t edge = 32 * word + i;
+          fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
+        }
+        bits.Fixed[word] = fixed;
+        bits.Asleep[word] = fixed;
+        bits.Candidates[word] = ~fixed;
+        bits.Bad[word] = bits.Winners[word] = bits.Misshapen[word] = bits.Obstructed[word] = 0;
       });
   }
 
   void DeferEdgesBetweenChunks()
   {
+    const EdgeBits bits = this->Bits;
     const EdgeMeshView mesh = this->Mesh.View();
-    this->Backend.ForEach(this->Mesh.NumberOfEdges,
+    const std::int64_t edges = this->Mesh.NumberOfEdges;
+    // Threads of a warp work on one word.
+    this->Backend.ForEach(32 * this->NumberOfWords,
       [=] __device__(std::int64_t e)
       {
-        const TriangleId a = TriangleOf(mesh.CornerOfHalfEdge[2 * e]);
-        const TriangleId b = TriangleOf(mesh.CornerOfHalfEdge[2 * e + 1]);
-        if ((a ^ b) >> ChunkBits != 0 && mesh.States[e] != EdgeState::Fixed)
+        bool between = false;
+        if (e < edges && !EdgeBits::Has(bits.Fixed, static_cast<EdgeId>(e)))
         {
-          mesh.States[e] = EdgeState::Deferred;
+          const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
+          between = (TriangleOf(corners.A) ^ TriangleOf(corners.B)) >> ChunkBits != 0;
+        }
+        const std::uint32_t deferred = __ballot_sync(WholeWarp, between);
+        if (e % 32 == 0)
+        {
+          bits.Asleep[e / 32] |= deferred;
+          bits.Bad[e / 32] &= ~deferred;
+          bits.Misshapen[e / 32] &= ~deferred;
         }
       });
   }
 
   void RecallEdges()
   {
-    EdgeState* states = this->Mesh.States.Data();
-    this->Backend.ForEach(this->Mesh.NumberOfEdges,
-      [=] __device__(std::int64_t e)
+    const EdgeBits bits = this->Bits;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
       {
-        if (states[e] == EdgeState::Deferred)
-        {
-          states[e] = EdgeState::Candidate;
-        }
+        bits.Candidates[word] = bits.Asleep[word] & ~bits.Fixed[word];
+        bits.Asleep[word] = bits.Fixed[word];
       });
   }
 
-  /// Marks what is to become no candidate.
-  void ResetMarks()
+  /// Flags the units that have something to do.
+  void FlagUnits()
   {
-    const EdgeState* states = this->Mesh.States.Data();
-    const std::int64_t edges = this->Mesh.NumberOfEdges;
-    std::uint32_t* marks = this->Marks.Data();
-    this->Backend.ForEach(static_cast<std::int64_t>(this->Marks.Size()),
-      [=] __device__(std::int64_t word)
+    const EdgeBits bits = this->Bits;
+    std::uint8_t* flags = this->Flags.Data();
+    constexpr int Words = DeviceWorklist::UnitSize / 32;
+    const std::int64_t words = this->NumberOfWords;
+    this->Backend.ForEach(static_cast<std::int64_t>(this->Flags.Size()),
+      [=] __device__(std::int64_t unit)
       {
-        std::uint32_t bits = 0;
-        for (int i = 0; i < 32 && 32 * word + i < edges; ++i)
+        std::uint32_t any = 0;
+        for (std::int64_t word = Words * unit; word < Words * (unit + 1) && word < words; ++word)
         {
-          const EdgeState state = states[32 * word + i];
-          bits |= state == EdgeState::Fixed || state == EdgeState::Deferred ? 1u << i : 0;
+          any |= bits.Bad[word] | bits.Obstructed[word];
         }
-        marks[word] = bits;
+        flags[unit] = any != 0 ? 1 : 0;
       });
   }
 
@@ -146,7 +177,7 @@ public:
   }
 
   /// The first edge whose first corner is of `triangle` or a later one.
-  __host__ __device__ static std::int64_t FirstEdgeOf(
+  __host__ __device__ static EdgeId FirstEdgeOf(
     const CornerId* words, std::int64_t edges, std::int64_t triangle)
   {
     std::int64_t begin = 0;
@@ -163,15 +194,15 @@ public:
         end = middle;
       }
     }
-    return begin;
+    return static_cast<EdgeId>(begin);
   }
 
 private:
   /// Iterations of a launch: a batch ends soon enough for whoever watches.
   static constexpr int MostIterations = 128;
   /// With fewer bad edges one block is faster than the whole grid, with its slower barrier.
-  static constexpr unsigned SmallTail = 512;
-  static constexpr unsigned LargeTail = 4 * SmallTail;
+  static constexpr std::int64_t SmallTail = 64;
+  static constexpr std::int64_t LargeTail = 4 * SmallTail;
   /// Of the second-level cache, for chunks at work: half, the rest is others'.
   static constexpr std::size_t ChunkBytes = std::size_t(7) << 20;
 
@@ -199,12 +230,20 @@ private:
 
   void Allocate()
   {
-    const std::int64_t edges = this->Mesh.NumberOfEdges;
-    // With a guard, winners that step back are for a moment on two lists.
-    this->ListSize = this->Guard.IsActive() ? edges + edges / 3 + 1 : edges;
-    this->Lists[0] = this->Backend.template MakeArray<EdgeId>(this->ListSize);
-    this->Lists[1] = this->Backend.template MakeArray<EdgeId>(this->ListSize);
-    this->Marks = this->Backend.template MakeArray<std::uint32_t>(edges / 32 + 1);
+    const std::int64_t units =
+      (this->Mesh.NumberOfEdges + DeviceWorklist::UnitSize - 1) >> DeviceWorklist::UnitBits;
+    this->NumberOfWords = units * DeviceWorklist::UnitSize / 32;
+    this->Words =
+      this->Backend.template MakeArray<std::uint32_t>(EdgeBits::Kinds * this->NumberOfWords);
+    std::uint32_t* words = this->Words.Data();
+    for (std::uint32_t** bits : { &this->Bits.Fixed, &this->Bits.Asleep, &this->Bits.Candidates,
+           &this->Bits.Bad, &this->Bits.Winners, &this->Bits.Misshapen, &this->Bits.Obstructed })
+    {
+      *bits = words;
+      words += this->NumberOfWords;
+    }
+    // Flags are read eight at a time.
+    this->Flags = this->Backend.template MakeArray<std::uint8_t>((units + 7) / 8 * 8);
     this->Chunks = this->Backend.template MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = this->Backend.template MakeArray<Results>(1);
   }
@@ -233,12 +272,14 @@ private:
     this->TeamStates = this->Backend.template MakeArray<TeamState>(this->Teams);
   }
 
-  LoopView<Rule> View()
+  /// @param flagged whether to look at flagged units only.
+  LoopView<Rule> View(bool flagged = false)
   {
     Results* results = this->DeviceResults.Data();
-    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Mesh.NumberOfEdges,
-      { this->Lists[0].Data(), this->Lists[1].Data() }, this->Marks.Data(), this->Chunks.Data(),
-      this->NumberOfChunks, this->TeamStates.Data(), results->Rounds, &results->RoundsDone };
+    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits,
+      flagged ? this->Flags.Data() : nullptr, static_cast<EdgeId>(this->Mesh.NumberOfEdges),
+      this->Chunks.Data(), this->NumberOfChunks, this->TeamStates.Data(), results->Rounds,
+      &results->RoundsDone };
   }
 
   /// Clears what kernels count in.
@@ -290,25 +331,24 @@ private:
   void DetectAll()
   {
     this->Prepare();
-    const LoopView<Rule> view = this->View();
-    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, view);
-    const RoundSums& sums = this->FetchResults().Rounds[0];
-    this->Edges = { GetSum(sums, RoundSum::Tested), GetSum(sums, RoundSum::NewlyBad),
-      GetSum(sums, RoundSum::NewlyMisshapen), GetSum(sums, RoundSum::GuardedBlocked) };
+    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, this->View());
+    const Results& results = this->FetchResults();
+    const RoundSums& all = results.Rounds[1];
+    this->Edges = { GetSum(results.Rounds[0], RoundSum::Tested), GetSum(all, RoundSum::AllBad),
+      GetSum(all, RoundSum::AllMisshapen), GetSum(all, RoundSum::AllObstructed) };
     this->Found = this->Edges.ToCounts();
   }
 
   /// What is bad after a round.
   BadEdges Follow(const BadEdges& before, const RoundSums& round) const
   {
-    const std::int64_t listed = GetSum(round, RoundSum::Carried) +
-      GetSum(round, RoundSum::NewlyBad) - GetSum(round, RoundSum::Cured);
-    const bool guarded = this->Guard.IsActive();
+    const std::int64_t bad = before.Bad - GetSum(round, RoundSum::Flipped) -
+      GetSum(round, RoundSum::WasBad) + GetSum(round, RoundSum::IsBad);
     return { GetSum(round, RoundSum::Tested),
-      guarded ? GetSum(round, RoundSum::GuardedBad) : listed,
-      before.Misshapen + GetSum(round, RoundSum::NewlyMisshapen) -
-        GetSum(round, RoundSum::Reshaped),
-      GetSum(round, RoundSum::GuardedBlocked) };
+      this->Guard.IsActive() ? GetSum(round, RoundSum::AllBad) : bad,
+      before.Misshapen - GetSum(round, RoundSum::WasMisshapen) +
+        GetSum(round, RoundSum::IsMisshapen),
+      GetSum(round, RoundSum::AllObstructed) };
   }
 
   static IterationCounts ToIteration(const BadEdges& before, const RoundSums& round)
@@ -325,13 +365,15 @@ private:
     const bool small = this->Found.Bad < SmallTail;
     const std::int64_t freshSlots =
       this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
-    const IterationLimits limits{ static_cast<int>(most), small ? 1 : SmallTail,
-      small ? LargeTail : static_cast<unsigned>(this->Mesh.NumberOfEdges),
-      static_cast<unsigned long long>(freshSlots) };
-    this->ResetMarks();
+    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad, small ? 1 : SmallTail,
+      small ? LargeTail : this->Mesh.NumberOfEdges, static_cast<unsigned long long>(freshSlots) };
+    if (small)
+    {
+      this->FlagUnits();
+    }
     this->Prepare();
-    this->LaunchTogether(small ? 1 : this->GridBlocks, IterateKernel<Rule>, this->View(),
-      static_cast<unsigned>(this->ListSize), limits);
+    this->LaunchTogether(
+      small ? 1 : this->GridBlocks, IterateKernel<Rule>, this->View(small), limits);
     std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
     if (measure)
     {
@@ -372,7 +414,6 @@ private:
     const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
     const bool isFirst = this->RoundsLeft == ChunkRounds;
     this->DeferEdgesBetweenChunks();
-    this->ResetMarks();
     std::vector<IterationCounts> total;
     while (static_cast<std::int64_t>(total.size()) < rounds)
     {
@@ -408,13 +449,14 @@ private:
       this->BlocksOfTeam, rounds);
     const Results& results = this->FetchResults();
     const RoundSums& sums = results.Rounds[rounds];
-    BadEdges edges{ GetSum(sums, RoundSum::Tested), GetSum(sums, RoundSum::Carried),
-      GetSum(sums, RoundSum::NewlyMisshapen), 0 };
+    BadEdges edges{ this->TestedInChunks, GetSum(sums, RoundSum::AllBad),
+      GetSum(sums, RoundSum::AllMisshapen), 0 };
     for (int i = 0; i < rounds; ++i)
     {
       total.push_back(ToIteration(edges, results.Rounds[i]));
       edges = this->Follow(edges, results.Rounds[i]);
     }
+    this->TestedInChunks = edges.Tested;
   }
 
   EdgeMesh& Mesh;
@@ -427,9 +469,11 @@ private:
   int GridBlocks = 1;
   int Teams = 1;
   int BlocksOfTeam = 1;
-  std::int64_t ListSize = 0;
-  Array<EdgeId> Lists[2];
-  Array<std::uint32_t> Marks;
+  std::int64_t TestedInChunks = 0; ///< By the last round within chunks.
+  std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
+  Array<std::uint32_t> Words;
+  EdgeBits Bits{};
+  Array<std::uint8_t> Flags;
   Array<DeviceChunk> Chunks;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;

@@ -151,13 +151,23 @@ private:
     this->Engine.Audit();
 #endif
     const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
-    bool goOn = true;
+    const std::size_t first = this->Report.Iterations.size();
     for (const IterationCounts& counts : iterations)
     {
       this->Keep(counts, seconds);
-      goOn = (!observer || observer(this->Report.Iterations.back())) && goOn;
     }
     this->Resume();
+    this->Tell(observer, first);
+  }
+
+  /// Tells of the iterations from `first` on, when all of them are in the report.
+  void Tell(const FlipObserver& observer, std::size_t first)
+  {
+    bool goOn = true;
+    for (std::size_t i = first; observer && i < this->Report.Iterations.size(); ++i)
+    {
+      goOn = observer(this->Report.Iterations[i]) && goOn;
+    }
     if (!goOn && this->IsRunning())
     {
       this->Report.StopReason = StopReasonKind::Aborted;

@@ -95,6 +95,7 @@ template <typename Real, int Components>
 struct PlanarRule
 {
   static constexpr bool Tilted = Components == 3;
+  static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
 
   const Real* Coordinates; ///< Components numbers a vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
@@ -172,6 +173,8 @@ struct AnglePoints
 /// is exact.
 struct PlanarAngleRule : AnglePoints<double>
 {
+  static constexpr bool MayBlock = true;
+
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
     return ExceedsPi(this->Get(quad), this->Tolerance) ? EdgeState::Uncertain : EdgeState::Good;
@@ -193,6 +196,7 @@ template <typename Real>
 struct SurfaceRule : AnglePoints<Real>
 {
   using AnglePoints<Real>::Get;
+  static constexpr bool MayBlock = true;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {

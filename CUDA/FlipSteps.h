@@ -136,6 +136,15 @@ struct CountStep
   }
 };
 
+/// Whether an edge comes before those of its quad's outer edges that are bad.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
+  EdgeId edge, const OuterHalfEdges& outer, bool ap, bool qa, bool pb, bool bq)
+{
+  const std::uint32_t own = Priority(edge);
+  return !(ap && Priority(EdgeOf(outer.AP)) < own) && !(qa && Priority(EdgeOf(outer.QA)) < own) &&
+    !(pb && Priority(EdgeOf(outer.PB)) < own) && !(bq && Priority(EdgeOf(outer.BQ)) < own);
+}
+
 /// Chooses an independent set: a bad edge wins when no bad edge of its two triangles has a smaller
 /// priority. Reads the states of neighbours while they turn from Bad to Winner, and takes both for
 /// bad.
@@ -156,37 +165,22 @@ struct ChooseStep
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
   }
-  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(EdgeId edge, const OuterHalfEdges& outer) const
+  void operator()(EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
   {
     // All four states are asked for before any is looked at.
-    const EdgeState ap = this->LoadState(outer.AP);
-    const EdgeState qa = this->LoadState(outer.QA);
-    const EdgeState pb = this->LoadState(outer.PB);
-    const EdgeState bq = this->LoadState(outer.BQ);
-    const std::uint32_t own = Priority(edge);
-    const bool beaten = IsBeatenBy(own, outer.AP, ap) || IsBeatenBy(own, outer.QA, qa) ||
-      IsBeatenBy(own, outer.PB, pb) || IsBeatenBy(own, outer.BQ, bq);
-    return beaten ? EdgeState::Bad : EdgeState::Winner;
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(
-    EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
-  {
-    if (this->Decide(edge, outer) == EdgeState::Winner)
+    const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
+    const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
+    if (IsFirst(edge, outer, ap, qa, pb, bq))
     {
       AtomicStore(&this->Mesh.States[edge], EdgeState::Winner);
     }
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE EdgeState LoadState(HalfEdgeId halfEdge) const
+  bool IsBad(HalfEdgeId halfEdge) const
   {
-    return AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]);
-  }
-  DELAUNAYFLIP_HOST_DEVICE static bool IsBeatenBy(
-    std::uint32_t own, HalfEdgeId halfEdge, EdgeState state)
-  {
-    return (state == EdgeState::Bad || state == EdgeState::Winner) &&
-      Priority(EdgeOf(halfEdge)) < own;
+    const EdgeState state = AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]);
+    return state == EdgeState::Bad || state == EdgeState::Winner;
   }
 };
 
@@ -219,7 +213,7 @@ struct ConfirmStep : QuadStep
 };
 
 /// Flips winners, which share no triangle. With a guard, gives the claim back and exchanges the old
-/// vertex pair for the new one. Writes the edge's own state.
+/// vertex pair for the new one. States are the caller's business.
 struct SurgeryStep : QuadStep
 {
   EdgeGuardView Guard;
@@ -228,7 +222,6 @@ struct SurgeryStep : QuadStep
     EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
     const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
-    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     ++counts.Flipped;
     if (this->Guard.Active)
     {
@@ -258,6 +251,7 @@ struct FlipStep : SurgeryStep
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
     const OuterHalfEdges outer = this->Flip(edge, quad, counts);
+    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     this->Mark(EdgeOf(outer.AP));
     this->Mark(EdgeOf(outer.QA));
     this->Mark(EdgeOf(outer.PB));

@@ -14,13 +14,13 @@ enum class RoundSum
   LostInserts, ///< New edges that found no room in the guard table.
   Tested,
   Uncertain, ///< A device cannot tell.
-  Carried, ///< Bad edges that did not flip; they may be judged again.
-  NewlyBad,
-  Cured, ///< Of Carried: judged again and no longer bad.
-  NewlyMisshapen, ///< Became EdgeState::BlockedByShape.
-  Reshaped, ///< Were EdgeState::BlockedByShape.
-  GuardedBad, ///< With a guard: all bad edges,
-  GuardedBlocked, ///< and all that it blocks.
+  WasBad, ///< Of Tested, before and after they were judged.
+  IsBad,
+  WasMisshapen,
+  IsMisshapen,
+  AllBad, ///< All bad edges, where they were counted: with a guard, and at first.
+  AllObstructed, ///< All that the guard blocks.
+  AllMisshapen, ///< All of EdgeState::BlockedByShape, at first.
   Count
 };
 

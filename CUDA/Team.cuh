@@ -13,22 +13,25 @@ namespace delaunayflip
 constexpr int WarpSize = 32;
 constexpr unsigned WholeWarp = 0xFFFFFFFFu;
 
-/// Threads of a block in the loop's kernels, and blocks on a multiprocessor, which leaves 64
+/// Threads of a block in the loop's kernels, and blocks on a multiprocessor, which leaves 80
 /// registers a thread.
-constexpr int LoopThreads = 512;
+constexpr int LoopThreads = 384;
 constexpr int LoopBlocks = 2;
 
 /// What the blocks of a team share in device memory; zero before a launch.
 struct alignas(128) TeamState
 {
   unsigned int Arrivals;
-  /// Lengths of the lists that a round writes (DeviceLists); a round uses those of its parity.
-  unsigned int Carried[2], Winners[2], Candidates[2];
 };
+
+constexpr int LoopWarps = LoopThreads / WarpSize;
+/// Edges that a warp lists before it works on them: more than a full unit of a worklist.
+constexpr int WarpListSize = 384;
 
 /// Shared memory of a block.
 struct TeamMemory
 {
+  EdgeId Lists[LoopWarps][WarpListSize];
   unsigned int Sums[NumberOfRoundSums];
 };
 
@@ -37,8 +40,9 @@ struct TeamMemory
 class Team
 {
 public:
-  /// Blocks [team * size, (team + 1) * size) of the grid are a team. @param first block of the
-  /// grid that belongs to it.
+  static constexpr int ListSize = WarpListSize;
+
+  /// Blocks [team * size, (team + 1) * size) of the grid are a team.
   __device__ Team(TeamMemory& memory, TeamState* states, unsigned size)
     : Memory(memory),
       State(&states[blockIdx.x / size]),
@@ -52,7 +56,9 @@ public:
   }
 
   __device__ unsigned GetIndex() const { return blockIdx.x / this->Size; }
-  __device__ TeamState& GetState() const { return *this->State; }
+
+  /// This warp's list.
+  __device__ EdgeId* GetList() const { return this->Memory.Lists[threadIdx.x / WarpSize]; }
 
   /// This thread among those of the team, and their number.
   __device__ unsigned GetThread() const
@@ -65,10 +71,14 @@ public:
   /// Counts what the threads of a warp say. All of them call it.
   __device__ void Add(RoundSum sum, unsigned value) const
   {
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+    value = __reduce_add_sync(WholeWarp, value);
+#else
     for (int distance = WarpSize / 2; distance > 0; distance /= 2)
     {
       value += __shfl_down_sync(WholeWarp, value, distance);
     }
+#endif
     if (threadIdx.x % WarpSize == 0 && value != 0)
     {
       atomicAdd(&this->Memory.Sums[static_cast<int>(sum)], value);
@@ -115,38 +125,6 @@ private:
   unsigned Size;
   unsigned Expected = 0;
 };
-
-/// Reserves room at the end of a list for `count` items of this thread: one atomic a warp. All
-/// threads of a warp call it. @returns the place of the first.
-__device__ inline unsigned Reserve(unsigned int* length, unsigned count)
-{
-  const unsigned lane = threadIdx.x % WarpSize;
-  unsigned end = count;
-  for (unsigned distance = 1; distance < WarpSize; distance *= 2)
-  {
-    const unsigned other = __shfl_up_sync(WholeWarp, end, distance);
-    end += lane >= distance ? other : 0;
-  }
-  unsigned first = 0;
-  if (lane == WarpSize - 1 && end != 0)
-  {
-    first = atomicAdd(length, end);
-  }
-  return __shfl_sync(WholeWarp, first, WarpSize - 1) + end - count;
-}
-
-/// The same for at most one item a thread.
-__device__ inline unsigned ReserveOne(unsigned int* length, bool wanted)
-{
-  const unsigned lane = threadIdx.x % WarpSize;
-  const unsigned wanting = __ballot_sync(WholeWarp, wanted);
-  unsigned first = 0;
-  if (lane == 0 && wanting != 0)
-  {
-    first = atomicAdd(length, static_cast<unsigned>(__popc(wanting)));
-  }
-  return __shfl_sync(WholeWarp, first, 0) + __popc(wanting & ((1u << lane) - 1));
-}
 
 }
 
