@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 
 /// @file
@@ -134,13 +135,17 @@ template <typename Backend>
 void PairCorners(EdgeMeshResult& result, std::int64_t points, const Backend& backend)
 {
   const std::int64_t corners = 3 * result.Edges.NumberOfTriangles;
-  std::int64_t expected = corners / 2 + corners / 100;
-  do
+  for (std::int64_t expected = corners / 2 + corners / 100; expected <= 4 * corners + 4;
+       expected = 2 * expected + 1)
   {
     result.Table = EdgeTable();
     result.Table = EdgeTable(std::min(expected, corners), points, true, backend);
-    expected = 2 * expected;
-  } while (!TryPairCorners(result, backend));
+    if (TryPairCorners(result, backend))
+    {
+      return;
+    }
+  }
+  throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
 template <typename Backend>

@@ -38,7 +38,7 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
 ///
 /// A key is sought first near the place that its smaller vertex has in the order of vertices, so
 /// that neighbours in the mesh share cache lines; when NearSlots there are taken (a vertex of very
-/// many edges), at a place that the whole pair decides. No vertex degree makes a search long.
+/// many edges), at places that the whole pair decides. No vertex degree makes a search long.
 struct EdgeTableView
 {
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);
@@ -71,19 +71,26 @@ struct EdgeTableView
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Search(std::uint64_t key, const Visit& visit) const
   {
     const VertexId smaller = static_cast<VertexId>(key >> 32);
-    const std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
+    std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
     std::uint32_t slot = this->NearSlot(smaller, scattered);
-    for (std::uint32_t i = 0; i < NearSlots + FarSlots; ++i)
+    for (std::uint32_t i = 0; i < NearSlots; ++i)
     {
-      if (i == NearSlots)
-      {
-        slot = static_cast<std::uint32_t>((std::uint64_t(scattered) * this->Capacity) >> 32);
-      }
       if (visit(slot))
       {
         return slot;
       }
       slot = slot + 1 < this->Capacity ? slot + 1 : 0;
+    }
+    // Each place on its own: vertices of many edges fill stretches that are thousands of slots
+    // long.
+    for (std::uint32_t i = 0; i < FarSlots; ++i)
+    {
+      scattered = Scatter(scattered + 0x9e3779b9u);
+      slot = static_cast<std::uint32_t>((std::uint64_t(scattered) * this->Capacity) >> 32);
+      if (visit(slot))
+      {
+        return slot;
+      }
     }
     return NoSlot;
   }

@@ -104,6 +104,30 @@ OwnedMesh<float> MakeSoup(std::int32_t points, std::int32_t triangles, std::uint
   return mesh;
 }
 
+/// A few vertices with very many edges fill one long stretch of the table.
+TEST(EdgeTableTest, HubsLeaveRoomForAll)
+{
+  constexpr VertexId Hubs = 2000;
+  constexpr VertexId EdgesOfHub = 30;
+  const ThreadBackend backend(1);
+  EdgeTable table(Hubs * EdgesOfHub, 4 * Hubs, false, backend);
+  const EdgeTableView view = table.View();
+  for (VertexId other = 0; other < EdgesOfHub; ++other)
+  {
+    for (VertexId hub = 0; hub < Hubs; ++hub)
+    {
+      bool inserted = false;
+      ASSERT_NE(EdgeTableView::NoSlot, view.FindOrInsert(EdgeKey(hub, Hubs + other), inserted));
+      ASSERT_TRUE(inserted);
+    }
+  }
+  for (VertexId hub = 0; hub < Hubs; ++hub)
+  {
+    EXPECT_NE(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs)));
+    EXPECT_EQ(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs + EdgesOfHub)));
+  }
+}
+
 TEST(EdgeMesh, RandomMeshMatchesBruteForce)
 {
   const ThreadBackend backend(2);

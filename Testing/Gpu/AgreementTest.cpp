@@ -26,6 +26,7 @@ struct AgreementCase
 void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
 
 OwnedMesh<double> MakeSmallPlane() { return MakeRandomBadMeshDouble(500, 11); }
+OwnedMesh<double> MakeMiddlePlane() { return MakeRandomBadMeshDouble(8000, 18); }
 OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(150000, 12); }
 OwnedMesh<double> MakeGrid() { return MakeGridMesh(300, 200); }
 OwnedMesh<double> MakeChain() { return MakeWorstCaseMesh(60); }
@@ -146,6 +147,7 @@ TEST_P(AgreementTest, SingleStepsGiveTheSameBits)
 
 INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
   testing::Values(AgreementCase{ "SmallPlane", MakeSmallPlane, GeometryKind::Auto },
+    AgreementCase{ "MiddlePlane", MakeMiddlePlane, GeometryKind::Auto },
     AgreementCase{ "LargePlane", MakeLargePlane, GeometryKind::Auto },
     AgreementCase{
       "PlaneByAngles", MakeSmallPlane, GeometryKind::Auto, CriterionKind::OppositeAngles },
