@@ -105,7 +105,9 @@ TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
     return true;
   };
   EXPECT_THROW(session.Advance(-1, throwing), std::logic_error);
-  EXPECT_EQ(2u, session.GetReport().Iterations.size());
+  // On a GPU the whole batch is in the report before the observer hears of it.
+  const std::size_t done = session.GetReport().Iterations.size();
+  EXPECT_TRUE(done == 2 || (IsTestBackendCuda() && done > 2)) << done;
   this->ExpectValid(session);
   session.Advance();
   EXPECT_TRUE(session.GetReport().Converged());
