@@ -109,7 +109,7 @@ public:
   template <typename CountOf>
   Numbering Count(std::int64_t size, const CountOf& count) const
   {
-    const std::int64_t tiles = (size + TileSize - 1) / TileSize;
+    const std::int64_t tiles = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
     Numbering numbering;
     numbering.FirstOfTile = this->MakeArray<std::int64_t>(tiles + 1);
     std::int64_t* firsts = numbering.FirstOfTile.Data();
@@ -133,7 +133,7 @@ public:
   void ForEachNumbered(
     const Numbering& numbering, std::int64_t size, const CountOf& count, const Visit& visit) const
   {
-    const std::int64_t tiles = (size + TileSize - 1) / TileSize;
+    const std::int64_t tiles = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
     if (tiles > 0)
     {
       this->Launch(

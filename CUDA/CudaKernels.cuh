@@ -15,10 +15,6 @@ namespace delaunayflip
 
 constexpr int ThreadsPerBlock = 256;
 
-/// Items whose numbers a block assigns: TileItems a thread.
-constexpr int TileItems = 4;
-constexpr int TileSize = ThreadsPerBlock * TileItems;
-
 /// One thread calls work(i) for every i of its stride. What work writes is its own business.
 template <typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(std::int64_t size, Work work)
@@ -62,30 +58,21 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   }
 }
 
-/// Counts a thread's items of a tile; `counts` receives them one by one. @returns their sum.
-template <typename CountOf>
-__device__ int CountTileItems(std::int64_t size, const CountOf& count, int (&counts)[TileItems])
+/// The item of this thread where a block handles a tile of ThreadsPerBlock.
+__device__ inline std::int64_t GetTileItem()
 {
-  int sum = 0;
-  for (int k = 0; k < TileItems; ++k)
-  {
-    const std::int64_t i =
-      std::int64_t(blockIdx.x) * TileSize + std::int64_t(threadIdx.x) * TileItems + k;
-    counts[k] = i < size ? static_cast<int>(count(i)) : 0;
-    sum += counts[k];
-  }
-  return sum;
+  return std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
 }
 
-/// One block counts one tile.
+/// One block counts one tile. A thread an item: counting may wait for memory.
 template <typename CountOf>
 __global__ void __launch_bounds__(ThreadsPerBlock)
   CountKernel(std::int64_t size, CountOf count, std::int64_t* countOfTile)
 {
   using Reduce = cub::BlockReduce<int, ThreadsPerBlock>;
   __shared__ typename Reduce::TempStorage storage;
-  int counts[TileItems];
-  const int total = Reduce(storage).Sum(CountTileItems(size, count, counts));
+  const std::int64_t i = GetTileItem();
+  const int total = Reduce(storage).Sum(i < size ? static_cast<int>(count(i)) : 0);
   if (threadIdx.x == 0)
   {
     countOfTile[blockIdx.x] = total;
@@ -99,19 +86,12 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachNumberedKernel(
 {
   using Scan = cub::BlockScan<int, ThreadsPerBlock>;
   __shared__ typename Scan::TempStorage storage;
-  int counts[TileItems];
+  const std::int64_t i = GetTileItem();
   int before = 0;
-  Scan(storage).ExclusiveSum(CountTileItems(size, count, counts), before);
-  std::int64_t next = firstOfTile[blockIdx.x] + before;
-  for (int k = 0; k < TileItems; ++k)
+  Scan(storage).ExclusiveSum(i < size ? static_cast<int>(count(i)) : 0, before);
+  if (i < size)
   {
-    const std::int64_t i =
-      std::int64_t(blockIdx.x) * TileSize + std::int64_t(threadIdx.x) * TileItems + k;
-    if (i < size)
-    {
-      visit(i, next);
-      next += counts[k];
-    }
+    visit(i, firstOfTile[blockIdx.x] + before);
   }
 }
 

@@ -35,25 +35,22 @@ struct PairSums
   }
 };
 
-/// Finds or makes the table entries of a triangle's edges and adds its corners to them.
-DELAUNAYFLIP_HOST_DEVICE inline void PairTriangle(
-  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t, PairSums& sums)
+/// Finds or makes the table entry of the edge opposite a corner and adds the corner to it.
+DELAUNAYFLIP_HOST_DEVICE inline void PairCorner(
+  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t, int slot, PairSums& sums)
 {
-  for (int slot = 0; slot < 3; ++slot)
+  bool inserted = false;
+  const std::uint32_t entry = table.FindOrInsert(KeyOpposite(triangles[t], slot), inserted);
+  if (entry == EdgeTableView::NoSlot)
   {
-    bool inserted = false;
-    const std::uint32_t entry = table.FindOrInsert(KeyOpposite(triangles[t], slot), inserted);
-    if (entry == EdgeTableView::NoSlot)
-    {
-      ++sums.Failures;
-      return;
-    }
-    const bool many = AttachCorner(table, entry, MakeCorner(t, slot), inserted);
-    const bool isEdge = !IsLoop(triangles[t], slot);
-    sums.Edges += isEdge && inserted ? 1 : 0;
-    sums.NonManifold += isEdge && many ? 1 : 0;
-    triangles[t].HalfEdges[slot] = entry;
+    ++sums.Failures;
+    return;
   }
+  const bool many = AttachCorner(table, entry, MakeCorner(t, slot), inserted);
+  const bool isEdge = !IsLoop(triangles[t], slot);
+  sums.Edges += isEdge && inserted ? 1 : 0;
+  sums.NonManifold += isEdge && many ? 1 : 0;
+  triangles[t].HalfEdges[slot] = entry;
 }
 
 /// Stores the roles of a triangle's corners. @returns the number of edges that it leads.
@@ -61,11 +58,14 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindRoles(
   const EdgeTableView& table, TriangleRecord* triangles, TriangleId t)
 {
   TriangleRecord& triangle = triangles[t];
+  // All three are read before anything is written, so that they are on their way together.
+  std::uint32_t roles = 0;
   for (int slot = 0; slot < 3; ++slot)
   {
     const CornerRole role = FindRole(table, triangle.HalfEdges[slot], MakeCorner(t, slot));
-    triangle.FlipCount |= static_cast<std::uint32_t>(role) << (2 * slot);
+    roles |= static_cast<std::uint32_t>(role) << (2 * slot);
   }
+  triangle.FlipCount |= roles;
   return CountLeaders(triangle);
 }
 
@@ -113,13 +113,14 @@ bool TryPairCorners(EdgeMeshResult& result, const Backend& backend)
 {
   const EdgeTableView table = result.Table.View();
   TriangleRecord* triangles = result.Edges.Triangles.Data();
-  const PairSums sums = backend.template Sum<PairSums>(result.Edges.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, PairSums & part)
+  const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t corner, PairSums & part)
     {
       // A table that has failed once is thrown away.
       if (part.Failures == 0)
       {
-        PairTriangle(table, triangles, static_cast<TriangleId>(t), part);
+        PairCorner(table, triangles, static_cast<TriangleId>(corner / 3),
+          static_cast<int>(corner % 3), part);
       }
     });
   // Above this share of slots in use, later searches would be long.
