@@ -78,7 +78,8 @@ private:
   int Previous = -1;
 };
 
-/// A context for as long as it is held; then it waits for the next run, unless `broken`.
+/// A context for as long as it is held; then it waits for the next run, unless
+/// something failed in it.
 class ContextLease
 {
 public:

@@ -56,8 +56,6 @@ void InjectCudaError(std::int64_t calls, cudaError_t error)
   FailingCall = calls > 0 ? NumberOfCalls + calls : -1;
 }
 
-std::int64_t CountCudaCalls() { return NumberOfCalls; }
-
 cudaError_t BeginCudaCall()
 {
   return ++NumberOfCalls == FailingCall ? InjectedError.load() : cudaSuccess;

@@ -24,9 +24,6 @@ bool HasCudaDriver();
 /// instead of being made; 0 takes the order back.
 void InjectCudaError(std::int64_t calls, cudaError_t error);
 
-/// Calls of CallCuda so far in this process.
-std::int64_t CountCudaCalls();
-
 /// Counts a call. @returns the error that it must fail with, usually cudaSuccess.
 cudaError_t BeginCudaCall();
 

@@ -203,7 +203,7 @@ private:
   /// With fewer bad edges one block is faster than the whole grid, with its slower barrier.
   static constexpr std::int64_t SmallTail = 64;
   static constexpr std::int64_t LargeTail = 4 * SmallTail;
-  /// Of the second-level cache, for chunks at work: half, the rest is others'.
+  /// Of the second-level cache for a chunk at work: twice what it fills.
   static constexpr std::size_t ChunkBytes = std::size_t(7) << 20;
 
   /// What a launch leaves behind.
@@ -479,9 +479,6 @@ private:
   Array<Results> DeviceResults;
   BadEdges Edges; ///< As Found, in detail.
 };
-
-template <typename Backend, typename Rule>
-struct LoopOf;
 
 template <typename Rule>
 struct LoopOf<CudaBackend, Rule>

@@ -32,8 +32,6 @@ using CornerId = std::uint32_t;
 /// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
 constexpr CornerId NoCorner = 0xFFFFFFFFu;
 
-constexpr EdgeId NoEdge = 0xFFFFFFFFu;
-
 /// What the loop knows of an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
 /// blocked.
 enum class EdgeState : std::uint8_t
@@ -151,8 +149,8 @@ struct EdgeMeshView
 /// with one side and Fixed.
 struct EdgeMesh
 {
-  /// States are searched many at a time.
-  static constexpr std::int64_t StatePadding = 256;
+  /// States are searched a machine word at a time.
+  static constexpr std::int64_t StatePadding = 8;
 
   std::int64_t NumberOfTriangles = 0;
   std::int64_t NumberOfEdges = 0;

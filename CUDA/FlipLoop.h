@@ -78,6 +78,10 @@ protected:
   StepCounts Found;
 };
 
+/// The loop of a backend by a rule: LoopOf<Backend, Rule>::Type.
+template <typename Backend, typename Rule>
+struct LoopOf;
+
 }
 
 #endif

@@ -42,10 +42,6 @@ struct FlipLoopResult
   std::vector<Defect> Defects; ///< Of triangles: without area, turned over.
 };
 
-/// The loop of a backend by a rule: LoopOf<Backend, Rule>::Type.
-template <typename Backend, typename Rule>
-struct LoopOf;
-
 /// Makes a loop. The mesh must live as long as the loop, as the backend must.
 template <typename Backend>
 class FlipLoopFactory

@@ -59,7 +59,7 @@ public:
       }
       if (part >= Ahead)
       {
-        this->Drain(part - Ahead, step, size, device, put);
+        this->Drain<T>(part - Ahead, step, size, put);
       }
     }
   }
@@ -74,8 +74,7 @@ private:
   }
 
   template <typename T, typename Put>
-  void Drain(
-    std::int64_t part, std::int64_t step, std::int64_t size, const T*, const Put& put) const
+  void Drain(std::int64_t part, std::int64_t step, std::int64_t size, const Put& put) const
   {
     const int slot = this->SlotOf(part);
     const T* staging = static_cast<const T*>(this->Context.Staging[slot]);

@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_STATEWORDS_H
 
 #include "EdgeMesh.h"
-#include "HostDevice.h"
 
 #include <cstdint>
 
@@ -26,27 +25,13 @@ struct StateRange
 
 /// The top bit of every byte tells whether that state is wanted. States are below 16, so bytes do
 /// not carry.
-DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t MatchStates(std::uint64_t states, StateRange wanted)
+inline std::uint64_t MatchStates(std::uint64_t states, StateRange wanted)
 {
   const std::uint64_t atLeastFirst =
     states + (0x80 - static_cast<std::uint64_t>(wanted.First)) * EveryByte;
   const std::uint64_t aboveLast =
     states + (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
   return atLeastFirst & ~aboveLast & (0x80 * EveryByte);
-}
-
-/// The bytes of a word whose edges, from `first` on, belong to [begin, end).
-DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t MaskOfRange(
-  std::int64_t first, std::int64_t begin, std::int64_t end)
-{
-  const std::uint64_t all = ~std::uint64_t(0);
-  const std::int64_t before = begin - first;
-  const std::int64_t behind = first + StatesPerWord - end;
-  if (before >= StatesPerWord || behind >= StatesPerWord)
-  {
-    return 0;
-  }
-  return (before > 0 ? all << (8 * before) : all) & (behind > 0 ? all >> (8 * behind) : all);
 }
 
 }

@@ -258,9 +258,6 @@ private:
   std::int64_t RoundsLeft = 0; ///< Of those within chunks.
 };
 
-template <typename Backend, typename Rule>
-struct LoopOf;
-
 template <typename Rule>
 struct LoopOf<ThreadBackend, Rule>
 {
