@@ -122,13 +122,13 @@ private:
     return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;
   }
 
-  bool IsRunning() const { return this->Report.StopReason == StopReasonKind::NotStarted; }
+  bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
 
   /// Goes on, also after an abort, unless there is nothing to do or no iteration left.
   void Resume()
   {
     const auto done = static_cast<std::int64_t>(this->Report.Iterations.size());
-    this->Report.StopReason = StopReasonKind::NotStarted;
+    this->Report.StopReason = StopReasonKind::Running;
     if (this->Found.Bad == 0)
     {
       this->Report.StopReason = StopReasonKind::Converged;

@@ -8,7 +8,9 @@
 #include "FlipReport.h"
 #include "TriangleMesh.h"
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 /// @file
 /// The door of the engine.
@@ -51,6 +53,12 @@ private:
   class Implementation;
   std::unique_ptr<Implementation> Impl;
 };
+
+/// The edges of two triangles that never flip in a run with these options: pairs of vertex ids.
+/// Given as constraint edges, with a feature angle of 180, to a run over the same triangles, or
+/// what flips made of them, they stay the edges that never flip when points have moved.
+/// @throws as FlipSession's constructor.
+std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOptions& options);
 
 /// The whole way at once: flips `mesh` and writes the result to `triangles`, which may be the very
 /// array that mesh.Triangles views. Nothing is written when an exception leaves.

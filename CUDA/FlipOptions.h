@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_FLIPOPTIONS_H
 
 #include <cstdint>
+#include <tuple>
 
 /// @file
 /// What a caller may choose. The defaults are right for any triangle mesh.
@@ -72,6 +73,16 @@ struct FlipOptions
   /// Compute the smallest angle after every iteration (a pass over the mesh each time).
   bool TrackQuality = false;
 };
+
+inline bool operator==(const FlipOptions& a, const FlipOptions& b)
+{
+  const auto tie = [](const FlipOptions& o)
+  {
+    return std::tie(o.Geometry, o.Criterion, o.TieRule, o.Backend, o.Tolerance, o.FeatureAngle,
+      o.MaximumIterations, o.NumberOfThreads, o.Device, o.TrackQuality);
+  };
+  return tie(a) == tie(b);
+}
 
 }
 

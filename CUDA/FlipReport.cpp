@@ -17,6 +17,8 @@ const char* ToString(StopReasonKind reason)
       return "iteration limit";
     case StopReasonKind::Aborted:
       return "aborted";
+    case StopReasonKind::Running:
+      return "running";
   }
   return "unknown";
 }

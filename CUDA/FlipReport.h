@@ -21,7 +21,8 @@ enum class StopReasonKind
   NotStarted,
   Converged, ///< An iteration found nothing that it may flip.
   IterationLimit, ///< FlipOptions::MaximumIterations, or the safety limit of surfaces.
-  Aborted ///< The observer said so.
+  Aborted, ///< The observer said so.
+  Running ///< No end yet: FlipSession::Advance made the iterations that it was to make.
 };
 
 /// One iteration of the loop. NonDelaunay = Flipped + Excluded + Blocked.
@@ -102,7 +103,7 @@ struct FlipReport
 /// effect there: the first 12 of large planar meshes, and on a GPU batches of up to 128.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
 
-/// "converged", "iteration limit", "aborted" or "not started".
+/// "converged", "iteration limit", "aborted", "running" or "not started".
 const char* ToString(StopReasonKind reason);
 
 /// "auto", "planar", "planar-xy" or "surface".

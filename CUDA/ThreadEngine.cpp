@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BackendEngine.h"
+#include "DelaunayFlip.h"
 #include "ThreadBackend.h"
 #include "ThreadFlipLoop.h"
+
+#include <vector>
 
 namespace delaunayflip
 {
@@ -11,6 +14,41 @@ std::unique_ptr<FlipEngine> MakeThreadEngine(const TriangleMesh& mesh, const Fli
 {
   return std::unique_ptr<FlipEngine>(
     new BackendEngine<ThreadBackend>(mesh, options, ThreadBackend(options.NumberOfThreads)));
+}
+
+namespace
+{
+/// Vertex ids of the edges that are Fixed and join two triangles.
+std::vector<std::int64_t> ListFixedEdges(EdgeMesh& edges, const SpatialOrderView& order)
+{
+  const EdgeMeshView mesh = edges.View();
+  std::vector<std::int64_t> pairs;
+  for (std::int64_t e = 0; e < edges.NumberOfEdges; ++e)
+  {
+    const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
+    if (mesh.States[e] != EdgeState::Fixed || corners.A == NoCorner || corners.B == NoCorner ||
+      IsLoop(mesh.Triangles[TriangleOf(corners.A)], SlotOf(corners.A)))
+    {
+      continue;
+    }
+    const Quad quad = mesh.GetQuad(static_cast<EdgeId>(e));
+    pairs.push_back(order.GetVertex(quad.P));
+    pairs.push_back(order.GetVertex(quad.Q));
+  }
+  return pairs;
+}
+}
+
+std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  CheckOptions(options);
+  CheckMeshSize(mesh);
+  const ThreadBackend backend(options.NumberOfThreads);
+  const MeshInput input{ mesh, mesh };
+  const MeshSurvey survey = SurveyMesh(input, options.Geometry, backend);
+  SpatialOrder order = OrderMesh(input, survey, backend);
+  EdgeMeshResult built = BuildEdgeMesh({ input, survey, order, options.FeatureAngle }, backend);
+  return ListFixedEdges(built.Edges, order.View());
 }
 
 }

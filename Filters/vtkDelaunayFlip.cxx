@@ -4,22 +4,25 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "PolyDataBridge.h"
+#include "FlipRun.h"
 #include "ReportTables.h"
 #include "VersionDifferences.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 
 using namespace delaunayflip;
 
@@ -31,7 +34,7 @@ static_assert(
 static_assert(static_cast<int>(TieRuleKind::Canonical) == vtkDelaunayFlip::TIE_RULE_CANONICAL, "");
 static_assert(static_cast<int>(BackendKind::Threads) == vtkDelaunayFlip::BACKEND_THREADS, "");
 static_assert(
-  static_cast<int>(StopReasonKind::Aborted) == vtkDelaunayFlip::STOP_REASON_ABORTED, "");
+  static_cast<int>(StopReasonKind::Running) == vtkDelaunayFlip::STOP_REASON_RUNNING, "");
 
 static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 20,000");
 
@@ -44,6 +47,7 @@ struct vtkDelaunayFlip::Connection
   vtkPolyData* Constraints; ///< Or null.
   vtkPolyData* Output;
   vtkTable* Iterations;
+  bool IsPiece; ///< Of a mesh that several processes share.
 };
 
 //------------------------------------------------------------------------------
@@ -56,6 +60,7 @@ vtkDelaunayFlip::vtkDelaunayFlip()
 
 vtkDelaunayFlip::~vtkDelaunayFlip()
 {
+  this->Run.reset();
   if (this->HasExecuted)
   {
     this->ReleaseDeviceMemory();
@@ -107,11 +112,26 @@ int vtkDelaunayFlip::FillOutputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+vtkTypeBool vtkDelaunayFlip::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // Later requests, and RequestData, see block after block in the place of a composite input.
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_TIME()))
+  {
+    this->HasCompositeInput = vtkCompositeDataSet::GetData(inputVector[0], 0) != nullptr;
+    this->HasWarnedOfComposite = false;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
 int vtkDelaunayFlip::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Connection data{ vtkPolyData::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
-    vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+    vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
+    vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(
+      outputVector->GetInformationObject(0)) > 1 };
   this->HasExecuted = true;
   this->Failure = this->TryToFlip(data);
   if (this->Failure == FAILURE_NONE)
@@ -119,6 +139,7 @@ int vtkDelaunayFlip::RequestData(
     return 1;
   }
   *this->Report = FlipReport();
+  this->MayGoOn = false;
   data.Output->Initialize();
   data.Iterations->Initialize();
   return 0;
@@ -161,7 +182,10 @@ int vtkDelaunayFlip::TryToFlip(const Connection& data)
 //------------------------------------------------------------------------------
 void vtkDelaunayFlip::Flip(const Connection& data)
 {
+  const bool isLive = this->IsLive(data);
+  std::unique_ptr<FlipRun> last = std::move(this->Run);
   *this->Report = FlipReport();
+  this->MayGoOn = false;
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
   {
     this->Report->StopReason = StopReasonKind::Converged;
@@ -169,23 +193,25 @@ void vtkDelaunayFlip::Flip(const Connection& data)
     AddIterationColumns(*this->Report, data.Iterations->GetRowData());
     return;
   }
-  // The session looks at the arrays of the bridge and of the input for as long as it lives.
-  const PolyDataBridge bridge(data.Input, data.Constraints,
-    { this->Triangulate, this->LinesAsConstraints, this->RegionArray });
-  FlipSession session(bridge.GetMesh(), this->GetOptions());
-  session.Advance(-1, [this](const IterationRecord& record) { return this->Observe(record); });
-  bridge.Store(session, data.Output);
-  if (this->GenerateFlipCount)
-  {
-    bridge.StoreFlipCounts(session, data.Output);
-  }
+  std::unique_ptr<FlipRun> run = FlipRun::GoOn(isLive ? std::move(last) : nullptr,
+    { data.Input, data.Constraints,
+      { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
+      isLive });
+  *this->Report = run->GetReport();
+  const bool mayGoOn = run->GetSession().Advance(isLive ? this->IterationsPerUpdate : -1,
+    [this](const IterationRecord& record) { return this->Observe(record); });
+  run->Store(data.Output, this->GenerateFlipCount);
   // Not before: a GPU may fail while its result is fetched.
-  *this->Report = session.GetReport();
-  bridge.NumberCells(this->Report->Defects);
+  *this->Report = run->GetReport();
   AddIterationColumns(*this->Report, data.Iterations->GetRowData());
   AddIterationColumns(*this->Report, data.Output->GetFieldData());
   AddTotals(*this->Report, data.Output->GetFieldData());
-  this->Warn();
+  this->Warn(run->Warning);
+  if (isLive)
+  {
+    this->MayGoOn = mayGoOn || this->Report->StopReason == StopReasonKind::Aborted;
+    this->Run = std::move(run);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -219,7 +245,7 @@ bool vtkDelaunayFlip::Observe(const IterationRecord& record)
 }
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlip::Warn()
+std::string vtkDelaunayFlip::DescribeTrouble() const
 {
   std::string text = DescribeDefects(this->Report->Defects);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
@@ -233,10 +259,52 @@ void vtkDelaunayFlip::Warn()
   {
     add("the GPU could not be used, the CPU did the work: " + this->Report->Fallback);
   }
-  if (!text.empty())
+  return text;
+}
+
+/// Live updates warn of the same once.
+void vtkDelaunayFlip::Warn(std::string& last)
+{
+  const std::string text = this->DescribeTrouble();
+  if (!text.empty() && text != last)
   {
     vtkWarningMacro(<< text);
   }
+  last = text;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlip::IsLive(const Connection& data)
+{
+  if (this->LiveUpdate && this->HasCompositeInput && !this->HasWarnedOfComposite)
+  {
+    vtkWarningMacro(<< "LiveUpdate is for a single mesh; composite input is flipped at once.");
+    this->HasWarnedOfComposite = true;
+  }
+  return this->LiveUpdate && !this->HasCompositeInput && !data.IsPiece;
+}
+
+bool vtkDelaunayFlip::Advance()
+{
+  const bool goesOn = this->LiveUpdate && this->MayGoOn;
+  if (goesOn)
+  {
+    this->Modified();
+  }
+  return goesOn;
+}
+
+void vtkDelaunayFlip::Restart()
+{
+  this->Run.reset();
+  this->MayGoOn = true;
+  this->Modified();
+}
+
+bool vtkDelaunayFlip::GetNeedsUpdate()
+{
+  const bool isUnderWay = this->Run && this->Report->StopReason == StopReasonKind::Running;
+  return isUnderWay && this->Advance();
 }
 
 //------------------------------------------------------------------------------
@@ -291,6 +359,8 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "TrackQuality: " << this->TrackQuality << "\n";
   os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
+  os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
+  os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
   os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";

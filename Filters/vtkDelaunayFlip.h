@@ -75,6 +75,7 @@ class vtkTable;
 
 namespace delaunayflip
 {
+class FlipRun;
 struct FlipOptions;
 struct FlipReport;
 struct IterationRecord;
@@ -266,6 +267,53 @@ public:
 
   ///@{
   /**
+   * Let the mesh be seen while it improves: every update makes IterationsPerUpdate more iterations
+   * and gives the mesh, and what is told of it, as they are then. Default off. The filter keeps the
+   * state from one update to the next, in memory of the host or of a GPU, until it is turned off.
+   * The last of these meshes is, bit for bit, the one of an update without LiveUpdate.
+   *
+   * Ask for the next update with Advance():
+   *
+   *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
+   *
+   * Another input or option starts again. When only points were moved, under the same cells, the
+   * next update starts from the triangles that flips have made, with the edges that were fixed at
+   * the beginning (a warm start); its statistics begin anew. Composite input and input in several
+   * pieces (a parallel run) are flipped at once, as without LiveUpdate.
+   */
+  vtkSetMacro(LiveUpdate, bool);
+  vtkGetMacro(LiveUpdate, bool);
+  vtkBooleanMacro(LiveUpdate, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Iterations that an update makes when LiveUpdate is on: 1 (default) or more.
+   */
+  vtkSetClampMacro(IterationsPerUpdate, vtkIdType, 1, VTK_ID_MAX);
+  vtkGetMacro(IterationsPerUpdate, vtkIdType);
+  ///@}
+
+  /**
+   * Lets the next update of a live run go on: marks the filter as modified, if there is more to do.
+   * @returns whether there is: not after convergence, the iteration limit or an error, nor without
+   * LiveUpdate.
+   */
+  bool Advance();
+
+  /**
+   * Lets the next update of a live run start from the input again.
+   */
+  void Restart();
+
+  /**
+   * For programs that poll (ParaView's LiveSource): as Advance(), but false before the first update
+   * and after an abort.
+   */
+  bool GetNeedsUpdate();
+
+  ///@{
+  /**
    * Constraint edges, optional: lines and polygons over the point ids of the first input. Its own
    * points are not looked at.
    */
@@ -306,14 +354,16 @@ public:
 
   ///@{
   /**
-   * Why the last update ended. NOT_STARTED before any, and after an error.
+   * Why the last update ended. NOT_STARTED before any, and after an error; RUNNING when a live
+   * update has made its iterations and more are to come.
    */
   enum StopReasonType
   {
     STOP_REASON_NOT_STARTED = 0,
     STOP_REASON_CONVERGED = 1,
     STOP_REASON_ITERATION_LIMIT = 2,
-    STOP_REASON_ABORTED = 3
+    STOP_REASON_ABORTED = 3,
+    STOP_REASON_RUNNING = 4
   };
   int GetStopReason() const;
   const char* GetStopReasonAsString() const;
@@ -356,6 +406,8 @@ protected:
   vtkDelaunayFlip();
   ~vtkDelaunayFlip() override;
 
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -375,6 +427,8 @@ protected:
   vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;
   bool GenerateFlipCount = false;
+  bool LiveUpdate = false;
+  vtkIdType IterationsPerUpdate = 1;
 
 private:
   struct Connection;
@@ -383,10 +437,16 @@ private:
   int TryToFlip(const Connection& data);
   delaunayflip::FlipOptions GetOptions() const;
   bool Observe(const delaunayflip::IterationRecord& record);
-  void Warn();
+  bool IsLive(const Connection& data);
+  std::string DescribeTrouble() const;
+  void Warn(std::string& last);
 
   int Failure = FAILURE_NONE;
   bool HasExecuted = false;
+  bool HasCompositeInput = false;
+  bool HasWarnedOfComposite = false;
+  bool MayGoOn = true; ///< Whether another live update can change the mesh.
+  std::unique_ptr<delaunayflip::FlipRun> Run; ///< Of live updates.
   std::unique_ptr<delaunayflip::FlipReport> Report;
 
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;

@@ -168,6 +168,47 @@ TEST(FrozenTriangles, StayBitForBit)
 }
 
 /// A box's edges are sharp; its flat faces may flip.
+/// The pairs of a list of vertex ids, the smaller id first.
+std::set<Edge> ToEdges(const std::vector<std::int64_t>& ids)
+{
+  std::set<Edge> edges;
+  for (std::size_t i = 0; i < ids.size(); i += 2)
+  {
+    edges.insert(std::minmax({ ids[i], ids[i + 1] }));
+  }
+  return edges;
+}
+
+TEST(FixedEdges, AreListed)
+{
+  const OwnedMesh<double> bad = MakeBadSphere(40, 20, 36);
+  const std::vector<std::int64_t> constraints = PickConstraints(bad.View().Triangles, 9);
+  const TriangleMesh mesh = WithConstraints(bad.View(), constraints);
+  FlipOptions options;
+  options.FeatureAngle = 12.0;
+  const std::set<Edge> fixed = ToEdges(FindFixedEdges(mesh, options));
+  const EdgeCounts counts = MakeSession(mesh, options).GetReport().Edges;
+  EXPECT_LT(0, counts.Feature);
+  EXPECT_EQ(counts.Fixed, static_cast<std::int64_t>(fixed.size()));
+  for (const Edge& edge : ToEdges(constraints))
+  {
+    EXPECT_EQ(1u, fixed.count(edge));
+  }
+  const FlipResult result = Flip(mesh, options);
+  EXPECT_LT(0, result.Report.TotalFlips);
+  const auto edgesAfter = CollectEdges(ViewTriangles(result.Triangles));
+  for (const Edge& edge : fixed)
+  {
+    EXPECT_EQ(1u, edgesAfter.count(edge));
+  }
+}
+
+TEST(FixedEdges, OfTheRimAreNotListed)
+{
+  const OwnedMesh<double> bad = MakeRandomBadMeshDouble(200, 37);
+  EXPECT_TRUE(FindFixedEdges(bad.View(), FlipOptions()).empty());
+}
+
 TEST(FeatureEdges, AreDecidedByTheFeatureAngle)
 {
   // Two long bad pairs that meet at a right angle along edge 0-1.

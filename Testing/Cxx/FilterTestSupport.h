@@ -5,6 +5,8 @@
 
 #include "GeneratedMeshes.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -86,6 +88,17 @@ private:
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 };
+
+/// Calls a function at every progress event.
+template <typename Action>
+void OnProgress(vtkDelaunayFlip* filter, Action& action)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&action);
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* target, void*) { (*static_cast<Action*>(target))(); });
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+}
 
 /// Runs a filter that must have neither an error nor a warning.
 vtkSmartPointer<vtkPolyData> RunCleanly(WatchedFilter& filter);

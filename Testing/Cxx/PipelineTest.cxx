@@ -5,9 +5,7 @@
 #include "FilterTestSupport.h"
 
 #include "vtkAppendPolyData.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkMultiBlockDataSet.h"
@@ -25,17 +23,6 @@ namespace
 vtkSmartPointer<vtkPolyData> MakeLongRun()
 {
   return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); // 37 iterations
-}
-
-/// Calls a function at every progress event.
-template <typename Action>
-void OnProgress(vtkDelaunayFlip* filter, Action& action)
-{
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(&action);
-  command->SetCallback(
-    [](vtkObject*, unsigned long, void* target, void*) { (*static_cast<Action*>(target))(); });
-  filter->AddObserver(vtkCommand::ProgressEvent, command);
 }
 
 }

@@ -269,6 +269,23 @@ class Pipeline(unittest.TestCase):
         self.assertEqual(watched.filter.GetNumberOfIterations(), 2)
         self.assertEqual(count_violations(mesh), watched.filter.GetNumberOfNonDelaunayEdges())
 
+    def test_live_update(self):
+        mesh = make_bad_mesh()
+        at_once = Watched(mesh).run()
+        live = Watched(mesh)
+        live.filter.LiveUpdateOn()
+        live.filter.SetIterationsPerUpdate(2)
+        self.assertFalse(live.filter.GetNeedsUpdate())
+        iterations = []
+        while True:
+            output = live.run()
+            iterations.append(live.filter.GetNumberOfIterations())
+            if not live.filter.Advance():
+                break
+        self.assertEqual(iterations[:3], [2, 4, 6])
+        self.assertEqual(live.filter.GetStopReasonAsString(), "converged")
+        self.assertEqual(get_cells(output.GetPolys()), get_cells(at_once.GetPolys()))
+
     def test_iteration_limit(self):
         watched = Watched(make_bad_mesh())
         watched.filter.SetMaximumIterations(1)

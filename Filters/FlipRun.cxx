@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipRun.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <utility>
+
+namespace delaunayflip
+{
+namespace
+{
+
+void Stamp(vtkObject* object, std::vector<vtkMTimeType>& stamps)
+{
+  stamps.push_back(object ? object->GetMTime() : 0);
+}
+
+void Stamp(vtkCellArray* cells, std::vector<vtkMTimeType>& stamps)
+{
+  Stamp(static_cast<vtkObject*>(cells), stamps);
+  Stamp(cells->GetOffsetsArray(), stamps);
+  Stamp(cells->GetConnectivityArray(), stamps);
+}
+
+bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
+{
+  return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
+    a.RegionArray == b.RegionArray;
+}
+
+/// The input, with points of its own if they are to be copied.
+vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
+{
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->ShallowCopy(input);
+  if (copyPoints && input->GetPoints())
+  {
+    vtkNew<vtkPoints> points;
+    points->DeepCopy(input->GetPoints());
+    mesh->SetPoints(points);
+  }
+  return mesh;
+}
+
+}
+
+//------------------------------------------------------------------------------
+FlipRun::Snapshot::Snapshot(const Request& request, bool copyPoints)
+  : Mesh(TakeMesh(request.Input, copyPoints)),
+    Edges(StampEdges(request)),
+    Points(StampPoints(request.Input)),
+    Time(request.Input->GetMTime()),
+    Bridge(Mesh, request.Constraints, request.Settings)
+{
+}
+
+/// Region labels and ghosts matter, other attributes do not.
+FlipRun::Stamps FlipRun::StampEdges(const Request& request)
+{
+  Stamps stamps{ static_cast<vtkMTimeType>(request.Input->GetNumberOfPoints()) };
+  Stamp(request.Input->GetPolys(), stamps);
+  Stamp(request.Input->GetStrips(), stamps);
+  Stamp(request.Input->GetLines(), stamps);
+  vtkCellData* data = request.Input->GetCellData();
+  Stamp(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()), stamps);
+  Stamp(data->GetAbstractArray(request.Settings.RegionArray.c_str()), stamps);
+  if (request.Constraints)
+  {
+    Stamp(request.Constraints->GetPolys(), stamps);
+    Stamp(request.Constraints->GetLines(), stamps);
+  }
+  return stamps;
+}
+
+FlipRun::Stamps FlipRun::StampPoints(vtkPolyData* mesh)
+{
+  Stamps stamps;
+  Stamp(mesh->GetPoints(), stamps);
+  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
+  return stamps;
+}
+
+//------------------------------------------------------------------------------
+FlipRun::FlipRun(const Request& request)
+  : FlipRun(request, Start())
+{
+}
+
+FlipRun::FlipRun(const Request& request, Start start)
+  : Settings(request.Settings),
+    Options(request.Options),
+    Current(std::make_shared<Snapshot>(request, false)),
+    Origin(request.IsLive ? std::make_shared<Snapshot>(request, true) : Current),
+    Begin(std::move(start)),
+    Session(this->GetStartMesh(), this->GetStartOptions())
+{
+}
+
+TriangleMesh FlipRun::GetStartMesh() const
+{
+  TriangleMesh mesh = this->Origin->Bridge.GetMesh();
+  if (this->IsWarm())
+  {
+    mesh.Triangles = TriangleArray(this->Begin.Triangles.data(), mesh.Triangles.Count);
+    mesh.ConstraintEdges = this->Begin.FixedEdges.data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Begin.FixedEdges.size()) / 2;
+  }
+  return mesh;
+}
+
+/// The feature edges of a warm start are among its fixed edges.
+FlipOptions FlipRun::GetStartOptions() const
+{
+  FlipOptions options = this->Options;
+  options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
+  return options;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<FlipRun> FlipRun::GoOn(std::unique_ptr<FlipRun> last, const Request& request)
+{
+  if (last && last->Fits(request))
+  {
+    if (last->Current->Points != StampPoints(request.Input))
+    {
+      return StartWarmly(std::move(last), request);
+    }
+    if (last->Current->Time != request.Input->GetMTime())
+    {
+      last->Current = std::make_shared<Snapshot>(request, false);
+    }
+    return last;
+  }
+  last.reset(); // its memory may be needed
+  return std::unique_ptr<FlipRun>(new FlipRun(request));
+}
+
+bool FlipRun::Fits(const Request& request) const
+{
+  return this->Options == request.Options && IsSame(this->Settings, request.Settings) &&
+    this->Current->Edges == StampEdges(request);
+}
+
+std::unique_ptr<FlipRun> FlipRun::StartWarmly(std::unique_ptr<FlipRun> last, const Request& request)
+{
+  const GeometryKind geometry = last->Session.GetReport().GeometryUsed;
+  Start start = last->GetEnd();
+  last.reset();
+  std::unique_ptr<FlipRun> run(new FlipRun(request, std::move(start)));
+  if (run->Session.GetReport().GeometryUsed != geometry)
+  {
+    // A surface has feature edges that a plane had not.
+    run.reset();
+    run.reset(new FlipRun(request));
+  }
+  return run;
+}
+
+FlipRun::Start FlipRun::GetEnd() const
+{
+  const TriangleMesh mesh = this->Origin->Bridge.GetMesh();
+  Start start;
+  start.Triangles.resize(3 * mesh.Triangles.Count);
+  this->Session.StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
+  start.FixedEdges = this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Options);
+  return start;
+}
+
+//------------------------------------------------------------------------------
+FlipReport FlipRun::GetReport() const
+{
+  FlipReport report = this->Session.GetReport();
+  this->Current->Bridge.NumberCells(report.Defects);
+  return report;
+}
+
+void FlipRun::Store(vtkPolyData* output, bool withFlipCounts) const
+{
+  this->Current->Bridge.Store(this->Session, output);
+  if (withFlipCounts)
+  {
+    this->Current->Bridge.StoreFlipCounts(this->Session, output);
+  }
+}
+
+}
