@@ -99,8 +99,21 @@ FlipRun::FlipRun(const Request& request, Start start)
     Current(std::make_shared<Snapshot>(request, false)),
     Origin(request.IsLive ? std::make_shared<Snapshot>(request, true) : Current),
     Begin(std::move(start)),
-    Session(this->GetStartMesh(), this->GetStartOptions())
+    Session(this->MakeSession())
 {
+}
+
+FlipSession FlipRun::MakeSession() const
+{
+  try
+  {
+    return FlipSession(this->GetStartMesh(), this->GetStartOptions());
+  }
+  catch (const InvalidMesh&)
+  {
+    this->Origin->Bridge.RequireValidIds(); // its error names the cell, not the triangle
+    throw;
+  }
 }
 
 TriangleMesh FlipRun::GetStartMesh() const

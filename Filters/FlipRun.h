@@ -90,6 +90,7 @@ private:
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
   TriangleMesh GetStartMesh() const;
   FlipOptions GetStartOptions() const;
+  FlipSession MakeSession() const;
   Start GetEnd() const;
 
   PolyDataBridge::Settings Settings;

@@ -28,17 +28,31 @@ bool Uses64BitIds(vtkPolyData* mesh)
   return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
 }
 
-/// Triangle cells whose connectivity the session writes itself. Id: what the engine calls the
-/// value type of ArrayT.
-template <typename ArrayT, typename Id>
-vtkSmartPointer<vtkCellArray> BuildTriangles(const FlipSession& session, vtkIdType count)
+/// Offsets of triangles: those of `cells` where they are that, else new ones.
+template <typename ArrayT>
+vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count, vtkCellArray* cells)
 {
-  vtkNew<ArrayT> offsets;
+  if (auto* same = cells ? vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray()) : nullptr)
+  {
+    return same;
+  }
+  auto offsets = vtkSmartPointer<ArrayT>::New();
   offsets->SetNumberOfValues(count + 1);
   for (vtkIdType i = 0; i <= count; ++i)
   {
     offsets->SetValue(i, static_cast<typename ArrayT::ValueType>(3 * i));
   }
+  return offsets;
+}
+
+/// Triangle cells whose connectivity the session writes itself. Id: what the engine calls the
+/// value type of ArrayT.
+/// @param source triangles whose offsets will do, or null.
+template <typename ArrayT, typename Id>
+vtkSmartPointer<vtkCellArray> BuildTriangles(
+  const FlipSession& session, vtkIdType count, vtkCellArray* source)
+{
+  const vtkSmartPointer<ArrayT> offsets = MakeOffsets<ArrayT>(count, source);
   vtkNew<ArrayT> connectivity;
   connectivity->SetNumberOfValues(3 * count);
   session.StoreTriangles(
@@ -88,11 +102,12 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
   }
   // Splitting may need more connectivity than 32-bit offsets can number.
   const vtkIdType count = slots.GetTriangles().Count;
+  vtkCellArray* source = slots.AreInPlace() ? mesh->GetPolys() : nullptr;
   if (Uses64BitIds(mesh) || 3 * count > std::numeric_limits<std::int32_t>::max())
   {
-    return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count);
+    return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count, source);
   }
-  return BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
+  return BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count, source);
 }
 
 vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh)

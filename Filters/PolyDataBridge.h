@@ -35,6 +35,9 @@ public:
   /// @throws InvalidMesh, InvalidOptions.
   PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings);
 
+  /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
+  void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
+
   /// Views of the mesh or of this bridge, none of them of an output.
   TriangleMesh GetMesh() const;
 

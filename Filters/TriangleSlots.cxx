@@ -10,25 +10,70 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace delaunayflip
 {
+namespace
+{
+
+/// Whether offsets are 0, 3, 6, ...; all threads share the look.
+template <typename ArrayT>
+bool AreTriangleOffsets(ArrayT* offsets)
+{
+  const auto* values = offsets->GetPointer(0);
+  std::atomic<bool> are{ true };
+  vtkSMPTools::For(0, offsets->GetNumberOfValues(),
+    [values, &are](vtkIdType begin, vtkIdType end)
+    {
+      bool areHere = true;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        areHere = areHere && values[i] == 3 * i;
+      }
+      if (!areHere)
+      {
+        are = false;
+      }
+    });
+  return are;
+}
+
+bool HoldsTriangles(vtkCellArray* cells)
+{
+  vtkDataArray* offsets = cells->GetOffsetsArray();
+  if (cells->GetConnectivityArray()->GetNumberOfValues() != 3 * cells->GetNumberOfCells())
+  {
+    return false;
+  }
+  if (auto* offsets32 = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt32>>(offsets))
+  {
+    return AreTriangleOffsets(offsets32);
+  }
+  if (auto* offsets64 = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt64>>(offsets))
+  {
+    return AreTriangleOffsets(offsets64);
+  }
+  return cells->IsValid() && cells->IsHomogeneous() == 3;
+}
+
+}
 
 TriangleSlots::TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate)
   : Triangulate(triangulate),
     FirstPolygon(mesh->GetNumberOfVerts() + mesh->GetNumberOfLines()),
     FirstStrip(FirstPolygon + mesh->GetNumberOfPolys())
 {
-  PointIdCheck{ "cell", this->FirstPolygon, points.Count }.RequireValid(mesh->GetPolys());
-  PointIdCheck{ "cell", this->FirstStrip, points.Count }.RequireValid(mesh->GetStrips());
   this->InPlace = mesh->GetNumberOfStrips() == 0 && this->ViewPolygons(mesh->GetPolys());
   if (this->InPlace)
   {
-    this->CheckTriangles(points.Count);
     return;
   }
+  PointIdCheck{ "cell", this->FirstPolygon, points.Count }.RequireValid(mesh->GetPolys());
+  PointIdCheck{ "cell", this->FirstStrip, points.Count }.RequireValid(mesh->GetStrips());
   this->ReadPolygons(mesh->GetPolys(), points);
   this->ReadStrips(mesh->GetStrips(), points);
   this->Triangles = TriangleArray(static_cast<const std::int64_t*>(this->Ids.data()),
@@ -47,7 +92,7 @@ bool TriangleSlots::ViewPolygons(vtkCellArray* polygons)
 {
   using Array32 = vtkAOSDataArrayTemplate<vtkTypeInt32>;
   using Array64 = vtkAOSDataArrayTemplate<vtkTypeInt64>;
-  if (polygons->IsHomogeneous() != 3)
+  if (!HoldsTriangles(polygons))
   {
     return false;
   }
@@ -68,7 +113,7 @@ bool TriangleSlots::ViewPolygons(vtkCellArray* polygons)
   return false;
 }
 
-void TriangleSlots::CheckTriangles(vtkIdType numberOfPoints) const
+void TriangleSlots::RequireValidIds(vtkIdType numberOfPoints) const
 {
   const PointIdCheck check{ "cell", this->FirstPolygon, numberOfPoints };
   for (vtkIdType triangle = 0; triangle < this->Triangles.Count; ++triangle)

@@ -27,10 +27,15 @@ class TriangleSlots
 public:
   static constexpr vtkIdType None = -1;
 
-  /// @throws InvalidMesh when a polygon or a strip names a point outside `points`.
+  /// @throws InvalidMesh when offsets and connectivity contradict each other, or when a polygon
+  /// that is copied, or a strip, names a point outside `points`. Those viewed in place are not
+  /// checked: the engine does that, much faster.
   TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate);
   TriangleSlots(const TriangleSlots&) = delete;
   TriangleSlots& operator=(const TriangleSlots&) = delete;
+
+  /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
+  void RequireValidIds(vtkIdType numberOfPoints) const;
 
   /// The triangles for the engine; a view of this object or of the mesh.
   const TriangleArray& GetTriangles() const { return this->Triangles; }
@@ -86,7 +91,6 @@ private:
   };
 
   bool ViewPolygons(vtkCellArray* polygons);
-  void CheckTriangles(vtkIdType numberOfPoints) const;
   void ReadPolygons(vtkCellArray* polygons, const PointArray& points);
   void ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray& points);
   void ReadStrips(vtkCellArray* strips, const PointArray& points);

@@ -3,6 +3,7 @@
 #include "BenchmarkArguments.h"
 #include "BenchmarkTable.h"
 #include "CudaDevice.h"
+#include "FilterTiming.h"
 #include "GpuDescription.h"
 #include "Machine.h"
 
@@ -191,6 +192,10 @@ private:
     BenchmarkRow row = TimeEngine(mesh, options, this->Arguments.Plan, this->Output);
     this->CudaTotal = row.Total;
     this->Add(row);
+#if defined(DELAUNAYFLIP_HAS_VTK)
+    ReleaseCudaMemory(); // the module has an engine, and memory, of its own
+    this->Add(TimeFilter(mesh, this->Arguments.Plan));
+#endif
   }
 
   void RunThreads(const BenchmarkMesh& mesh, const std::vector<int>& counts)
