@@ -5,6 +5,7 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "FlipRun.h"
+#include "HostProgram.h"
 #include "ReportTables.h"
 #include "VersionDifferences.h"
 
@@ -281,7 +282,7 @@ bool vtkDelaunayFlip::IsLive(const Connection& data)
     vtkWarningMacro(<< "LiveUpdate is for a single mesh; composite input is flipped at once.");
     this->HasWarnedOfComposite = true;
   }
-  return this->LiveUpdate && !this->HasCompositeInput && !data.IsPiece;
+  return this->LiveUpdate && !this->HasCompositeInput && !data.IsPiece && !IsBatchProgram();
 }
 
 bool vtkDelaunayFlip::Advance()

@@ -278,8 +278,9 @@ public:
    *
    * Another input or option starts again. When only points were moved, under the same cells, the
    * next update starts from the triangles that flips have made, with the edges that were fixed at
-   * the beginning (a warm start); its statistics begin anew. Composite input and input in several
-   * pieces (a parallel run) are flipped at once, as without LiveUpdate.
+   * the beginning (a warm start); its statistics begin anew. Composite input, input in several
+   * pieces (a parallel run) and input in ParaView's pvbatch are flipped at once, as without
+   * LiveUpdate.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);
