@@ -205,8 +205,9 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = run->GetReport();
   AddIterationColumns(*this->Report, data.Iterations->GetRowData());
-  AddIterationColumns(*this->Report, data.Output->GetFieldData());
+  // The totals first: ParaView lists no field data when the first array is empty.
   AddTotals(*this->Report, data.Output->GetFieldData());
+  AddIterationColumns(*this->Report, data.Output->GetFieldData());
   this->Warn(run->Warning);
   if (isLive)
   {
@@ -339,6 +340,8 @@ const char* vtkDelaunayFlip::GetGeometryUsedAsString() const
 {
   return ToString(this->Report->GeometryUsed);
 }
+
+const char* vtkDelaunayFlip::GetBackendUsed() const { return this->Report->Backend.c_str(); }
 
 const FlipReport& vtkDelaunayFlip::GetReport() const { return *this->Report; }
 

@@ -379,6 +379,12 @@ public:
   const char* GetGeometryUsedAsString() const;
   ///@}
 
+  /**
+   * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200"; "" before any, after an
+   * error and for a mesh without triangles.
+   */
+  const char* GetBackendUsed() const;
+
   ///@{
   /**
    * What was at fault when the last update failed: FAILURE_OPTIONS contradict each other or the

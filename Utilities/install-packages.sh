@@ -2,26 +2,40 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: install-packages.sh build|demo|test
-# Installs the Debian packages that building, the demo or the tests need; asks nothing, and touches
-# nothing when all of them are there already.
+# Usage: install-packages.sh build|demo|test|paraview
+# Installs the Debian packages that building, the demo, the tests or the ParaView plugin with its
+# tests need; asks nothing, and touches nothing when all of them are there already. ParaView itself
+# is not among them, since it cannot be installed beside python3-vtk9: see get-paraview.sh.
 set -euo pipefail
 
+engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
 # What find_package(VTK) of Debian's libvtk9-dev asks for comes with that package, except for the
 # headers of Python and of OpenGL.
-build=(g++ cmake ninja-build ca-certificates
-  libvtk9-dev python3-vtk9 python3-dev libgl-dev
-  libtbb-dev libboost-dev libcli11-dev nlohmann-json3-dev)
+build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-dev
+  nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format-14 clang-format universal-ctags
   python3-numpy)
+# What find_package(ParaView) of Debian's paraview-dev asks for without depending on it, and what
+# ParaView's programs load.
+paraview=("${engine[@]}" xvfb xauth
+  qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev
+  qttools5-dev-tools qtxmlpatterns5-dev-tools libqt5sql5-sqlite
+  libgl-dev libopengl-dev libegl-dev libgl2ps-dev libglew-dev libx11-dev libxcursor-dev
+  libfreetype-dev libjpeg-dev libpng-dev libtiff-dev
+  libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libogg-dev libtheora-dev
+  libhdf5-openmpi-dev libnetcdf-dev libgdal-dev libproj-dev
+  libopenmpi-dev openmpi-bin libpython3-dev python3-mpi4py python3-numpy
+  libdouble-conversion-dev libeigen3-dev libexpat1-dev libjsoncpp-dev liblz4-dev liblzma-dev
+  libutfcpp-dev libxml2-dev zlib1g-dev)
 
 case "${1:-}" in
   build) wanted=("${build[@]}") ;;
   demo) wanted=("${build[@]}" "${demo[@]}") ;;
   test) wanted=("${build[@]}" "${tests[@]}") ;;
+  paraview) wanted=("${paraview[@]}") ;;
   *)
-    echo "usage: $0 build|demo|test" >&2
+    echo "usage: $0 build|demo|test|paraview" >&2
     exit 2
     ;;
 esac

@@ -3,14 +3,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Installs what is missing (Debian), builds everything and runs every test: the whole project in
-# build/, the engine under AddressSanitizer and UndefinedBehaviorSanitizer in build-asan/, and under
-# ThreadSanitizer in build-tsan/. The exit status is 0 only when all three pass.
+# build/, the ParaView plugin in build-paraview/, the engine under AddressSanitizer and
+# UndefinedBehaviorSanitizer in build-asan/, and under ThreadSanitizer in build-tsan/. The exit status
+# is 0 only when all of them pass; without ParaView the plugin counts as one skipped test.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 jobs=${JOBS:-2}
 passed=0 failed=0 skipped=0
-broken=()
+broken=() absent=()
 export PYTHONDONTWRITEBYTECODE=1
 
 # Usage: check FOLDER [CMAKE_OPTION...] - configures, builds and tests one configuration.
@@ -34,6 +35,20 @@ configure_build_test()
     "${launcher[@]}" cmake --build "$build" --parallel "$jobs" &&
     "${launcher[@]}" ctest --test-dir "$build" --output-on-failure --parallel "$jobs" \
       --no-tests=error --output-junit "$build/junit.xml"
+}
+
+# ParaView's packages are fetched where apt-get can; see get-paraview.sh.
+check_plugin()
+{
+  local paraview
+  if "$root/Utilities/install-packages.sh" paraview &&
+    paraview=$("$root/Utilities/get-paraview.sh"); then
+    check build-paraview -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON \
+      -DDELAUNAYFLIP_PARAVIEW=ON -DParaView_DIR="$paraview" -DCMAKE_CUDA_ARCHITECTURES=75
+  else
+    absent+=(build-paraview)
+    skipped=$((skipped + 1))
+  fi
 }
 
 # Usage: count_results JUNIT_FILE - adds its tests to the totals; no file, nothing ran.
@@ -60,6 +75,8 @@ launcher=()
 # With a CUDA compiler, for one architecture, in a quarter of the time that all take: its PTX runs on
 # every newer one.
 check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DCMAKE_CUDA_ARCHITECTURES=75
+# After build, whose command gives the meshes that the plugin must give.
+check_plugin
 # Without NDEBUG, so that the edge mesh is audited after every iteration.
 check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
   -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address
@@ -75,6 +92,9 @@ check build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=
 printf '\n'
 if [ ${#broken[@]} -gt 0 ]; then
   echo "FAILED in: ${broken[*]} (their output is above)"
+fi
+if [ ${#absent[@]} -gt 0 ]; then
+  echo "SKIPPED: ${absent[*]}, not built and not tested (the reason is above)"
 fi
 echo "tests: $passed passed, $failed failed, $skipped skipped"
 [ ${#broken[@]} -eq 0 ]

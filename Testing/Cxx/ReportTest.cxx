@@ -140,6 +140,7 @@ TEST(VtkDelaunayFlip, ReadBack)
   WatchedFilter filter(MakeWorstCase());
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
   EXPECT_FALSE(filter->GetConverged());
+  EXPECT_STREQ(filter->GetBackendUsed(), "");
   RunCleanly(filter);
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
   EXPECT_EQ(filter->GetTotalFlips(), 9);
@@ -149,6 +150,7 @@ TEST(VtkDelaunayFlip, ReadBack)
   EXPECT_STREQ(filter->GetStopReasonAsString(), "converged");
   EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
   EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
+  EXPECT_EQ(std::string(filter->GetBackendUsed()).rfind("Threads: ", 0), 0u);
   EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
 }
 

@@ -4,7 +4,7 @@
 """Usage: check_layering.py ROOT
 
 Includes point downwards only: CUDA knows no VTK, Filters knows CUDA's public headers, Command knows
-those and Filters; nothing that ships knows Testing or Examples.
+those and Filters, Plugin knows neither; nothing that ships knows Testing or Examples.
 """
 
 import os
@@ -34,6 +34,7 @@ BELOW = {
     "CUDA": {"CUDA"},
     "Filters": {"CUDA", "Filters"},
     "Command": {"CUDA", "Filters", "Command"},
+    "Plugin": {"Plugin"},
     "Examples": {"CUDA", "Filters", "Examples"},
 }
 

@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the plugin share: loading it, meshes in files, and what came out.
+
+Run by pvpython, with the plugin's library in DELAUNAYFLIP_PLUGIN. Meshes go through files, as a
+user's do, so that a server reads them as well.
+"""
+
+import os
+import sys
+import tempfile
+import unittest
+
+from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkOutputWindow, vtkPoints
+from vtkmodules.vtkCommonCore import vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+PLUGIN = os.environ["DELAUNAYFLIP_PLUGIN"]
+
+
+def make_cells(cells):
+    array = vtkCellArray()
+    for cell in cells:
+        array.InsertNextCell(len(cell), cell)
+    return array
+
+
+def make_fan(number_of_points):
+    """Points on a parabola, all joined to the last one: the worst there is, n^2 / 2 flips or so.
+
+    Its cell array Side tells the triangles of the left half from those of the right.
+    """
+    points = vtkPoints()
+    for i in range(number_of_points):
+        points.InsertNextPoint(i, 0.1 * i * i, 0.0)
+    last = number_of_points - 1
+    triangles = [(last, i, i + 1) for i in range(last - 1)]
+    sides = vtkIntArray()
+    sides.SetName("Side")
+    for triangle in triangles:
+        sides.InsertNextValue(int(2 * triangle[1] >= number_of_points))
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(make_cells(triangles))
+    mesh.GetCellData().AddArray(sides)
+    return mesh
+
+
+def make_lines(*lines):
+    """Constraint edges: lines over the point ids of another mesh, whose points do not matter."""
+    mesh = vtkPolyData()
+    mesh.SetPoints(vtkPoints())
+    mesh.GetPoints().SetNumberOfPoints(1 + max(max(line) for line in lines))
+    mesh.SetLines(make_cells(lines))
+    return mesh
+
+
+def get_triangles(mesh):
+    ids = vtkIdList()
+    result = []
+    for i in range(mesh.GetPolys().GetNumberOfCells()):
+        mesh.GetPolys().GetCellAtId(i, ids)
+        result.append(tuple(ids.GetId(k) for k in range(ids.GetNumberOfIds())))
+    return result
+
+
+def get_edges(mesh):
+    return {frozenset((cell[i - 1], cell[i])) for cell in get_triangles(mesh)
+            for i in range(len(cell))}
+
+
+def fetch(proxy, port=0):
+    """A copy of what a filter or one of its ports puts out, on the client."""
+    return servermanager.Fetch(proxy, idx=port)
+
+
+def refresh(proxy):
+    """Updates a filter, and its read-back properties as the Properties panel does."""
+    proxy.UpdatePipeline()
+    proxy.SMProxy.UpdatePipelineInformation()
+
+
+class Messages:
+    """Collects the errors and warnings that a user would read in Output Messages."""
+
+    def __enter__(self):
+        self._before = vtkOutputWindow.GetInstance()
+        self._window = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self._window)
+        return self
+
+    def __exit__(self, *_):
+        vtkOutputWindow.SetInstance(self._before)
+
+    @property
+    def text(self):
+        return self._window.GetOutput()
+
+
+class PluginTest(unittest.TestCase):
+    """A session of its own with the plugin loaded, and a folder for files."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        simple.ResetSession()
+        simple.LoadPlugin(PLUGIN, remote=False)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def save(self, mesh, name="mesh.vtp"):
+        """Writes a vtkPolyData; its path."""
+        writer = vtkXMLPolyDataWriter()
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(mesh)
+        self.assertEqual(writer.Write(), 1)
+        return self.path(name)
+
+    def read(self, mesh, name="mesh.vtp"):
+        """A reader of the mesh."""
+        return simple.XMLPolyDataReader(FileName=[self.save(mesh, name)])
+
+    def flip(self, source, **properties):
+        """The filter, applied without a message."""
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=source, **properties)
+            refresh(flip)
+        self.assertEqual(messages.text, "")
+        return flip
+
+
+def main():
+    """Runs the tests of the script and ends pvpython, which must not end with views open: it may
+    crash."""
+    program = unittest.main(module="__main__", verbosity=2, exit=False)
+    simple.Disconnect()
+    sys.exit(0 if program.result.wasSuccessful() else 1)

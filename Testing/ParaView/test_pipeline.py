@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filter in ParaView's pipelines: what goes in, what comes out."""
+
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from PluginTesting import (
+    PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_lines, refresh)
+
+COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
+           "MinimumAngle", "Seconds"]
+
+
+def get_rows(table, column):
+    array = table.GetRowData().GetArray(column)
+    return [array.GetTuple1(i) for i in range(array.GetNumberOfTuples())]
+
+
+class Inputs(PluginTest):
+    def test_sphere(self):
+        flip = self.flip(simple.Sphere(ThetaResolution=60, PhiResolution=40))
+        self.assertEqual(flip.GeometryUsed, "surface")
+        self.assertGreater(flip.TotalFlips, 0)
+        self.assertEqual(flip.NumberOfNonDelaunayEdges, 0)
+
+    def test_quads(self):
+        flip = self.flip(simple.Plane(XResolution=5, YResolution=4))
+        self.assertEqual(flip.GeometryUsed, "planar")
+        self.assertEqual(len(get_triangles(fetch(flip))), 40)
+        self.assertTrue(all(len(cell) == 3 for cell in get_triangles(fetch(flip))))
+
+    def test_empty(self):
+        empty = vtkPolyData()
+        empty.SetPoints(vtkPoints())
+        flip = self.flip(self.read(empty))
+        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+        self.assertEqual(fetch(flip, 1).GetNumberOfRows(), 0)
+
+    def test_composite(self):
+        group = simple.GroupDatasets(
+            Input=[self.read(make_fan(20), "a.vtp"), self.read(make_fan(30), "b.vtp")])
+        output = fetch(self.flip(group))
+        blocks = [output.GetPartition(i, 0) if hasattr(output, "GetPartition")
+                  else output.GetBlock(i) for i in range(2)]
+        flips = [block.GetFieldData().GetArray("TotalFlips").GetTuple1(0) for block in blocks]
+        alone = [self.flip(self.read(make_fan(n))).TotalFlips for n in (20, 30)]
+        self.assertEqual(flips, alone)
+        self.assertGreater(min(flips), 20)
+
+    def test_time_series(self):
+        files = [self.save(make_fan(n), f"fan_{i}.vtp") for i, n in enumerate((10, 20, 30))]
+        series = simple.XMLPolyDataReader(FileName=files)
+        flip = self.flip(series)
+        for time, n in ((0, 10), (2, 30), (1, 20)):
+            flip.UpdatePipeline(time)
+            self.assertEqual(fetch(flip).GetNumberOfPoints(), n)
+            alone = self.flip(self.read(make_fan(n)))
+            self.assertEqual(get_triangles(fetch(flip)), get_triangles(fetch(alone)))
+
+    def test_constraints(self):
+        source, kept = self.read(make_fan(20)), frozenset((10, 19))
+        flip = self.flip(source)
+        self.assertNotIn(kept, get_edges(fetch(flip)))
+        flip.Constraints = self.read(make_lines((10, 19)), "lines.vtp")
+        self.assertIn(kept, get_edges(fetch(flip)))
+        flip.Constraints = None
+        self.assertNotIn(kept, get_edges(fetch(flip)))
+
+
+class Regions(PluginTest):
+    def test_cell_arrays_are_offered(self):
+        flip = self.flip(self.read(make_fan(20)))
+        domain = flip.SMProxy.GetProperty("RegionArray").FindDomain("vtkSMArrayListDomain")
+        names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+        self.assertEqual(names, ["", "Side"])
+        self.assertEqual(flip.RegionArray, "")
+
+    def test_borders_stay(self):
+        flip = self.flip(self.read(make_fan(20)), RegionArray="Side")
+        self.assertIn(frozenset((10, 19)), get_edges(fetch(flip)))
+
+
+class Outputs(PluginTest):
+    def setUp(self):
+        super().setUp()
+        self.filter = self.flip(self.read(make_fan(20)))
+
+    def test_table(self):
+        table = fetch(self.filter, 1)
+        self.assertEqual([table.GetColumnName(i) for i in range(table.GetNumberOfColumns())],
+                         COLUMNS)
+        self.assertEqual(table.GetNumberOfRows(), self.filter.NumberOfIterations)
+        self.assertEqual(sum(get_rows(table, "Flipped")), self.filter.TotalFlips)
+
+    def test_plot(self):
+        plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1))
+        table = fetch(plot)
+        self.assertEqual(table.GetNumberOfColumns(), 1)
+        self.assertEqual(get_rows(table, "Flipped"), get_rows(fetch(self.filter, 1), "Flipped"))
+
+    def test_information(self):
+        delaunay_already = self.flip(self.filter)
+        self.assertEqual(delaunay_already.NumberOfIterations, 0)
+        for flip in (self.filter, delaunay_already):
+            information = flip.GetDataInformation().DataInformation
+            arrays = information.GetFieldDataInformation()
+            for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
+                self.assertIsNotNone(arrays.GetArrayInformation(name), name)
+
+    def test_read_back(self):
+        self.assertEqual(self.filter.StopReason, "converged")
+        self.assertEqual(self.filter.Converged, 1)
+        self.assertEqual(self.filter.GeometryUsed, "planar")
+        self.assertRegex(self.filter.BackendUsed, "^Threads: [0-9]+$")
+        self.assertEqual(self.filter.NumberOfNonDelaunayEdges, 0)
+
+
+class Progress(PluginTest):
+    """The progress bar and its abort button act on the filter's object."""
+
+    def setUp(self):
+        super().setUp()
+        self.filter = simple.DelaunayFlip(Input=self.read(make_fan(40)))
+        self.object = self.filter.SMProxy.GetClientSideObject()
+
+    def test_progress_goes_up(self):
+        seen = []
+        self.object.AddObserver(
+            "ProgressEvent", lambda *_: seen.append(self.object.GetProgress()))
+        refresh(self.filter)
+        self.assertGreater(len(seen), 5)
+        self.assertEqual(seen, sorted(seen))
+
+    def test_abort(self):
+        self.object.AddObserver("ProgressEvent", lambda *_: self.object.SetAbortExecute(1))
+        refresh(self.filter)
+        self.assertEqual(self.filter.StopReason, "aborted")
+        self.assertGreater(self.filter.NumberOfNonDelaunayEdges, 0)
+        self.assertEqual(len(get_triangles(fetch(self.filter))), 38)
+
+
+if __name__ == "__main__":
+    main()
