@@ -25,7 +25,7 @@ paraview=("${engine[@]}" xvfb xauth
   libfreetype-dev libjpeg-dev libpng-dev libtiff-dev
   libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libogg-dev libtheora-dev
   libhdf5-openmpi-dev libnetcdf-dev libgdal-dev libproj-dev
-  libopenmpi-dev openmpi-bin libpython3-dev python3-mpi4py python3-numpy
+  libopenmpi-dev openmpi-bin libpython3-dev python3-mpi4py python3-numpy python3-pyqt5
   libdouble-conversion-dev libeigen3-dev libexpat1-dev libjsoncpp-dev liblz4-dev liblzma-dev
   libutfcpp-dev libxml2-dev zlib1g-dev)
 

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives ParaView's Qt client from inside, as a user would: menus, the Apply button, waiting.
+
+For scripts that the client runs by --script. The script's session is a generator: it yields a
+function wherever the client is to go on by itself until that function returns true.
+"""
+
+import os
+import sys
+import time
+import traceback
+
+from paraview import simple
+from PyQt5.QtCore import QTimer
+from PyQt5.QtWidgets import QApplication, QMenu, QPushButton
+
+PATIENCE = 60  # seconds, for one wait
+TICK = 20  # milliseconds between two looks
+
+
+class Client:
+    """The client's main window."""
+
+    def __init__(self):
+        self.application = QApplication.instance()
+        self.window = next(
+            widget for widget in self.application.topLevelWidgets()
+            if widget.metaObject().className() == "ParaViewMainWindow")
+
+    def find_actions(self, text):
+        """{title of the menu: its action} of all menus with an action of this text."""
+        return {menu.title().replace("&", ""): action
+                for menu in self.window.menuBar().findChildren(QMenu)
+                for action in menu.actions() if action.text().replace("&", "") == text}
+
+    def choose(self, menu, text):
+        """Clicks an action of the menu bar."""
+        self.find_actions(text)[menu].trigger()
+
+    def choose_beginning(self, menu, beginning):
+        """Clicks the action of a menu whose text begins so."""
+        titles = {menu_.title().replace("&", ""): menu_
+                  for menu_ in self.window.menuBar().findChildren(QMenu)}
+        next(action for action in titles[menu].actions()
+             if action.text().replace("&", "").startswith(beginning)).trigger()
+
+    def apply(self):
+        """Clicks Apply."""
+        self.window.findChild(QPushButton, "Accept").click()
+
+    def get_labels(self):
+        """The texts of all visible labels, those of the Properties panel among them."""
+        from PyQt5.QtWidgets import QLabel
+        return {label.text() for label in self.window.findChildren(QLabel) if label.isVisible()}
+
+    def save_picture(self, path):
+        """A picture of the whole window."""
+        self.application.processEvents()
+        if not self.window.grab().save(path):
+            raise OSError(f"cannot write {path}")
+
+
+def idle(seconds):
+    """Something to wait for: nothing but time."""
+    end = time.monotonic() + seconds
+    return lambda: time.monotonic() > end
+
+
+class _Player:
+    """Plays a session on the client's own event loop, then ends the client."""
+
+    def __init__(self, session):
+        self.session = session
+        self.wait_for(lambda: True)
+        self.timer = QTimer()
+        self.timer.timeout.connect(self.look)
+        self.timer.start(TICK)
+
+    def wait_for(self, condition):
+        self.condition = condition
+        self.deadline = time.monotonic() + PATIENCE
+
+    def look(self):
+        self.timer.stop()  # what follows may take events itself
+        try:
+            if self.condition():
+                self.wait_for(next(self.session))
+            elif time.monotonic() > self.deadline:
+                raise TimeoutError(f"nothing happened for {PATIENCE} s")
+            self.timer.start(TICK)
+        except StopIteration:
+            self.end(0)
+        except BaseException:
+            traceback.print_exc()
+            self.end(1)
+
+    def end(self, status):
+        print("all is well" if status == 0 else "FAILED", flush=True)
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+
+_players = []
+
+
+def play(session):
+    """Plays session(client) when the script has ended; the client's exit status tells how it went.
+    """
+    _players.append(_Player(session(Client())))

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The client's side of test_client.py: a user's session with the plugin, in the window.
+
+Reads mesh.vtp in the folder DELAUNAYFLIP_FOLDER and leaves its pictures there.
+"""
+
+import os
+
+from paraview import servermanager, simple
+from PyQt5.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
+
+from ClientTesting import idle, play
+
+FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
+QUIET = 1.5  # seconds: many times the interval of polls
+
+
+def get_triangles(flip):
+    mesh = servermanager.Fetch(flip)
+    ids = mesh.GetPolys().GetConnectivityArray()
+    return [ids.GetTuple1(i) for i in range(ids.GetNumberOfTuples())]
+
+
+class Panel:
+    """The widgets of the filter's properties."""
+
+    def __init__(self, client):
+        self.client = client
+
+    def find(self, name, kind):
+        widgets = [widget.findChild(kind) or widget
+                   for widget in self.client.window.findChildren(QWidget, name)]
+        return next(widget for widget in widgets if isinstance(widget, kind))
+
+    def is_shown(self, name):
+        return any(widget.isVisible() for widget in self.client.window.findChildren(QWidget, name))
+
+    def write(self, name, text):
+        edit = self.find(name, QLineEdit)
+        edit.setText(text)
+        edit.textEdited.emit(text)
+        edit.editingFinished.emit()
+
+    def choose(self, name, text):
+        self.find(name, QComboBox).setCurrentText(text)
+
+    def click(self, name):
+        self.find(name, QCheckBox).click()
+
+
+def expect(truth, what):
+    if not truth:
+        raise AssertionError(what)
+
+
+def has_converged(flip):
+    return lambda: flip.StopReason == "converged"
+
+
+def use_menu(client):
+    """Creates the filter from the menu, and applies it as it is."""
+    where = client.find_actions("Delaunay Flip")
+    expect({"Alphabetical", "Delaunay Flip"} <= set(where), f"menu entries: {list(where)}")
+    client.choose("Delaunay Flip", "Delaunay Flip")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "DelaunayFlip"
+    client.apply()
+    yield has_converged(simple.GetActiveSource())
+
+
+def look_at_panel(client, panel):
+    """Widgets that do not apply are hidden."""
+    expect(panel.is_shown("FeatureAngle"), "FeatureAngle is not shown")
+    expect(not panel.is_shown("IterationsPerUpdate"), "IterationsPerUpdate is shown")
+    panel.choose("Geometry", "Planar")
+    yield idle(0.2)
+    expect(not panel.is_shown("FeatureAngle"), "FeatureAngle is shown for planar geometry")
+    panel.choose("Geometry", "Auto")
+    yield idle(0.2)
+    expect(panel.is_shown("FeatureAngle"), "FeatureAngle is not shown again")
+    client.save_picture(os.path.join(FOLDER, "applied.png"))
+
+
+def undo(client, panel, flip):
+    """A change of the number of iterations is undone and redone."""
+    at_first = flip.NumberOfIterations
+    panel.write("MaximumIterations", "3")
+    client.apply()
+    yield lambda: flip.NumberOfIterations == 3
+    client.choose_beginning("Edit", "Undo")
+    yield lambda: flip.MaximumIterations == -1 and flip.NumberOfIterations == at_first
+    client.choose_beginning("Edit", "Redo")
+    yield lambda: flip.NumberOfIterations == 3
+    client.choose_beginning("Edit", "Undo")
+    yield has_converged(flip)
+
+
+def watch_live(client, panel, flip):
+    """Live update: the mesh improves by itself, step by step, and polling ends with it."""
+    at_once = get_triangles(flip)
+    iterations = int(flip.NumberOfIterations)
+    renders, seen = [], []
+    window = simple.GetActiveView().GetRenderWindow()
+    window.AddObserver("EndEvent", lambda *_: renders.append(flip.NumberOfIterations))
+    panel.click("LiveUpdate")
+    yield idle(0.2)
+    expect(panel.is_shown("IterationsPerUpdate"), "IterationsPerUpdate is not shown")
+    client.apply()
+
+    def has_ended():
+        if flip.NumberOfIterations not in seen:
+            seen.append(flip.NumberOfIterations)
+        return has_converged(flip)()
+
+    yield has_ended
+    expect(seen[-1] == iterations, f"ended after {seen[-1]} iterations, not {iterations}")
+    expect(len(set(renders)) > iterations // 2, f"{iterations} steps, rendered: {renders}")
+    expect(get_triangles(flip) == at_once, "live update ended with another mesh")
+    renders.clear()
+    yield idle(QUIET)
+    expect(not renders, "the view was rendered after the end")
+    client.save_picture(os.path.join(FOLDER, "live.png"))
+
+
+def session(client):
+    simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+    mesh = simple.XMLPolyDataReader(FileName=[os.path.join(FOLDER, "mesh.vtp")])
+    simple.Show(mesh).Representation = "Surface With Edges"
+    simple.ResetCamera()
+    yield idle(0.2)
+    yield from use_menu(client)
+    flip = simple.GetActiveSource()
+    simple.GetDisplayProperties(flip).Representation = "Surface With Edges"
+    panel = Panel(client)
+    yield from look_at_panel(client, panel)
+    yield from undo(client, panel, flip)
+    yield from watch_live(client, panel, flip)
+
+
+play(session)

@@ -1,0 +1,14 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What test_live.py runs in pvbatch: flips the mesh of a file, live update on; says how it ended."""
+
+import os
+import sys
+
+from paraview import simple
+
+simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+flip = simple.DelaunayFlip(Input=simple.XMLPolyDataReader(FileName=[sys.argv[1]]), LiveUpdate=1)
+flip.UpdatePipeline()
+flip.SMProxy.UpdatePipelineInformation()
+print("stopped:", flip.StopReason, flush=True)
