@@ -12,9 +12,10 @@ elif ! command -v Xvfb >/dev/null; then
 fi
 
 # The server takes a free number itself and tells it: xvfb-run guesses one, and now and then guesses
-# that of a server which is about to end.
+# that of a server which is about to end. Without -noreset it starts anew whenever its last client
+# leaves, and refuses the next one meanwhile.
 folder=$(mktemp -d)
-LD_LIBRARY_PATH= Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp \
+LD_LIBRARY_PATH= Xvfb -displayfd 3 -screen 0 1600x1200x24 -nolisten tcp -noreset \
   3>"$folder/display" >"$folder/log" 2>&1 &
 server=$!
 trap 'kill $server 2>/dev/null; rm -r "$folder"' EXIT

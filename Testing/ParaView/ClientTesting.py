@@ -13,7 +13,8 @@ import traceback
 
 from paraview import simple
 from PyQt5.QtCore import QTimer
-from PyQt5.QtWidgets import QApplication, QMenu, QPushButton
+from PyQt5.QtWidgets import (
+    QApplication, QCheckBox, QComboBox, QLineEdit, QMenu, QPushButton, QWidget)
 
 PATIENCE = 60  # seconds, for one wait
 TICK = 20  # milliseconds between two looks
@@ -49,16 +50,38 @@ class Client:
         """Clicks Apply."""
         self.window.findChild(QPushButton, "Accept").click()
 
-    def get_labels(self):
-        """The texts of all visible labels, those of the Properties panel among them."""
-        from PyQt5.QtWidgets import QLabel
-        return {label.text() for label in self.window.findChildren(QLabel) if label.isVisible()}
-
     def save_picture(self, path):
         """A picture of the whole window."""
         self.application.processEvents()
         if not self.window.grab().save(path):
             raise OSError(f"cannot write {path}")
+
+
+class Panel:
+    """The widgets of a filter's properties, by the properties' names."""
+
+    def __init__(self, client):
+        self.window = client.window
+
+    def find(self, name, kind):
+        widgets = [widget.findChild(kind) or widget
+                   for widget in self.window.findChildren(QWidget, name)]
+        return next(widget for widget in widgets if isinstance(widget, kind))
+
+    def is_shown(self, name):
+        return any(widget.isVisible() for widget in self.window.findChildren(QWidget, name))
+
+    def write(self, name, text):
+        edit = self.find(name, QLineEdit)
+        edit.setText(text)
+        edit.textEdited.emit(text)
+        edit.editingFinished.emit()
+
+    def choose(self, name, text):
+        self.find(name, QComboBox).setCurrentText(text)
+
+    def click(self, name):
+        self.find(name, QCheckBox).click()
 
 
 def idle(seconds):

@@ -8,9 +8,8 @@ Reads mesh.vtp in the folder DELAUNAYFLIP_FOLDER and leaves its pictures there.
 import os
 
 from paraview import servermanager, simple
-from PyQt5.QtWidgets import QCheckBox, QComboBox, QLineEdit, QWidget
 
-from ClientTesting import idle, play
+from ClientTesting import Panel, idle, play
 
 FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 QUIET = 1.5  # seconds: many times the interval of polls
@@ -20,33 +19,6 @@ def get_triangles(flip):
     mesh = servermanager.Fetch(flip)
     ids = mesh.GetPolys().GetConnectivityArray()
     return [ids.GetTuple1(i) for i in range(ids.GetNumberOfTuples())]
-
-
-class Panel:
-    """The widgets of the filter's properties."""
-
-    def __init__(self, client):
-        self.client = client
-
-    def find(self, name, kind):
-        widgets = [widget.findChild(kind) or widget
-                   for widget in self.client.window.findChildren(QWidget, name)]
-        return next(widget for widget in widgets if isinstance(widget, kind))
-
-    def is_shown(self, name):
-        return any(widget.isVisible() for widget in self.client.window.findChildren(QWidget, name))
-
-    def write(self, name, text):
-        edit = self.find(name, QLineEdit)
-        edit.setText(text)
-        edit.textEdited.emit(text)
-        edit.editingFinished.emit()
-
-    def choose(self, name, text):
-        self.find(name, QComboBox).setCurrentText(text)
-
-    def click(self, name):
-        self.find(name, QCheckBox).click()
 
 
 def expect(truth, what):

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs what is missing (Debian), builds the ParaView plugin in build-paraview/, for the ParaView
+# in ParaView_DIR, the one installed with paraview-dev, or Debian's unpacked into
+# build-paraview-sdk/, and tells how to start that ParaView with it.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build="$root/build-paraview"
+
+"$root/Utilities/install-packages.sh" paraview
+config=$("$root/Utilities/get-paraview.sh")
+options=()
+# A new build with a CUDA compiler takes one architecture, a quarter of the work: newer ones run its
+# PTX. An existing one keeps its options.
+[ -f "$build/CMakeCache.txt" ] ||
+  options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
+cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 \
+  -DDELAUNAYFLIP_PARAVIEW=ON -DParaView_DIR="$config" "${options[@]}" >/dev/null
+cmake --build "$build" --parallel "${JOBS:-2}"
+
+plugin=$(find "$build/lib" -name DelaunayFlip.so | head -n 1)
+libraries=$(dirname "$(dirname "$config")")
+prefix=$(realpath "$libraries/../..")
+paths="PV_PLUGIN_PATH=$(dirname "$plugin")"
+if [ "$prefix" != /usr ]; then
+  paths+=" LD_LIBRARY_PATH=$libraries PYTHONPATH=$prefix/lib/python3/dist-packages"
+fi
+cat <<END
+
+Done: $plugin
+Start ParaView with it:
+  $paths $prefix/bin/paraview
+or load that file in a running one by Tools > Manage Plugins > Load New.
+END

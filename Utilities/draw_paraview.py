@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What draw_paraview.sh runs in ParaView's client: takes its pictures into DELAUNAYFLIP_FOLDER.
+
+paraview.png: after Apply on the terrain before.vtp there, with the chart of its iterations.
+paraview_live.png: a live update on its way.
+"""
+
+import os
+
+from ClientTesting import Panel, idle, play
+from paraview import simple
+from PyQt5.QtCore import QItemSelectionModel, Qt
+from PyQt5.QtWidgets import QDockWidget
+
+FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
+
+
+def arrange(client):
+    """A window in which the Properties panel has room for all of the filter."""
+    client.window.resize(1500, 900)
+    docks = {dock.windowTitle(): dock for dock in client.window.findChildren(QDockWidget)}
+    panel = [docks["Properties"], docks["Pipeline Browser"]]
+    client.window.resizeDocks(panel, [430, 430], Qt.Horizontal)
+    client.window.resizeDocks(panel, [720, 130], Qt.Vertical)
+
+
+def show_mesh(source):
+    view = simple.GetActiveViewOrCreate("RenderView")
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground, view.Background = 0, [1, 1, 1]
+    display = simple.GetDisplayProperties(source, view)
+    display.Representation = "Surface With Edges"
+    display.EdgeColor = [0.1, 0.1, 0.1]
+    simple.ColorBy(display, ("CELLS", "vtkDelaunayFlipCount"))
+    colors = simple.GetColorTransferFunction("vtkDelaunayFlipCount")
+    colors.ApplyPreset("Inferno (matplotlib)", True)
+    colors.InvertTransferFunction()
+    colors.RescaleTransferFunction(0, 30)
+    colors.AutomaticRescaleRangeMode = "Never"
+    display.SetScalarBarVisibility(view, False)
+
+
+def look_at_mesh(view):
+    view.CameraPosition, view.CameraFocalPoint = [0.5, -1.0, 1.9], [0.5, 0.5, 0.0]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    simple.ResetCamera(view)
+    view.GetActiveCamera().Zoom(1.05)
+    simple.Render(view)
+
+
+def apply(client, **properties):
+    """Flips the terrain as a user does, from the menu."""
+    reader = simple.XMLPolyDataReader(
+        registrationName="terrain.vtp", FileName=[os.path.join(FOLDER, "before.vtp")])
+    simple.Show(reader)
+    simple.SetActiveSource(reader)
+    yield idle(0.3)
+    client.choose("Delaunay Flip", "Delaunay Flip")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "DelaunayFlip"
+    flip = simple.GetActiveSource()
+    flip.Geometry, flip.GenerateFlipCount = "Planar XY", 1
+    for name, value in properties.items():
+        setattr(flip, name, value)
+    client.apply()
+    yield idle(0.3)
+
+
+def select_in_pipeline(client, text):
+    """Clicks an entry of the Pipeline Browser."""
+    selection = next(
+        selection for selection in client.window.findChildren(QItemSelectionModel)
+        if selection.parent().metaObject().className() == "pqPipelineBrowserWidget")
+    found = selection.model().match(selection.model().index(0, 0), Qt.DisplayRole, text, 1,
+                                    Qt.MatchExactly | Qt.MatchRecursive)
+    selection.setCurrentIndex(found[0], QItemSelectionModel.ClearAndSelect)
+
+
+def draw_chart(client, flip):
+    """The table in the Pipeline Browser, its entry in the menu, Apply."""
+    select_in_pipeline(client, "Iterations")
+    yield idle(0.5)
+    client.choose("Delaunay Flip", "Plot Delaunay Flips")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
+    client.apply()
+    yield idle(0.5)
+    simple.SetActiveSource(flip)
+    yield idle(0.5)
+
+
+def session(client):
+    simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+    arrange(client)
+    yield from apply(client)
+    flip = simple.GetActiveSource()
+    show_mesh(flip)
+    yield idle(0.3)
+    view = simple.GetActiveView()
+    yield from draw_chart(client, flip)
+    look_at_mesh(view)
+    yield idle(0.3)
+    client.save_picture(os.path.join(FOLDER, "paraview.png"))
+
+    Panel(client).click("LiveUpdate")
+    client.apply()
+    yield lambda: flip.StopReason == "running" and flip.NumberOfIterations >= 12
+    client.save_picture(os.path.join(FOLDER, "paraview_live.png"))
+
+
+play(session)
