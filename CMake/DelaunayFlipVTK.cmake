@@ -1,22 +1,50 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The VTK module DelaunayFlip::Filters, its Python package and its install rules.
+# The VTK modules DelaunayFlip::Filters and, where VTK can draw, DelaunayFlip::Rendering; their Python
+# package and their install rules.
+
+option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it draws with" ON)
 
 # All that any folder uses is looked for here: VTK makes its targets where it is found first, and
 # what those link to must be known there.
+set(delaunayflip_vtk_drawing "") # what DelaunayFlip::Rendering and, in tests, its example need
+if(DELAUNAYFLIP_BUILD_RENDERING)
+  set(delaunayflip_vtk_drawing FiltersCore FiltersVerdict IOImage RenderingAnnotation RenderingCore
+    RenderingFreeType)
+  if(DELAUNAYFLIP_BUILD_TESTING)
+    enable_language(C) # below InteractionStyle a VTK with MPI, as Debian's, links MPI for C
+    list(APPEND delaunayflip_vtk_drawing InteractionStyle RenderingUI)
+  endif()
+endif()
 set(delaunayflip_vtk CommonCore CommonDataModel CommonExecutionModel
   IOGeometry IOLegacy IOPLY IOXML vtksys)
 if(DELAUNAYFLIP_BUILD_TESTING)
   list(APPEND delaunayflip_vtk FiltersCore FiltersVerdict IOImage RenderingCore RenderingOpenGL2
     TestingRendering)
 endif()
+set(delaunayflip_vtk_optional WrappingPythonCore WrappingTools ${delaunayflip_vtk_drawing})
+list(REMOVE_ITEM delaunayflip_vtk_optional ${delaunayflip_vtk}) # CMake allows no component in both
 find_package(VTK 9.1 REQUIRED
   COMPONENTS ${delaunayflip_vtk}
-  OPTIONAL_COMPONENTS WrappingPythonCore WrappingTools)
+  OPTIONAL_COMPONENTS ${delaunayflip_vtk_optional})
+
+set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
+set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # that users need
+set(DELAUNAYFLIP_RENDERING ${DELAUNAYFLIP_BUILD_RENDERING}) # whether the live view is built
+foreach(component IN LISTS delaunayflip_vtk_drawing)
+  if(NOT TARGET VTK::${component})
+    message(STATUS "Live view: not built, this VTK has no ${component}")
+    set(DELAUNAYFLIP_RENDERING OFF)
+  endif()
+endforeach()
+if(DELAUNAYFLIP_RENDERING)
+  list(APPEND delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/vtk.module")
+  list(APPEND delaunayflip_vtk_installed RenderingCore RenderingFreeType)
+endif()
 
 vtk_module_scan(
-  MODULE_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
+  MODULE_FILES ${delaunayflip_module_files}
   PROVIDES_MODULES delaunayflip_modules
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)

@@ -1,8 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkDelaunayFlip as Python sees it: the essentials, through numpy where bits matter."""
+import importlib.util
 import math
 import random
+import subprocess
+import sys
 import unittest
 
 # Nothing of VTK is imported before: the package must bring what it needs.
@@ -319,6 +322,38 @@ class Pipeline(unittest.TestCase):
         self.assertIn(frozenset((1, 3)), get_edges(output.GetBlock(0)))
         self.assertEqual(count_violations(output.GetBlock(1)), 0)
         self.assertIsInstance(watched.filter.GetOutputDataObject(1).GetBlock(1), vtkTable)
+
+
+class Package(unittest.TestCase):
+
+    def run_python(self, program):
+        subprocess.run([sys.executable, "-c", program], check=True)
+
+    def test_filter_needs_no_rendering(self):
+        self.run_python("""
+import sys
+from delaunayflip import *
+assert vtkDelaunayFlip().GetLiveUpdate() is False
+assert not [name for name in sys.modules if "Rendering" in name]
+""")
+
+    def test_names_that_are_not_there(self):
+        self.run_python("""
+import delaunayflip
+assert not hasattr(delaunayflip, "vtkDelaunayFlop")
+""")
+
+    def test_live_view_comes_when_asked_for(self):
+        if not importlib.util.find_spec("delaunayflip.vtkDelaunayFlipRendering"):
+            self.skipTest("built without the live view")
+        self.run_python("""
+import delaunayflip
+view = delaunayflip.vtkDelaunayFlipLiveView()
+assert view is not delaunayflip.vtkDelaunayFlipLiveView()
+view.SetFilter(delaunayflip.vtkDelaunayFlip())
+assert view.GetFilter().GetClassName() == "vtkDelaunayFlip"
+assert view.GetColorBy() == view.COLOR_BY_SMALLEST_ANGLE
+""")
 
 
 class Report(unittest.TestCase):

@@ -85,6 +85,23 @@ class StyleChecks(unittest.TestCase):
             "Filters includes Arguments.h of Command",
         )
 
+    def test_filters_below_rendering(self):
+        self.write("Rendering/LiveScene.h", LICENCE)
+        self.check_notices(
+            ["check_layering.py"],
+            "Filters/Bad.cxx",
+            '#include "LiveScene.h"\n',
+            "Filters includes LiveScene.h of Rendering",
+        )
+
+    def test_rendering_above_filters(self):
+        self.check_notices(
+            ["check_layering.py"],
+            "Rendering/Bad.cxx",
+            '#include "FlipOptions.h"\n',
+            "Rendering includes FlipOptions.h of CUDA",
+        )
+
     def test_shipped_code_without_tests(self):
         self.write("Testing/Meshes/GeneratedMeshes.h", LICENCE)
         self.check_notices(
@@ -146,9 +163,9 @@ class StyleChecks(unittest.TestCase):
         for word in ("std::exit(1);", "abort();", "std::cout << 1;", 'std::printf("x");'):
             with self.subTest(word):
                 text = f"/* one\n two */ void F()\n{{ {word} }}\n"
-                path = "Filters/Bad.cxx"
-                self.check_notices(["check_files.py", "words"], path, text, f"{path}:3: ")
-                os.remove(os.path.join(self.tree.name, path))
+                for path in ("Filters/Bad.cxx", "Rendering/Bad.cxx"):
+                    self.check_notices(["check_files.py", "words"], path, text, f"{path}:3: ")
+                    os.remove(os.path.join(self.tree.name, path))
 
 
 if __name__ == "__main__":

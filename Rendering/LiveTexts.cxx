@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LiveTexts.h"
+
+#include "ShownMesh.h"
+
+#include "vtkDelaunayFlip.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+
+namespace delaunayflip
+{
+
+const char* const KeyHelp =
+  "space: run/pause   n: next step   b: begin again   k: colours   g: edges   q: quit";
+
+namespace
+{
+
+/// 1234567 -> "1,234,567"
+std::string Group(vtkIdType number)
+{
+  std::string text = std::to_string(number);
+  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
+  {
+    text.insert(static_cast<std::size_t>(i), ",");
+  }
+  return text;
+}
+
+std::string DescribeCounts(vtkDelaunayFlip* filter)
+{
+  return Group(filter->GetTotalFlips()) + " flips, " +
+    Group(filter->GetNumberOfNonDelaunayEdges()) + " edges not Delaunay";
+}
+
+std::string DescribeFailure(int failure)
+{
+  switch (failure)
+  {
+    case vtkDelaunayFlip::FAILURE_OPTIONS:
+      return "the options do not fit";
+    case vtkDelaunayFlip::FAILURE_MESH:
+      return "the mesh cannot be used";
+    case vtkDelaunayFlip::FAILURE_BACKEND:
+      return "the backend cannot run here";
+    default:
+      return "no mesh";
+  }
+}
+
+std::string DescribeAngle(double degrees)
+{
+  if (std::isnan(degrees))
+  {
+    return {};
+  }
+  char text[64];
+  std::snprintf(text, sizeof(text), "\nsmallest angle %.2f degrees", degrees);
+  return text;
+}
+
+std::string DescribeState(const LiveStatus& status)
+{
+  switch (status.State)
+  {
+    case LiveState::Failed:
+      return "failed: " + DescribeFailure(status.Filter->GetFailure());
+    case LiveState::Converged:
+      return "converged";
+    case LiveState::Limited:
+      return "iteration limit";
+    case LiveState::Aborted:
+      return "aborted";
+    default:
+      return status.IsRunning ? "running" : "paused";
+  }
+}
+
+/// The filter's counts are of no mesh after a failure, and of one block where there are several.
+std::string DescribeMesh(const LiveStatus& status)
+{
+  const std::string state = DescribeState(status);
+  const std::string triangles = Group(status.Triangles) + " triangles";
+  if (status.State == LiveState::Failed)
+  {
+    return state + "\nthe mesh of frame " + Group(status.Frame);
+  }
+  if (status.Frame == 0)
+  {
+    return "input, " + state + "\n" + triangles;
+  }
+  if (IsComposite(status.Filter->GetOutputDataObject(0)))
+  {
+    return "all blocks in one step, " + state + "\n" + triangles;
+  }
+  return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
+    DescribeCounts(status.Filter);
+}
+
+}
+
+std::string DescribeStatus(const LiveStatus& status)
+{
+  return DescribeMesh(status) + DescribeAngle(status.SmallestAngle);
+}
+
+}

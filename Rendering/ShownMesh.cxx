@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShownMesh.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkTriangleFilter.h"
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// Whether every cell is a triangle, as in any output of the filter that came of polygons alone.
+bool HasOnlyTriangles(vtkPolyData* mesh)
+{
+  const vtkIdType triangles = mesh->GetNumberOfPolys();
+  return mesh->GetNumberOfCells() == triangles &&
+    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0);
+}
+
+vtkSmartPointer<vtkPolyData> AppendBlocks(vtkCompositeDataSet* blocks)
+{
+  vtkNew<vtkAppendPolyData> append;
+  vtkSmartPointer<vtkCompositeDataIterator> block;
+  block.TakeReference(blocks->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      append->AddInputData(mesh);
+    }
+  }
+  if (append->GetNumberOfInputConnections(0) > 0)
+  {
+    append->Update();
+  }
+  return append->GetOutput();
+}
+
+}
+
+vtkDataObject* UpdateInput(vtkAlgorithm* filter)
+{
+  if (filter->GetNumberOfInputConnections(0) == 0)
+  {
+    return nullptr;
+  }
+  vtkAlgorithmOutput* connection = filter->GetInputConnection(0, 0);
+  connection->GetProducer()->Update(connection->GetIndex());
+  return filter->GetInputDataObject(0, 0);
+}
+
+bool IsComposite(vtkDataObject* data) { return vtkCompositeDataSet::SafeDownCast(data) != nullptr; }
+
+vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
+{
+  vtkSmartPointer<vtkPolyData> mesh = vtkPolyData::SafeDownCast(data);
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    mesh = AppendBlocks(blocks);
+  }
+  auto faces = vtkSmartPointer<vtkPolyData>::New();
+  if (mesh && HasOnlyTriangles(mesh))
+  {
+    faces->ShallowCopy(mesh);
+  }
+  else if (mesh)
+  {
+    vtkNew<vtkTriangleFilter> split;
+    split->SetInputData(mesh);
+    split->PassVertsOff();
+    split->PassLinesOff();
+    split->Update();
+    faces->ShallowCopy(split->GetOutput());
+  }
+  return faces;
+}
+
+}

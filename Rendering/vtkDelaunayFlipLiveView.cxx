@@ -1,0 +1,406 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayFlipLiveView.h"
+
+#include "FrameFile.h"
+#include "LiveScene.h"
+#include "LiveState.h"
+#include "LiveTexts.h"
+#include "ShownMesh.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkDelaunayFlip.h"
+#include "vtkExecutive.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <map>
+
+using namespace delaunayflip;
+
+namespace
+{
+
+constexpr vtkIdType SmallMesh = 20000; // triangles whose edges can be told apart
+
+/// Says so while something is under way that must not be begun twice.
+class BusyScope
+{
+public:
+  explicit BusyScope(bool& isBusy)
+    : IsBusy(isBusy)
+  {
+    this->IsBusy = true;
+  }
+  ~BusyScope() { this->IsBusy = false; }
+  BusyScope(const BusyScope&) = delete;
+  BusyScope& operator=(const BusyScope&) = delete;
+
+private:
+  bool& IsBusy;
+};
+
+}
+
+vtkStandardNewMacro(vtkDelaunayFlipLiveView);
+
+//------------------------------------------------------------------------------
+vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
+  : Scene(new LiveScene),
+    State(LiveState::NotStarted)
+{
+}
+
+vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
+{
+  if (this->Filter != filter)
+  {
+    this->Detach();
+    this->Filter = filter;
+    this->Modified();
+  }
+}
+
+vtkDelaunayFlip* vtkDelaunayFlipLiveView::GetFilter() const { return this->Filter; }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::SetInteractor(vtkRenderWindowInteractor* interactor)
+{
+  if (this->Interactor != interactor)
+  {
+    this->Detach();
+    this->Interactor = interactor;
+    this->Modified();
+  }
+}
+
+vtkRenderWindowInteractor* vtkDelaunayFlipLiveView::GetInteractor() const
+{
+  return this->Interactor;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
+{
+  this->FramePrefix = prefix ? prefix : "";
+  this->CanWrite = true;
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::Start()
+{
+  if (!this->IsBusy && this->IsReady())
+  {
+    this->Detach();
+    this->Attach();
+    this->ShowInput();
+  }
+}
+
+bool vtkDelaunayFlipLiveView::IsReady()
+{
+  if (!this->Filter || this->Filter->GetNumberOfInputConnections(0) == 0)
+  {
+    vtkErrorMacro("A filter with an input is needed.");
+    return false;
+  }
+  if (!this->Interactor || !this->Interactor->GetRenderWindow())
+  {
+    vtkErrorMacro("An interactor with a render window is needed.");
+    return false;
+  }
+  return true;
+}
+
+bool vtkDelaunayFlipLiveView::BeginIfNeeded()
+{
+  if (this->State == LiveState::NotStarted || !this->Window)
+  {
+    this->Start();
+  }
+  return !this->IsBusy && this->State != LiveState::NotStarted && this->Window;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::Attach()
+{
+  this->Window = this->Interactor->GetRenderWindow();
+  this->Scene->Enter(this->Window);
+  // Before the interactor styles, which do not see what is taken here.
+  constexpr float priority = 1.0f;
+  using Self = vtkDelaunayFlipLiveView;
+  this->Observers = {
+    this->Interactor->AddObserver(vtkCommand::TimerEvent, this, &Self::OnTimer),
+    this->Interactor->AddObserver(vtkCommand::KeyPressEvent, this, &Self::OnKey, priority),
+    this->Interactor->AddObserver(vtkCommand::CharEvent, this, &Self::OnKey, priority),
+  };
+}
+
+void vtkDelaunayFlipLiveView::Detach()
+{
+  this->StopTimer();
+  if (this->Interactor)
+  {
+    for (const unsigned long observer : this->Observers)
+    {
+      this->Interactor->RemoveObserver(observer);
+    }
+  }
+  this->Observers.clear();
+  this->Scene->Leave();
+  this->Window = nullptr;
+  this->State = LiveState::NotStarted;
+  this->FrameNumber = -1;
+  this->IsMeantToRun = false;
+  this->CanWrite = true;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::ShowInput()
+{
+  vtkDataObject* input = UpdateInput(this->Filter);
+  this->Filter->SetLiveUpdate(!IsComposite(input));
+  this->Filter->GenerateFlipCountOn();
+  this->Filter->Restart();
+  this->State = LiveState::UnderWay;
+  this->Scene->SetMesh(MakeFaces(input));
+  this->Scene->LookAtMesh();
+  this->ShowFrame(0);
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::Run()
+{
+  if (this->BeginIfNeeded())
+  {
+    this->IsMeantToRun = true;
+    this->StartTimer();
+  }
+}
+
+void vtkDelaunayFlipLiveView::Pause()
+{
+  this->IsMeantToRun = false;
+  this->StopTimer();
+  this->Render();
+}
+
+bool vtkDelaunayFlipLiveView::Step()
+{
+  this->IsMeantToRun = false;
+  this->StopTimer();
+  return this->BeginIfNeeded() && this->TakeStep();
+}
+
+void vtkDelaunayFlipLiveView::Restart()
+{
+  if (this->State == LiveState::NotStarted || !this->Window)
+  {
+    this->Start();
+  }
+  else if (!this->IsBusy && this->IsReady())
+  {
+    this->StopTimer();
+    this->ShowInput();
+    if (this->IsMeantToRun)
+    {
+      this->StartTimer();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipLiveView::TakeStep()
+{
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
+  const LiveState next = this->UpdateFilter();
+  if (this->State == LiveState::NotStarted)
+  {
+    return false; // An observer of the filter has ended it.
+  }
+  const bool isNews = next != LiveState::Unchanged || this->IsRunning();
+  if (next != LiveState::UnderWay)
+  {
+    this->StopTimer();
+  }
+  this->State = next == LiveState::Unchanged ? this->State : next;
+  this->ShowStep(next);
+  if (isNews && IsEnd(next))
+  {
+    this->InvokeEvent(vtkCommand::EndEvent);
+  }
+  return !IsEnd(next);
+}
+
+LiveState vtkDelaunayFlipLiveView::UpdateFilter()
+{
+  const BusyScope busy(this->IsBusy);
+  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  return MakeStep(filter);
+}
+
+/// Where the filter fails, the last mesh stays.
+void vtkDelaunayFlipLiveView::ShowStep(LiveState step)
+{
+  if (step == LiveState::Failed || step == LiveState::Unchanged)
+  {
+    this->Render();
+    return;
+  }
+  this->Scene->SetMesh(MakeFaces(this->Filter->GetOutputDataObject(0)));
+  this->ShowFrame(this->FrameNumber + 1);
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::ShowFrame(int number)
+{
+  this->FrameNumber = number;
+  this->Render();
+  if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
+  {
+    const BusyScope busy(this->IsBusy);
+    const std::string name = MakeFrameName(this->FramePrefix, number);
+    this->CanWrite = WriteFrame(this->Window, name);
+    if (!this->CanWrite)
+    {
+      vtkErrorMacro("Cannot write " << name << "; no more frames are written.");
+    }
+  }
+  this->InvokeEvent(vtkCommand::UpdateEvent);
+}
+
+void vtkDelaunayFlipLiveView::Render()
+{
+  if (this->IsBusy || !this->Window || !this->Scene->GetRenderer())
+  {
+    return;
+  }
+  const BusyScope busy(this->IsBusy);
+  const bool isSmall = this->Scene->GetMesh()->GetNumberOfCells() < SmallMesh;
+  const bool showKeys = this->ShowKeys && !this->Window->GetOffScreenRendering();
+  this->Scene->SetKeys(showKeys ? KeyHelp : "");
+  this->Scene->SetColorBy(this->ColorBy);
+  this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
+    (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
+  // Off screen nobody waits for a key: who calls Step() runs it.
+  const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
+  this->Scene->SetStatus(
+    DescribeStatus({ this->Filter, this->State, isRunning, this->FrameNumber,
+      this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() }),
+    this->State == LiveState::Failed);
+  this->Scene->GetRenderer()->ResetCameraClippingRange();
+  this->Window->Render();
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::StartTimer()
+{
+  if (!this->IsRunning() && this->AwaitStep())
+  {
+    this->Render();
+    this->InvokeEvent(vtkCommand::StartEvent);
+  }
+}
+
+/// One timer a step: none has to be destroyed, which VTK 9.1 does not survive while timers fire.
+bool vtkDelaunayFlipLiveView::AwaitStep()
+{
+  this->TimerId = this->Interactor
+    ? this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(this->FrameInterval))
+    : 0;
+  if (this->TimerId == 0)
+  {
+    vtkErrorMacro("The interactor has no timer.");
+  }
+  return this->TimerId != 0;
+}
+
+/// The timer that was awaited fires once more, unheeded.
+void vtkDelaunayFlipLiveView::StopTimer() { this->TimerId = 0; }
+
+bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
+
+bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
+
+vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->GetRenderer(); }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
+{
+  const int awaited = this->TimerId;
+  if (!this->IsRunning() || (id && *static_cast<const int*>(id) != awaited))
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
+  if (!this->IsBusy)
+  {
+    this->TakeStep();
+  }
+  if (this->TimerId == awaited && this->Interactor)
+  {
+    this->AwaitStep();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
+{
+  using Self = vtkDelaunayFlipLiveView;
+  static const std::map<std::string, void (*)(Self*)> actions = {
+    { "space", [](Self* self) { self->IsRunning() ? self->Pause() : self->Run(); } },
+    { "n", [](Self* self) { self->Step(); } },
+    { "b", [](Self* self) { self->Restart(); } },
+    { "k", [](Self* self) { self->CycleColors(); } },
+    { "g", [](Self* self) { self->ToggleEdges(); } },
+  };
+  const char* key = this->Interactor->GetKeySym();
+  const auto action = actions.find(key ? key : "");
+  if (action == actions.end() || this->Interactor->GetControlKey())
+  {
+    return false;
+  }
+  if (event == vtkCommand::KeyPressEvent)
+  {
+    const vtkSmartPointer<Self> self(this); // An observer may drop it.
+    action->second(this);
+  }
+  return true;
+}
+
+void vtkDelaunayFlipLiveView::CycleColors()
+{
+  this->SetColorBy((this->ColorBy + 1) % (COLOR_BY_FLIP_COUNT + 1));
+  this->Render();
+}
+
+void vtkDelaunayFlipLiveView::ToggleEdges()
+{
+  const bool areShown = this->Scene->GetEdgeVisibility();
+  this->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
+  this->Render();
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Filter: " << this->Filter << "\n";
+  os << indent << "Interactor: " << this->Interactor << "\n";
+  os << indent << "ColorBy: " << this->ColorBy << "\n";
+  os << indent << "EdgeVisibility: " << this->EdgeVisibility << "\n";
+  os << indent << "ShowKeys: " << this->ShowKeys << "\n";
+  os << indent << "FrameInterval: " << this->FrameInterval << "\n";
+  os << indent << "FramePrefix: " << this->FramePrefix << "\n";
+  os << indent << "FrameNumber: " << this->FrameNumber << "\n";
+  os << indent << "Running: " << this->IsRunning() << "\n";
+  os << indent << "Converged: " << this->GetConverged() << "\n";
+}

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LiveViewTestSupport.h"
+
+#include "vtkActor.h"
+#include "vtkActor2DCollection.h"
+#include "vtkActorCollection.h"
+#include "vtkMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkTextActor.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+/// A command that owns the function that it calls.
+class FunctionCommand : public vtkCommand
+{
+public:
+  static FunctionCommand* New() { return new FunctionCommand; }
+  void Execute(vtkObject*, unsigned long, void* data) override { this->Action(data); }
+
+  std::function<void(void*)> Action;
+};
+
+void Observe(vtkObject* object, unsigned long event, const std::function<void(void*)>& action)
+{
+  vtkNew<FunctionCommand> command;
+  command->Action = action;
+  object->AddObserver(event, command);
+}
+
+/// The texts of a renderer: the status, then the keys.
+std::string GetText(vtkRenderer* renderer, int number)
+{
+  vtkActor2DCollection* actors = renderer->GetActors2D();
+  actors->InitTraversal();
+  while (vtkActor2D* actor = actors->GetNextActor2D())
+  {
+    auto* text = vtkTextActor::SafeDownCast(actor);
+    if (text && number-- == 0)
+    {
+      return text->GetVisibility() ? text->GetInput() : "";
+    }
+  }
+  return "";
+}
+
+vtkActor* GetActor(vtkRenderer* renderer)
+{
+  vtkActorCollection* actors = renderer->GetActors();
+  actors->InitTraversal();
+  return actors->GetNextActor();
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> MakeBadPlane()
+{
+  return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(400, 3));
+}
+
+void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action)
+{
+  Observe(object, event, [action](void*) { action(); });
+}
+
+WatchedView::WatchedView(vtkPolyData* input, bool isOffScreen)
+  : Filter(input),
+    Window(vtkSmartPointer<vtkRenderWindow>::New()),
+    Interactor(vtkSmartPointer<vtkRenderWindowInteractor>::New()),
+    View(vtkSmartPointer<vtkDelaunayFlipLiveView>::New())
+{
+  this->Window->SetSize(200, 200);
+  this->Window->SetMultiSamples(0);
+  this->Window->SetOffScreenRendering(isOffScreen);
+  this->Interactor->SetRenderWindow(this->Window);
+  this->View->SetFilter(this->Filter.Get());
+  this->View->SetInteractor(this->Interactor);
+  this->View->SetFrameInterval(1);
+  OnEvent(this->View, vtkCommand::UpdateEvent, [this]() { ++this->Frames; });
+  OnEvent(this->View, vtkCommand::StartEvent, [this]() { ++this->Starts; });
+  OnEvent(this->View, vtkCommand::EndEvent, [this]() { ++this->Ends; });
+  Observe(this->View, vtkCommand::ErrorEvent,
+    [this](void* text) { this->Errors.emplace_back(static_cast<const char*>(text)); });
+}
+
+void WatchedView::RunToTheEnd()
+{
+  const int ends = this->Ends;
+  OnEvent(this->View, vtkCommand::EndEvent, [this]() { this->Interactor->TerminateApp(); });
+  this->View->Run();
+  this->RunFor(60000);
+  EXPECT_EQ(this->Ends, ends + 1);
+}
+
+void WatchedView::RunFor(unsigned long milliseconds)
+{
+  const int timer = this->Interactor->CreateOneShotTimer(milliseconds);
+  Observe(this->Interactor, vtkCommand::TimerEvent,
+    [this, timer](void* id)
+    {
+      if (*static_cast<int*>(id) == timer)
+      {
+        this->Interactor->TerminateApp();
+      }
+    });
+  this->Interactor->Start();
+}
+
+bool WatchedView::Press(const char* key)
+{
+  int heard = 0;
+  vtkNew<FunctionCommand> listener;
+  listener->Action = [&heard](void*) { ++heard; };
+  for (const unsigned long event : { vtkCommand::KeyPressEvent, vtkCommand::CharEvent })
+  {
+    this->Interactor->SetKeySym(key);
+    const unsigned long observer = this->Interactor->AddObserver(event, listener);
+    this->Interactor->InvokeEvent(event);
+    this->Interactor->RemoveObserver(observer);
+  }
+  return heard > 0;
+}
+
+std::string WatchedView::GetStatus() { return GetText(this->View->GetRenderer(), 0); }
+
+std::string WatchedView::GetKeys() { return GetText(this->View->GetRenderer(), 1); }
+
+std::string WatchedView::GetColorArray()
+{
+  vtkMapper* mapper = GetActor(this->View->GetRenderer())->GetMapper();
+  return mapper->GetScalarVisibility() ? mapper->GetArrayName() : "";
+}
+
+bool WatchedView::HasEdges()
+{
+  return GetActor(this->View->GetRenderer())->GetProperty()->GetEdgeVisibility() != 0;
+}
+
+vtkIdType WatchedView::GetNumberOfTriangles()
+{
+  return GetActor(this->View->GetRenderer())->GetMapper()->GetInput()->GetNumberOfCells();
+}
