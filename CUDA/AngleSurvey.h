@@ -37,9 +37,12 @@ struct AngleSurvey
   DELAUNAYFLIP_HOST_DEVICE LargestValue operator()(std::int64_t t) const
   {
     const VertexId* v = this->Triangles[t].Vertices;
+    const Vector3 a = this->GetPosition(v[0]);
+    const Vector3 b = this->GetPosition(v[1]);
+    const Vector3 c = this->GetPosition(v[2]);
     LargestValue largest;
-    largest.Value = LargestSquaredCotangent(
-      this->GetPosition(v[0]), this->GetPosition(v[1]), this->GetPosition(v[2]));
+    largest.Value =
+      Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
     return largest;
   }
 

@@ -43,8 +43,7 @@ enum class EdgeState : std::uint8_t
   Uncertain, ///< The filter could not tell; exact arithmetic must.
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
   BlockedByEdge, ///< Bad, but the new edge already exists. May clear when others flip.
-  Bad, ///< Violates the criterion and may flip.
-  Winner ///< Bad, and flips in this iteration.
+  Bad ///< Violates the criterion and may flip.
 };
 
 /// Next and previous slot of a triangle, out of a table of two-bit entries: a branch on a slot is a
@@ -145,12 +144,21 @@ struct EdgeMeshView
   }
 };
 
+/// Asks for both triangles of an edge; for the one that is missing, at an address that nobody
+/// reads.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void PrefetchTriangles(
+  const EdgeMeshView& mesh, EdgeId edge)
+{
+  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge])]);
+  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
+}
+
 /// The arrays, owned. NumberOfEdges counts records: an edge of k >= 3 triangles has k records, each
 /// with one side and Fixed.
 struct EdgeMesh
 {
-  /// States are searched a machine word at a time.
-  static constexpr std::int64_t StatePadding = 8;
+  /// States are searched so many at a time.
+  static constexpr std::int64_t StatePadding = 64;
 
   std::int64_t NumberOfTriangles = 0;
   std::int64_t NumberOfEdges = 0;

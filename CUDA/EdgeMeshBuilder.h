@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_EDGEMESHBUILDER_H
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
+#include "CornerPairing.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
@@ -22,68 +23,149 @@
 namespace delaunayflip
 {
 
-struct PairSums
+/// Finds or makes the table entries of the edges opposite corners 3 * triangle + slot and adds the
+/// corners to them.
+struct PairStep
 {
-  std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
+  EdgeTableView Table;
+  TriangleRecord* Triangles;
 
-  DELAUNAYFLIP_HOST_DEVICE PairSums& operator+=(const PairSums& part)
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t i) const
   {
-    this->Edges += part.Edges;
-    this->NonManifold += part.NonManifold;
-    this->Failures += part.Failures;
-    return *this;
+    this->Table.Prefetch(KeyOpposite(this->Triangles[i / 3], static_cast<int>(i % 3)));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, PairSums& sums) const
+  {
+    // A table that has failed once is thrown away.
+    if (sums.Failures == 0)
+    {
+      this->Pair(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3), sums);
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE void Pair(TriangleId t, int slot, PairSums& sums) const
+  {
+    TriangleRecord& triangle = this->Triangles[t];
+    bool inserted = false;
+    const std::uint32_t entry = this->Table.FindOrInsert(KeyOpposite(triangle, slot), inserted);
+    if (entry == EdgeTableView::NoSlot)
+    {
+      ++sums.Failures;
+      return;
+    }
+    const bool many = AttachCorner(this->Table, entry, MakeCorner(t, slot), inserted);
+    const bool isEdge = !IsLoop(triangle, slot);
+    sums.Edges += isEdge && inserted ? 1 : 0;
+    sums.NonManifold += isEdge && many ? 1 : 0;
+    triangle.HalfEdges[slot] = entry;
   }
 };
 
-/// Finds or makes the table entry of the edge opposite a corner and adds the corner to it.
-DELAUNAYFLIP_HOST_DEVICE inline void PairCorner(
-  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t, int slot, PairSums& sums)
+/// Puts the roles of a triangle's corners and the edges' other corners in the place of table slots.
+/// @returns the number of edges that it leads.
+struct RoleStep
 {
-  bool inserted = false;
-  const std::uint32_t entry = table.FindOrInsert(KeyOpposite(triangles[t], slot), inserted);
-  if (entry == EdgeTableView::NoSlot)
-  {
-    ++sums.Failures;
-    return;
-  }
-  const bool many = AttachCorner(table, entry, MakeCorner(t, slot), inserted);
-  const bool isEdge = !IsLoop(triangles[t], slot);
-  sums.Edges += isEdge && inserted ? 1 : 0;
-  sums.NonManifold += isEdge && many ? 1 : 0;
-  triangles[t].HalfEdges[slot] = entry;
-}
+  EdgeTableView Table;
+  TriangleRecord* Triangles;
 
-/// Stores the roles of a triangle's corners. @returns the number of edges that it leads.
-DELAUNAYFLIP_HOST_DEVICE inline int FindRoles(
-  const EdgeTableView& table, TriangleRecord* triangles, TriangleId t)
-{
-  TriangleRecord& triangle = triangles[t];
-  // All three are read before anything is written, so that they are on their way together.
-  std::uint32_t roles = 0;
-  for (int slot = 0; slot < 3; ++slot)
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
-    const CornerRole role = FindRole(table, triangle.HalfEdges[slot], MakeCorner(t, slot));
-    roles |= static_cast<std::uint32_t>(role) << (2 * slot);
-  }
-  triangle.FlipCount |= roles;
-  return CountLeaders(triangle);
-}
-
-/// Numbers the edges that a triangle leads, from `next` on.
-DELAUNAYFLIP_HOST_DEVICE inline void NumberTriangle(
-  const EdgeMeshView& mesh, const EdgeTableView& table, TriangleId t, EdgeId next)
-{
-  const TriangleRecord& triangle = mesh.Triangles[t];
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    const CornerRole role = GetRole(triangle, slot);
-    if (role != CornerRole::Follower)
+    for (const std::uint32_t entry : this->Triangles[t].HalfEdges)
     {
-      mesh.States[next] = role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
-      NumberEdge(mesh, table, triangle.HalfEdges[slot], MakeCorner(t, slot), next++);
+      delaunayflip::Prefetch(&this->Table.First[entry]);
+      delaunayflip::Prefetch(&this->Table.Second[entry]);
     }
   }
-}
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t t) const
+  {
+    TriangleRecord& triangle = this->Triangles[t];
+    // All three are read before anything is written, so that they are on their way together.
+    std::uint32_t roles = 0;
+    CornerId others[3];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
+      const CornerRole role = FindRole(this->Table, triangle.HalfEdges[slot], corner, others[slot]);
+      roles |= static_cast<std::uint32_t>(role) << (2 * slot);
+    }
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      triangle.HalfEdges[slot] = others[slot];
+    }
+    triangle.FlipCount |= roles;
+    return CountLeaders(triangle);
+  }
+};
+
+/// Numbers the edges that a triangle leads, from `next` on.
+struct NumberStep
+{
+  EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (GetRole(triangle, slot) == CornerRole::Leader)
+      {
+        delaunayflip::Prefetch(&this->Mesh.Triangles[TriangleOf(triangle.HalfEdges[slot])]);
+      }
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, std::int64_t first) const
+  {
+    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    auto next = static_cast<EdgeId>(first);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const CornerRole role = GetRole(triangle, slot);
+      if (role != CornerRole::Follower)
+      {
+        this->Mesh.States[next] =
+          role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
+        NumberEdge(this->Mesh, MakeCorner(static_cast<TriangleId>(t), slot),
+          triangle.HalfEdges[slot], next++);
+      }
+    }
+  }
+};
+
+/// A triangle with its vertices in the engine's order and its fixed bit.
+struct LoadStep
+{
+  TriangleMesh Mesh;
+  SpatialOrderView Order;
+  const PointUse* Uses;
+  TriangleRecord* Triangles;
+
+  DELAUNAYFLIP_HOST_DEVICE void PrefetchFar(std::int64_t t) const
+  {
+    this->Mesh.Triangles.Prefetch(this->Order.GetTriangle(t));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int64_t vertex = this->Mesh.Triangles.Get(this->Order.GetTriangle(t), slot);
+      this->Order.PrefetchRank(vertex);
+      delaunayflip::Prefetch(&this->Uses[vertex]);
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
+  {
+    TriangleRecord& record = this->Triangles[t];
+    record.InputTriangle = this->Order.GetTriangle(t);
+    record.FlipCount =
+      IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      record.Vertices[slot] =
+        this->Order.GetRank(this->Mesh.Triangles.Get(record.InputTriangle, slot));
+    }
+  }
+};
 
 template <typename Backend>
 void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& backend)
@@ -94,17 +176,7 @@ void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& b
   edges.NumberOfTriangles = mesh.Triangles.Count;
   edges.Triangles = backend.template MakeArray<TriangleRecord>(mesh.Triangles.Count);
   TriangleRecord* triangles = edges.Triangles.Data();
-  backend.ForEach(mesh.Triangles.Count,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-    {
-      TriangleRecord& record = triangles[t];
-      record.InputTriangle = order.GetTriangle(t);
-      record.FlipCount = IsUntouchable(mesh, uses, record.InputTriangle) ? UntouchableBit : 0;
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        record.Vertices[slot] = order.GetRank(mesh.Triangles.Get(record.InputTriangle, slot));
-      }
-    });
+  backend.ForEach(mesh.Triangles.Count, LoadStep{ mesh, order, uses, triangles });
 }
 
 /// @returns false when the table is too small.
@@ -113,16 +185,8 @@ bool TryPairCorners(EdgeMeshResult& result, const Backend& backend)
 {
   const EdgeTableView table = result.Table.View();
   TriangleRecord* triangles = result.Edges.Triangles.Data();
-  const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t corner, PairSums & part)
-    {
-      // A table that has failed once is thrown away.
-      if (part.Failures == 0)
-      {
-        PairCorner(table, triangles, static_cast<TriangleId>(corner / 3),
-          static_cast<int>(corner % 3), part);
-      }
-    });
+  const PairSums sums = backend.template Sum<PairSums>(
+    3 * result.Edges.NumberOfTriangles, PairStep{ table, triangles });
   // Above this share of slots in use, later searches would be long.
   constexpr double LargestFill = 0.8;
   result.Counts.Edges = sums.Edges;
@@ -131,34 +195,63 @@ bool TryPairCorners(EdgeMeshResult& result, const Backend& backend)
   return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
 }
 
-/// A closed mesh has 3/2 edges a triangle; others show by a table that runs full.
+/// Finds the other corner of every corner's edge, and the roles, by the edge table.
+/// @returns the numbering of the edges.
 template <typename Backend>
-void PairCorners(EdgeMeshResult& result, std::int64_t points, const Backend& backend)
+typename Backend::Numbering PairByTable(
+  const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  const std::int64_t corners = 3 * result.Edges.NumberOfTriangles;
+  const std::int64_t triangles = result.Edges.NumberOfTriangles;
+  const std::int64_t corners = 3 * triangles;
   for (std::int64_t expected = corners / 2 + corners / 100; expected <= 4 * corners + 4;
        expected = 2 * expected + 1)
   {
     result.Table = EdgeTable();
-    result.Table = EdgeTable(std::min(expected, corners), points, true, backend);
+    result.Table =
+      EdgeTable(std::min(expected, corners), input.Input.Local.Points.Count, true, backend);
     if (TryPairCorners(result, backend))
     {
-      return;
+      return backend.Count(
+        triangles, RoleStep{ result.Table.View(), result.Edges.Triangles.Data() });
     }
   }
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
 template <typename Backend>
-void NumberEdges(EdgeMeshResult& result, const Backend& backend)
+typename Backend::Numbering PairCorners(
+  const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
+{
+  return PairByTable(input, result, backend);
+}
+
+/// On threads without the table, unless somebody will look edges up for certain.
+inline ThreadNumbering PairCorners(
+  const EdgeMeshInput& input, EdgeMeshResult& result, const ThreadBackend& backend)
+{
+  const bool needsTable = input.Survey.Geometry == GeometryKind::Surface ||
+    input.Input.Caller.NumberOfConstraintEdges > 0;
+  if (!needsTable)
+  {
+    CornerPairing pairing(result.Edges, input.Input.Local.Points.Count, backend);
+    if (pairing.IsEven())
+    {
+      const PairSums sums = pairing.Run();
+      result.Counts.Edges = sums.Edges;
+      result.Counts.NonManifold = sums.NonManifold;
+      return backend.Count(
+        result.Edges.NumberOfTriangles, OtherCornerStep{ result.Edges.Triangles.Data() });
+    }
+  }
+  return PairByTable(input, result, backend);
+}
+
+template <typename Backend>
+void NumberEdges(
+  EdgeMeshResult& result, const typename Backend::Numbering& numbering, const Backend& backend)
 {
   EdgeMesh& edges = result.Edges;
   const std::int64_t size = edges.NumberOfTriangles;
-  const EdgeTableView table = result.Table.View();
-  TriangleRecord* triangles = edges.Triangles.Data();
-  const auto numbering = backend.Count(size,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-    { return FindRoles(table, triangles, static_cast<TriangleId>(t)); });
   edges.NumberOfEdges = numbering.Total;
   const std::int64_t padded = (edges.NumberOfEdges + EdgeMesh::StatePadding - 1) /
     EdgeMesh::StatePadding * EdgeMesh::StatePadding;
@@ -172,8 +265,7 @@ void NumberEdges(EdgeMeshResult& result, const Backend& backend)
   backend.ForEachNumbered(
     numbering, size,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { return CountLeaders(mesh.Triangles[t]); },
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t first)
-    { NumberTriangle(mesh, table, static_cast<TriangleId>(t), static_cast<EdgeId>(first)); });
+    NumberStep{ mesh });
 }
 
 /// Pairs the triangles' sides through an EdgeTable and fixes the edges that must stay: boundary,
@@ -188,11 +280,7 @@ EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, const Backend& backend)
   EdgeMeshResult result;
   LoadTriangles(input, result.Edges, backend);
   input.Order.TriangleOfRank = Array<TriangleId>();
-  PairCorners(result, input.Input.Local.Points.Count, backend);
-  NumberEdges(result, backend);
-  const EdgeMeshView mesh = result.Edges.View();
-  backend.ForEach(result.Edges.NumberOfEdges,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) { LinkEdge(mesh, static_cast<EdgeId>(e)); });
+  NumberEdges(result, PairCorners(input, result, backend), backend);
   FixEdges(input, result, backend);
   result.Table.DropWords();
   return result;

@@ -9,8 +9,8 @@
 
 /// @file
 /// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
-/// hold the table slot of the edge opposite each corner, and its FlipCount the roles of its
-/// corners, two bits each.
+/// hold the table slot of the edge opposite each corner, later the edge's other corner, and its
+/// FlipCount the roles of its corners, two bits each.
 
 namespace delaunayflip
 {
@@ -20,6 +20,20 @@ constexpr CornerId ManyCorners = 0xFFFFFFFEu;
 
 /// Bit of FlipCount: no edge of this triangle may flip.
 constexpr std::uint32_t UntouchableBit = 1u << 6;
+
+/// What pairing counts. Loops (IsLoop) are no edges.
+struct PairSums
+{
+  std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
+
+  DELAUNAYFLIP_HOST_DEVICE PairSums& operator+=(const PairSums& part)
+  {
+    this->Edges += part.Edges;
+    this->NonManifold += part.NonManifold;
+    this->Failures += part.Failures;
+    return *this;
+  }
+};
 
 /// What a corner is to its edge.
 enum class CornerRole : std::uint32_t
@@ -55,11 +69,13 @@ DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
     AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
 }
 
+/// @param other becomes the other corner of an edge of two, NoCorner for the rest.
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner)
+  const EdgeTableView& table, std::uint32_t slot, CornerId corner, CornerId& other)
 {
   const CornerId first = table.First[slot];
   const CornerId second = table.Second[slot];
+  other = NoCorner;
   if (second == NoCorner)
   {
     return CornerRole::Alone;
@@ -68,7 +84,8 @@ DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
   {
     return CornerRole::OneOfMany;
   }
-  return corner == (first < second ? first : second) ? CornerRole::Leader : CornerRole::Follower;
+  other = first == corner ? second : first;
+  return corner < other ? CornerRole::Leader : CornerRole::Follower;
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
@@ -87,36 +104,16 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
   return leaders;
 }
 
-/// Gives a corner that is no follower the number `edge`: writes the words of both sides, and leaves
-/// the number in the table for look-ups by vertex pair.
-DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(const EdgeMeshView& mesh,
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner, EdgeId edge)
+/// Gives an edge its number; `other` is its other corner or NoCorner.
+DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(
+  const EdgeMeshView& mesh, CornerId corner, CornerId other, EdgeId edge)
 {
-  const CornerRole role = GetRole(mesh.Triangles[TriangleOf(corner)], SlotOf(corner));
-  CornerId other = NoCorner;
-  if (role == CornerRole::Leader)
-  {
-    const CornerId first = table.First[slot];
-    other = first == corner ? table.Second[slot] : first;
-  }
   mesh.CornerOfHalfEdge[2 * edge] = corner;
   mesh.CornerOfHalfEdge[2 * edge + 1] = other;
-  if (role != CornerRole::OneOfMany)
+  mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)] = 2 * edge;
+  if (other != NoCorner)
   {
-    AtomicStore(&table.First[slot], edge);
-  }
-}
-
-/// Tells the triangles of an edge its number.
-DELAUNAYFLIP_HOST_DEVICE inline void LinkEdge(const EdgeMeshView& mesh, EdgeId edge)
-{
-  for (HalfEdgeId halfEdge = 2 * edge; halfEdge < 2 * edge + 2; ++halfEdge)
-  {
-    const CornerId corner = mesh.CornerOfHalfEdge[halfEdge];
-    if (corner != NoCorner)
-    {
-      mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)] = halfEdge;
-    }
+    mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * edge + 1;
   }
 }
 

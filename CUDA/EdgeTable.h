@@ -21,7 +21,10 @@ namespace delaunayflip
 /// Vertex pair of an edge, smaller id first.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t EdgeKey(VertexId a, VertexId b)
 {
-  return a < b ? (std::uint64_t(a) << 32) | b : (std::uint64_t(b) << 32) | a;
+  // Two choices between values, for a branch would be a coin toss.
+  const VertexId smaller = a < b ? a : b;
+  const VertexId larger = a < b ? b : a;
+  return (std::uint64_t(smaller) << 32) | larger;
 }
 
 /// A bijection of 32-bit numbers that scatters them (MurmurHash3's finalizer).
@@ -93,6 +96,17 @@ struct EdgeTableView
       }
     }
     return NoSlot;
+  }
+
+  /// Asks for the slot at which a search for `key` begins, and its words.
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
+  {
+    const VertexId smaller = static_cast<VertexId>(key >> 32);
+    const std::uint32_t slot =
+      this->NearSlot(smaller, Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller)));
+    delaunayflip::Prefetch(&this->Keys[slot]);
+    delaunayflip::Prefetch(&this->First[slot]);
+    delaunayflip::Prefetch(&this->Second[slot]);
   }
 
   /// @returns the slot of `key`, or NoSlot.

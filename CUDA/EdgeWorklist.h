@@ -5,6 +5,7 @@
 
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
+#include "InCircleBatch.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -13,54 +14,21 @@
 
 /// @file
 /// The worklist of a range of edges: blocks of 1024, a flag for every block that holds something to
-/// do. An iteration looks at flagged blocks only and finds its edges by their states, in order,
-/// each once, so it costs what is active in it.
+/// do. A detection looks at flagged blocks only and finds its candidates by their states, in order,
+/// each once, so it costs what is active in it. It lists what is bad; the rest of an iteration goes
+/// by these lists, one a task.
 
 namespace delaunayflip
 {
-
-/// For each of the 256 sets of bytes of a word: which ones, in order, and how many.
-class BytePlaces
-{
-public:
-  struct Places
-  {
-    std::uint8_t Place[8];
-    std::uint8_t Count;
-  };
-
-  /// @param topBits a set as the top bits of its bytes, the others 0.
-  static const Places& Of(std::uint64_t topBits)
-  {
-    static const BytePlaces table;
-    // The product gathers bit 0 of the eight bytes in the last byte.
-    return table.Sets[((topBits >> 7) * 0x0102040810204080u) >> 56];
-  }
-
-private:
-  BytePlaces()
-  {
-    for (int set = 0; set < 256; ++set)
-    {
-      Places& places = this->Sets[set];
-      places = {};
-      for (int i = 0; i < 8; ++i)
-      {
-        places.Place[places.Count] = static_cast<std::uint8_t>(i);
-        places.Count += (set >> i) & 1;
-      }
-    }
-  }
-
-  Places Sets[256];
-};
 
 class EdgeWorklist
 {
 public:
   /// Edges [first, last), every block active.
-  EdgeWorklist(const EdgeState* states, std::int64_t first, std::int64_t last)
+  /// @param mayBlock whether steps may leave edges blocked.
+  EdgeWorklist(const EdgeState* states, std::int64_t first, std::int64_t last, bool mayBlock)
     : States(states),
+      MayBlock(mayBlock),
       FirstEdge(first),
       LastEdge(last),
       FirstBlock(first >> BlockBits),
@@ -78,8 +46,75 @@ public:
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Takes the flagged blocks as those of the coming steps; their flags stay.
-  void Gather()
+  /// Runs steps, all of them on some blocks before the next, on the candidates of flagged blocks:
+  /// for steps that write nothing which another edge's step reads. Then lists and counts what is
+  /// bad; blocks in which an edge is bad or blocked stay flagged. @returns what was counted.
+  template <typename... Steps>
+  StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
+  {
+    this->Gather(BlocksPerTask);
+    return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
+  }
+
+  /// The same on the calling thread, as are the others without a backend.
+  template <typename... Steps>
+  StepCounts Detect(const Steps&... steps)
+  {
+    this->Gather(static_cast<std::int64_t>(this->Flags.size()) + 1);
+    return this->Tasks.empty() ? StepCounts{} : this->DetectIn(this->Tasks[0], steps...);
+  }
+
+  /// Takes edges for which the step is false off the lists.
+  template <typename Step>
+  void Filter(const ThreadBackend& backend, const Step& step)
+  {
+    this->ForTasks(backend, [&](Task& task) { return FilterTask(task, step); });
+  }
+  template <typename Step>
+  void Filter(const Step& step)
+  {
+    for (Task& task : this->Tasks)
+    {
+      FilterTask(task, step);
+    }
+  }
+
+  /// Runs a step on the edges of the lists. @returns what it counted.
+  template <typename Step>
+  StepCounts Run(const ThreadBackend& backend, const Step& step)
+  {
+    return this->ForTasks(backend, [&](Task& task) { return RunOnTask(step, task); });
+  }
+  template <typename Step>
+  StepCounts Run(const Step& step)
+  {
+    StepCounts counts;
+    for (Task& task : this->Tasks)
+    {
+      counts += RunOnTask(step, task);
+    }
+    return counts;
+  }
+
+private:
+  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
+  static constexpr std::int64_t BlocksPerTask = 8;
+  static constexpr std::int64_t SetSize = StatesPerSet;
+  /// Edges between the request for a cache line and its use.
+  static constexpr std::int64_t PrefetchDistance = 16;
+  /// Room behind lists, for edges that are asked for and not worked on.
+  static constexpr std::int64_t Padding = 3 * PrefetchDistance;
+
+  /// Some of the gathered blocks.
+  struct Task
+  {
+    std::int64_t Begin, End;
+    std::vector<EdgeId> Edges; ///< In order, and Padding.
+    std::int64_t Size = 0; ///< Without it.
+  };
+
+  /// Cuts the flagged blocks into tasks.
+  void Gather(std::int64_t blocksPerTask)
   {
     this->Blocks.clear();
     for (std::size_t block = 0; block < this->Flags.size(); ++block)
@@ -89,194 +124,208 @@ public:
         this->Blocks.push_back(this->FirstBlock + static_cast<std::int64_t>(block));
       }
     }
+    const auto size = static_cast<std::int64_t>(this->Blocks.size());
+    this->Tasks.resize((size + blocksPerTask - 1) / blocksPerTask);
+    std::int64_t begin = 0;
+    for (Task& task : this->Tasks)
+    {
+      task.Begin = begin;
+      task.End = std::min(size, begin + blocksPerTask);
+      begin = task.End;
+      task.Edges.clear();
+      task.Size = 0;
+    }
   }
 
-  /// Runs the steps on the gathered blocks on threads, all of them on one block before the next:
-  /// for steps that write nothing which another edge's step reads. Blocks in which an edge stays
-  /// bad or blocked after a CountStep are flagged again. @returns what the steps counted.
-  template <typename... Steps>
-  StepCounts Run(const ThreadBackend& backend, const Steps&... steps)
+  /// Sum of work(task), called on threads.
+  template <typename Work>
+  StepCounts ForTasks(const ThreadBackend& backend, const Work& work)
   {
     return backend.SumRanges<StepCounts>(
-      static_cast<std::int64_t>(this->Blocks.size()),
-      [&](std::int64_t begin, std::int64_t end) { return this->RunBlocks(begin, end, steps...); },
-      BlocksPerTask);
+      static_cast<std::int64_t>(this->Tasks.size()),
+      [&](std::int64_t task, std::int64_t) { return work(this->Tasks[task]); }, 1);
   }
 
-  /// The same on the calling thread.
   template <typename... Steps>
-  StepCounts Run(const Steps&... steps)
-  {
-    return this->RunBlocks(0, static_cast<std::int64_t>(this->Blocks.size()), steps...);
-  }
-
-private:
-  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
-  static constexpr std::int64_t BlocksPerTask = 8;
-  static constexpr std::int64_t WordSize = StatesPerWord;
-  static constexpr std::int64_t WordsPerGroup = 8;
-  /// Edges between the request for a cache line and its use.
-  static constexpr std::int64_t PrefetchDistance = 8;
-
-  template <typename... Steps>
-  StepCounts RunBlocks(std::int64_t begin, std::int64_t end, const Steps&... steps)
+  StepCounts DetectIn(Task& task, const Steps&... steps)
   {
     StepCounts counts;
-    for (std::int64_t i = begin; i < end; ++i)
+    for (std::int64_t begin = task.Begin; begin < task.End; begin += BlocksPerTask)
     {
-      StepCounts block;
-      (this->RunOnBlock(steps, this->Blocks[i], block), ...);
-      counts += block;
+      StepCounts group;
+      const std::int64_t end = std::min(task.End, begin + BlocksPerTask);
+      (this->RunOnBlocks(steps, begin, end, group), ...);
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        this->ListBad(this->Blocks[i], task.Edges, group);
+      }
+      counts += group;
     }
+    task.Size = static_cast<std::int64_t>(task.Edges.size());
+    task.Edges.resize(task.Size + Padding);
     return counts;
   }
 
-  /// Two requests ahead of every edge: its triangles, then what their contents lead to.
-  template <typename Step>
-  static void RunOnEdges(
-    const Step& step, const EdgeId* edges, std::int64_t size, StepCounts& counts)
+  /// Calls work(i, item) with what the step loads for the edges, and three requests ahead of every
+  /// edge: its words, then its triangles, then what their contents lead to. Writes to the padding
+  /// behind them.
+  template <typename Step, typename Work>
+  static void ForEdges(const Step& step, EdgeId* edges, std::int64_t size, const Work& work)
   {
-    decltype(step.Load(0)) items[PrefetchDistance];
-    for (std::int64_t i = 0; i < size + 2 * PrefetchDistance; ++i)
+    constexpr std::int64_t Ahead = PrefetchDistance;
+    if (size == 0)
     {
-      auto& item = items[i % PrefetchDistance];
-      if (i >= 2 * PrefetchDistance)
-      {
-        step(edges[i - 2 * PrefetchDistance], item, counts);
-      }
-      if (i >= PrefetchDistance && i - PrefetchDistance < size)
-      {
-        item = step.Load(edges[i - PrefetchDistance]);
-        step.Prefetch(item);
-      }
-      if (i < size)
-      {
-        PrefetchTriangles(step.Mesh, edges[i]);
-      }
+      return;
+    }
+    std::fill_n(edges + size, Padding, edges[size - 1]);
+    const auto request = [&](std::int64_t i)
+    { Prefetch(&step.Mesh.CornerOfHalfEdge[2 * edges[i]]); };
+    const auto requestTriangles = [&](std::int64_t i) { PrefetchTriangles(step.Mesh, edges[i]); };
+    decltype(step.Load(0)) items[Ahead];
+    const auto load = [&](std::int64_t i)
+    {
+      items[i % Ahead] = step.Load(edges[i]);
+      step.Prefetch(items[i % Ahead]);
+    };
+    for (std::int64_t i = 0; i < std::min(size, 3 * Ahead); ++i)
+    {
+      request(i);
+    }
+    for (std::int64_t i = 0; i < std::min(size, 2 * Ahead); ++i)
+    {
+      requestTriangles(i);
+    }
+    for (std::int64_t i = 0; i < std::min(size, Ahead); ++i)
+    {
+      load(i);
+    }
+    for (std::int64_t i = 0; i < size; ++i)
+    {
+      work(i, items[i % Ahead]);
+      load(i + Ahead);
+      requestTriangles(i + 2 * Ahead);
+      request(i + 3 * Ahead);
     }
   }
 
   template <typename Step>
-  void RunOnBlock(const Step& step, std::int64_t block, StepCounts& counts)
+  static StepCounts RunOnTask(const Step& step, Task& task)
   {
-    EdgeId edges[BlockSize + WordSize];
-    RunOnEdges(step, edges, this->Find(Step::Wanted, this->GetWords(block), edges), counts);
+    StepCounts counts;
+    EdgeId* edges = task.Edges.data();
+    ForEdges(step, edges, task.Size,
+      [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+    return counts;
+  }
+
+  template <typename Step>
+  static StepCounts FilterTask(Task& task, const Step& step)
+  {
+    EdgeId* edges = task.Edges.data();
+    std::int64_t kept = 0;
+    ForEdges(step, edges, task.Size,
+      [&](std::int64_t i, const auto& item)
+      {
+        const EdgeId edge = edges[i];
+        edges[kept] = edge;
+        kept += step(edge, item) ? 1 : 0;
+      });
+    task.Size = kept;
+    return {};
+  }
+
+  template <typename Step>
+  void RunOnBlocks(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
+  {
+    EdgeId edges[BlocksPerTask * BlockSize + Padding];
+    const std::int64_t size = this->FindAll(Step::Wanted, begin, end, edges);
+    ForEdges(
+      step, edges, size, [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+  }
+
+  template <typename Real>
+  void RunOnBlocks(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin, std::int64_t end,
+    StepCounts& counts)
+  {
+    using Batch = InCircleBatch<Real>;
+    if (!Batch::Suits(step.Decision))
+    {
+      this->RunOnBlocks<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
+      return;
+    }
+    EdgeId edges[BlocksPerTask * BlockSize + Padding];
+    const std::int64_t size =
+      this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
+    Batch batch(step.Mesh, step.Decision);
+    ForEdges(batch, edges, size,
+      [&](std::int64_t i, const auto& item) { batch.Add(edges[i], item, counts); });
+    batch.Finish(counts);
   }
 
   /// Exact arithmetic is asked for seldom.
   template <typename Rule>
-  void RunOnBlock(const ResolveStep<Rule>& step, std::int64_t block, StepCounts& counts)
+  void RunOnBlocks(
+    const ResolveStep<Rule>& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
     if (counts.Uncertain > 0)
     {
-      EdgeId edges[BlockSize + WordSize];
-      const std::int64_t size = this->Find(ResolveStep<Rule>::Wanted, this->GetWords(block), edges);
-      RunOnEdges(step, edges, size, counts);
+      this->RunOnBlocks<ResolveStep<Rule>>(step, begin, end, counts);
     }
   }
 
-  void RunOnBlock(const CountStep&, std::int64_t block, StepCounts& counts)
+  /// Lists what is bad in a block and counts it.
+  void ListBad(std::int64_t block, std::vector<EdgeId>& list, StepCounts& counts)
   {
-    const WordRange words = this->GetWords(block);
-    std::int64_t bad = 0;
-    std::int64_t all = 0;
-    for (std::int64_t word = words.First; word < words.End; ++word)
-    {
-      bad += CountBytes(this->Match({ EdgeState::Bad, EdgeState::Bad }, word, words));
-      all += CountBytes(this->Match(CountStep::Wanted, word, words));
-    }
+    EdgeId edges[BlockSize];
+    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, block, edges);
+    list.insert(list.end(), edges, edges + bad);
+    const std::int64_t blocked = this->MayBlock
+      ? this->Find({ EdgeState::BlockedByShape, EdgeState::BlockedByEdge }, block, edges)
+      : 0;
     counts.Bad += bad;
-    counts.Blocked += all - bad;
-    this->Flags[block - this->FirstBlock] = all > 0;
+    counts.Blocked += blocked;
+    this->Flags[block - this->FirstBlock] = bad + blocked > 0;
   }
 
-  static std::int64_t CountBytes(std::uint64_t topBits)
+  /// Find for the gathered blocks [begin, end).
+  std::int64_t FindAll(StateRange wanted, std::int64_t begin, std::int64_t end, EdgeId* found) const
   {
-    return static_cast<std::int64_t>(((topBits >> 7) * EveryByte) >> 56);
+    std::int64_t size = 0;
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      size += this->Find(wanted, this->Blocks[i], found + size);
+    }
+    return size;
   }
 
-  /// The words of states of a block, and which bytes of the first and the last belong to the range.
-  struct WordRange
-  {
-    std::int64_t First, End;
-    std::uint64_t FirstMask, LastMask;
-  };
-
-  WordRange GetWords(std::int64_t block) const
+  /// Stores the edges of a block that are in a wanted state. @returns how many.
+  std::int64_t Find(StateRange wanted, std::int64_t block, EdgeId* found) const
   {
     const std::int64_t first = std::max(this->FirstEdge, block << BlockBits);
     const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockBits);
     const std::uint64_t all = ~std::uint64_t(0);
-    return { first / WordSize, (last + WordSize - 1) / WordSize, all << (8 * (first % WordSize)),
-      all >> (8 * ((WordSize - last % WordSize) % WordSize)) };
-  }
-
-  /// Stores the edges in a wanted state. @returns how many.
-  std::int64_t Find(StateRange wanted, const WordRange& words, EdgeId* found) const
-  {
-    std::int64_t count = 0;
-    for (std::int64_t word = words.First; word < words.End;)
+    EdgeId* end = found;
+    for (std::int64_t base = first / SetSize * SetSize; base < last; base += SetSize)
     {
-      const std::int64_t end = std::min(words.End, word + WordsPerGroup);
-      if (this->AreAtRest(word, end))
+      std::uint64_t set = MatchStates(this->States + base, wanted);
+      set &= base < first ? all << (first - base) : all;
+      set &= base + SetSize > last ? all >> (base + SetSize - last) : all;
+      for (; set != 0; set &= set - 1)
       {
-        word = end;
-        continue;
-      }
-      for (; word < end; ++word)
-      {
-        count += Store(this->Match(wanted, word, words), word, found + count);
+        *end++ = static_cast<EdgeId>(base + __builtin_ctzll(set));
       }
     }
-    return count;
-  }
-
-  /// Whether no edge of the words [word, end) has anything to do.
-  bool AreAtRest(std::int64_t word, std::int64_t end) const
-  {
-    static_assert(static_cast<int>(EdgeState::Deferred) < 4 &&
-        static_cast<int>(EdgeState::Candidate) == 4 && static_cast<int>(EdgeState::Winner) < 12,
-      "the states at rest are those without bits 2 and 3");
-    std::uint64_t states = 0;
-    for (; word < end; ++word)
-    {
-      states |= this->LoadWord(word);
-    }
-    return (states & (0x0C * EveryByte)) == 0;
-  }
-
-  /// Without a branch per edge: all eight places are written, those beyond the count again later.
-  static std::int64_t Store(std::uint64_t matches, std::int64_t word, EdgeId* found)
-  {
-    const BytePlaces::Places& places = BytePlaces::Of(matches);
-    for (std::int64_t i = 0; i < WordSize; ++i)
-    {
-      found[i] = static_cast<EdgeId>(word * WordSize + places.Place[i]);
-    }
-    return places.Count;
-  }
-
-  std::uint64_t LoadWord(std::int64_t word) const
-  {
-    using Word __attribute__((may_alias)) = std::uint64_t;
-    return __atomic_load_n(reinterpret_cast<const Word*>(this->States) + word, __ATOMIC_RELAXED);
-  }
-
-  /// MatchStates for the edges of the range.
-  std::uint64_t Match(StateRange wanted, std::int64_t word, const WordRange& words) const
-  {
-    std::uint64_t matches = MatchStates(this->LoadWord(word), wanted);
-    matches &= word == words.First ? words.FirstMask : ~std::uint64_t(0);
-    matches &= word == words.End - 1 ? words.LastMask : ~std::uint64_t(0);
-    return matches;
+    return end - found;
   }
 
   const EdgeState* States;
+  bool MayBlock;
   std::int64_t FirstEdge;
   std::int64_t LastEdge;
   std::int64_t FirstBlock;
   std::vector<std::uint8_t> Flags;
-  std::vector<std::int64_t> Blocks;
+  std::vector<std::int64_t> Blocks; ///< That were flagged.
+  std::vector<Task> Tasks;
 };
 
 }

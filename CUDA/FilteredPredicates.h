@@ -36,10 +36,16 @@ constexpr double OrientationBound = 3.34e-16;
 constexpr double InCircleBound = 1.112e-15;
 constexpr double TiltedInCircleBound = 1.56e-15;
 
+/// What a determinant must exceed for its sign to be certain.
+DELAUNAYFLIP_HOST_DEVICE inline double GetBound(double error)
+{
+  return error + SmallestCertifiable;
+}
+
 /// Without branches: which way a test goes is a coin toss that no processor predicts.
 DELAUNAYFLIP_HOST_DEVICE inline int CertifiedSign(double determinant, double error)
 {
-  const double bound = error + SmallestCertifiable;
+  const double bound = GetBound(error);
   const int positive = determinant > bound ? 1 : 0;
   const int negative = -determinant > bound ? 1 : 0;
   return positive - negative + UncertainSign * (1 - positive - negative);
@@ -68,8 +74,8 @@ struct FilteredDeterminant
   }
 };
 
-/// Sign of the in-circle determinant of a, b, c, d in (u, v), or UncertainSign.
-DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
+/// Of FilteredInCircle.
+DELAUNAYFLIP_HOST_DEVICE inline FilteredDeterminant InCircleDeterminant(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {
   const double au = a.U - d.U, av = a.V - d.V;
@@ -82,6 +88,14 @@ DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
   determinant.AddTerm(aLift, aLift, bu * cv, cu * bv);
   determinant.AddTerm(bLift, bLift, cu * av, au * cv);
   determinant.AddTerm(cLift, cLift, au * bv, bu * av);
+  return determinant;
+}
+
+/// Sign of the in-circle determinant of a, b, c, d in (u, v), or UncertainSign.
+DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const FilteredDeterminant determinant = InCircleDeterminant(a, b, c, d);
   return CertifiedSign(determinant.Value, InCircleBound * determinant.Permanent);
 }
 

@@ -59,6 +59,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
 struct FixedSums
 {
   std::int64_t Boundary = 0, WronglyWound = 0, Feature = 0, Region = 0, Fixed = 0;
+  std::int64_t Duplicate = 0; ///< Between two triangles on the same three points.
   std::int64_t OneOfMany = 0; ///< Edge records of non-manifold edges.
 
   DELAUNAYFLIP_HOST_DEVICE FixedSums& operator+=(const FixedSums& part)
@@ -67,6 +68,7 @@ struct FixedSums
     this->WronglyWound += part.WronglyWound;
     this->Feature += part.Feature;
     this->Region += part.Region;
+    this->Duplicate += part.Duplicate;
     this->Fixed += part.Fixed;
     this->OneOfMany += part.OneOfMany;
     return *this;
@@ -84,8 +86,13 @@ struct FixEdgeStep
   bool HasFeatures; ///< Sharp edges stay.
   double FeatureCosine;
 
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, FixedSums& sums) const
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t edge) const
   {
+    PrefetchTriangles(this->Mesh, static_cast<EdgeId>(edge));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, FixedSums& sums) const
+  {
+    const auto edge = static_cast<EdgeId>(i);
     const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
     const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
     if (IsLoop(triangle, SlotOf(corner)))
@@ -121,6 +128,7 @@ private:
         this->FeatureCosine);
     sums.WronglyWound += wronglyWound ? 1 : 0;
     sums.Region += region ? 1 : 0;
+    sums.Duplicate += duplicate ? 1 : 0;
     sums.Feature += feature ? 1 : 0;
     return wronglyWound || duplicate || region || feature ||
       ((a.FlipCount | b.FlipCount) & UntouchableBit) != 0;
@@ -132,23 +140,23 @@ private:
   }
 };
 
+/// @returns whether a triangle may repeat the points of another one.
 template <typename Backend>
-void FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
+bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
   const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
     input.Order.View(), input.Survey.Scale, hasFeatures,
     std::cos(input.FeatureAngle * DegreesToRadians) };
-  const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, FixedSums & part)
-    { step(static_cast<EdgeId>(e), part); });
+  const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
   EdgeCounts& counts = result.Counts;
   counts.Boundary = sums.Boundary;
   counts.WronglyWound = sums.WronglyWound;
   counts.Feature = sums.Feature;
   counts.Region = sums.Region;
   counts.Fixed = sums.Fixed - sums.OneOfMany + counts.NonManifold;
+  return counts.NonManifold > 0 || sums.Duplicate > 0 || input.Survey.RepeatedIds.Count > 0;
 }
 
 /// Whether every edge of a triangle joins more triangles than two, or two on the same three points,
@@ -253,8 +261,8 @@ struct ConstraintSums
 };
 
 /// Fixes the edge between two points, if there is one. A constraint given twice counts once.
-DELAUNAYFLIP_HOST_DEVICE inline void FixConstraint(
-  const EdgeTableView& table, EdgeState* states, VertexId a, VertexId b, ConstraintSums& sums)
+DELAUNAYFLIP_HOST_DEVICE inline void FixConstraint(const EdgeTableView& table,
+  const EdgeMeshView& mesh, VertexId a, VertexId b, ConstraintSums& sums)
 {
   const std::uint32_t slot = a == b ? EdgeTableView::NoSlot : table.Find(EdgeKey(a, b));
   if (slot == EdgeTableView::NoSlot)
@@ -265,10 +273,12 @@ DELAUNAYFLIP_HOST_DEVICE inline void FixConstraint(
   constexpr CornerId Seen = 0xFFFFFFFDu;
   const CornerId second = AtomicExchange(&table.Second[slot], Seen);
   sums.Found += second == Seen ? 0 : 1;
-  if (second != Seen && second != ManyCorners && states[table.First[slot]] != EdgeState::Fixed)
+  if (second != Seen && second != ManyCorners)
   {
-    states[table.First[slot]] = EdgeState::Fixed;
-    ++sums.NewlyFixed;
+    const CornerId corner = table.First[slot];
+    const EdgeId edge = EdgeOf(mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)]);
+    sums.NewlyFixed += mesh.States[edge] == EdgeState::Fixed ? 0 : 1;
+    mesh.States[edge] = EdgeState::Fixed;
   }
 }
 
@@ -287,12 +297,12 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
   backend.Upload(ends.data(), 2 * count, points);
   const EdgeTableView table = result.Table.View();
   const SpatialOrderView order = input.Order.View();
-  EdgeState* states = result.Edges.States.Data();
+  const EdgeMeshView mesh = result.Edges.View();
   const ConstraintSums sums = backend.template Sum<ConstraintSums>(count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, ConstraintSums & part)
     {
       FixConstraint(
-        table, states, order.GetRank(points[2 * i]), order.GetRank(points[2 * i + 1]), part);
+        table, mesh, order.GetRank(points[2 * i]), order.GetRank(points[2 * i + 1]), part);
     });
   result.Counts.Constraint = sums.Found;
   result.Counts.Fixed += sums.NewlyFixed;
@@ -303,8 +313,10 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
 template <typename Backend>
 void FixEdges(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  FixByInput(input, result, backend);
-  result.DuplicateTriangles = FindDuplicates(FindSuspects(result.Edges, backend));
+  if (FixByInput(input, result, backend))
+  {
+    result.DuplicateTriangles = FindDuplicates(FindSuspects(result.Edges, backend));
+  }
   TriangleRecord* triangles = result.Edges.Triangles.Data();
   backend.ForEach(result.Edges.NumberOfTriangles,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { triangles[t].FlipCount = 0; });

@@ -92,7 +92,7 @@ private:
     const bool brokenFans =
       edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
     const PlanarSurvey plane =
-      SurveyPlane(this->Mesh, this->Result.Points, brokenFans, this->Engine);
+      SurveyPlane(this->Mesh, this->Result.Points, brokenFans, survey.UsedPoints, this->Engine);
     this->Result.Defects = { plane.ZeroAreaTriangles, plane.InvertedTriangles };
     this->Guard = plane.StarsAreSimple ? EdgeGuard() : this->MakeGuard();
     const double* doubles = this->Result.Points.Doubles.Data();
@@ -149,8 +149,14 @@ private:
 
   EdgeGuard MakeGuard()
   {
-    return EdgeGuard(std::move(this->Table), this->Input.Counts.Edges.Edges,
+    const bool isMissing = this->Table.IsEmpty();
+    EdgeGuard guard(std::move(this->Table), this->Input.Counts.Edges.Edges,
       this->Input.Counts.Points, this->Engine);
+    if (isMissing)
+    {
+      guard.Rebuild(this->Mesh, this->Engine);
+    }
+    return guard;
   }
 
   AngleTolerance GetTolerance() const

@@ -96,6 +96,7 @@ struct PlanarRule
 {
   static constexpr bool Tilted = Components == 3;
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
+  static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
   const Real* Coordinates; ///< Components numbers a vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
@@ -138,9 +139,12 @@ private:
     {
       return EdgeState::Uncertain;
     }
-    const bool tie = inCircle == 0 && this->Canonical && strict && side != 0;
-    const EdgeState wanted = tie && !EdgeHoldsLargest(apqb) ? EdgeState::Good : EdgeState::Bad;
-    const EdgeState state = inCircle * side > 0 || tie ? wanted : EdgeState::Good;
+    // Good or bad is a coin toss: a choice between two values, without a branch.
+    EdgeState state = inCircle * side > 0 ? EdgeState::Bad : EdgeState::Good;
+    if (inCircle == 0 && this->Canonical && strict && side != 0)
+    {
+      state = EdgeHoldsLargest(apqb) ? EdgeState::Bad : EdgeState::Good;
+    }
     return Tilted && state == EdgeState::Bad ? CheckConvex<Signs>(apqb, side) : state;
   }
 };
@@ -174,6 +178,7 @@ struct AnglePoints
 struct PlanarAngleRule : AnglePoints<double>
 {
   static constexpr bool MayBlock = true;
+  static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
@@ -197,6 +202,7 @@ struct SurfaceRule : AnglePoints<Real>
 {
   using AnglePoints<Real>::Get;
   static constexpr bool MayBlock = true;
+  static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {

@@ -14,10 +14,11 @@
 #include <cstdint>
 
 /// @file
-/// The steps of an iteration, each for one edge: judge, resolve, guard, count; choose, claim,
-/// confirm; flip. A step says which states it wants and handles an edge of such a state. All edges
-/// may run at once within a step; what a step writes that others may read at the same time is said
-/// with it. Prefetch(edge) asks for what operator() will read, one level of indirection ahead.
+/// The steps of an iteration, each for one edge: judge, resolve, guard; choose, claim, confirm;
+/// flip. Those of the first group say which states they want, the others take what is bad and, of
+/// these, who wins. All edges may run at once within a step; what a step writes that others may
+/// read at the same time is said with it. Load(edge) reads what a step begins with, and Prefetch
+/// asks for what operator() will read, one level of indirection ahead.
 
 namespace delaunayflip
 {
@@ -48,12 +49,6 @@ struct BlockFlags
 /// Which of two bad edges flips first: a bijection of edge ids, so no two are equal (equal ones
 /// would both flip, on a shared triangle), and scattered, so that chains are not served one by one.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Priority(EdgeId edge) { return Scatter(edge); }
-
-DELAUNAYFLIP_HOST_DEVICE inline void PrefetchTriangles(const EdgeMeshView& mesh, EdgeId edge)
-{
-  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge])]);
-  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
-}
 
 /// What steps on quads share.
 struct QuadStep
@@ -121,38 +116,25 @@ struct GuardStep : QuadStep
   }
 };
 
-/// Counts what is bad. Reads and writes nothing but states.
-struct CountStep
-{
-  static constexpr StateRange Wanted{ EdgeState::BlockedByShape, EdgeState::Bad };
-
-  const EdgeState* States;
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, StepCounts& counts) const
-  {
-    const bool bad = this->States[edge] == EdgeState::Bad;
-    counts.Bad += bad ? 1 : 0;
-    counts.Blocked += bad ? 0 : 1;
-  }
-};
-
 /// Whether an edge comes before those of its quad's outer edges that are bad.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
   EdgeId edge, const OuterHalfEdges& outer, bool ap, bool qa, bool pb, bool bq)
 {
   const std::uint32_t own = Priority(edge);
-  return !(ap && Priority(EdgeOf(outer.AP)) < own) && !(qa && Priority(EdgeOf(outer.QA)) < own) &&
-    !(pb && Priority(EdgeOf(outer.PB)) < own) && !(bq && Priority(EdgeOf(outer.BQ)) < own);
+  // All four are compared, for a branch on each would be a coin toss.
+  const int earlier = (int(ap) & int(Priority(EdgeOf(outer.AP)) < own)) |
+    (int(qa) & int(Priority(EdgeOf(outer.QA)) < own)) |
+    (int(pb) & int(Priority(EdgeOf(outer.PB)) < own)) |
+    (int(bq) & int(Priority(EdgeOf(outer.BQ)) < own));
+  return earlier == 0;
 }
 
 /// Chooses an independent set: a bad edge wins when no bad edge of its two triangles has a smaller
-/// priority. Reads the states of neighbours while they turn from Bad to Winner, and takes both for
-/// bad.
+/// priority. Reads the states of neighbours, which do not change meanwhile.
 struct ChooseStep
 {
   EdgeMeshView Mesh;
 
-  static constexpr StateRange Wanted{ EdgeState::Bad, EdgeState::Bad };
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
   {
     return GetOuterHalfEdges(
@@ -165,22 +147,20 @@ struct ChooseStep
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
     delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
   }
-  void operator()(EdgeId edge, const OuterHalfEdges& outer, StepCounts&) const
+  /// @returns whether the edge wins.
+  bool operator()(EdgeId edge, const OuterHalfEdges& outer) const
   {
     // All four states are asked for before any is looked at.
     const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
     const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
-    if (IsFirst(edge, outer, ap, qa, pb, bq))
-    {
-      AtomicStore(&this->Mesh.States[edge], EdgeState::Winner);
-    }
+    return IsFirst(edge, outer, ap, qa, pb, bq);
   }
 
 private:
   bool IsBad(HalfEdgeId halfEdge) const
   {
-    const EdgeState state = AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]);
-    return state == EdgeState::Bad || state == EdgeState::Winner;
+    // Of an edge that sits out another chunk may store the state again, the same.
+    return AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]) == EdgeState::Bad;
   }
 };
 
@@ -189,26 +169,21 @@ struct ClaimStep : QuadStep
 {
   EdgeClaims Claims;
 
-  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     this->Claims.Claim(quad.A, quad.B, Priority(edge));
   }
 };
 
-/// Winners that do not hold their claim step back. Writes the edge's own state, which no one else
-/// reads.
+/// Winners that do not hold their claim step back, and stay bad.
 struct ConfirmStep : QuadStep
 {
   EdgeClaims Claims;
 
-  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
-  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  /// @returns whether the edge still wins.
+  DELAUNAYFLIP_HOST_DEVICE bool operator()(EdgeId edge, const Quad& quad) const
   {
-    if (!this->Claims.Holds(quad.A, quad.B, Priority(edge)))
-    {
-      AtomicStore(&this->Mesh.States[edge], EdgeState::Bad);
-    }
+    return this->Claims.Holds(quad.A, quad.B, Priority(edge));
   }
 };
 
@@ -236,17 +211,20 @@ struct SurgeryStep : QuadStep
 };
 
 /// Flips the winners and makes candidates of their outer edges. Two flips may mark the same outer
-/// edge, both with the same value.
+/// edge, both with the same value; an edge that sits out keeps its state.
 struct FlipStep : SurgeryStep
 {
   BlockFlags Active;
 
-  static constexpr StateRange Wanted{ EdgeState::Winner, EdgeState::Winner };
   void Prefetch(const Quad& quad) const
   {
     const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.AP)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.QA)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
   }
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
@@ -263,11 +241,10 @@ private:
   {
     EdgeState* state = &this->Mesh.States[edge];
     const EdgeState seen = AtomicLoad(state);
-    if (seen != EdgeState::Fixed && seen != EdgeState::Candidate && seen != EdgeState::Deferred)
-    {
-      AtomicStore(state, EdgeState::Candidate);
-      this->Active.Set(edge);
-    }
+    const bool asleep = seen == EdgeState::Fixed || seen == EdgeState::Deferred;
+    // A store costs less than a branch that nobody can foresee.
+    AtomicStore(state, asleep ? seen : EdgeState::Candidate);
+    this->Active.Set(edge);
   }
 };
 

@@ -29,14 +29,17 @@ DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes],
     }
   }
   std::uint32_t index = 0;
-  std::uint32_t parity = 0;
   for (int bit = bits - 1; bit >= 0; --bit)
   {
     for (const std::uint32_t x : cell)
     {
-      parity ^= (x >> bit) & 1;
-      index = (index << 1) | parity;
+      index = (index << 1) | ((x >> bit) & 1);
     }
+  }
+  // Every bit becomes the parity of itself and all above it.
+  for (int distance = 1; distance < 32; distance *= 2)
+  {
+    index ^= index >> distance;
   }
   return index;
 }

@@ -159,11 +159,14 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
 #endif
 }
 
-/// Asks for the cache line of `address`; a hint without effect on results.
-DELAUNAYFLIP_HOST_DEVICE inline void Prefetch(const void* address)
+/// Asks for the cache line of `address`; a hint without effect on results. Into the second-level
+/// cache: more requests may be on their way to it than to the first.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void Prefetch(const void* address)
 {
 #if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
-  __builtin_prefetch(address);
+  __builtin_prefetch(address, 0, 2);
+  // Calls of a function that does nothing but prefetch would be dropped as calls without effect.
+  __asm__ volatile("");
 #else
   (void)address;
 #endif

@@ -26,12 +26,14 @@ struct PackedPointsView
   const float* Floats; ///< Or null, then Doubles.
   const double* Doubles;
 
-  DELAUNAYFLIP_HOST_DEVICE double Get(VertexId vertex, int component) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE double Get(
+    VertexId vertex, int component) const
   {
     const std::size_t i = std::size_t(this->Components) * vertex + component;
     return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
   }
-  DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPlanePoint(VertexId vertex) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlanePoint GetPlanePoint(
+    VertexId vertex) const
   {
     return { this->Get(vertex, 0), this->Get(vertex, 1), 0.0 };
   }
@@ -76,6 +78,38 @@ struct PackingPlan
   }
 };
 
+/// Packs the point of a rank.
+struct PackStep
+{
+  PointArray Points;
+  SpatialOrderView Order;
+  PackingPlan Plan;
+  float* Floats;
+  double* Doubles;
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t rank) const
+  {
+    this->Points.Prefetch(this->Order.GetVertex(rank));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t rank) const
+  {
+    const VertexId point = this->Order.GetVertex(rank);
+    for (int k = 0; k < this->Plan.Components; ++k)
+    {
+      const std::size_t i = std::size_t(this->Plan.Components) * rank + k;
+      const double x = this->Plan.GetValue(this->Points, point, k);
+      if (this->Plan.AsFloat)
+      {
+        this->Floats[i] = static_cast<float>(x);
+      }
+      else
+      {
+        this->Doubles[i] = x;
+      }
+    }
+  }
+};
+
 /// Packs all points, also unused ones and those that are not finite, which no rule will read.
 template <typename Backend>
 PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
@@ -87,26 +121,8 @@ PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
   const std::int64_t size = plan.Components * points.Count;
   packed.Floats = backend.template MakeArray<float>(plan.AsFloat ? size : 0);
   packed.Doubles = backend.template MakeArray<double>(plan.AsFloat ? 0 : size);
-  float* floats = packed.Floats.Data();
-  double* doubles = packed.Doubles.Data();
-  backend.ForEach(points.Count,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t rank)
-    {
-      const VertexId point = order.GetVertex(rank);
-      for (int k = 0; k < plan.Components; ++k)
-      {
-        const std::size_t i = std::size_t(plan.Components) * rank + k;
-        const double x = plan.GetValue(points, point, k);
-        if (plan.AsFloat)
-        {
-          floats[i] = static_cast<float>(x);
-        }
-        else
-        {
-          doubles[i] = x;
-        }
-      }
-    });
+  backend.ForEach(
+    points.Count, PackStep{ points, order, plan, packed.Floats.Data(), packed.Doubles.Data() });
   return packed;
 }
 

@@ -81,10 +81,11 @@ OrientationSums SumOrientations(
 /// Triangles with a coordinate that is not finite, which never flip, do not count.
 /// @param hasBrokenFans whether there are non-manifold or wrongly wound edges or such triangles;
 /// then StarsAreSimple is not examined and false.
+/// @param usedPoints vertices of triangles.
 /// @throws BeyondDevice where a device cannot tell an orientation.
 template <typename Backend>
-PlanarSurvey SurveyPlane(
-  EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans, const Backend& backend)
+PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans,
+  std::int64_t usedPoints, const Backend& backend)
 {
   const OrientationSums sums = SumOrientations(mesh, points.View(), backend);
   if (sums.Uncertain > 0)
@@ -100,7 +101,7 @@ PlanarSurvey SurveyPlane(
   {
     survey.UniformSide = mostlyLeft ? 1 : -1;
     survey.StarsAreSimple =
-      !hasBrokenFans && AreStarsSimple(mesh, points, survey.UniformSide, backend);
+      !hasBrokenFans && AreStarsSimple(mesh, points, survey.UniformSide, usedPoints, backend);
   }
   return survey;
 }

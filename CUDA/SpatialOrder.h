@@ -32,6 +32,14 @@ struct SpatialOrderView
   {
     return this->RankOfVertex ? this->RankOfVertex[vertex] : static_cast<VertexId>(vertex);
   }
+  /// Asks for a vertex's rank ahead of its use.
+  DELAUNAYFLIP_HOST_DEVICE void PrefetchRank(std::int64_t vertex) const
+  {
+    if (this->RankOfVertex)
+    {
+      Prefetch(&this->RankOfVertex[vertex]);
+    }
+  }
   DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::int64_t rank) const
   {
     return this->VertexOfRank ? this->VertexOfRank[rank] : static_cast<VertexId>(rank);
@@ -94,6 +102,28 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t MedianOf(
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
+/// The key of a triangle: where its vertex of median rank is.
+struct TriangleKey
+{
+  TriangleArray Triangles;
+  const VertexId* RankOfVertex;
+  std::int64_t NumberOfPoints;
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->RankOfVertex[this->Triangles.Get(t, slot)]);
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t operator()(std::int64_t t) const
+  {
+    const std::uint64_t median = MedianOf(this->RankOfVertex[this->Triangles.Get(t, 0)],
+      this->RankOfVertex[this->Triangles.Get(t, 1)], this->RankOfVertex[this->Triangles.Get(t, 2)]);
+    return static_cast<std::uint32_t>((median << SortKeyBits) / this->NumberOfPoints);
+  }
+};
+
 /// Vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in planar
 /// geometry, 128^3 on surfaces), triangles by the median rank of their vertices: a long triangle
 /// lies near its short edge, where it will be flipped away.
@@ -116,13 +146,8 @@ SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const B
   backend.ForEach(points.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t rank)
     { rankOfVertex[vertexOfRank[rank]] = static_cast<VertexId>(rank); });
-  order.TriangleOfRank = backend.SortIndices(triangles.Count,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-    {
-      const std::uint64_t median = MedianOf(rankOfVertex[triangles.Get(t, 0)],
-        rankOfVertex[triangles.Get(t, 1)], rankOfVertex[triangles.Get(t, 2)]);
-      return static_cast<std::uint32_t>((median << SortKeyBits) / points.Count);
-    });
+  order.TriangleOfRank =
+    backend.SortIndices(triangles.Count, TriangleKey{ triangles, rankOfVertex, points.Count });
   return order;
 }
 

@@ -42,13 +42,13 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
 struct StarSums
 {
   std::int64_t SeveralFans = 0;
-  std::int64_t CoveredTwice = 0;
+  std::int64_t Covers = 0; ///< Corners that cover their vertex's direction.
   std::int64_t Uncertain = 0; ///< A device cannot tell.
 
   DELAUNAYFLIP_HOST_DEVICE StarSums& operator+=(const StarSums& part)
   {
     this->SeveralFans += part.SeveralFans;
-    this->CoveredTwice += part.CoveredTwice;
+    this->Covers += part.Covers;
     this->Uncertain += part.Uncertain;
     return *this;
   }
@@ -58,7 +58,8 @@ struct StarSums
 ///
 /// Around an inner vertex the triangles turn a whole number of times: as often as the direction +u
 /// is crossed, which comparisons of coordinates tell. At the boundary the direction of the fan's
-/// first edge must be covered once only.
+/// first edge must be covered once only. So every vertex of a triangle has one corner or more that
+/// cover its direction, and one each when there are as many such corners as vertices.
 struct StarSurvey
 {
   static constexpr VertexId NoVertex = 0xFFFFFFFFu;
@@ -67,7 +68,6 @@ struct StarSurvey
   PackedPointsView Points;
   int Side;
   VertexId* FanStarts; ///< At the boundary, the end of the fan's first edge.
-  std::uint32_t* Covered; ///< A bit a vertex: its direction has been covered.
 
   /// Notes where a fan starts, if the edge is a boundary edge.
   DELAUNAYFLIP_HOST_DEVICE void NoteFan(EdgeId edge, StarSums& sums) const
@@ -85,19 +85,17 @@ struct StarSurvey
 
   DELAUNAYFLIP_HOST_DEVICE void NoteTriangle(std::int64_t t, StarSums& sums) const
   {
-    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    const VertexId* v = this->Mesh.Triangles[t].Vertices;
+    const bool inner = this->FanStarts[v[0]] == NoVertex && this->FanStarts[v[1]] == NoVertex &&
+      this->FanStarts[v[2]] == NoVertex;
+    if (inner)
+    {
+      sums.Covers += this->CoverPositiveU(v) ? 1 : 0;
+      return;
+    }
     for (int slot = 0; slot < 3; ++slot)
     {
-      const VertexId v = triangle.Vertices[slot];
-      const VertexId first = triangle.Vertices[NextSlot(slot)];
-      const VertexId last = triangle.Vertices[PreviousSlot(slot)];
-      const bool covers = this->FanStarts[v] == NoVertex ? this->CoversPositiveU(v, first, last)
-                                                         : this->Covers(v, first, last, sums);
-      const std::uint32_t bit = 1u << (v % 32);
-      if (covers && (AtomicOr(&this->Covered[v / 32], bit) & bit) != 0)
-      {
-        ++sums.CoveredTwice;
-      }
+      sums.Covers += this->Covers(v[slot], v[NextSlot(slot)], v[PreviousSlot(slot)], sums) ? 1 : 0;
     }
   }
 
@@ -118,11 +116,26 @@ private:
     return this->Side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
   }
 
+  /// Whether a corner of a triangle covers +u, which one of them does at most: two of three edges
+  /// that go round it go up, or two go down.
+  DELAUNAYFLIP_HOST_DEVICE bool CoverPositiveU(const VertexId* v) const
+  {
+    const PlanePoint p = this->Points.GetPlanePoint(v[0]);
+    const PlanePoint q = this->Points.GetPlanePoint(v[1]);
+    const PlanePoint r = this->Points.GetPlanePoint(v[2]);
+    const int up = (IsUpper(p, q) ? 1 : 0) + (IsUpper(q, r) ? 1 : 0) + (IsUpper(r, p) ? 1 : 0);
+    return up == (this->Side > 0 ? 1 : 2);
+  }
+
   /// Whether the corner from `first` (included) to `last` (not) covers where the fan starts.
   DELAUNAYFLIP_HOST_DEVICE bool Covers(
     VertexId vertex, VertexId first, VertexId last, StarSums& sums) const
   {
     const VertexId start = this->FanStarts[vertex];
+    if (start == NoVertex)
+    {
+      return this->CoversPositiveU(vertex, first, last);
+    }
     if (start == first)
     {
       return true;
@@ -141,17 +154,16 @@ private:
   }
 };
 
+/// @param usedPoints vertices of triangles.
 /// @throws BeyondDevice where a device cannot tell.
 template <typename Backend>
-bool AreStarsSimple(EdgeMesh& mesh, const PackedPoints& points, int side, const Backend& backend)
+bool AreStarsSimple(EdgeMesh& mesh, const PackedPoints& points, int side, std::int64_t usedPoints,
+  const Backend& backend)
 {
-  const std::int64_t words = points.Count / 32 + 1;
   Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(points.Count);
-  Array<std::uint32_t> covered = backend.template MakeArray<std::uint32_t>(words);
-  const StarSurvey survey{ mesh.View(), points.View(), side, fanStarts.Data(), covered.Data() };
+  const StarSurvey survey{ mesh.View(), points.View(), side, fanStarts.Data() };
   backend.ForEach(points.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { survey.FanStarts[v] = StarSurvey::NoVertex; });
-  backend.ForEach(words, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { survey.Covered[i] = 0; });
   StarSums sums = backend.template Sum<StarSums>(mesh.NumberOfEdges,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, StarSums & part)
     { survey.NoteFan(static_cast<EdgeId>(e), part); });
@@ -166,7 +178,7 @@ bool AreStarsSimple(EdgeMesh& mesh, const PackedPoints& points, int side, const 
   {
     throw BeyondDevice();
   }
-  return sums.CoveredTwice == 0;
+  return sums.Covers == usedPoints;
 }
 
 }

@@ -115,15 +115,11 @@ DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOver(const QuadPoints& quad)
 /// Squared cotangent of the smallest angle of a triangle, which grows as the angle shrinks:
 /// infinite without area, -infinite (no angle) with a coordinate that is NaN or infinite. The
 /// smallest angle is at most 60 degrees, so its cotangent is positive.
+/// @param atA, atB, atC products of the edges at the corners. @param squaredArea of twice the
+/// triangle.
 DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
-  const Vector3& a, const Vector3& b, const Vector3& c)
+  double atA, double atB, double atC, double squaredArea)
 {
-  const Vector3 ab = b - a, ac = c - a, bc = c - b;
-  const double atA = Dot(ab, ac);
-  const double atB = -Dot(ab, bc);
-  const double atC = Dot(ac, bc);
-  const Vector3 normal = Cross(ab, ac);
-  const double squaredArea = Dot(normal, normal);
   if (!(squaredArea < INFINITY))
   {
     return -INFINITY;
@@ -131,6 +127,26 @@ DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
   const double atBOrC = atB > atC ? atB : atC;
   const double largest = atA > atBOrC ? atA : atBOrC;
   return squaredArea > 0.0 ? largest * largest / squaredArea : INFINITY;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const Vector3 ab = b - a, ac = c - a, bc = c - b;
+  const Vector3 normal = Cross(ab, ac);
+  return LargestSquaredCotangent(Dot(ab, ac), -Dot(ab, bc), Dot(ac, bc), Dot(normal, normal));
+}
+
+/// The same for triangles with Z = 0, with the same bits.
+DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangentFlat(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const double abX = b.X - a.X, abY = b.Y - a.Y;
+  const double acX = c.X - a.X, acY = c.Y - a.Y;
+  const double bcX = c.X - b.X, bcY = c.Y - b.Y;
+  const double area = abX * acY - abY * acX;
+  return LargestSquaredCotangent(
+    abX * acX + abY * acY, -(abX * bcX + abY * bcY), acX * bcX + acY * bcY, area * area);
 }
 
 }

@@ -11,6 +11,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -78,12 +80,7 @@ public:
   {
     this->ForRange(size,
       [&work](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          work(i);
-        }
-      });
+      { Loop(begin, end, work, [&work](std::int64_t i) { work(i); }); });
   }
 
   /// Calls work(i, sum) for i = 0 .. size - 1 on partial sums. @returns their sum by operator+=,
@@ -95,10 +92,7 @@ public:
       [&work](std::int64_t begin, std::int64_t end)
       {
         Result part{};
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          work(i, part);
-        }
+        Loop(begin, end, work, [&work, &part](std::int64_t i) { work(i, part); });
         return part;
       });
   }
@@ -115,10 +109,7 @@ public:
       [&](std::int64_t begin, std::int64_t end)
       {
         std::int64_t items = 0;
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          items += count(i);
-        }
+        Loop(begin, end, count, [&count, &items](std::int64_t i) { items += count(i); });
         numbering.FirstOfPiece[begin / DefaultGrain] = items;
       });
     for (std::int64_t& first : numbering.FirstOfPiece)
@@ -140,12 +131,13 @@ public:
       [&](std::int64_t begin, std::int64_t end)
       {
         std::int64_t next = numbering.FirstOfPiece[begin / DefaultGrain];
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const std::int64_t first = next;
-          next += count(i);
-          visit(i, first);
-        }
+        Loop(begin, end, visit,
+          [&](std::int64_t i)
+          {
+            const std::int64_t first = next;
+            next += count(i);
+            visit(i, first);
+          });
       });
   }
 
@@ -198,6 +190,47 @@ public:
   static constexpr std::int64_t DefaultGrain = 16384;
 
 private:
+  /// Items between the request for a cache line and its use.
+  static constexpr std::int64_t PrefetchDistance = 32;
+
+  template <typename Work, typename = void>
+  struct Prefetches : std::false_type
+  {
+  };
+  template <typename Work>
+  struct Prefetches<Work, std::void_t<decltype(std::declval<const Work&>().Prefetch(0))>>
+    : std::true_type
+  {
+  };
+  template <typename Work, typename = void>
+  struct PrefetchesFar : std::false_type
+  {
+  };
+  template <typename Work>
+  struct PrefetchesFar<Work, std::void_t<decltype(std::declval<const Work&>().PrefetchFar(0))>>
+    : std::true_type
+  {
+  };
+
+  /// Calls call(i) for i = begin .. end - 1, and ahead of it work.Prefetch(i) and, still earlier,
+  /// work.PrefetchFar(i), if there are such.
+  template <typename Work, typename Call>
+  static void Loop(std::int64_t begin, std::int64_t end, const Work& work, const Call& call)
+  {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      if constexpr (PrefetchesFar<Work>::value)
+      {
+        work.PrefetchFar(std::min(i + 2 * PrefetchDistance, end - 1));
+      }
+      if constexpr (Prefetches<Work>::value)
+      {
+        work.Prefetch(std::min(i + PrefetchDistance, end - 1));
+      }
+      call(i);
+    }
+  }
+
   /// One pass of a stable radix sort: `from` to `to` by the digit at `shift`.
   struct KeyedIndex
   {
@@ -215,9 +248,13 @@ Array<std::uint32_t> ThreadBackend::SortIndices(std::int64_t size, const KeyOf& 
 {
   Array<KeyedIndex> items(size);
   Array<KeyedIndex> sorted(size);
-  this->ForEach(size,
-    [&](std::int64_t i) {
-      items[i] = { keyOf(i), static_cast<std::uint32_t>(i) };
+  this->ForRange(size,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      Loop(begin, end, keyOf,
+        [&](std::int64_t i) {
+          items[i] = { keyOf(i), static_cast<std::uint32_t>(i) };
+        });
     });
   this->SortByDigit(items, sorted, 0);
   this->SortByDigit(sorted, items, SortKeyBits / 2);

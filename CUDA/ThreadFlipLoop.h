@@ -33,7 +33,7 @@ public:
       Scale(scale),
       Guard(std::move(guard)),
       Backend(backend),
-      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges)
+      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
   {
     this->CutIntoChunks();
   }
@@ -41,11 +41,10 @@ public:
   StepCounts Detect() override
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    this->Worklist.Gather();
     this->Found = this->Guard.IsActive()
-      ? this->Worklist.Run(this->Backend, this->Judge(), this->Resolve(),
-          GuardStep{ { mesh }, this->Guard.View().Edges }, CountStep{ mesh.States })
-      : this->Worklist.Run(this->Backend, this->Judge(), this->Resolve(), CountStep{ mesh.States });
+      ? this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve(),
+          GuardStep{ { mesh }, this->Guard.View().Edges })
+      : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
     return this->Found;
   }
 
@@ -114,13 +113,12 @@ private:
   IterationCounts Iterate(bool measure)
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    this->Worklist.Gather();
-    this->Worklist.Run(this->Backend, ChooseStep{ mesh });
+    this->Worklist.Filter(this->Backend, ChooseStep{ mesh });
     const EdgeGuardView guard = this->Guard.View();
     if (guard.Active)
     {
       this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, guard.Claims });
-      this->Worklist.Run(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
+      this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
     }
     const StepCounts flips =
       this->Worklist.Run(this->Backend, FlipStep{ { { mesh }, guard }, this->Worklist.GetFlags() });
@@ -182,15 +180,13 @@ private:
     Chunk& chunk, std::int64_t rounds, const AdvancePlan& plan) const
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge);
+    EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
     const FlipStep flip{ { { mesh }, EdgeGuardView{} }, worklist.GetFlags() };
-    worklist.Gather();
-    StepCounts found = worklist.Run(CountStep{ mesh.States });
+    StepCounts found = worklist.Detect();
     std::vector<IterationCounts> counts(rounds);
     for (std::int64_t round = 0; round < rounds; ++round)
     {
-      worklist.Gather();
-      worklist.Run(ChooseStep{ mesh });
+      worklist.Filter(ChooseStep{ mesh });
       const StepCounts flips = worklist.Run(flip);
       counts[round] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && round == 0))
@@ -198,8 +194,7 @@ private:
         counts[round].SquaredCotangent =
           this->FindLargestSquaredCotangent(chunk.FirstTriangle, chunk.LastTriangle);
       }
-      worklist.Gather();
-      found = worklist.Run(this->Judge(), this->Resolve(), CountStep{ mesh.States });
+      found = worklist.Detect(this->Judge(), this->Resolve());
       chunk.Tested = found.Tested;
     }
     return counts;

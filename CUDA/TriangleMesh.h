@@ -35,6 +35,14 @@ struct PointArray
     return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
   }
 
+  /// Asks for a point's coordinates ahead of their use.
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t point) const
+  {
+    const std::int64_t i = 3 * point;
+    delaunayflip::Prefetch(this->Floats ? static_cast<const void*>(this->Floats + i)
+                                        : static_cast<const void*>(this->Doubles + i));
+  }
+
   const float* Floats = nullptr;
   const double* Doubles = nullptr;
   std::int64_t Count = 0;
@@ -63,6 +71,14 @@ struct BasicTriangleArray
     const std::int64_t i = 3 * triangle + slot;
     return this->Ids32 ? static_cast<std::int64_t>(this->Ids32[i])
                        : static_cast<std::int64_t>(this->Ids64[i]);
+  }
+
+  /// Asks for a triangle's ids ahead of their use.
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t triangle) const
+  {
+    const std::int64_t i = 3 * triangle;
+    delaunayflip::Prefetch(this->Ids32 ? static_cast<const void*>(this->Ids32 + i)
+                                       : static_cast<const void*>(this->Ids64 + i));
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const

@@ -31,11 +31,12 @@ struct Built
   EdgeMeshResult Result;
 };
 
-Built Build(const TriangleMesh& mesh, const ThreadBackend& backend)
+Built Build(const TriangleMesh& mesh, const ThreadBackend& backend,
+  GeometryKind geometry = GeometryKind::Auto)
 {
   Built built;
   const MeshInput input{ mesh, mesh };
-  built.Survey = SurveyMesh(input, GeometryKind::Auto, backend);
+  built.Survey = SurveyMesh(input, geometry, backend);
   built.Order = OrderMesh(input, built.Survey, backend);
   built.Result = BuildEdgeMesh({ input, built.Survey, built.Order, 180.0 }, backend);
   return built;
@@ -126,6 +127,52 @@ TEST(EdgeTableTest, HubsLeaveRoomForAll)
     EXPECT_NE(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs)));
     EXPECT_EQ(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs + EdgesOfHub)));
   }
+}
+
+/// A planar mesh needs the table of vertex pairs for its constraints only; edges are the same.
+TEST(EdgeMesh, PairsAlikeWithAndWithoutTheTable)
+{
+  const ThreadBackend backend(2);
+  for (const std::int32_t points : { 3, 30, 9000 })
+  {
+    const OwnedMesh<float> mesh = MakeSoup(points, 3 * points, 7);
+    const Built without = Build(mesh.View(), backend, GeometryKind::PlanarXY);
+    ExpectRecords(without.Result.Edges);
+    EXPECT_EQ(0, CountInconsistencies(without.Result.Edges, backend));
+    const std::int64_t constraint[2] = { mesh.Triangles[0], mesh.Triangles[1] };
+    TriangleMesh view = mesh.View();
+    view.ConstraintEdges = constraint;
+    view.NumberOfConstraintEdges = 1;
+    const Built with = Build(view, backend, GeometryKind::PlanarXY);
+    ExpectRecords(with.Result.Edges);
+    EXPECT_TRUE(without.Result.Table.IsEmpty());
+    EXPECT_FALSE(with.Result.Table.IsEmpty());
+    EXPECT_EQ(with.Result.Counts.Edges, without.Result.Counts.Edges);
+    EXPECT_EQ(with.Result.Counts.NonManifold, without.Result.Counts.NonManifold);
+    EXPECT_EQ(with.Result.DuplicateTriangles.Count, without.Result.DuplicateTriangles.Count);
+  }
+}
+
+/// None of these triangles has an edge that counts, and still one repeats another.
+TEST(EdgeMesh, FindsRepeatedTrianglesOfOnePoint)
+{
+  OwnedMesh<float> mesh;
+  mesh.Points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  mesh.Triangles = { 0, 1, 2, 2, 2, 2, 1, 1, 1, 2, 2, 2 };
+  const ThreadBackend backend(1);
+  const Built built = Build(mesh.View(), backend, GeometryKind::PlanarXY);
+  EXPECT_EQ(1, built.Result.DuplicateTriangles.Count);
+}
+
+/// One thread would pair all corners of a vertex that has most of the edges.
+TEST(CornerPairing, KnowsWhetherBlocksAreEven)
+{
+  const ThreadBackend backend(2);
+  const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1);
+  Built built = Build(mesh.View(), backend);
+  const CornerPairing pairing(built.Result.Edges, mesh.NumberOfPoints(), backend);
+  EXPECT_TRUE(pairing.IsEven());
+  EXPECT_FALSE(pairing.IsEven(1000));
 }
 
 TEST(EdgeMesh, RandomMeshMatchesBruteForce)

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CORNERPAIRING_H
+#define DELAUNAYFLIP_CORNERPAIRING_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "EdgeMeshSteps.h"
+#include "EdgeTable.h"
+#include "ThreadBackend.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+/// @file
+/// Which corners face the same edge, on threads: corners are dealt out by the smaller vertex of
+/// their edge to blocks of vertices, and each block pairs its own in a table that fits a cache and
+/// that no other thread knows. The edge table (EdgeTable.h), all of it in memory and shared, is
+/// needed only by those who look edges up later.
+
+namespace delaunayflip
+{
+
+/// Puts the roles of a triangle's corners into FlipCount, where HalfEdges hold the edges' other
+/// corners: NoCorner of a boundary edge, ManyCorners of a non-manifold one, which becomes NoCorner.
+/// @returns the number of edges that the triangle leads.
+struct OtherCornerStep
+{
+  TriangleRecord* Triangles;
+
+  int operator()(std::int64_t t) const
+  {
+    TriangleRecord& triangle = this->Triangles[t];
+    std::uint32_t roles = 0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const CornerId other = triangle.HalfEdges[slot];
+      static_assert(static_cast<int>(CornerRole::Follower) == 0 &&
+          static_cast<int>(CornerRole::Leader) == 1 && static_cast<int>(CornerRole::Alone) == 2 &&
+          static_cast<int>(CornerRole::OneOfMany) == 3,
+        "without branches, the two special ids being larger than any corner");
+      const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
+        (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
+      roles |= role << (2 * slot);
+      triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
+    }
+    triangle.FlipCount |= roles;
+    return CountLeaders(triangle);
+  }
+};
+
+class CornerPairing
+{
+public:
+  CornerPairing(EdgeMesh& mesh, std::int64_t vertices, const ThreadBackend& backend)
+    : Triangles(mesh.Triangles.Data()),
+      NumberOfTriangles(mesh.NumberOfTriangles),
+      Backend(backend)
+  {
+    while ((vertices >> this->BlockBits) >= MostBlocks)
+    {
+      ++this->BlockBits;
+    }
+    this->Starts.assign((vertices >> this->BlockBits) + 2, 0);
+    this->CountCorners();
+  }
+
+  /// Whether no block has so many corners that a thread would be long alone with it: one vertex may
+  /// have most of the edges.
+  bool IsEven(std::uint32_t mostCorners = 1u << 20) const
+  {
+    return this->GetLargest(0, this->CountBlocks()) <= mostCorners;
+  }
+
+  /// Sets HalfEdges to other corners, as OtherCornerStep expects them.
+  PairSums Run()
+  {
+    this->DealCorners();
+    return this->Backend.SumRanges<PairSums>(
+      this->CountBlocks(),
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        PairSums sums;
+        Scratch scratch(this->GetLargest(begin, end));
+        for (std::int64_t block = begin; block < end; ++block)
+        {
+          this->PairBlock(block, scratch, sums);
+        }
+        return sums;
+      },
+      BlocksPerTask);
+  }
+
+private:
+  static constexpr std::int64_t MostBlocks = 4096;
+  static constexpr std::int64_t BlocksPerTask = 4;
+  /// Corners between the request for a triangle and its use.
+  static constexpr std::uint32_t PrefetchDistance = 32;
+  static constexpr std::uint64_t Empty = EdgeTableView::Empty;
+  /// A corner of an edge is counted in the upper half of a word.
+  static constexpr std::uint64_t OneCorner = std::uint64_t(1) << 32;
+
+  /// A table for the edges of `corners` corners, and the places that these have in it.
+  struct Scratch
+  {
+    explicit Scratch(std::uint32_t corners)
+      : Keys(GetCapacity(corners)),
+        Words(GetCapacity(corners)),
+        Places(corners)
+    {
+    }
+
+    /// A power of two that leaves room even if no two corners share an edge.
+    static std::uint32_t GetCapacity(std::uint32_t corners)
+    {
+      std::uint32_t capacity = 2;
+      while (capacity <= corners)
+      {
+        capacity *= 2;
+      }
+      return capacity;
+    }
+
+    Array<std::uint64_t> Keys;
+    Array<std::uint64_t> Words; ///< Number of corners, and the exclusive or of their ids.
+    Array<std::uint32_t> Places;
+  };
+
+  std::int64_t CountBlocks() const { return static_cast<std::int64_t>(this->Starts.size()) - 1; }
+
+  std::uint32_t GetBlock(const TriangleRecord& triangle, int slot) const
+  {
+    return std::min(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]) >>
+      this->BlockBits;
+  }
+
+  /// How many corners of triangles [begin, end) every block gets.
+  void CountIn(std::int64_t begin, std::int64_t end, std::vector<std::uint32_t>& counts) const
+  {
+    for (std::int64_t t = begin; t < end; ++t)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        ++counts[this->GetBlock(this->Triangles[t], slot)];
+      }
+    }
+  }
+
+  void CountCorners()
+  {
+    this->Backend.ForRange(this->NumberOfTriangles,
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        std::vector<std::uint32_t> counts(this->Starts.size() - 1, 0);
+        this->CountIn(begin, end, counts);
+        for (std::size_t block = 0; block < counts.size(); ++block)
+        {
+          AtomicAdd(&this->Starts[block + 1], counts[block]);
+        }
+      });
+    for (std::size_t block = 1; block < this->Starts.size(); ++block)
+    {
+      this->Starts[block] += this->Starts[block - 1];
+    }
+  }
+
+  /// Lists every block's corners, in an order that decides nothing.
+  void DealCorners()
+  {
+    this->Corners = Array<CornerId>(this->Starts.back());
+    std::vector<std::uint32_t> ends(this->Starts.begin(), this->Starts.end() - 1);
+    this->Backend.ForRange(this->NumberOfTriangles,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        std::vector<std::uint32_t> next(ends.size(), 0);
+        this->CountIn(begin, end, next);
+        for (std::size_t block = 0; block < next.size(); ++block)
+        {
+          next[block] = AtomicAdd(&ends[block], next[block]);
+        }
+        for (std::int64_t t = begin; t < end; ++t)
+        {
+          for (int slot = 0; slot < 3; ++slot)
+          {
+            this->Corners[next[this->GetBlock(this->Triangles[t], slot)]++] =
+              MakeCorner(static_cast<TriangleId>(t), slot);
+          }
+        }
+      });
+  }
+
+  std::uint32_t GetLargest(std::int64_t firstBlock, std::int64_t lastBlock) const
+  {
+    std::uint32_t largest = 0;
+    for (std::int64_t block = firstBlock; block < lastBlock; ++block)
+    {
+      largest = std::max(largest, this->Starts[block + 1] - this->Starts[block]);
+    }
+    return largest;
+  }
+
+  void PairBlock(std::int64_t block, Scratch& scratch, PairSums& sums) const
+  {
+    const CornerId* corners = this->Corners.Data() + this->Starts[block];
+    const std::uint32_t size = this->Starts[block + 1] - this->Starts[block];
+    this->EnterCorners(corners, size, scratch, sums);
+    for (std::uint32_t i = 0; i < size; ++i)
+    {
+      const std::uint64_t word = scratch.Words[scratch.Places[i]];
+      const auto other = static_cast<CornerId>(word) ^ corners[i];
+      const std::uint64_t count = word / OneCorner;
+      const CornerId special = count == 1 ? NoCorner : ManyCorners;
+      this->Triangles[TriangleOf(corners[i])].HalfEdges[SlotOf(corners[i])] =
+        count == 2 ? other : special;
+    }
+  }
+
+  /// Without a branch on whether an edge is new, which would be a coin toss.
+  void EnterCorners(
+    const CornerId* corners, std::uint32_t size, Scratch& scratch, PairSums& sums) const
+  {
+    const std::uint32_t capacity = Scratch::GetCapacity(size);
+    std::uint64_t* keys = scratch.Keys.Data();
+    static_assert(Empty == ~std::uint64_t(0), "all bytes 0xFF");
+    std::memset(keys, 0xFF, capacity * sizeof(std::uint64_t));
+    for (std::uint32_t i = 0; i < size; ++i)
+    {
+      Prefetch(&this->Triangles[TriangleOf(corners[std::min(i + PrefetchDistance, size - 1)])]);
+      const CornerId corner = corners[i];
+      const std::uint64_t key = KeyOpposite(this->Triangles[TriangleOf(corner)], SlotOf(corner));
+      // Places follow from the upper half of a product.
+      std::uint32_t place =
+        static_cast<std::uint32_t>((((key * 0x9e3779b97f4a7c15u) >> 32) * capacity) >> 32);
+      std::uint64_t seen = keys[place];
+      while (static_cast<int>(seen != key) & static_cast<int>(seen != Empty))
+      {
+        place = (place + 1) & (capacity - 1);
+        seen = keys[place];
+      }
+      const bool isNew = seen == Empty;
+      const bool isEdge = key >> 32 != static_cast<std::uint32_t>(key);
+      const std::uint64_t word = scratch.Words[place] & (std::uint64_t(isNew) - 1);
+      keys[place] = key;
+      scratch.Words[place] = (word ^ corner) + OneCorner;
+      scratch.Places[i] = place;
+      sums.Edges += static_cast<int>(isNew) & static_cast<int>(isEdge);
+      sums.NonManifold += static_cast<int>(word / OneCorner == 2) & static_cast<int>(isEdge);
+    }
+  }
+
+  TriangleRecord* Triangles;
+  std::int64_t NumberOfTriangles;
+  const ThreadBackend& Backend;
+  int BlockBits = 11;
+  std::vector<std::uint32_t> Starts; ///< Of the blocks in Corners, and the end.
+  Array<CornerId> Corners;
+};
+
+}
+
+#endif

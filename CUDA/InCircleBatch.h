@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_INCIRCLEBATCH_H
+#define DELAUNAYFLIP_INCIRCLEBATCH_H
+
+#include "EdgeMesh.h"
+#include "FilteredPredicates.h"
+#include "FlipRules.h"
+#include "HostDevice.h"
+#include "StepCounts.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// JudgeStep in the plane, where all triangles turn to one side: collects the points of several
+/// edges and judges these together, in the lanes of vector registers.
+template <typename Real>
+class InCircleBatch
+{
+public:
+  using Rule = PlanarRule<Real, 2>;
+
+  InCircleBatch(const EdgeMeshView& mesh, const Rule& rule)
+    : Mesh(mesh),
+      Decision(rule)
+  {
+  }
+
+  static bool Suits(const Rule& rule) { return rule.UniformSide != 0 && rule.FiltersApply; }
+
+  /// A triangle in any order that turns to the same side, and the vertex opposite it.
+  struct Vertices
+  {
+    VertexId Ids[4];
+  };
+
+  Vertices Load(EdgeId edge) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(edge);
+    const VertexId* triangle = this->Mesh.Triangles[TriangleOf(corners.A)].Vertices;
+    return { { triangle[0], triangle[1], triangle[2],
+      this->Mesh.Triangles[TriangleOf(corners.B)].Vertices[SlotOf(corners.B)] } };
+  }
+
+  void Prefetch(const Vertices& vertices) const
+  {
+    for (const VertexId vertex : vertices.Ids)
+    {
+      delaunayflip::Prefetch(this->Decision.Address(vertex));
+    }
+  }
+
+  /// Judges an edge, at the latest in Finish.
+  void Add(EdgeId edge, const Vertices& vertices, StepCounts& counts)
+  {
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const Real* point = this->Decision.Address(vertices.Ids[corner]);
+      this->U[corner][this->Count] = point[0];
+      this->V[corner][this->Count] = point[1];
+    }
+    this->Edges[this->Count++] = edge;
+    if (this->Count == Size)
+    {
+      this->Finish(counts);
+    }
+  }
+
+  /// Judges what has been added.
+  void Finish(StepCounts& counts)
+  {
+    // Of the width of the numbers that decide, so that they stay in their lanes.
+    std::int64_t states[Size];
+    const auto side = static_cast<double>(this->Decision.UniformSide);
+    for (int i = 0; i < Size; ++i)
+    {
+      const FilteredDeterminant determinant =
+        InCircleDeterminant(this->Get(0, i), this->Get(1, i), this->Get(2, i), this->Get(3, i));
+      const double value = side * determinant.Value;
+      const double bound = GetBound(InCircleBound * determinant.Permanent);
+      const std::int64_t other = -value > bound ? Good : Uncertain;
+      states[i] = value > bound ? Bad : other;
+    }
+    counts.Tested += this->Count;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      AtomicStore(&this->Mesh.States[this->Edges[i]], static_cast<EdgeState>(states[i]));
+      counts.Uncertain += states[i] == Uncertain ? 1 : 0;
+    }
+    this->Count = 0;
+  }
+
+  EdgeMeshView Mesh;
+
+private:
+  static constexpr int Size = 8;
+  static constexpr auto Good = static_cast<std::int64_t>(EdgeState::Good);
+  static constexpr auto Uncertain = static_cast<std::int64_t>(EdgeState::Uncertain);
+  static constexpr auto Bad = static_cast<std::int64_t>(EdgeState::Bad);
+
+  PlanePoint Get(int corner, int i) const
+  {
+    return { this->U[corner][i], this->V[corner][i], 0.0 };
+  }
+
+  Rule Decision;
+  int Count = 0;
+  EdgeId Edges[Size];
+  Real U[4][Size] = {};
+  Real V[4][Size] = {};
+};
+
+}
+
+#endif
