@@ -5,9 +5,9 @@
 LIVE_FLIP in the environment is the viewer. The baselines are frames of it, reduced to 128 colours,
 which the comparison does not notice.
 """
-import importlib.util
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -19,18 +19,13 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BASELINES = os.path.join(HERE, "..", "Cxx", "Baseline")
-EXAMPLE = os.path.join(HERE, "..", "..", "Examples", "Python", "live_flip.py")
+sys.path.insert(0, os.path.join(HERE, "..", "..", "Examples", "Python"))
+
+from bad_mesh import make_bad_mesh  # noqa: E402
 
 # By vtkImageDifference, which looks past shifts by a pixel, as between versions of FreeType. The
 # same picture without its texts is at 90, the mesh of another iteration at 7 to 280.
 TOLERANCE = 15.0
-
-
-def load_example():
-    spec = importlib.util.spec_from_file_location("live_flip", EXAMPLE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def difference(file, other):
@@ -88,14 +83,14 @@ class LiveFlip(unittest.TestCase):
     def test_last_mesh_is_that_of_a_run_at_once(self):
         self.run_well("--frames", self.prefix)
         flip = vtkDelaunayFlip()
-        flip.SetInputData(load_example().make_bad_mesh())
+        flip.SetInputData(make_bad_mesh())
         flip.Update()
         self.assertEqual(read_triangles(self.read_result()), read_triangles(flip.GetOutput()))
 
     def test_mesh_of_a_file(self):
         writer = vtkXMLPolyDataWriter()
         flip = vtkDelaunayFlip()
-        flip.SetInputData(load_example().make_bad_mesh())
+        flip.SetInputData(make_bad_mesh())
         flip.SetMaximumIterations(8)
         flip.AddObserver("WarningEvent", lambda *_: None)  # of the limit
         writer.SetInputConnection(flip.GetOutputPort())
