@@ -4,7 +4,9 @@
 #define DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 
 #include "AngleSurvey.h"
+#include "BadEdges.h"
 #include "CudaBackend.cuh"
+#include "DeviceEdgeBits.cuh"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "FlipError.h"
@@ -32,17 +34,19 @@ public:
       Decision(rule),
       Scale(scale),
       Guard(std::move(guard)),
-      Backend(backend)
+      Backend(backend),
+      Bits(mesh, backend)
   {
     const bool hasChunks =
       !this->Guard.IsActive() && mesh.NumberOfTriangles > (std::int64_t(1) << ChunkBits);
     this->NumberOfChunks =
       hasChunks ? static_cast<int>(((mesh.NumberOfTriangles - 1) >> ChunkBits) + 1) : 0;
     this->RoundsLeft = hasChunks ? ChunkRounds : 0;
-    this->Allocate();
-    this->PlanGrids();
+    this->Chunks = backend.MakeArray<DeviceChunk>(this->NumberOfChunks);
+    this->DeviceResults = backend.MakeArray<Results>(1);
+    this->PlanGrid();
+    this->PlanTeams();
     this->CutIntoChunks();
-    this->LoadStates();
   }
 
   StepCounts Detect() override
@@ -90,83 +94,6 @@ public:
       });
   }
 
-  /// The states at first as bits; what is behind the last edge is fixed.
-  void LoadStates()
-  {
-    const EdgeBits bits = this->Bits;
-    const EdgeState* states = this->Mesh.States.Data();
-    const std::int64_t edges = this->Mesh.NumberOfEdges;
-    this->Backend.ForEach(this->NumberOfWords,
-      [=] __device__(std::int64_t word)
-      {
-        std::uint32_t fixed = 0;
-        for (int i = 0; i < 32; ++i)
-        {
-          const std::int64_t edge = 32 * word + i;
-          fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
-        }
-        bits.Fixed[word] = fixed;
-        bits.Asleep[word] = fixed;
-        bits.Candidates[word] = ~fixed;
-        bits.Bad[word] = bits.Winners[word] = bits.Misshapen[word] = bits.Obstructed[word] = 0;
-      });
-  }
-
-  void DeferEdgesBetweenChunks()
-  {
-    const EdgeBits bits = this->Bits;
-    const EdgeMeshView mesh = this->Mesh.View();
-    const std::int64_t edges = this->Mesh.NumberOfEdges;
-    // Threads of a warp work on one word.
-    this->Backend.ForEach(32 * this->NumberOfWords,
-      [=] __device__(std::int64_t e)
-      {
-        bool between = false;
-        if (e < edges && !EdgeBits::Has(bits.Fixed, static_cast<EdgeId>(e)))
-        {
-          const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
-          between = (TriangleOf(corners.A) ^ TriangleOf(corners.B)) >> ChunkBits != 0;
-        }
-        const std::uint32_t deferred = __ballot_sync(WholeWarp, between);
-        if (e % 32 == 0)
-        {
-          bits.Asleep[e / 32] |= deferred;
-          bits.Bad[e / 32] &= ~deferred;
-          bits.Misshapen[e / 32] &= ~deferred;
-        }
-      });
-  }
-
-  void RecallEdges()
-  {
-    const EdgeBits bits = this->Bits;
-    this->Backend.ForEach(this->NumberOfWords,
-      [=] __device__(std::int64_t word)
-      {
-        bits.Candidates[word] = bits.Asleep[word] & ~bits.Fixed[word];
-        bits.Asleep[word] = bits.Fixed[word];
-      });
-  }
-
-  /// Flags the units that have something to do.
-  void FlagUnits()
-  {
-    const EdgeBits bits = this->Bits;
-    std::uint8_t* flags = this->Flags.Data();
-    constexpr int Words = DeviceWorklist::UnitSize / 32;
-    const std::int64_t words = this->NumberOfWords;
-    this->Backend.ForEach(static_cast<std::int64_t>(this->Flags.Size()),
-      [=] __device__(std::int64_t unit)
-      {
-        std::uint32_t any = 0;
-        for (std::int64_t word = Words * unit; word < Words * (unit + 1) && word < words; ++word)
-        {
-          any |= bits.Bad[word] | bits.Obstructed[word];
-        }
-        flags[unit] = any != 0 ? 1 : 0;
-      });
-  }
-
   double MeasureAngles() const
   {
     const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Scale };
@@ -203,8 +130,8 @@ private:
   /// With fewer bad edges one block is faster than the whole grid, with its slower barrier.
   static constexpr std::int64_t SmallTail = 64;
   static constexpr std::int64_t LargeTail = 4 * SmallTail;
-  /// Of the second-level cache for a chunk at work: twice what it fills.
-  static constexpr std::size_t ChunkBytes = std::size_t(7) << 20;
+  /// Of the second-level cache for a chunk at work: half as much again as it fills.
+  static constexpr std::size_t ChunkBytes = std::size_t(9) << 19;
 
   /// What a launch leaves behind.
   struct Results
@@ -212,41 +139,6 @@ private:
     int RoundsDone;
     RoundSums Rounds[MostIterations + 1];
   };
-
-  /// What is bad, by why it does not flip.
-  struct BadEdges
-  {
-    std::int64_t Tested = 0, Bad = 0, Misshapen = 0, BlockedByEdge = 0;
-
-    StepCounts ToCounts() const
-    {
-      StepCounts counts;
-      counts.Tested = this->Tested;
-      counts.Bad = this->Bad;
-      counts.Blocked = this->Misshapen + this->BlockedByEdge;
-      return counts;
-    }
-  };
-
-  void Allocate()
-  {
-    const std::int64_t units =
-      (this->Mesh.NumberOfEdges + DeviceWorklist::UnitSize - 1) >> DeviceWorklist::UnitBits;
-    this->NumberOfWords = units * DeviceWorklist::UnitSize / 32;
-    this->Words =
-      this->Backend.template MakeArray<std::uint32_t>(EdgeBits::Kinds * this->NumberOfWords);
-    std::uint32_t* words = this->Words.Data();
-    for (std::uint32_t** bits : { &this->Bits.Fixed, &this->Bits.Asleep, &this->Bits.Candidates,
-           &this->Bits.Bad, &this->Bits.Winners, &this->Bits.Misshapen, &this->Bits.Obstructed })
-    {
-      *bits = words;
-      words += this->NumberOfWords;
-    }
-    // Flags are read eight at a time.
-    this->Flags = this->Backend.template MakeArray<std::uint8_t>((units + 7) / 8 * 8);
-    this->Chunks = this->Backend.template MakeArray<DeviceChunk>(this->NumberOfChunks);
-    this->DeviceResults = this->Backend.template MakeArray<Results>(1);
-  }
 
   /// As many blocks as run at the same time, which their barriers need.
   template <typename Kernel>
@@ -262,9 +154,21 @@ private:
     return perMultiprocessor * this->Backend.GetContext().Multiprocessors;
   }
 
-  void PlanGrids()
+  /// As few blocks as have work: they wait for each other the sooner.
+  void PlanGrid()
   {
-    this->GridBlocks = this->CountResidentBlocks(IterateKernel<Rule>);
+    const std::int64_t blocks = this->CountResidentBlocks(IterateKernel<Rule>);
+    std::int64_t parts = this->Bits.CountUnits();
+    for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
+    {
+      ++this->Splits;
+    }
+    const std::int64_t wanted = std::max<std::int64_t>(1, (parts + LoopWarps - 1) / LoopWarps);
+    this->GridBlocks = static_cast<int>(std::min(blocks, wanted));
+  }
+
+  void PlanTeams()
+  {
     const int blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
     const auto teams = static_cast<int>(this->Backend.GetContext().CacheBytes / ChunkBytes);
     this->Teams = std::max(1, std::min({ teams, this->NumberOfChunks, blocks }));
@@ -276,10 +180,10 @@ private:
   LoopView<Rule> View(bool flagged = false)
   {
     Results* results = this->DeviceResults.Data();
-    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits,
-      flagged ? this->Flags.Data() : nullptr, static_cast<EdgeId>(this->Mesh.NumberOfEdges),
-      this->Chunks.Data(), this->NumberOfChunks, this->TeamStates.Data(), results->Rounds,
-      &results->RoundsDone };
+    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(),
+      flagged ? this->Bits.GetFlags() : nullptr, this->Splits,
+      static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(), this->NumberOfChunks,
+      this->TeamStates.Data(), results->Rounds, &results->RoundsDone };
   }
 
   /// Clears what kernels count in.
@@ -323,11 +227,6 @@ private:
     return *results;
   }
 
-  static std::int64_t GetSum(const RoundSums& round, RoundSum sum)
-  {
-    return static_cast<std::int64_t>(round.Values[static_cast<int>(sum)]);
-  }
-
   void DetectAll()
   {
     this->Prepare();
@@ -337,24 +236,6 @@ private:
     this->Edges = { GetSum(results.Rounds[0], RoundSum::Tested), GetSum(all, RoundSum::AllBad),
       GetSum(all, RoundSum::AllMisshapen), GetSum(all, RoundSum::AllObstructed) };
     this->Found = this->Edges.ToCounts();
-  }
-
-  /// What is bad after a round.
-  BadEdges Follow(const BadEdges& before, const RoundSums& round) const
-  {
-    const std::int64_t bad = before.Bad - GetSum(round, RoundSum::Flipped) -
-      GetSum(round, RoundSum::WasBad) + GetSum(round, RoundSum::IsBad);
-    return { GetSum(round, RoundSum::Tested),
-      this->Guard.IsActive() ? GetSum(round, RoundSum::AllBad) : bad,
-      before.Misshapen - GetSum(round, RoundSum::WasMisshapen) +
-        GetSum(round, RoundSum::IsMisshapen),
-      GetSum(round, RoundSum::AllObstructed) };
-  }
-
-  static IterationCounts ToIteration(const BadEdges& before, const RoundSums& round)
-  {
-    return { before.Tested, before.Bad, before.Misshapen + before.BlockedByEdge,
-      GetSum(round, RoundSum::Flipped), -INFINITY };
   }
 
   /// A launch of iterations on the whole mesh.
@@ -369,7 +250,7 @@ private:
       small ? LargeTail : this->Mesh.NumberOfEdges, static_cast<unsigned long long>(freshSlots) };
     if (small)
     {
-      this->FlagUnits();
+      this->Bits.FlagUnits();
     }
     this->Prepare();
     this->LaunchTogether(
@@ -390,8 +271,8 @@ private:
     for (int i = 0; i < results.RoundsDone; ++i)
     {
       const RoundSums& round = results.Rounds[i];
-      iterations.push_back(ToIteration(this->Edges, round));
-      this->Edges = this->Follow(this->Edges, round);
+      iterations.push_back(this->Edges.ToIteration(round));
+      this->Edges = this->Edges.Follow(round, this->Guard.IsActive());
       flips.FreshSlots += GetSum(round, RoundSum::FreshSlots);
       flips.LostInserts += GetSum(round, RoundSum::LostInserts);
     }
@@ -413,7 +294,7 @@ private:
   {
     const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
     const bool isFirst = this->RoundsLeft == ChunkRounds;
-    this->DeferEdgesBetweenChunks();
+    this->Bits.DeferEdgesBetweenChunks(this->Mesh, ChunkBits);
     std::vector<IterationCounts> total;
     while (static_cast<std::int64_t>(total.size()) < rounds)
     {
@@ -425,7 +306,7 @@ private:
         total.back().SquaredCotangent = this->MeasureAngles();
       }
     }
-    this->RecallEdges();
+    this->Bits.RecallEdges();
     this->RoundsLeft -= rounds;
     while (!total.empty() && total.back().Flipped == 0)
     {
@@ -453,8 +334,8 @@ private:
       GetSum(sums, RoundSum::AllMisshapen), 0 };
     for (int i = 0; i < rounds; ++i)
     {
-      total.push_back(ToIteration(edges, results.Rounds[i]));
-      edges = this->Follow(edges, results.Rounds[i]);
+      total.push_back(edges.ToIteration(results.Rounds[i]));
+      edges = edges.Follow(results.Rounds[i], false);
     }
     this->TestedInChunks = edges.Tested;
   }
@@ -470,10 +351,8 @@ private:
   int Teams = 1;
   int BlocksOfTeam = 1;
   std::int64_t TestedInChunks = 0; ///< By the last round within chunks.
-  std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
-  Array<std::uint32_t> Words;
-  EdgeBits Bits{};
-  Array<std::uint8_t> Flags;
+  int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
+  DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;

@@ -27,7 +27,7 @@ struct EdgeBits
 
   DELAUNAYFLIP_HOST_DEVICE static void Set(std::uint32_t* bits, EdgeId edge)
   {
-    AtomicOr(&bits[edge / 32], std::uint32_t(1) << (edge % 32));
+    AtomicSet(&bits[edge / 32], std::uint32_t(1) << (edge % 32));
   }
   DELAUNAYFLIP_HOST_DEVICE static bool Has(const std::uint32_t* bits, EdgeId edge)
   {

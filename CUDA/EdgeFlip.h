@@ -53,10 +53,12 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
              b                      b
 
     Each triangle keeps two vertices and two edges in their slots; edges p-b and q-a change hands.
-    Writes the records of t and s and the words of their own four sides, nothing else.
+    Writes the records of t and s and the words of their own four sides, nothing else. On a device
+    store(0, t, record) and store(1, s, record) write the records.
     @returns the outer half-edges, whose edges must be judged again. */
+template <typename Store>
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
-  const EdgeMeshView& mesh, EdgeId edge, const Quad& quad)
+  const EdgeMeshView& mesh, EdgeId edge, const Quad& quad, [[maybe_unused]] const Store& store)
 {
   const TriangleId t = TriangleOf(quad.CornerA);
   const TriangleId s = TriangleOf(quad.CornerB);
@@ -69,11 +71,10 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
   ReplaceAfter(upper, slotA, quad.B, outer.PB, 2 * edge);
   ReplaceAfter(lower, slotB, quad.A, outer.QA, 2 * edge + 1);
 #if DELAUNAYFLIP_ON_DEVICE
-  mesh.Triangles[t] = upper;
-  mesh.Triangles[s] = lower;
+  store(0, t, upper);
+  store(1, s, lower);
 #endif
-  mesh.CornerOfHalfEdge[2 * edge] = MakeCorner(t, NextSlot(slotA));
-  mesh.CornerOfHalfEdge[2 * edge + 1] = MakeCorner(s, NextSlot(slotB));
+  mesh.SetCorners(edge, { MakeCorner(t, NextSlot(slotA)), MakeCorner(s, NextSlot(slotB)) });
   mesh.CornerOfHalfEdge[outer.PB] = quad.CornerA;
   mesh.CornerOfHalfEdge[outer.QA] = quad.CornerB;
   return outer;

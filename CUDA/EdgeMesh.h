@@ -32,6 +32,9 @@ using CornerId = std::uint32_t;
 /// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
 constexpr CornerId NoCorner = 0xFFFFFFFFu;
 
+constexpr EdgeId NoEdge = 0xFFFFFFFFu;
+constexpr TriangleId NoTriangle = 0xFFFFFFFFu;
+
 /// What the loop knows of an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
 /// blocked.
 enum class EdgeState : std::uint8_t
@@ -128,10 +131,23 @@ struct EdgeMeshView
 #endif
   }
 
+  DELAUNAYFLIP_HOST_DEVICE void SetCorners(EdgeId edge, const CornerPair& corners) const
+  {
+#if DELAUNAYFLIP_ON_DEVICE
+    reinterpret_cast<CornerPair*>(this->CornerOfHalfEdge)[edge] = corners;
+#else
+    this->CornerOfHalfEdge[2 * edge] = corners.A;
+    this->CornerOfHalfEdge[2 * edge + 1] = corners.B;
+#endif
+  }
+
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE Quad GetQuad(EdgeId edge) const
   {
+    return this->GetQuad(this->GetCorners(edge));
+  }
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE Quad GetQuad(const CornerPair& corners) const
+  {
     Quad quad;
-    const CornerPair corners = this->GetCorners(edge);
     quad.CornerA = corners.A;
     quad.CornerB = corners.B;
     ConstTriangleAccess triangle = this->Triangles[TriangleOf(corners.A)];

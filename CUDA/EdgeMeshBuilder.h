@@ -137,7 +137,7 @@ struct LoadStep
 {
   TriangleMesh Mesh;
   SpatialOrderView Order;
-  const PointUse* Uses;
+  const PointUse* Uses; ///< Null: all points are finite.
   TriangleRecord* Triangles;
 
   DELAUNAYFLIP_HOST_DEVICE void PrefetchFar(std::int64_t t) const
@@ -150,7 +150,10 @@ struct LoadStep
     {
       const std::int64_t vertex = this->Mesh.Triangles.Get(this->Order.GetTriangle(t), slot);
       this->Order.PrefetchRank(vertex);
-      delaunayflip::Prefetch(&this->Uses[vertex]);
+      if (this->Uses)
+      {
+        delaunayflip::Prefetch(&this->Uses[vertex]);
+      }
     }
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
@@ -172,7 +175,8 @@ void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& b
 {
   const TriangleMesh mesh = input.Input.Local;
   const SpatialOrderView order = input.Order.View();
-  const PointUse* uses = input.Survey.Uses.Data();
+  const bool allFinite = input.Survey.NonFinitePoints.Count == 0;
+  const PointUse* uses = allFinite ? nullptr : input.Survey.Uses.Data();
   edges.NumberOfTriangles = mesh.Triangles.Count;
   edges.Triangles = backend.template MakeArray<TriangleRecord>(mesh.Triangles.Count);
   TriangleRecord* triangles = edges.Triangles.Data();

@@ -40,14 +40,16 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
 /// Plain pointers to an EdgeTable, for functions of both backends.
 ///
 /// A key is sought first near the place that its smaller vertex has in the order of vertices, so
-/// that neighbours in the mesh share cache lines; when NearSlots there are taken (a vertex of very
-/// many edges), at places that the whole pair decides. No vertex degree makes a search long.
+/// that neighbours in the mesh share cache lines; when NearProbes slots there are taken (a vertex
+/// of very many edges), at places that the whole pair decides. No vertex degree makes a search
+/// long.
 struct EdgeTableView
 {
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);
   static constexpr std::uint64_t Removed = Empty - 1;
   static constexpr std::uint32_t NoSlot = 0xFFFFFFFFu;
-  static constexpr std::uint32_t NearSlots = 64;
+  static constexpr std::uint32_t NearSlots = 64; ///< Over which the edges of a vertex are spread.
+  static constexpr std::uint32_t NearProbes = 8;
   static constexpr std::uint32_t FarSlots = 1u << 12;
   static constexpr int StrideBits = 24;
 
@@ -76,7 +78,7 @@ struct EdgeTableView
     const VertexId smaller = static_cast<VertexId>(key >> 32);
     std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
     std::uint32_t slot = this->NearSlot(smaller, scattered);
-    for (std::uint32_t i = 0; i < NearSlots; ++i)
+    for (std::uint32_t i = 0; i < NearProbes; ++i)
     {
       if (visit(slot))
       {
@@ -130,7 +132,12 @@ struct EdgeTableView
     return this->Search(key,
       [&](std::uint32_t candidate)
       {
+#if DELAUNAYFLIP_ON_DEVICE
+        // One way to memory, whether the key is there or not.
+        std::uint64_t seen = Empty;
+#else
         std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
+#endif
         if (seen == Empty)
         {
           seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);

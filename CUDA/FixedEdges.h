@@ -43,7 +43,8 @@ struct EdgeMeshResult
   std::int64_t MissingConstraints = 0;
 };
 
-/// Whether the caller, a repeated id or a coordinate that is not finite forbid all flips.
+/// Whether the caller, a repeated id or a coordinate that is not finite forbid all flips. `uses`
+/// may be null where all coordinates are finite.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
   const TriangleMesh& mesh, const PointUse* uses, TriangleId inputTriangle)
 {
@@ -51,8 +52,10 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
   const std::int64_t q = mesh.Triangles.Get(inputTriangle, 1);
   const std::int64_t r = mesh.Triangles.Get(inputTriangle, 2);
   return (mesh.FrozenTriangles && mesh.FrozenTriangles[inputTriangle] != 0) || p == q || q == r ||
-    r == p || uses[p] == PointUse::NotFinite || uses[q] == PointUse::NotFinite ||
-    uses[r] == PointUse::NotFinite;
+    r == p ||
+    (uses &&
+      (uses[p] == PointUse::NotFinite || uses[q] == PointUse::NotFinite ||
+        uses[r] == PointUse::NotFinite));
 }
 
 /// Why edges were fixed. Every count is of edges, a non-manifold one once.

@@ -85,9 +85,18 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
 /// lexicographically largest of them.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
 {
-  const PlanePoint& onEdge = IsLexicographicallyLess(apqb[1], apqb[2]) ? apqb[2] : apqb[1];
-  return IsLexicographicallyLess(apqb[0], onEdge) && IsLexicographicallyLess(apqb[3], onEdge);
+  // Not by a reference to the larger one: a device would have to put the points in memory.
+  const auto isBelow = [&](const PlanePoint& point)
+  { return IsLexicographicallyLess(point, apqb[1]) || IsLexicographicallyLess(point, apqb[2]); };
+  return isBelow(apqb[0]) && isBelow(apqb[3]);
 }
+
+/// Two coordinates as a device loads them at once.
+template <typename Real>
+struct alignas(2 * sizeof(Real)) CoordinatePair
+{
+  Real U, V;
+};
 
 /// In the plane by the exact in-circle predicate. Components = 2: (u, v); 3: a tilted plane, (u, v,
 /// w).
@@ -110,6 +119,13 @@ struct PlanarRule
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint Get(VertexId vertex) const
   {
+#if DELAUNAYFLIP_ON_DEVICE
+    if (!Tilted)
+    {
+      const auto point = reinterpret_cast<const CoordinatePair<Real>*>(this->Coordinates)[vertex];
+      return { point.U, point.V, Real(0) };
+    }
+#endif
     const Real* x = this->Address(vertex);
     return { x[0], x[1], Tilted ? x[Components - 1] : Real(0) };
   }

@@ -137,8 +137,12 @@ struct ChooseStep
 
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
   {
-    return GetOuterHalfEdges(
-      this->Mesh, this->Mesh.CornerOfHalfEdge[2 * edge], this->Mesh.CornerOfHalfEdge[2 * edge + 1]);
+    return this->Load(this->Mesh.GetCorners(edge));
+  }
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(
+    const CornerPair& corners) const
+  {
+    return GetOuterHalfEdges(this->Mesh, corners.A, corners.B);
   }
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const OuterHalfEdges& outer) const
   {
@@ -193,11 +197,19 @@ struct SurgeryStep : QuadStep
 {
   EdgeGuardView Guard;
 
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Flip(
+  /// On the CPU; a device stores the records itself.
+  DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Flip(
     EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
-    const OuterHalfEdges outer = FlipEdge(this->Mesh, edge, quad);
+    const OuterHalfEdges outer =
+      FlipEdge(this->Mesh, edge, quad, [](int, TriangleId, const TriangleRecord&) {});
     ++counts.Flipped;
+    this->TellGuard(edge, quad, counts);
+    return outer;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void TellGuard(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  {
     if (this->Guard.Active)
     {
       bool fresh = false;
@@ -206,7 +218,6 @@ struct SurgeryStep : QuadStep
       counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
       counts.FreshSlots += fresh ? 1 : 0;
     }
-    return outer;
   }
 };
 

@@ -129,11 +129,28 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicOr(std::uint32_t* address, s
 #endif
 }
 
+/// As AtomicOr, for who does not ask what was there: a device sends it off and goes on.
+DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint32_t bits)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  // Where much surrounds it, the compiler leaves an atomicOr that waits for what was there.
+  asm volatile("red.relaxed.gpu.global.or.b32 [%0], %1;"
+               :
+               : "l"(__cvta_generic_to_global(address)), "r"(bits)
+               : "memory");
+#else
+  AtomicOr(address, bits);
+#endif
+}
+
 /// Clears all bits but these.
 DELAUNAYFLIP_HOST_DEVICE inline void AtomicAnd(std::uint32_t* address, std::uint32_t bits)
 {
 #if DELAUNAYFLIP_ON_DEVICE
-  atomicAnd(address, bits);
+  asm volatile("red.relaxed.gpu.global.and.b32 [%0], %1;"
+               :
+               : "l"(__cvta_generic_to_global(address)), "r"(bits)
+               : "memory");
 #else
   __atomic_fetch_and(address, bits, __ATOMIC_RELAXED);
 #endif

@@ -48,6 +48,15 @@ struct IdSurvey
   }
 };
 
+/// Most points are marked already, and to look costs less than to store.
+DELAUNAYFLIP_HOST_DEVICE inline void MarkUsed(PointUse& use)
+{
+  if (AtomicLoad(&use) != PointUse::Used)
+  {
+    AtomicStore(&use, PointUse::Used);
+  }
+}
+
 /// Looks at the ids of a triangle and marks its points as used.
 DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
   const TriangleMesh& mesh, PointUse* uses, std::int64_t t, IdSurvey& survey)
@@ -61,9 +70,9 @@ DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
     survey.Invalid.Note(t);
     return;
   }
-  AtomicStore(&uses[p], PointUse::Used);
-  AtomicStore(&uses[q], PointUse::Used);
-  AtomicStore(&uses[r], PointUse::Used);
+  MarkUsed(uses[p]);
+  MarkUsed(uses[q]);
+  MarkUsed(uses[r]);
   if (p == q || q == r || r == p)
   {
     survey.Repeated.Note(t);

@@ -32,33 +32,62 @@ constexpr int WarpListSize = 384;
 struct TeamMemory
 {
   EdgeId Lists[LoopWarps][WarpListSize];
+  int SizeOfList; ///< Of all lists as one.
   unsigned int Sums[NumberOfRoundSums];
+  unsigned int Expected; ///< Arrivals that the next wait waits for, but for its own.
 };
+
+__device__ inline TeamMemory& GetTeamMemory()
+{
+  __shared__ TeamMemory memory;
+  return memory;
+}
+
+/// What the calling thread, or who waited for it, wrote before is seen by whoever acquires after.
+__device__ inline void AddRelease(unsigned int* address)
+{
+  asm volatile("red.release.gpu.global.add.u32 [%0], 1;"
+               :
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+}
+
+__device__ inline unsigned int LoadAcquire(const unsigned int* address)
+{
+  unsigned int value = 0;
+  asm volatile("ld.acquire.gpu.global.u32 %0, [%1];"
+               : "=r"(value)
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+  return value;
+}
 
 /// Blocks of a cooperative launch that work together and wait for each other: the whole grid, or
 /// the blocks on a chunk. All threads of a team make the same calls in the same order.
 class Team
 {
 public:
-  static constexpr int ListSize = WarpListSize;
-
   /// Blocks [team * size, (team + 1) * size) of the grid are a team.
-  __device__ Team(TeamMemory& memory, TeamState* states, unsigned size)
-    : Memory(memory),
-      State(&states[blockIdx.x / size]),
+  __device__ Team(TeamState* states, unsigned size)
+    : State(&states[blockIdx.x / size]),
       Size(size)
   {
+    TeamMemory& memory = GetTeamMemory();
     if (threadIdx.x < NumberOfRoundSums)
     {
       memory.Sums[threadIdx.x] = 0;
+      memory.Expected = 0;
+      memory.SizeOfList = 0;
     }
     __syncthreads();
   }
 
   __device__ unsigned GetIndex() const { return blockIdx.x / this->Size; }
 
-  /// This warp's list.
-  __device__ EdgeId* GetList() const { return this->Memory.Lists[threadIdx.x / WarpSize]; }
+  /// This warp's list, or all as one.
+  __device__ EdgeId* GetList() const { return GetTeamMemory().Lists[threadIdx.x / WarpSize]; }
+  __device__ EdgeId* GetListOfBlock() const { return GetTeamMemory().Lists[0]; }
+  __device__ int* GetSizeOfList() const { return &GetTeamMemory().SizeOfList; }
 
   /// This thread among those of the team, and their number.
   __device__ unsigned GetThread() const
@@ -81,49 +110,60 @@ public:
 #endif
     if (threadIdx.x % WarpSize == 0 && value != 0)
     {
-      atomicAdd(&this->Memory.Sums[static_cast<int>(sum)], value);
+      atomicAdd(&GetTeamMemory().Sums[static_cast<int>(sum)], value);
     }
   }
 
-  /// Adds what was counted to `round` and waits for all threads of the team; what they wrote before
-  /// is then seen.
+  /// Waits for all threads of the team; what they wrote before is then seen.
+  __device__ void Wait()
+  {
+    __syncthreads();
+    this->WaitForBlocks();
+  }
+
+  /// As Wait(), and adds what was counted since the last such call to `round`, unless null.
   __device__ void Wait(RoundSums* round)
   {
     __syncthreads();
-    if (threadIdx.x == 0)
+    if (round && threadIdx.x < WarpSize)
     {
       this->FlushSums(round);
-      __threadfence();
-      if (this->Size > 1)
+      __syncwarp();
+    }
+    this->WaitForBlocks();
+  }
+
+private:
+  /// The first thread's release and acquire cover the block: barriers are before and behind.
+  __device__ void WaitForBlocks()
+  {
+    if (this->Size > 1 && threadIdx.x == 0)
+    {
+      const unsigned expected = GetTeamMemory().Expected += this->Size;
+      unsigned* arrivals = &this->State->Arrivals;
+      AddRelease(arrivals);
+      // To acquire empties the first-level cache, which another block may be using: not before all
+      // are there.
+      while (static_cast<int>(AtomicLoad(arrivals) - expected) < 0)
       {
-        this->Expected += this->Size;
-        atomicAdd(&this->State->Arrivals, 1u);
-        while (static_cast<int>(AtomicLoad(&this->State->Arrivals) - this->Expected) < 0)
-        {
-        }
-        __threadfence();
       }
+      LoadAcquire(arrivals);
     }
     __syncthreads();
   }
 
-private:
   __device__ void FlushSums(RoundSums* round) const
   {
-    for (int i = 0; i < NumberOfRoundSums; ++i)
+    const unsigned i = threadIdx.x;
+    if (i < NumberOfRoundSums && GetTeamMemory().Sums[i] != 0)
     {
-      if (this->Memory.Sums[i] != 0)
-      {
-        atomicAdd(&round->Values[i], static_cast<unsigned long long>(this->Memory.Sums[i]));
-        this->Memory.Sums[i] = 0;
-      }
+      atomicAdd(&round->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
+      GetTeamMemory().Sums[i] = 0;
     }
   }
 
-  TeamMemory& Memory;
   TeamState* State;
   unsigned Size;
-  unsigned Expected = 0;
 };
 
 }

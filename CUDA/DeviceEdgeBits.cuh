@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_DEVICEEDGEBITS_CUH
+#define DELAUNAYFLIP_DEVICEEDGEBITS_CUH
+
+#include "CudaBackend.cuh"
+#include "DeviceWorklist.cuh"
+#include "EdgeBits.h"
+#include "EdgeMesh.h"
+#include "Team.cuh"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// EdgeBits, owned, and what is done to all of them at once.
+class DeviceEdgeBits
+{
+public:
+  DeviceEdgeBits(EdgeMesh& mesh, const CudaBackend& backend)
+    : Backend(backend)
+  {
+    const std::int64_t units =
+      (mesh.NumberOfEdges + EdgeUnits::UnitSize - 1) >> EdgeUnits::UnitBits;
+    this->NumberOfWords = units * EdgeUnits::UnitSize / 32;
+    this->Words = backend.MakeArray<std::uint32_t>(EdgeBits::Kinds * this->NumberOfWords);
+    std::uint32_t* words = this->Words.Data();
+    for (std::uint32_t** bits : { &this->Bits.Fixed, &this->Bits.Asleep, &this->Bits.Candidates,
+           &this->Bits.Bad, &this->Bits.Winners, &this->Bits.Misshapen, &this->Bits.Obstructed })
+    {
+      *bits = words;
+      words += this->NumberOfWords;
+    }
+    // Flags are read eight at a time.
+    this->Flags = backend.MakeArray<std::uint8_t>((units + 7) / 8 * 8);
+    this->LoadStates(mesh);
+  }
+
+  const EdgeBits& View() const { return this->Bits; }
+  std::uint8_t* GetFlags() { return this->Flags.Data(); }
+  std::int64_t CountUnits() const { return this->NumberOfWords / (EdgeUnits::UnitSize / 32); }
+
+  // Public because device lambdas ask for them.
+
+  /// The states at first as bits; what is behind the last edge is fixed.
+  void LoadStates(const EdgeMesh& mesh)
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeState* states = mesh.States.Data();
+    const std::int64_t edges = mesh.NumberOfEdges;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        std::uint32_t fixed = 0;
+        for (int i = 0; i < 32; ++i)
+        {
+          const std::int64_t edge = 32 * word + i;
+          fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
+        }
+        bits.Fixed[word] = fixed;
+        bits.Asleep[word] = fixed;
+        bits.Candidates[word] = ~fixed;
+        bits.Bad[word] = bits.Winners[word] = bits.Misshapen[word] = bits.Obstructed[word] = 0;
+      });
+  }
+
+  /// @param chunkBits chunks of 2^chunkBits triangles.
+  void DeferEdgesBetweenChunks(EdgeMesh& edgeMesh, int chunkBits)
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeMeshView mesh = edgeMesh.View();
+    const std::int64_t edges = edgeMesh.NumberOfEdges;
+    // Threads of a warp work on one word.
+    this->Backend.ForEach(32 * this->NumberOfWords,
+      [=] __device__(std::int64_t e)
+      {
+        bool between = false;
+        if (e < edges && !EdgeBits::Has(bits.Fixed, static_cast<EdgeId>(e)))
+        {
+          const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
+          between = (TriangleOf(corners.A) ^ TriangleOf(corners.B)) >> chunkBits != 0;
+        }
+        const std::uint32_t deferred = __ballot_sync(WholeWarp, between);
+        if (e % 32 == 0)
+        {
+          bits.Asleep[e / 32] |= deferred;
+          bits.Bad[e / 32] &= ~deferred;
+          bits.Misshapen[e / 32] &= ~deferred;
+        }
+      });
+  }
+
+  void RecallEdges()
+  {
+    const EdgeBits bits = this->Bits;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        bits.Candidates[word] = bits.Asleep[word] & ~bits.Fixed[word];
+        bits.Asleep[word] = bits.Fixed[word];
+      });
+  }
+
+  /// Flags the units that have something to do.
+  void FlagUnits()
+  {
+    const EdgeBits bits = this->Bits;
+    std::uint8_t* flags = this->Flags.Data();
+    constexpr int Words = EdgeUnits::UnitSize / 32;
+    const std::int64_t words = this->NumberOfWords;
+    this->Backend.ForEach(static_cast<std::int64_t>(this->Flags.Size()),
+      [=] __device__(std::int64_t unit)
+      {
+        std::uint32_t any = 0;
+        for (std::int64_t word = Words * unit; word < Words * (unit + 1) && word < words; ++word)
+        {
+          any |= bits.Bad[word] | bits.Obstructed[word];
+        }
+        flags[unit] = any != 0 ? 1 : 0;
+      });
+  }
+
+private:
+  const CudaBackend& Backend;
+  std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
+  Array<std::uint32_t> Words;
+  EdgeBits Bits{};
+  Array<std::uint8_t> Flags; ///< Of the worklist's units.
+};
+
+}
+
+#endif

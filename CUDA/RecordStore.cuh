@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RECORDSTORE_CUH
+#define DELAUNAYFLIP_RECORDSTORE_CUH
+
+#include "EdgeMesh.h"
+#include "Team.cuh"
+
+#include <cstddef>
+#include <cstdint>
+
+/// @file
+/// How a warp stores the triangles that its flips change.
+
+namespace delaunayflip
+{
+
+/// One instruction for all lanes, whatever chose their values.
+__device__ inline void StoreHalf(uint4* address, const uint4& value)
+{
+  asm volatile(
+    "st.global.v4.b32 [%0], {%1, %2, %3, %4};"
+    :
+    : "l"(__cvta_generic_to_global(address)), "r"(value.x), "r"(value.y), "r"(value.z), "r"(value.w)
+    : "memory");
+}
+
+/// A record that two neighbouring lanes store together, half of it each: whole sectors at once.
+__device__ inline void StorePaired(
+  TriangleRecord* triangles, TriangleId triangle, const TriangleRecord& record)
+{
+  const bool isOdd = threadIdx.x % 2 != 0;
+  const uint4 first{ record.Vertices[0], record.Vertices[1], record.Vertices[2],
+    record.InputTriangle };
+  const uint4 second{ record.HalfEdges[0], record.HalfEdges[1], record.HalfEdges[2],
+    record.FlipCount };
+  const auto exchange = [](std::uint32_t value) { return __shfl_xor_sync(WholeWarp, value, 1); };
+  const TriangleId other = exchange(triangle);
+  const uint4 mine = isOdd ? second : first;
+  const uint4 given = isOdd ? first : second;
+  const uint4 taken{ exchange(given.x), exchange(given.y), exchange(given.z), exchange(given.w) };
+  auto* halves = reinterpret_cast<uint4*>(triangles);
+  const TriangleId ofEven = isOdd ? other : triangle;
+  const TriangleId ofOdd = isOdd ? triangle : other;
+  const int half = isOdd ? 1 : 0;
+  if (ofEven != NoTriangle)
+  {
+    StoreHalf(&halves[2 * std::size_t(ofEven) + half], isOdd ? taken : mine);
+  }
+  if (ofOdd != NoTriangle)
+  {
+    StoreHalf(&halves[2 * std::size_t(ofOdd) + half], isOdd ? mine : taken);
+  }
+}
+
+/// What a flip writes to its two records, until the whole warp stores them.
+struct FlippedRecords
+{
+  TriangleId Triangles[2] = { NoTriangle, NoTriangle };
+  TriangleRecord Records[2] = {};
+
+  /// For FlipEdge.
+  __device__ auto Keep()
+  {
+    return [this](int i, TriangleId triangle, const TriangleRecord& record)
+    {
+      this->Triangles[i] = triangle;
+      this->Records[i] = record;
+    };
+  }
+
+  __device__ void Store(TriangleRecord* triangles) const
+  {
+    StorePaired(triangles, this->Triangles[0], this->Records[0]);
+    StorePaired(triangles, this->Triangles[1], this->Records[1]);
+  }
+};
+
+/// The quad by both whole records, which a flip needs anyway.
+__device__ inline Quad GetQuadOf(const EdgeMeshView& mesh, const CornerPair& corners)
+{
+  const TriangleRecord upper = mesh.Triangles[TriangleOf(corners.A)];
+  const TriangleRecord lower = mesh.Triangles[TriangleOf(corners.B)];
+  const int slot = SlotOf(corners.A);
+  return { corners.A, corners.B, GetAt(upper.Vertices, slot), GetAt(upper.Vertices, NextSlot(slot)),
+    GetAt(upper.Vertices, PreviousSlot(slot)), GetAt(lower.Vertices, SlotOf(corners.B)) };
+}
+
+}
+
+#endif
