@@ -33,10 +33,13 @@ public:
     const MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
     CheckTieRule(options, survey.Geometry);
     this->Order = OrderMesh(input, survey, this->Engine);
-    EdgeMeshResult built =
-      BuildEdgeMesh({ input, survey, this->Order, options.FeatureAngle }, this->Engine);
-    this->Order.RankOfVertex = Array<VertexId>();
+    const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
+    EdgeMesh loaded = LoadTriangles(edges, this->Engine);
     local.DropTriangles();
+    this->Order.TriangleOfRank = Array<TriangleId>();
+    EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Engine);
+    local.DropRegions();
+    this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
     FlipLoopResult made =

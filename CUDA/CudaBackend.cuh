@@ -34,13 +34,13 @@ struct DeviceMesh
 
   const TriangleMesh& View() const { return this->Mesh; }
 
-  /// Gives back all but the points.
+  /// Give back what the edge mesh has in its own way.
   void DropTriangles()
   {
     this->Triangles = Array<std::int32_t>();
-    this->Regions = Array<std::int32_t>();
     this->Frozen = Array<unsigned char>();
   }
+  void DropRegions() { this->Regions = Array<std::int32_t>(); }
 };
 
 /// Number of the first item of every tile of a range, in device memory, and of all items.

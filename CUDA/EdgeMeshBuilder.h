@@ -170,9 +170,12 @@ struct LoadStep
   }
 };
 
+/// The triangles in the engine's order, the first part of an edge mesh. Afterwards nothing looks at
+/// the ids of the input any more, nor at the order of its triangles.
 template <typename Backend>
-void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& backend)
+EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
 {
+  EdgeMesh edges;
   const TriangleMesh mesh = input.Input.Local;
   const SpatialOrderView order = input.Order.View();
   const bool allFinite = input.Survey.NonFinitePoints.Count == 0;
@@ -181,6 +184,7 @@ void LoadTriangles(const EdgeMeshInput& input, EdgeMesh& edges, const Backend& b
   edges.Triangles = backend.template MakeArray<TriangleRecord>(mesh.Triangles.Count);
   TriangleRecord* triangles = edges.Triangles.Data();
   backend.ForEach(mesh.Triangles.Count, LoadStep{ mesh, order, uses, triangles });
+  return edges;
 }
 
 /// @returns false when the table is too small.
@@ -222,20 +226,30 @@ typename Backend::Numbering PairByTable(
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
+/// Whether somebody will look edges up for certain. A guard of a plane makes a table of its own.
+inline bool NeedsTable(const EdgeMeshInput& input)
+{
+  return input.Survey.Geometry == GeometryKind::Surface ||
+    input.Input.Caller.NumberOfConstraintEdges > 0;
+}
+
 template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  return PairByTable(input, result, backend);
+  typename Backend::Numbering numbering = PairByTable(input, result, backend);
+  if (!NeedsTable(input))
+  {
+    result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
+  }
+  return numbering;
 }
 
-/// On threads without the table, unless somebody will look edges up for certain.
+/// On threads without the table, unless it is needed.
 inline ThreadNumbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const ThreadBackend& backend)
 {
-  const bool needsTable = input.Survey.Geometry == GeometryKind::Surface ||
-    input.Input.Caller.NumberOfConstraintEdges > 0;
-  if (!needsTable)
+  if (!NeedsTable(input))
   {
     CornerPairing pairing(result.Edges, input.Input.Local.Points.Count, backend);
     if (pairing.IsEven())
@@ -277,13 +291,13 @@ void NumberEdges(
 /// triangles, region borders, feature edges, constraints. All others are candidates.
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
+/// @param loaded made by LoadTriangles.
 /// @throws InvalidMesh for a constraint that names no point.
 template <typename Backend>
-EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, const Backend& backend)
+EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const Backend& backend)
 {
   EdgeMeshResult result;
-  LoadTriangles(input, result.Edges, backend);
-  input.Order.TriangleOfRank = Array<TriangleId>();
+  result.Edges = std::move(loaded);
   NumberEdges(result, PairCorners(input, result, backend), backend);
   FixEdges(input, result, backend);
   result.Table.DropWords();

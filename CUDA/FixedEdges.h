@@ -30,7 +30,7 @@ struct EdgeMeshInput
 {
   const MeshInput& Input;
   const MeshSurvey& Survey;
-  SpatialOrder& Order; ///< TriangleOfRank is dropped once the triangles are loaded.
+  const SpatialOrder& Order;
   double FeatureAngle; ///< Degrees; 180 fixes none. Surfaces only.
 };
 

@@ -170,6 +170,7 @@ public:
 
     const TriangleMesh& View() const { return this->Mesh; }
     void DropTriangles() {}
+    void DropRegions() {}
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 

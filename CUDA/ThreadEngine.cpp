@@ -46,8 +46,9 @@ std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOpt
   const ThreadBackend backend(options.NumberOfThreads);
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = SurveyMesh(input, options.Geometry, backend);
-  SpatialOrder order = OrderMesh(input, survey, backend);
-  EdgeMeshResult built = BuildEdgeMesh({ input, survey, order, options.FeatureAngle }, backend);
+  const SpatialOrder order = OrderMesh(input, survey, backend);
+  const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
+  EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
   return ListFixedEdges(built.Edges, order.View());
 }
 

@@ -38,7 +38,8 @@ Built Build(const TriangleMesh& mesh, const ThreadBackend& backend,
   const MeshInput input{ mesh, mesh };
   built.Survey = SurveyMesh(input, geometry, backend);
   built.Order = OrderMesh(input, built.Survey, backend);
-  built.Result = BuildEdgeMesh({ input, built.Survey, built.Order, 180.0 }, backend);
+  const EdgeMeshInput edges{ input, built.Survey, built.Order, 180.0 };
+  built.Result = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
   return built;
 }
 
