@@ -83,6 +83,9 @@ class Panel:
     def click(self, name):
         self.find(name, QCheckBox).click()
 
+    def press(self, name):
+        self.find(name, QPushButton).click()
+
 
 def idle(seconds):
     """Something to wait for: nothing but time."""

@@ -92,6 +92,10 @@ def watch_live(client, panel, flip):
     yield idle(QUIET)
     expect(not renders, "the view was rendered after the end")
     client.save_picture(os.path.join(FOLDER, "live.png"))
+    panel.press("Restart")
+    yield lambda: flip.StopReason == "running"
+    yield has_converged(flip)
+    expect(get_triangles(flip) == at_once, "a restarted live update ended with another mesh")
 
 
 def session(client):
