@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshReader.h"
 
+#include "AppendedXmlReader.h"
 #include "CommandError.h"
 #include "Console.h"
 #include "FileChecks.h"
@@ -133,7 +134,7 @@ MeshFile ReadXml(const std::string& path, VTKMessages& messages)
   {
     FailOnType(path, type);
   }
-  vtkNew<vtkXMLPolyDataReader> reader;
+  vtkNew<AppendedXmlReader> reader;
   reader->SetFileName(path.c_str());
   return { Update(reader, path, messages), {}, false };
 }

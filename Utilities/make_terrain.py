@@ -182,6 +182,7 @@ def main():
 
     mesh = make_terrain(arguments.points, arguments.seed)
     writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # read with every version of expat
     writer.SetFileName(arguments.output)
     writer.SetInputData(mesh)
     if not writer.Write():

@@ -177,6 +177,7 @@ int main(int argc, char* argv[])
             << " edges left that are not Delaunay\n";
 
   vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary(); // read with every version of expat
   writer->SetInputConnection(flip->GetOutputPort());
   writer->SetFileName((folder + "/terrain.vtp").c_str());
   const bool written = writer->Write() != 0 && WritePicture(flip, folder + "/terrain.png");

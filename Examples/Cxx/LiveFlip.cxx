@@ -38,6 +38,7 @@ bool WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window, const s
   std::cout << view->GetFrameNumber() << " steps, " << view->GetFilter()->GetTotalFlips()
             << " flips\n";
   vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary(); // read with every version of expat
   writer->SetInputConnection(view->GetFilter()->GetOutputPort());
   writer->SetFileName((prefix + ".vtp").c_str());
   writer->Write();

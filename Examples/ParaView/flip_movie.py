@@ -44,6 +44,7 @@ def write_bad_mesh(file, number_of_points=250):
     for triangle in triangles:
         mesh.GetPolys().InsertNextCell(3, triangle)
     writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # read with every version of expat
     writer.SetInputData(mesh)
     writer.SetFileName(file)
     writer.Write()

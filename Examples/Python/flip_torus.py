@@ -108,6 +108,7 @@ def main():
           flip.GetNumberOfNonDelaunayEdges(), "edges left that are not Delaunay")
 
     writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # read with every version of expat
     writer.SetInputConnection(flip.GetOutputPort())
     writer.SetFileName(folder + "/torus.vtp")
     written = writer.Write() != 0 and write_picture(flip, folder + "/torus.png")

@@ -56,6 +56,7 @@ def main():
     while view.Step():
         pass
     writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # read with every version of expat
     writer.SetInputConnection(flip.GetOutputPort())
     writer.SetFileName(arguments.frames + ".vtp")
     writer.Write()

@@ -107,8 +107,18 @@ class Kept(CommandTest):
         self.succeed(path, "out.vtp")
         with open(self.path("out.vtp"), "rb") as file:
             text = file.read()
-        self.assertIn(b'format="appended"', text)
+        self.assertIn(b'format="binary"', text)
         self.assertNotIn(b'format="ascii"', text)
+
+    def test_appended_data(self):
+        # Larger than what VTK gives to its XML parser at a time.
+        mesh = bumpy_grid(60, 0)
+        self.succeed(write_mesh(mesh, self.path("a.vtp"), SetDataModeToBinary=()), "a.vtk")
+        for name, encode in (("b.vtp", "EncodeAppendedDataOn"), ("c.vtp", "EncodeAppendedDataOff")):
+            settings = {"SetDataModeToAppended": (), encode: ()}
+            self.succeed(write_mesh(mesh, self.path(name), **settings), "out.vtk")
+            self.assertGreater(os.path.getsize(self.path(name)), 20000)
+            self.assertEqual(self.bytes("out.vtk"), self.bytes("a.vtk"))
 
     def test_same_path(self):
         for extension in FORMATS:

@@ -115,6 +115,7 @@ class PluginTest(unittest.TestCase):
     def save(self, mesh, name="mesh.vtp"):
         """Writes a vtkPolyData; its path."""
         writer = vtkXMLPolyDataWriter()
+        writer.SetDataModeToBinary()  # read with every version of expat
         writer.SetFileName(self.path(name))
         writer.SetInputData(mesh)
         self.assertEqual(writer.Write(), 1)
