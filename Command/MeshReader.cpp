@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshReader.h"
 
-#include "AppendedXmlReader.h"
 #include "CommandError.h"
 #include "Console.h"
 #include "FileChecks.h"
@@ -134,7 +133,7 @@ MeshFile ReadXml(const std::string& path, VTKMessages& messages)
   {
     FailOnType(path, type);
   }
-  vtkNew<AppendedXmlReader> reader;
+  vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   return { Update(reader, path, messages), {}, false };
 }

@@ -46,7 +46,7 @@ void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messag
 void WriteXml(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary(); // inline: VTK cannot read appended data with every expat
+  writer->SetDataModeToBinary(); // inline: Debian's ParaView 5.11 fails on appended data
   writer->SetHeaderTypeToUInt64();
   Run(writer.Get(), mesh, path, messages);
 }

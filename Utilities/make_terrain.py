@@ -182,7 +182,7 @@ def main():
 
     mesh = make_terrain(arguments.points, arguments.seed)
     writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # read with every version of expat
+    writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
     writer.SetFileName(arguments.output)
     writer.SetInputData(mesh)
     if not writer.Write():

@@ -38,7 +38,7 @@ bool WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window, const s
   std::cout << view->GetFrameNumber() << " steps, " << view->GetFilter()->GetTotalFlips()
             << " flips\n";
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary(); // read with every version of expat
+  writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
   writer->SetInputConnection(view->GetFilter()->GetOutputPort());
   writer->SetFileName((prefix + ".vtp").c_str());
   writer->Write();

@@ -44,7 +44,7 @@ def write_bad_mesh(file, number_of_points=250):
     for triangle in triangles:
         mesh.GetPolys().InsertNextCell(3, triangle)
     writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # read with every version of expat
+    writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
     writer.SetInputData(mesh)
     writer.SetFileName(file)
     writer.Write()

@@ -56,7 +56,7 @@ def main():
     while view.Step():
         pass
     writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # read with every version of expat
+    writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
     writer.SetInputConnection(flip.GetOutputPort())
     writer.SetFileName(arguments.frames + ".vtp")
     writer.Write()
