@@ -39,7 +39,7 @@ class SameBits(PluginTest):
 
     def save_source(self, source):
         path = self.path("source.vtp")
-        simple.SaveData(path, source)
+        simple.SaveData(path, source, DataMode="Binary")
         return path
 
     def test_plane(self):
