@@ -194,7 +194,11 @@ void vtkDelaunayFlip::Flip(const Connection& data)
     AddIterationColumns(*this->Report, data.Iterations->GetRowData());
     return;
   }
-  std::unique_ptr<FlipRun> run = FlipRun::GoOn(isLive ? std::move(last) : nullptr,
+  if (!isLive)
+  {
+    last.reset(); // before another takes as much memory
+  }
+  std::unique_ptr<FlipRun> run = FlipRun::GoOn(std::move(last),
     { data.Input, data.Constraints,
       { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
       isLive });

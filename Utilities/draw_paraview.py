@@ -94,17 +94,21 @@ def session(client):
     yield from apply(client)
     flip = simple.GetActiveSource()
     show_mesh(flip)
-    yield idle(0.3)
     view = simple.GetActiveView()
-    yield from draw_chart(client, flip)
     look_at_mesh(view)
     yield idle(0.3)
-    client.save_picture(os.path.join(FOLDER, "paraview.png"))
-
     Panel(client).click("LiveUpdate")
     client.apply()
     yield lambda: flip.StopReason == "running" and flip.NumberOfIterations >= 12
     client.save_picture(os.path.join(FOLDER, "paraview_live.png"))
+
+    Panel(client).click("LiveUpdate")
+    client.apply()
+    yield lambda: flip.StopReason == "converged"
+    yield from draw_chart(client, flip)
+    look_at_mesh(view)
+    yield idle(0.3)
+    client.save_picture(os.path.join(FOLDER, "paraview.png"))
 
 
 play(session)

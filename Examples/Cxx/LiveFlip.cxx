@@ -5,8 +5,7 @@
 /// Shows in a window how a mesh, by default a bad one made here, flips its way to Delaunay; the
 /// window names the keys. With --frames no window opens: every step is written as PREFIX0000.png,
 /// PREFIX0001.png and so on, and the last mesh as PREFIX.vtp.
-
-#include "BadMesh.h"
+#include "ExampleFiles.h"
 
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipLiveView.h>
@@ -14,74 +13,27 @@
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLPolyDataWriter.h>
-
-#include <cstdlib>
-#include <iostream>
-#include <string>
-#include <vector>
-
-namespace
-{
-
-/// Off screen, step by step.
-bool WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window, const std::string& prefix)
-{
-  window->OffScreenRenderingOn();
-  window->SetMultiSamples(0);
-  window->SetSize(360, 360);
-  view->SetFramePrefix(prefix.c_str());
-  while (view->Step())
-  {
-  }
-  std::cout << view->GetFrameNumber() << " steps, " << view->GetFilter()->GetTotalFlips()
-            << " flips\n";
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
-  writer->SetInputConnection(view->GetFilter()->GetOutputPort());
-  writer->SetFileName((prefix + ".vtp").c_str());
-  writer->Write();
-  return writer->GetErrorCode() == 0 && view->GetConverged();
-}
-
-}
 
 int main(int argc, char* argv[])
 {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  std::string prefix;
-  if (arguments.size() > 1 && arguments[arguments.size() - 2] == "--frames")
-  {
-    prefix = arguments.back();
-    arguments.resize(arguments.size() - 2);
-  }
-
-  vtkNew<vtkXMLPolyDataReader> reader;
+  const ExampleFiles files(argc, argv);
   vtkNew<vtkDelaunayFlip> flip;
-  flip->SetInputData(MakeBadMesh());
-  if (!arguments.empty())
-  {
-    reader->SetFileName(arguments[0].c_str());
-    flip->SetInputConnection(reader->GetOutputPort());
-  }
-
+  flip->SetInputData(files.ReadMesh());
   vtkNew<vtkRenderWindow> window;
   window->SetWindowName("Delaunay flips");
   window->SetSize(700, 700);
   vtkNew<vtkRenderWindowInteractor> interactor;
   interactor->SetRenderWindow(window);
-  vtkNew<vtkInteractorStyleTrackballCamera> style;
-  interactor->SetInteractorStyle(style);
+  interactor->SetInteractorStyle(vtkNew<vtkInteractorStyleTrackballCamera>());
   vtkNew<vtkDelaunayFlipLiveView> view;
   view->SetFilter(flip);
   view->SetInteractor(interactor);
-  if (!prefix.empty())
+  if (!files.GetFramePrefix().empty())
   {
-    return WriteFrames(view, window, prefix) ? EXIT_SUCCESS : EXIT_FAILURE;
+    return files.WriteFrames(view, window);
   }
-  view->SetFrameInterval(200);
+  view->SetFrameInterval(200); // milliseconds
   view->Run();
   interactor->Start();
-  return EXIT_SUCCESS;
+  return 0;
 }

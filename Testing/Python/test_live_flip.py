@@ -21,7 +21,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 BASELINES = os.path.join(HERE, "..", "Cxx", "Baseline")
 sys.path.insert(0, os.path.join(HERE, "..", "..", "Examples", "Python"))
 
-from bad_mesh import make_bad_mesh  # noqa: E402
+from example_files import make_bad_mesh  # noqa: E402
 
 # By vtkImageDifference, which looks past shifts by a pixel, as between versions of FreeType. The
 # same picture without its texts is at 90, the mesh of another iteration at 7 to 280.

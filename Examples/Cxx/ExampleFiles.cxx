@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BadMesh.h"
+#include "ExampleFiles.h"
 
 #include <vtkCellArray.h>
+#include <vtkDelaunayFlip.h>
+#include <vtkDelaunayFlipLiveView.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include <array>
+#include <cstdlib>
+#include <iostream>
 #include <vector>
 
 namespace
@@ -34,8 +41,6 @@ void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
   {
     triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * Rim) });
   }
-}
-
 }
 
 /// The fan, each of its triangles split into three again and again: slivers.
@@ -67,4 +72,51 @@ vtkSmartPointer<vtkPolyData> MakeBadMesh()
   mesh->SetPoints(places);
   mesh->SetPolys(cells);
   return mesh;
+}
+
+}
+
+ExampleFiles::ExampleFiles(int argc, char* argv[])
+{
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() > 1 && arguments[arguments.size() - 2] == "--frames")
+  {
+    this->FramePrefix = arguments.back();
+    arguments.resize(arguments.size() - 2);
+  }
+  if (!arguments.empty())
+  {
+    this->Mesh = arguments[0];
+  }
+}
+
+vtkSmartPointer<vtkPolyData> ExampleFiles::ReadMesh() const
+{
+  if (this->Mesh.empty())
+  {
+    return MakeBadMesh();
+  }
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(this->Mesh.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+int ExampleFiles::WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window) const
+{
+  window->OffScreenRenderingOn();
+  window->SetMultiSamples(0);
+  window->SetSize(360, 360);
+  view->SetFramePrefix(this->FramePrefix.c_str());
+  while (view->Step())
+  {
+  }
+  std::cout << view->GetFrameNumber() << " steps, " << view->GetFilter()->GetTotalFlips()
+            << " flips\n";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
+  writer->SetInputConnection(view->GetFilter()->GetOutputPort());
+  writer->SetFileName((this->FramePrefix + ".vtp").c_str());
+  writer->Write();
+  return writer->GetErrorCode() == 0 && view->GetConverged() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
