@@ -127,9 +127,6 @@ public:
 private:
   /// Iterations of a launch: a batch ends soon enough for whoever watches.
   static constexpr int MostIterations = 128;
-  /// With fewer bad edges one block is faster than the whole grid, with its slower barrier.
-  static constexpr std::int64_t SmallTail = 64;
-  static constexpr std::int64_t LargeTail = 4 * SmallTail;
   /// Of the second-level cache for a chunk at work: half as much again as it fills.
   static constexpr std::size_t ChunkBytes = std::size_t(9) << 19;
 
@@ -163,7 +160,8 @@ private:
     {
       ++this->Splits;
     }
-    const std::int64_t wanted = std::max<std::int64_t>(1, (parts + LoopWarps - 1) / LoopWarps);
+    // What one block does in two steps it does sooner than two that wait for each other.
+    const std::int64_t wanted = parts <= 2 * LoopWarps ? 1 : (parts + LoopWarps - 1) / LoopWarps;
     this->GridBlocks = static_cast<int>(std::min(blocks, wanted));
   }
 
@@ -176,12 +174,10 @@ private:
     this->TeamStates = this->Backend.template MakeArray<TeamState>(this->Teams);
   }
 
-  /// @param flagged whether to look at flagged units only.
-  LoopView<Rule> View(bool flagged = false)
+  LoopView<Rule> View()
   {
     Results* results = this->DeviceResults.Data();
-    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(),
-      flagged ? this->Bits.GetFlags() : nullptr, this->Splits,
+    return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
       static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(), this->NumberOfChunks,
       this->TeamStates.Data(), results->Rounds, &results->RoundsDone };
   }
@@ -243,18 +239,12 @@ private:
   {
     const bool measure = plan.MeasureFirst || plan.MeasureAll;
     const std::int64_t most = measure ? 1 : std::min<std::int64_t>(plan.Iterations, MostIterations);
-    const bool small = this->Found.Bad < SmallTail;
     const std::int64_t freshSlots =
       this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
-    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad, small ? 1 : SmallTail,
-      small ? LargeTail : this->Mesh.NumberOfEdges, static_cast<unsigned long long>(freshSlots) };
-    if (small)
-    {
-      this->Bits.FlagUnits();
-    }
+    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
+      static_cast<unsigned long long>(freshSlots) };
     this->Prepare();
-    this->LaunchTogether(
-      small ? 1 : this->GridBlocks, IterateKernel<Rule>, this->View(small), limits);
+    this->LaunchTogether(this->GridBlocks, IterateKernel<Rule>, this->View(), limits);
     std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
     if (measure)
     {

@@ -32,13 +32,10 @@ public:
       *bits = words;
       words += this->NumberOfWords;
     }
-    // Flags are read eight at a time.
-    this->Flags = backend.MakeArray<std::uint8_t>((units + 7) / 8 * 8);
     this->LoadStates(mesh);
   }
 
   const EdgeBits& View() const { return this->Bits; }
-  std::uint8_t* GetFlags() { return this->Flags.Data(); }
   std::int64_t CountUnits() const { return this->NumberOfWords / (EdgeUnits::UnitSize / 32); }
 
   // Public because device lambdas ask for them.
@@ -102,31 +99,11 @@ public:
       });
   }
 
-  /// Flags the units that have something to do.
-  void FlagUnits()
-  {
-    const EdgeBits bits = this->Bits;
-    std::uint8_t* flags = this->Flags.Data();
-    constexpr int Words = EdgeUnits::UnitSize / 32;
-    const std::int64_t words = this->NumberOfWords;
-    this->Backend.ForEach(static_cast<std::int64_t>(this->Flags.Size()),
-      [=] __device__(std::int64_t unit)
-      {
-        std::uint32_t any = 0;
-        for (std::int64_t word = Words * unit; word < Words * (unit + 1) && word < words; ++word)
-        {
-          any |= bits.Bad[word] | bits.Obstructed[word];
-        }
-        flags[unit] = any != 0 ? 1 : 0;
-      });
-  }
-
 private:
   const CudaBackend& Backend;
   std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
   Array<std::uint32_t> Words;
   EdgeBits Bits{};
-  Array<std::uint8_t> Flags; ///< Of the worklist's units.
 };
 
 }

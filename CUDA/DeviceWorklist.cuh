@@ -55,35 +55,13 @@ public:
   static constexpr int UnitBits = 8;
   static constexpr int UnitSize = 1 << UnitBits;
   static constexpr int MostSplits = 3;
-  /// Flags that a warp reads at a time.
-  static constexpr unsigned FlagsOfWarp = 8 * WarpSize;
 
-  /// Edges [first, last). @param flags one a unit of the mesh: only flagged ones are looked at;
-  /// null: all are. @param splits 2^splits warps share a unit where not all are flagged, at most 8.
-  __device__ EdgeUnits(EdgeId first, EdgeId last, std::uint8_t* flags, int splits = 0)
+  /// Edges [first, last). @param splits 2^splits warps share a unit, at most 8.
+  __device__ EdgeUnits(EdgeId first, EdgeId last, int splits = 0)
     : First(first),
       Last(last),
-      Flags(flags),
       Splits(splits)
   {
-  }
-
-  /// Makes sure that an edge's unit is looked at.
-  __device__ void Activate(EdgeId edge) const
-  {
-    if (this->Flags)
-    {
-      AtomicStore(&this->Flags[edge >> UnitBits], std::uint8_t(1));
-    }
-  }
-
-  /// Takes a unit that is being looked at off the list when no lane has anything to do.
-  __device__ void Keep(const EdgeByte& byte, unsigned wanted) const
-  {
-    if (this->Flags && !__any_sync(WholeWarp, wanted != 0) && threadIdx.x % WarpSize == 0)
-    {
-      AtomicStore(&this->Flags[byte.Index / WarpSize], std::uint8_t(0));
-    }
   }
 
 protected:
@@ -101,57 +79,26 @@ protected:
     return { unit * WarpSize + lane, mask & 0xFF };
   }
 
-  /// Where a warp is in its units: every so many-th unit or part of one, or the flagged units of
-  /// every so many-th stretch of 256.
+  /// Where a warp is in its units or their parts.
   struct UnitCursor
   {
     unsigned Next, End, Step;
-    unsigned Flags; ///< A lane's eight of the stretch before Next that have not been visited.
   };
 
   __device__ UnitCursor StartUnits(const Team& team) const
   {
     const unsigned first = this->First >> UnitBits;
     const unsigned end = this->First < this->Last ? ((this->Last - 1) >> UnitBits) + 1 : first;
-    const unsigned warp = team.GetThread() / WarpSize;
-    const unsigned warps = team.GetNumberOfThreads() / WarpSize;
-    const unsigned stride = this->Flags ? FlagsOfWarp : 1;
-    return { (first << this->Splits) + stride * warp, end << this->Splits, stride * warps, 0 };
+    return { (first << this->Splits) + team.GetThread() / WarpSize, end << this->Splits,
+      team.GetNumberOfThreads() / WarpSize };
   }
 
   /// @returns false at the end.
-  __device__ bool GetNextUnit(UnitCursor& cursor, unsigned& unit) const
+  __device__ static bool GetNextUnit(UnitCursor& cursor, unsigned& unit)
   {
-    if (this->Flags)
-    {
-      return this->GetNextFlagged(cursor, unit);
-    }
     unit = cursor.Next;
     cursor.Next += cursor.Step;
     return unit < cursor.End;
-  }
-
-  /// Eight flags a lane: few warps have many to look at. Of the whole mesh, from unit 0 on.
-  __device__ bool GetNextFlagged(UnitCursor& cursor, unsigned& unit) const
-  {
-    const auto* words = reinterpret_cast<const std::uint64_t*>(this->Flags);
-    unsigned lanes = __ballot_sync(WholeWarp, cursor.Flags != 0);
-    for (; lanes == 0; lanes = __ballot_sync(WholeWarp, cursor.Flags != 0))
-    {
-      if (cursor.Next >= cursor.End)
-      {
-        return false;
-      }
-      const unsigned own = cursor.Next + 8 * (threadIdx.x % WarpSize);
-      const std::uint64_t word = own < cursor.End ? AtomicLoad(&words[own / 8]) : 0;
-      cursor.Flags = static_cast<unsigned>((word * 0x0102040810204080u) >> 56);
-      cursor.Next += cursor.Step;
-    }
-    const int lane = __ffs(lanes) - 1;
-    const int flag = __ffs(__shfl_sync(WholeWarp, cursor.Flags, lane)) - 1;
-    unit = cursor.Next - cursor.Step + 8 * lane + flag;
-    cursor.Flags &= threadIdx.x % WarpSize == lane ? cursor.Flags - 1 : ~0u;
-    return true;
   }
 
   /// Writes a lane's edges, in order, from `next` on.
@@ -198,7 +145,6 @@ protected:
 
 private:
   EdgeId First, Last;
-  std::uint8_t* Flags;
   int Splits;
 };
 
@@ -222,7 +168,7 @@ public:
     {
       int size = 0;
       unsigned unit = 0;
-      while (size <= Enough && (goOn = this->GetNextUnit(cursor, unit)))
+      while (size <= Enough && (goOn = GetNextUnit(cursor, unit)))
       {
         const EdgeByte byte = this->GetByte(unit);
         const unsigned bits = look(byte);
@@ -265,7 +211,7 @@ public:
       int* size = team.GetSizeOfList();
       unsigned unit = 0;
       while (__shfl_sync(WholeWarp, AtomicLoad(size), 0) <= MostBeforeUnit &&
-        (goOn = goOn && this->GetNextUnit(cursor, unit)))
+        (goOn = goOn && GetNextUnit(cursor, unit)))
       {
         const EdgeByte byte = this->GetByte(unit);
         const unsigned bits = look(byte);

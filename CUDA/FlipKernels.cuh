@@ -64,8 +64,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
 struct IterationLimits
 {
   int Iterations; ///< After so many,
-  long long Bad; ///< which begin with so many bad edges,
-  long long FewestBad, MostBad; ///< with fewer or more bad edges left,
+  long long Bad; ///< which begin with so many bad edges; when none is left;
   unsigned long long FreshSlots; ///< or when more slots of the guard table were used first.
 };
 
@@ -101,8 +100,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
     bad = loop.Guard.Active ? LoadSum(*round, RoundSum::AllBad)
                             : bad - LoadSum(*round, RoundSum::Flipped) -
         LoadSum(*round, RoundSum::WasBad) + LoadSum(*round, RoundSum::IsBad);
-    goOn = done < limits.Iterations && bad >= limits.FewestBad && bad <= limits.MostBad &&
-      LoadSum(*round, RoundSum::Uncertain) == 0;
+    goOn = done < limits.Iterations && bad > 0 && LoadSum(*round, RoundSum::Uncertain) == 0;
   }
   if (team.IsFirstThread())
   {

@@ -36,7 +36,6 @@ struct LoopView
   Rule Decision;
   EdgeGuardView Guard;
   EdgeBits Bits;
-  std::uint8_t* Flags; ///< Of the worklist's units; null: all are looked at.
   int Splits; ///< 2^Splits warps share a unit.
   EdgeId NumberOfEdges;
   DeviceChunk* Chunks;
@@ -45,13 +44,10 @@ struct LoopView
   RoundSums* Rounds; ///< One an iteration and one more; zero before a launch.
   int* RoundsDone; ///< Iterations of this launch.
 
-  __device__ WarpWorklist GetWorklist() const
-  {
-    return { 0, this->NumberOfEdges, this->Flags, this->Flags ? 0 : this->Splits };
-  }
+  __device__ WarpWorklist GetWorklist() const { return { 0, this->NumberOfEdges, this->Splits }; }
   __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const
   {
-    return { chunk.FirstEdge, chunk.LastEdge, nullptr };
+    return { chunk.FirstEdge, chunk.LastEdge };
   }
 };
 
@@ -67,14 +63,7 @@ __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, con
 {
   const ChooseStep choose{ loop.Mesh };
   worklist.Run(
-    team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    {
-      const unsigned bad = byte.Load(loop.Bits.Bad);
-      // There are no candidates now: what has nothing bad has nothing to do.
-      worklist.Keep(byte, bad | (HasGuard<Worklist>(loop) ? byte.Load(loop.Bits.Obstructed) : 0));
-      return bad;
-    },
+    team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Bad); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       if (edge == NoEdge)
@@ -137,10 +126,7 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
   const SurgeryStep surgery{ { loop.Mesh }, loop.Guard };
   StepCounts counts;
   const auto mark = [&](HalfEdgeId halfEdge)
-  {
-    EdgeBits::Set(loop.Bits.Candidates, EdgeOf(halfEdge));
-    worklist.Activate(EdgeOf(halfEdge));
-  };
+  { EdgeBits::Set(loop.Bits.Candidates, EdgeOf(halfEdge)); };
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)

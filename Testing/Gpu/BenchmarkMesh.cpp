@@ -64,7 +64,10 @@ BenchmarkMesh MakeLatticeMesh(std::int64_t points)
   return FromDoubles("grid, all ties", MakeGridMesh(side, side));
 }
 
-BenchmarkMesh MakeChainMesh() { return FromDoubles("chain of Fig. 6", MakeWorstCaseMesh(5001)); }
+BenchmarkMesh MakeChainMesh(std::int32_t triangles)
+{
+  return FromDoubles("chain of Fig. 6", MakeWorstCaseMesh(triangles / 2 + 1));
+}
 
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder)
 {

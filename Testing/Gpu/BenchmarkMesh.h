@@ -41,8 +41,8 @@ BenchmarkMesh MakeRandomMesh(std::int64_t points);
 /// About `points` points of a square lattice: every edge is a tie or clearly good.
 BenchmarkMesh MakeLatticeMesh(std::int64_t points);
 
-/// The paper's Fig. 6 with 10,000 triangles.
-BenchmarkMesh MakeChainMesh();
+/// The paper's Fig. 6: an even number of triangles, of which a quarter flips at a time in the mean.
+BenchmarkMesh MakeChainMesh(std::int32_t triangles);
 
 /// The real meshes of a folder that are large enough to time, height fields both by x and y and in
 /// space.

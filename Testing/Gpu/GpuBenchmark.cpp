@@ -159,7 +159,10 @@ private:
       this->Delaunay = BenchmarkMesh();
       this->RunBeside(MakeLatticeMesh(points));
     }
-    this->RunBeside(MakeChainMesh());
+    for (const std::int32_t triangles : { 200, 1000, 10000 })
+    {
+      this->RunBeside(MakeChainMesh(triangles));
+    }
   }
 
   /// The GPU beside all threads of the CPU.
