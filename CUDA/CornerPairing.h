@@ -23,7 +23,7 @@
 namespace delaunayflip
 {
 
-/// Puts the roles of a triangle's corners into FlipCount, where HalfEdges hold the edges' other
+/// Puts the roles of a triangle's corners into Flips, where HalfEdges hold the edges' other
 /// corners: NoCorner of a boundary edge, ManyCorners of a non-manifold one, which becomes NoCorner.
 /// @returns the number of edges that the triangle leads.
 struct OtherCornerStep
@@ -46,7 +46,7 @@ struct OtherCornerStep
       roles |= role << (2 * slot);
       triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
     }
-    triangle.FlipCount |= roles;
+    triangle.Flips |= roles;
     return CountLeaders(triangle);
   }
 };
@@ -150,10 +150,13 @@ private:
 
   void CountCorners()
   {
+    constexpr std::int64_t Grain = ThreadBackend::DefaultGrain;
+    this->CountsOfRange.resize((this->NumberOfTriangles + Grain - 1) / Grain);
     this->Backend.ForRange(this->NumberOfTriangles,
       [this](std::int64_t begin, std::int64_t end)
       {
-        std::vector<std::uint32_t> counts(this->Starts.size() - 1, 0);
+        std::vector<std::uint32_t>& counts = this->CountsOfRange[begin / Grain];
+        counts.assign(this->Starts.size() - 1, 0);
         this->CountIn(begin, end, counts);
         for (std::size_t block = 0; block < counts.size(); ++block)
         {
@@ -174,8 +177,7 @@ private:
     this->Backend.ForRange(this->NumberOfTriangles,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::vector<std::uint32_t> next(ends.size(), 0);
-        this->CountIn(begin, end, next);
+        std::vector<std::uint32_t>& next = this->CountsOfRange[begin / ThreadBackend::DefaultGrain];
         for (std::size_t block = 0; block < next.size(); ++block)
         {
           next[block] = AtomicAdd(&ends[block], next[block]);
@@ -255,6 +257,7 @@ private:
   const ThreadBackend& Backend;
   int BlockBits = 11;
   std::vector<std::uint32_t> Starts; ///< Of the blocks in Corners, and the end.
+  std::vector<std::vector<std::uint32_t>> CountsOfRange; ///< What blocks get of each range.
   Array<CornerId> Corners;
 };
 

@@ -39,7 +39,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
   SetAt(triangle.Vertices, PreviousSlot(slot), vertex);
   SetAt(triangle.HalfEdges, slot, facing);
   SetAt(triangle.HalfEdges, NextSlot(slot), diagonal);
-  ++triangle.FlipCount;
+  triangle.Flips += OneFlip;
 }
 
 /*! Turns edge p-q of the quad into a-b:

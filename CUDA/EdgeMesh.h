@@ -68,8 +68,11 @@ struct alignas(32) TriangleRecord
   VertexId Vertices[3];
   TriangleId InputTriangle; ///< The caller's slot.
   HalfEdgeId HalfEdges[3]; ///< This triangle's side of the edge opposite each slot.
-  std::uint32_t FlipCount; ///< Flips that this slot was part of.
+  std::uint32_t Flips; ///< How many this slot was part of, times OneFlip, and the builder's marks.
 };
+
+/// Flips are counted above seven bits of marks (EdgeMeshSteps.h).
+constexpr std::uint32_t OneFlip = 1u << 7;
 
 /// The value at a slot. A device keeps what it loaded in registers, which have no index.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t GetAt(const std::uint32_t (&values)[3], int slot)

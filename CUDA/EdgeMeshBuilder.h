@@ -93,7 +93,7 @@ struct RoleStep
     {
       triangle.HalfEdges[slot] = others[slot];
     }
-    triangle.FlipCount |= roles;
+    triangle.Flips |= roles;
     return CountLeaders(triangle);
   }
 };
@@ -160,7 +160,7 @@ struct LoadStep
   {
     TriangleRecord& record = this->Triangles[t];
     record.InputTriangle = this->Order.GetTriangle(t);
-    record.FlipCount =
+    record.Flips =
       IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
     for (int slot = 0; slot < 3; ++slot)
     {

@@ -10,7 +10,7 @@
 /// @file
 /// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
 /// hold the table slot of the edge opposite each corner, later the edge's other corner, and its
-/// FlipCount the roles of its corners, two bits each.
+/// Flips the roles of its corners, two bits each.
 
 namespace delaunayflip
 {
@@ -18,7 +18,7 @@ namespace delaunayflip
 /// Second word of an edge with three or more corners.
 constexpr CornerId ManyCorners = 0xFFFFFFFEu;
 
-/// Bit of FlipCount: no edge of this triangle may flip.
+/// Bit of Flips: no edge of this triangle may flip.
 constexpr std::uint32_t UntouchableBit = 1u << 6;
 
 /// What pairing counts. Loops (IsLoop) are no edges.
@@ -90,7 +90,7 @@ DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
 
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
 {
-  return static_cast<CornerRole>((triangle.FlipCount >> (2 * slot)) & 3);
+  return static_cast<CornerRole>((triangle.Flips >> (2 * slot)) & 3);
 }
 
 /// How many edges a triangle's corners lead.

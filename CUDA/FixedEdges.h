@@ -134,7 +134,7 @@ private:
     sums.Duplicate += duplicate ? 1 : 0;
     sums.Feature += feature ? 1 : 0;
     return wronglyWound || duplicate || region || feature ||
-      ((a.FlipCount | b.FlipCount) & UntouchableBit) != 0;
+      ((a.Flips | b.Flips) & UntouchableBit) != 0;
   }
 
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetPoint(VertexId rank) const
@@ -312,7 +312,7 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
   result.MissingConstraints = sums.Missing;
 }
 
-/// Fixes edges and counts why. Uses the roles that the builder left in FlipCount, and clears them.
+/// Fixes edges and counts why, by the roles that the builder left in Flips.
 template <typename Backend>
 void FixEdges(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
@@ -320,9 +320,6 @@ void FixEdges(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend&
   {
     result.DuplicateTriangles = FindDuplicates(FindSuspects(result.Edges, backend));
   }
-  TriangleRecord* triangles = result.Edges.Triangles.Data();
-  backend.ForEach(result.Edges.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { triangles[t].FlipCount = 0; });
   FixConstraints(input, result, backend);
 }
 
