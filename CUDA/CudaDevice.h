@@ -15,7 +15,7 @@ namespace delaunayflip
 
 /// Triangles from which on BackendKind::Auto takes a GPU. Once it is warm, an H200 overtakes 16
 /// threads of its host between 2,000 and 4,000 triangles (delaunay-flip-gpu-benchmark --sizes
-/// 1000,2000,10000 --cpu-sizes 1000,2000,10000: 1.1 to 0.8, 1.2 to 1.7, 1.6 to 7.5 ms). Below
+/// 1000,2000,10000 --cpu-sizes 1000,2000,10000: 0.7 to 0.7, 0.8 to 1.4, 1.1 to 7.3 ms). Below
 /// 20,000 there are milliseconds to win, and the first use of a GPU costs a process more.
 constexpr std::int64_t SmallestMeshForCuda = 20000;
 

@@ -82,36 +82,38 @@ __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, con
     });
 }
 
-/// Winners claim their new edges.
-template <typename Rule, typename Worklist>
-__device__ void Claim(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+/// Calls work(edge, quad) for the winners.
+template <typename Rule, typename Worklist, typename Work>
+__device__ void ForWinners(
+  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team, const Work& work)
 {
   worklist.Run(
     team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Winners); },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      if (edge == NoEdge)
+      if (edge != NoEdge)
       {
-        return;
+        work(edge, loop.Mesh.GetQuad(corners));
       }
-      const Quad quad = loop.Mesh.GetQuad(corners);
-      loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge));
     });
+}
+
+/// Winners claim their new edges.
+template <typename Rule, typename Worklist>
+__device__ void Claim(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+{
+  ForWinners(loop, worklist, team,
+    [&](EdgeId edge, const Quad& quad)
+    { loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge)); });
 }
 
 /// Winners without their claim stay bad.
 template <typename Rule, typename Worklist>
 __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  worklist.Run(
-    team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Winners); },
-    [&](EdgeId edge, const CornerPair& corners)
+  ForWinners(loop, worklist, team,
+    [&](EdgeId edge, const Quad& quad)
     {
-      if (edge == NoEdge)
-      {
-        return;
-      }
-      const Quad quad = loop.Mesh.GetQuad(corners);
       if (!loop.Guard.Claims.Holds(quad.A, quad.B, Priority(edge)))
       {
         AtomicAnd(&loop.Bits.Winners[edge / 32], ~(1u << (edge % 32)));

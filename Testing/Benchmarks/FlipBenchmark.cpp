@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <vector>
 
 /// @file
 /// Usage: delaunay-flip-benchmark [Google Benchmark's options]. Edge build and flips of random bad
@@ -243,8 +244,13 @@ void PrintMemory(const MemoryTable& table)
 int main(int argc, char** argv)
 {
   using namespace delaunayflip;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv))
+  // Repetitions take turns, so that who else is at work on the machine slows all programs alike.
+  std::string interleave = "--benchmark_enable_random_interleaving=true";
+  std::vector<char*> arguments(argv, argv + argc);
+  arguments.insert(arguments.begin() + 1, interleave.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data()))
   {
     return 1;
   }

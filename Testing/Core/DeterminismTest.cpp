@@ -37,17 +37,7 @@ OwnedMesh<double> MakeStrip()
   return MakeMoebiusStrip(2000 / static_cast<int>(Reduction), 8, 44);
 }
 
-/// Every tenth triangle twice, so that edges of three and more triangles abound.
-OwnedMesh<double> MakeDirtySurface()
-{
-  OwnedMesh<double> mesh = MakeSurface();
-  const std::vector<std::int32_t> clean = mesh.Triangles;
-  for (std::size_t i = 0; i + 3 <= clean.size(); i += 30)
-  {
-    mesh.Triangles.insert(mesh.Triangles.end(), &clean[i], &clean[i] + 3);
-  }
-  return mesh;
-}
+OwnedMesh<double> MakeDirtySurface() { return RepeatTriangles(MakeSurface()); }
 
 class DeterminismTest : public testing::TestWithParam<NamedMesh>
 {

@@ -56,17 +56,7 @@ OwnedMesh<double> MakeFoldedPlane()
   return mesh;
 }
 
-/// Every tenth triangle twice, so that edges of three and more triangles abound.
-OwnedMesh<double> MakeDirtySphere()
-{
-  OwnedMesh<double> mesh = MakeSphere();
-  const std::vector<std::int32_t> clean = mesh.Triangles;
-  for (std::size_t i = 0; i + 3 <= clean.size(); i += 30)
-  {
-    mesh.Triangles.insert(mesh.Triangles.end(), &clean[i], &clean[i] + 3);
-  }
-  return mesh;
-}
+OwnedMesh<double> MakeDirtySphere() { return RepeatTriangles(MakeSphere()); }
 
 FlipOptions MakeOptions(BackendKind backend)
 {

@@ -190,4 +190,14 @@ OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std:
   return mesh;
 }
 
+OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh)
+{
+  const std::vector<std::int32_t> clean = mesh.Triangles;
+  for (std::size_t i = 0; i + 3 <= clean.size(); i += 30)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), &clean[i], &clean[i] + 3);
+  }
+  return mesh;
+}
+
 }

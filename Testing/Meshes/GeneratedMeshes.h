@@ -69,6 +69,9 @@ OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::ui
 /// `rows` >= 1.
 OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
+/// The mesh with every tenth triangle twice, so that edges of three and more triangles abound.
+OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh);
+
 }
 
 #endif
