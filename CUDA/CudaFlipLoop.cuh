@@ -35,12 +35,12 @@ public:
       Scale(scale),
       Guard(std::move(guard)),
       Backend(backend),
+      ChunkBits(FindChunkBits(mesh.NumberOfTriangles)),
       Bits(mesh, backend)
   {
-    const bool hasChunks =
-      !this->Guard.IsActive() && mesh.NumberOfTriangles > (std::int64_t(1) << ChunkBits);
+    const bool hasChunks = !this->Guard.IsActive() && mesh.NumberOfTriangles > SmallestChunkedMesh;
     this->NumberOfChunks =
-      hasChunks ? static_cast<int>(((mesh.NumberOfTriangles - 1) >> ChunkBits) + 1) : 0;
+      hasChunks ? static_cast<int>(((mesh.NumberOfTriangles - 1) >> this->ChunkBits) + 1) : 0;
     this->RoundsLeft = hasChunks ? ChunkRounds : 0;
     this->Chunks = backend.MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = backend.MakeArray<Results>(1);
@@ -86,11 +86,12 @@ public:
     DeviceChunk* chunks = this->Chunks.Data();
     const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
     const std::int64_t edges = this->Mesh.NumberOfEdges;
+    const int bits = this->ChunkBits;
     this->Backend.ForEach(this->NumberOfChunks,
       [=] __device__(std::int64_t c)
       {
-        chunks[c] = { FirstEdgeOf(words, edges, c << ChunkBits),
-          FirstEdgeOf(words, edges, (c + 1) << ChunkBits) };
+        chunks[c] = { FirstEdgeOf(words, edges, c << bits),
+          FirstEdgeOf(words, edges, (c + 1) << bits) };
       });
   }
 
@@ -284,7 +285,7 @@ private:
   {
     const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
     const bool isFirst = this->RoundsLeft == ChunkRounds;
-    this->Bits.DeferEdgesBetweenChunks(this->Mesh, ChunkBits);
+    this->Bits.DeferEdgesBetweenChunks(this->Mesh, this->ChunkBits);
     std::vector<IterationCounts> total;
     while (static_cast<std::int64_t>(total.size()) < rounds)
     {
@@ -335,6 +336,7 @@ private:
   double Scale;
   EdgeGuard Guard;
   const CudaBackend& Backend;
+  int ChunkBits; ///< 2^ChunkBits triangles a chunk.
   int NumberOfChunks = 0;
   std::int64_t RoundsLeft = 0; ///< Of those within chunks.
   int GridBlocks = 1;

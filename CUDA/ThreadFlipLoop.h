@@ -33,6 +33,7 @@ public:
       Scale(scale),
       Guard(std::move(guard)),
       Backend(backend),
+      ChunkBits(FindChunkBits(mesh.NumberOfTriangles)),
       Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
   {
     this->CutIntoChunks();
@@ -90,16 +91,16 @@ private:
   void CutIntoChunks()
   {
     const std::int64_t triangles = this->Mesh.NumberOfTriangles;
-    constexpr std::int64_t Size = std::int64_t(1) << ChunkBits;
-    if (this->Guard.IsActive() || triangles <= Size)
+    if (this->Guard.IsActive() || triangles <= SmallestChunkedMesh)
     {
       return;
     }
+    const std::int64_t size = std::int64_t(1) << this->ChunkBits;
     const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
     std::int64_t edge = 0;
-    for (std::int64_t t = 0; t < triangles; t += Size)
+    for (std::int64_t t = 0; t < triangles; t += size)
     {
-      Chunk chunk{ t, std::min(triangles, t + Size), edge, 0, 0 };
+      Chunk chunk{ t, std::min(triangles, t + size), edge, 0, 0 };
       while (edge < this->Mesh.NumberOfEdges && TriangleOf(words[2 * edge]) < chunk.LastTriangle)
       {
         ++edge;
@@ -210,7 +211,7 @@ private:
         {
           const TriangleId a = TriangleOf(mesh.CornerOfHalfEdge[2 * e]);
           const TriangleId b = TriangleOf(mesh.CornerOfHalfEdge[2 * e + 1]);
-          if (mesh.States[e] != EdgeState::Fixed && (a ^ b) >> ChunkBits != 0)
+          if (mesh.States[e] != EdgeState::Fixed && (a ^ b) >> this->ChunkBits != 0)
           {
             mesh.States[e] = EdgeState::Deferred;
           }
@@ -248,6 +249,7 @@ private:
   double Scale;
   EdgeGuard Guard;
   const ThreadBackend& Backend;
+  int ChunkBits; ///< 2^ChunkBits triangles a chunk.
   EdgeWorklist Worklist;
   std::vector<Chunk> Chunks;
   std::int64_t RoundsLeft = 0; ///< Of those within chunks.
