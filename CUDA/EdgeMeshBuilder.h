@@ -160,8 +160,7 @@ struct LoadStep
   {
     TriangleRecord& record = this->Triangles[t];
     record.InputTriangle = this->Order.GetTriangle(t);
-    record.Flips =
-      IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
+    record.Flips = IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
     for (int slot = 0; slot < 3; ++slot)
     {
       record.Vertices[slot] =

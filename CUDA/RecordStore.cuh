@@ -32,8 +32,7 @@ __device__ inline void StorePaired(
   const bool isOdd = threadIdx.x % 2 != 0;
   const uint4 first{ record.Vertices[0], record.Vertices[1], record.Vertices[2],
     record.InputTriangle };
-  const uint4 second{ record.HalfEdges[0], record.HalfEdges[1], record.HalfEdges[2],
-    record.Flips };
+  const uint4 second{ record.HalfEdges[0], record.HalfEdges[1], record.HalfEdges[2], record.Flips };
   const auto exchange = [](std::uint32_t value) { return __shfl_xor_sync(WholeWarp, value, 1); };
   const TriangleId other = exchange(triangle);
   const uint4 mine = isOdd ? second : first;
