@@ -9,8 +9,8 @@
 
 /// @file
 /// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
-/// hold the table slot of the edge opposite each corner, later the edge's other corner, and its
-/// Flips the roles of its corners, two bits each.
+/// hold the table slot of the edge opposite each corner, later the edge's other corner. Its Flips
+/// get the roles of its corners, two bits each, and keep them.
 
 namespace delaunayflip
 {

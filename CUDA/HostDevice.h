@@ -119,17 +119,7 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicAdd(std::uint32_t* address, 
 #endif
 }
 
-/// Sets bits. @returns what was there before.
-DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicOr(std::uint32_t* address, std::uint32_t bits)
-{
-#if DELAUNAYFLIP_ON_DEVICE
-  return atomicOr(address, bits);
-#else
-  return __atomic_fetch_or(address, bits, __ATOMIC_RELAXED);
-#endif
-}
-
-/// As AtomicOr, for who does not ask what was there: a device sends it off and goes on.
+/// Sets bits. Nobody asks what was there: a device sends it off and goes on.
 DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint32_t bits)
 {
 #if DELAUNAYFLIP_ON_DEVICE
@@ -139,7 +129,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint
                : "l"(__cvta_generic_to_global(address)), "r"(bits)
                : "memory");
 #else
-  AtomicOr(address, bits);
+  __atomic_fetch_or(address, bits, __ATOMIC_RELAXED);
 #endif
 }
 
