@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "HostDevice.h"
 
+#include <cstddef>
 #include <cstdint>
 
 /// @file
@@ -42,12 +43,21 @@ enum class EdgeState : std::uint8_t
   Good, ///< Locally Delaunay.
   Fixed, ///< Never flips, never judged.
   Deferred, ///< Between chunks while these work for themselves; a candidate afterwards.
-  Candidate = 4, ///< To be judged: new, or an incident triangle changed.
   Uncertain, ///< The filter could not tell; exact arithmetic must.
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
   BlockedByEdge, ///< Bad, but the new edge already exists. May clear when others flip.
-  Bad ///< Violates the criterion and may flip.
+  Bad, ///< Violates the criterion and may flip.
+  Excluded, ///< A candidate that was bad when a neighbour flipped, while others still choose.
+  Candidate ///< To be judged: new, or an incident triangle changed.
 };
+
+/// Bad or Excluded.
+inline bool WasBad(EdgeState state)
+{
+  static_assert(static_cast<int>(EdgeState::Bad) == 6 && static_cast<int>(EdgeState::Excluded) == 7,
+    "equal but for the last bit");
+  return static_cast<int>(state) >> 1 == 3;
+}
 
 /// Next and previous slot of a triangle, out of a table of two-bit entries: a branch on a slot is a
 /// coin toss that costs more than all the rest of reading a quad.
@@ -130,7 +140,8 @@ struct EdgeMeshView
 #if DELAUNAYFLIP_ON_DEVICE
     return reinterpret_cast<const CornerPair*>(this->CornerOfHalfEdge)[edge];
 #else
-    return { this->CornerOfHalfEdge[2 * edge], this->CornerOfHalfEdge[2 * edge + 1] };
+    const CornerId* corners = &this->CornerOfHalfEdge[std::size_t(2) * edge];
+    return { corners[0], corners[1] };
 #endif
   }
 
@@ -139,8 +150,9 @@ struct EdgeMeshView
 #if DELAUNAYFLIP_ON_DEVICE
     reinterpret_cast<CornerPair*>(this->CornerOfHalfEdge)[edge] = corners;
 #else
-    this->CornerOfHalfEdge[2 * edge] = corners.A;
-    this->CornerOfHalfEdge[2 * edge + 1] = corners.B;
+    CornerId* stored = &this->CornerOfHalfEdge[std::size_t(2) * edge];
+    stored[0] = corners.A;
+    stored[1] = corners.B;
 #endif
   }
 
@@ -168,8 +180,9 @@ struct EdgeMeshView
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void PrefetchTriangles(
   const EdgeMeshView& mesh, EdgeId edge)
 {
-  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge])]);
-  Prefetch(&mesh.Triangles[TriangleOf(mesh.CornerOfHalfEdge[2 * edge + 1])]);
+  const CornerPair corners = mesh.GetCorners(edge);
+  Prefetch(&mesh.Triangles[TriangleOf(corners.A)]);
+  Prefetch(&mesh.Triangles[TriangleOf(corners.B)]);
 }
 
 /// The arrays, owned. NumberOfEdges counts records: an edge of k >= 3 triangles has k records, each

@@ -36,13 +36,8 @@ public:
   {
   }
 
-  static constexpr int BlockBits = 10;
-
   /// Where steps flag the blocks of edges that they make candidates.
-  BlockFlags GetFlags()
-  {
-    return { this->Flags.data(), this->FirstEdge, this->LastEdge, BlockBits };
-  }
+  BlockFlags GetFlags() { return { this->Flags.data(), this->FirstBlock }; }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
@@ -70,14 +65,6 @@ public:
   {
     this->ForTasks(backend, [&](Task& task) { return FilterTask(task, step); });
   }
-  template <typename Step>
-  void Filter(const Step& step)
-  {
-    for (Task& task : this->Tasks)
-    {
-      FilterTask(task, step);
-    }
-  }
 
   /// Runs a step on the edges of the lists. @returns what it counted.
   template <typename Step>
@@ -85,23 +72,28 @@ public:
   {
     return this->ForTasks(backend, [&](Task& task) { return RunOnTask(step, task); });
   }
-  template <typename Step>
-  StepCounts Run(const Step& step)
+
+  /// Filters by the step's choice and runs it on the winners, a few edges at a time, so that what
+  /// the choice has read is still near. On the calling thread.
+  StepCounts ChooseAndFlip(const ChooseAndFlipStep& step)
   {
     StepCounts counts;
     for (Task& task : this->Tasks)
     {
-      counts += RunOnTask(step, task);
+      ChooseAndFlip(step, task, counts);
     }
     return counts;
   }
 
 private:
+  static constexpr int BlockBits = BlockFlags::BlockBits;
   static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
   static constexpr std::int64_t BlocksPerTask = 8;
   static constexpr std::int64_t SetSize = StatesPerSet;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 16;
+  /// Winners that wait for their flips.
+  static constexpr int ChoicesAtOnce = 32;
   /// Room behind lists, for edges that are asked for and not worked on.
   static constexpr std::int64_t Padding = 3 * PrefetchDistance;
 
@@ -179,7 +171,7 @@ private:
     }
     std::fill_n(edges + size, Padding, edges[size - 1]);
     const auto request = [&](std::int64_t i)
-    { Prefetch(&step.Mesh.CornerOfHalfEdge[2 * edges[i]]); };
+    { Prefetch(&step.Mesh.CornerOfHalfEdge[std::size_t(2) * edges[i]]); };
     const auto requestTriangles = [&](std::int64_t i) { PrefetchTriangles(step.Mesh, edges[i]); };
     decltype(step.Load(0)) items[Ahead];
     const auto load = [&](std::int64_t i)
@@ -234,6 +226,32 @@ private:
     return {};
   }
 
+  static void ChooseAndFlip(const ChooseAndFlipStep& step, Task& task, StepCounts& counts)
+  {
+    EdgeId* edges = task.Edges.data();
+    EdgeId winners[ChoicesAtOnce + 1];
+    int size = 0;
+    const auto flip = [&]()
+    {
+      for (int i = 0; i < size; ++i)
+      {
+        step(winners[i], counts);
+      }
+      size = 0;
+    };
+    ForEdges(step, edges, task.Size,
+      [&](std::int64_t i, const OuterHalfEdges& outer)
+      {
+        winners[size] = edges[i];
+        size += step.Choose(edges[i], outer) ? 1 : 0;
+        if (size == ChoicesAtOnce)
+        {
+          flip();
+        }
+      });
+    flip();
+  }
+
   template <typename Step>
   void RunOnBlocks(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
@@ -258,8 +276,8 @@ private:
       this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
     Batch batch(step.Mesh, step.Decision);
     ForEdges(batch, edges, size,
-      [&](std::int64_t i, const auto& item) { batch.Add(edges[i], item, counts); });
-    batch.Finish(counts);
+      [&](std::int64_t i, const auto& item) { batch.Add(edges, i, item, counts); });
+    batch.Finish(edges, size, counts);
   }
 
   /// Exact arithmetic is asked for seldom.

@@ -23,22 +23,18 @@
 namespace delaunayflip
 {
 
-/// One flag a block of 2^BlockBits edges, for the edges [First, Last).
+/// One flag a block of edges, for some blocks.
 struct BlockFlags
 {
-  std::uint8_t* Flags;
-  std::int64_t First;
-  std::int64_t Last;
-  int BlockBits;
+  static constexpr int BlockBits = 10;
 
-  /// Flags the block of an edge of the range.
+  std::uint8_t* Flags;
+  std::int64_t FirstBlock;
+
+  /// Flags the block of an edge.
   void Set(EdgeId edge) const
   {
-    if (edge < this->First || edge >= this->Last)
-    {
-      return;
-    }
-    std::uint8_t* flag = &this->Flags[(edge >> this->BlockBits) - (this->First >> this->BlockBits)];
+    std::uint8_t* flag = &this->Flags[(edge >> BlockBits) - this->FirstBlock];
     if (AtomicLoad(flag) == 0)
     {
       AtomicStore(flag, std::uint8_t(1));
@@ -68,7 +64,7 @@ struct JudgeStep : QuadStep
 {
   Rule Decision;
 
-  static constexpr StateRange Wanted{ EdgeState::Candidate, EdgeState::Candidate };
+  static constexpr StateRange Wanted{ EdgeState::Excluded, EdgeState::Candidate };
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(const Quad& quad) const
   {
     delaunayflip::Prefetch(this->Decision.Address(quad.A));
@@ -208,16 +204,23 @@ struct SurgeryStep : QuadStep
     return outer;
   }
 
-  DELAUNAYFLIP_HOST_DEVICE void TellGuard(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void TellGuard(
+    EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
     if (this->Guard.Active)
     {
-      bool fresh = false;
-      this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
-      this->Guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
-      counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
-      counts.FreshSlots += fresh ? 1 : 0;
+      this->TellActiveGuard(edge, quad, counts);
     }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE void TellActiveGuard(EdgeId edge, Quad quad, StepCounts& counts) const
+  {
+    bool fresh = false;
+    this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+    this->Guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
+    counts.LostInserts += this->Guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+    counts.FreshSlots += fresh ? 1 : 0;
   }
 };
 
@@ -232,30 +235,76 @@ struct FlipStep : SurgeryStep
     const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
-    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.AP)]);
-    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.QA)]);
-    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
-    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
+    ChooseStep{ this->Mesh }.Prefetch(outer);
   }
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
+    this->FlipAndMark(edge, quad, counts, EdgeState::Candidate);
+  }
+
+protected:
+  /// @param excluded what becomes of outer edges that are bad.
+  DELAUNAYFLIP_ALWAYS_INLINE void FlipAndMark(
+    EdgeId edge, const Quad& quad, StepCounts& counts, EdgeState excluded) const
+  {
     const OuterHalfEdges outer = this->Flip(edge, quad, counts);
     AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
-    this->Mark(EdgeOf(outer.AP));
-    this->Mark(EdgeOf(outer.QA));
-    this->Mark(EdgeOf(outer.PB));
-    this->Mark(EdgeOf(outer.BQ));
+    this->Mark(EdgeOf(outer.AP), excluded);
+    this->Mark(EdgeOf(outer.QA), excluded);
+    this->Mark(EdgeOf(outer.PB), excluded);
+    this->Mark(EdgeOf(outer.BQ), excluded);
   }
 
 private:
-  void Mark(EdgeId edge) const
+  void Mark(EdgeId edge, EdgeState excluded) const
   {
     EdgeState* state = &this->Mesh.States[edge];
     const EdgeState seen = AtomicLoad(state);
-    const bool asleep = seen == EdgeState::Fixed || seen == EdgeState::Deferred;
+    if (seen == EdgeState::Fixed || seen == EdgeState::Deferred)
+    {
+      return;
+    }
     // A store costs less than a branch that nobody can foresee.
-    AtomicStore(state, asleep ? seen : EdgeState::Candidate);
+    AtomicStore(state, WasBad(seen) ? excluded : EdgeState::Candidate);
     this->Active.Set(edge);
+  }
+};
+
+/// Chooses and flips in one go, for one thread alone: the same flips as by ChooseStep for all edges
+/// and FlipStep after it. A bad edge next to one that has flipped becomes Excluded. It counts as
+/// bad for its neighbours' choice, which so goes by the states before the first flip; and nothing
+/// that the choice of an edge reads changes before it, unless it is excluded.
+struct ChooseAndFlipStep : FlipStep
+{
+  DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
+  {
+    return ChooseStep{ this->Mesh }.Load(edge);
+  }
+  void Prefetch(const OuterHalfEdges& outer) const
+  {
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
+    ChooseStep{ this->Mesh }.Prefetch(outer);
+  }
+  /// @returns whether the edge wins.
+  bool Choose(EdgeId edge, const OuterHalfEdges& outer) const
+  {
+    const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
+    const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
+    const bool own = AtomicLoad(&this->Mesh.States[edge]) == EdgeState::Bad;
+    // Two of three bad edges have no bad neighbour.
+    const bool alone = (int(ap) | int(qa) | int(pb) | int(bq)) == 0;
+    return own && (alone || IsFirst(edge, outer, ap, qa, pb, bq));
+  }
+  void operator()(EdgeId edge, StepCounts& counts) const
+  {
+    this->FlipAndMark(edge, this->Mesh.GetQuad(edge), counts, EdgeState::Excluded);
+  }
+
+private:
+  bool IsBad(HalfEdgeId halfEdge) const
+  {
+    return WasBad(AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]));
   }
 };
 

@@ -10,6 +10,7 @@
 #include "StepCounts.h"
 
 #include <cstdint>
+#include <cstring>
 
 namespace delaunayflip
 {
@@ -52,24 +53,37 @@ public:
     }
   }
 
-  /// Judges an edge, at the latest in Finish.
-  void Add(EdgeId edge, const Vertices& vertices, StepCounts& counts)
+  /// Takes the i-th of the edges, i = 0, 1 and so on, and judges when there are enough.
+  void Add(const EdgeId* edges, std::int64_t i, const Vertices& vertices, StepCounts& counts)
   {
+    const std::int64_t lane = i % Size;
     for (int corner = 0; corner < 4; ++corner)
     {
-      const Real* point = this->Decision.Address(vertices.Ids[corner]);
-      this->U[corner][this->Count] = point[0];
-      this->V[corner][this->Count] = point[1];
+      std::memcpy(
+        this->Points[corner][lane], this->Decision.Address(vertices.Ids[corner]), sizeof(Real[2]));
     }
-    this->Edges[this->Count++] = edge;
-    if (this->Count == Size)
+    if (lane == Size - 1)
     {
-      this->Finish(counts);
+      this->Judge(edges + i - lane, Size, counts);
     }
   }
 
-  /// Judges what has been added.
-  void Finish(StepCounts& counts)
+  /// Judges what is left of `size` edges.
+  void Finish(const EdgeId* edges, std::int64_t size, StepCounts& counts)
+  {
+    this->Judge(edges + size / Size * Size, size % Size, counts);
+    counts.Tested += size;
+  }
+
+  EdgeMeshView Mesh;
+
+private:
+  static constexpr int Size = 8;
+  static constexpr auto Good = static_cast<std::int64_t>(EdgeState::Good);
+  static constexpr auto Uncertain = static_cast<std::int64_t>(EdgeState::Uncertain);
+  static constexpr auto Bad = static_cast<std::int64_t>(EdgeState::Bad);
+
+  void Judge(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
     // Of the width of the numbers that decide, so that they stay in their lanes.
     std::int64_t states[Size];
@@ -83,33 +97,20 @@ public:
       const std::int64_t other = -value > bound ? Good : Uncertain;
       states[i] = value > bound ? Bad : other;
     }
-    counts.Tested += this->Count;
-    for (int i = 0; i < this->Count; ++i)
+    for (std::int64_t i = 0; i < size; ++i)
     {
-      AtomicStore(&this->Mesh.States[this->Edges[i]], static_cast<EdgeState>(states[i]));
+      AtomicStore(&this->Mesh.States[edges[i]], static_cast<EdgeState>(states[i]));
       counts.Uncertain += states[i] == Uncertain ? 1 : 0;
     }
-    this->Count = 0;
   }
-
-  EdgeMeshView Mesh;
-
-private:
-  static constexpr int Size = 8;
-  static constexpr auto Good = static_cast<std::int64_t>(EdgeState::Good);
-  static constexpr auto Uncertain = static_cast<std::int64_t>(EdgeState::Uncertain);
-  static constexpr auto Bad = static_cast<std::int64_t>(EdgeState::Bad);
 
   PlanePoint Get(int corner, int i) const
   {
-    return { this->U[corner][i], this->V[corner][i], 0.0 };
+    return { this->Points[corner][i][0], this->Points[corner][i][1], 0.0 };
   }
 
   Rule Decision;
-  int Count = 0;
-  EdgeId Edges[Size];
-  Real U[4][Size] = {};
-  Real V[4][Size] = {};
+  Real Points[4][Size][2] = {};
 };
 
 }

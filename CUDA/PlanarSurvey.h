@@ -58,50 +58,94 @@ struct OrientationSums
   }
 };
 
-/// Sums over triangles with finite coordinates.
-template <typename Backend>
-OrientationSums SumOrientations(
-  const EdgeMesh& mesh, const PackedPointsView& points, const Backend& backend)
+struct PlaneSums
 {
-  const TriangleRecord* triangles = mesh.Triangles.Data();
-  return backend.template Sum<OrientationSums>(mesh.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, OrientationSums & sums)
+  OrientationSums Turns;
+  StarSums Stars;
+
+  DELAUNAYFLIP_HOST_DEVICE PlaneSums& operator+=(const PlaneSums& part)
+  {
+    this->Turns += part.Turns;
+    this->Stars += part.Stars;
+    return *this;
+  }
+};
+
+/// Examines a triangle with finite coordinates.
+struct PlaneStep
+{
+  StarSurvey Survey;
+  bool ExamineStars;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, PlaneSums& sums) const
+  {
+    const TriangleRecord& triangle = this->Survey.Mesh.Triangles[t];
+    const VertexId* v = triangle.Vertices;
+    const PackedPointsView& points = this->Survey.Points;
+    const CornerPoints corners{ v,
+      { points.GetPlanePoint(v[0]), points.GetPlanePoint(v[1]), points.GetPlanePoint(v[2]) } };
+    const PlanePoint(&p)[3] = corners.Points;
+    if (!IsFinite(p[0]) || !IsFinite(p[1]) || !IsFinite(p[2]))
     {
-      const VertexId* v = triangles[t].Vertices;
-      const PlanePoint p = points.GetPlanePoint(v[0]);
-      const PlanePoint q = points.GetPlanePoint(v[1]);
-      const PlanePoint r = points.GetPlanePoint(v[2]);
-      if (IsFinite(p) && IsFinite(q) && IsFinite(r))
-      {
-        sums.Note(FindOrientation(p, q, r), triangles[t].InputTriangle);
-      }
-    });
-}
+      return;
+    }
+    const int side = FindOrientation(p[0], p[1], p[2]);
+    sums.Turns.Note(side, triangle.InputTriangle);
+    if (this->ExamineStars && (side == 1 || side == -1))
+    {
+      this->Survey.NoteTriangle(corners, side, sums.Stars);
+    }
+  }
+};
 
 /// Triangles with a coordinate that is not finite, which never flip, do not count.
-/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges or such triangles;
-/// then StarsAreSimple is not examined and false.
+/// @param examineStars else the sums of stars mean nothing.
+template <typename Backend>
+PlaneSums SumPlane(
+  EdgeMesh& mesh, const PackedPoints& points, bool examineStars, const Backend& backend)
+{
+  Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(examineStars ? points.Count : 0);
+  const StarSurvey survey{ mesh.View(), points.View(), fanStarts.Data() };
+  StarSums fans;
+  if (examineStars)
+  {
+    backend.ForEach(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { survey.FanStarts[v] = StarSurvey::NoVertex; });
+    fans = backend.template Sum<StarSums>(mesh.NumberOfEdges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, StarSums & part)
+      { survey.NoteFan(static_cast<EdgeId>(e), part); });
+  }
+  PlaneSums sums = backend.template Sum<PlaneSums>(
+    mesh.NumberOfTriangles, PlaneStep{ survey, examineStars && fans.SeveralFans == 0 });
+  sums.Stars += fans;
+  return sums;
+}
+
+/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges or triangles with a
+/// coordinate that is not finite; then StarsAreSimple is not examined and false.
 /// @param usedPoints vertices of triangles.
 /// @throws BeyondDevice where a device cannot tell an orientation.
 template <typename Backend>
 PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans,
   std::int64_t usedPoints, const Backend& backend)
 {
-  const OrientationSums sums = SumOrientations(mesh, points.View(), backend);
-  if (sums.Uncertain > 0)
+  const PlaneSums sums = SumPlane(mesh, points, !hasBrokenFans, backend);
+  const OrientationSums& turns = sums.Turns;
+  const bool uniform = turns.None.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
+  if (turns.Uncertain > 0 || (uniform && sums.Stars.Uncertain > 0))
   {
     throw BeyondDevice();
   }
   PlanarSurvey survey;
-  const bool mostlyLeft = sums.Left.Count >= sums.Right.Count;
-  survey.InvertedTriangles =
-    MakeDefect("triangles that turn the other way than most", mostlyLeft ? sums.Right : sums.Left);
-  survey.ZeroAreaTriangles = MakeDefect("triangles without area", sums.None);
-  if (survey.InvertedTriangles.Count == 0 && survey.ZeroAreaTriangles.Count == 0)
+  const bool mostlyLeft = turns.Left.Count >= turns.Right.Count;
+  survey.InvertedTriangles = MakeDefect(
+    "triangles that turn the other way than most", mostlyLeft ? turns.Right : turns.Left);
+  survey.ZeroAreaTriangles = MakeDefect("triangles without area", turns.None);
+  if (uniform)
   {
     survey.UniformSide = mostlyLeft ? 1 : -1;
     survey.StarsAreSimple =
-      !hasBrokenFans && AreStarsSimple(mesh, points, survey.UniformSide, usedPoints, backend);
+      !hasBrokenFans && sums.Stars.SeveralFans == 0 && sums.Stars.Covers == usedPoints;
   }
   return survey;
 }

@@ -95,6 +95,7 @@ public:
       Engine(backend)
   {
     const BoundingBox& box = survey.Box;
+    this->Level = box.Lower[2] == box.Upper[2];
     this->Diagonal = Length(this->Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
       this->Scale(box.Lower[0], box.Lower[1], box.Lower[2]));
   }
@@ -102,11 +103,15 @@ public:
   /// Whether all used points lie in one plane; its normal is then known.
   bool Find()
   {
+    this->Normal = { 0.0, 0.0, 1.0 };
+    if (this->Level)
+    {
+      return true;
+    }
     // The first point: all of them are equally far from nothing.
     const std::int64_t first = this->ArgMax(HeightAbove{});
     if (first < 0)
     {
-      this->Normal = { 0.0, 0.0, 1.0 };
       return true;
     }
     const Vector3 origin = this->Get(first);
@@ -174,6 +179,7 @@ private:
   PlaneScale Scale;
   const Backend& Engine;
   double Diagonal = 0.0;
+  bool Level; ///< All z are equal, as in most planar meshes.
   Vector3 Normal;
   std::int64_t Off = -1;
 };

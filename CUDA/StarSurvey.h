@@ -54,7 +54,14 @@ struct StarSums
   }
 };
 
-/// Whether the stars of a mesh of uniform side cover no direction twice.
+/// Three points and the vertices that they are.
+struct CornerPoints
+{
+  const VertexId* Vertices;
+  PlanePoint Points[3];
+};
+
+/// Whether the stars of a mesh whose triangles all turn to one side cover no direction twice.
 ///
 /// Around an inner vertex the triangles turn a whole number of times: as often as the direction +u
 /// is crossed, which comparisons of coordinates tell. At the boundary the direction of the fan's
@@ -66,7 +73,6 @@ struct StarSurvey
 
   EdgeMeshView Mesh;
   PackedPointsView Points;
-  int Side;
   VertexId* FanStarts; ///< At the boundary, the end of the fan's first edge.
 
   /// Notes where a fan starts, if the edge is a boundary edge.
@@ -83,19 +89,21 @@ struct StarSurvey
     sums.SeveralFans += AtomicExchange(&this->FanStarts[from], to) == NoVertex ? 0 : 1;
   }
 
-  DELAUNAYFLIP_HOST_DEVICE void NoteTriangle(std::int64_t t, StarSums& sums) const
+  /// @param side to which the triangle turns, not 0.
+  DELAUNAYFLIP_HOST_DEVICE void NoteTriangle(
+    const CornerPoints& corners, int side, StarSums& sums) const
   {
-    const VertexId* v = this->Mesh.Triangles[t].Vertices;
+    const VertexId* v = corners.Vertices;
     const bool inner = this->FanStarts[v[0]] == NoVertex && this->FanStarts[v[1]] == NoVertex &&
       this->FanStarts[v[2]] == NoVertex;
     if (inner)
     {
-      sums.Covers += this->CoverPositiveU(v) ? 1 : 0;
+      sums.Covers += CoverPositiveU(corners.Points, side) ? 1 : 0;
       return;
     }
     for (int slot = 0; slot < 3; ++slot)
     {
-      sums.Covers += this->Covers(v[slot], v[NextSlot(slot)], v[PreviousSlot(slot)], sums) ? 1 : 0;
+      sums.Covers += this->Covers(corners, slot, side, sums) ? 1 : 0;
     }
   }
 
@@ -107,79 +115,51 @@ private:
     return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
   }
 
-  DELAUNAYFLIP_HOST_DEVICE bool CoversPositiveU(
-    VertexId vertex, VertexId first, VertexId last) const
+  /// Whether the corner at v from `first` (included) to `last` (not) covers +u.
+  DELAUNAYFLIP_HOST_DEVICE static bool CoversPositiveU(
+    const PlanePoint& v, const PlanePoint& first, const PlanePoint& last, int side)
   {
-    const PlanePoint v = this->Points.GetPlanePoint(vertex);
-    const bool firstUpper = IsUpper(v, this->Points.GetPlanePoint(first));
-    const bool lastUpper = IsUpper(v, this->Points.GetPlanePoint(last));
-    return this->Side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
+    const bool firstUpper = IsUpper(v, first);
+    const bool lastUpper = IsUpper(v, last);
+    return side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
   }
 
   /// Whether a corner of a triangle covers +u, which one of them does at most: two of three edges
   /// that go round it go up, or two go down.
-  DELAUNAYFLIP_HOST_DEVICE bool CoverPositiveU(const VertexId* v) const
+  DELAUNAYFLIP_HOST_DEVICE static bool CoverPositiveU(const PlanePoint (&p)[3], int side)
   {
-    const PlanePoint p = this->Points.GetPlanePoint(v[0]);
-    const PlanePoint q = this->Points.GetPlanePoint(v[1]);
-    const PlanePoint r = this->Points.GetPlanePoint(v[2]);
-    const int up = (IsUpper(p, q) ? 1 : 0) + (IsUpper(q, r) ? 1 : 0) + (IsUpper(r, p) ? 1 : 0);
-    return up == (this->Side > 0 ? 1 : 2);
+    const int up =
+      (IsUpper(p[0], p[1]) ? 1 : 0) + (IsUpper(p[1], p[2]) ? 1 : 0) + (IsUpper(p[2], p[0]) ? 1 : 0);
+    return up == (side > 0 ? 1 : 2);
   }
 
-  /// Whether the corner from `first` (included) to `last` (not) covers where the fan starts.
+  /// Whether the corner at a slot covers where the fan starts.
   DELAUNAYFLIP_HOST_DEVICE bool Covers(
-    VertexId vertex, VertexId first, VertexId last, StarSums& sums) const
+    const CornerPoints& corners, int slot, int side, StarSums& sums) const
   {
-    const VertexId start = this->FanStarts[vertex];
+    const PlanePoint& v = corners.Points[slot];
+    const PlanePoint& first = corners.Points[NextSlot(slot)];
+    const PlanePoint& last = corners.Points[PreviousSlot(slot)];
+    const VertexId start = this->FanStarts[corners.Vertices[slot]];
     if (start == NoVertex)
     {
-      return this->CoversPositiveU(vertex, first, last);
+      return CoversPositiveU(v, first, last, side);
     }
-    if (start == first)
+    if (start == corners.Vertices[NextSlot(slot)])
     {
       return true;
     }
-    const PlanePoint v = this->Points.GetPlanePoint(vertex);
-    const PlanePoint f = this->Points.GetPlanePoint(first);
     const PlanePoint t = this->Points.GetPlanePoint(start);
-    const int afterFirst = FindOrientation(v, f, t);
-    const int beforeLast = FindOrientation(v, t, this->Points.GetPlanePoint(last));
+    const int afterFirst = FindOrientation(v, first, t);
+    const int beforeLast = FindOrientation(v, t, last);
     sums.Uncertain += afterFirst == UncertainSign || beforeLast == UncertainSign ? 1 : 0;
     if (afterFirst == 0)
     {
-      return IsUpper(v, f) == IsUpper(v, t);
+      return IsUpper(v, first) == IsUpper(v, t);
     }
-    return this->Side * afterFirst > 0 && this->Side * beforeLast > 0;
+    return side * afterFirst > 0 && side * beforeLast > 0;
   }
 };
-
-/// @param usedPoints vertices of triangles.
-/// @throws BeyondDevice where a device cannot tell.
-template <typename Backend>
-bool AreStarsSimple(EdgeMesh& mesh, const PackedPoints& points, int side, std::int64_t usedPoints,
-  const Backend& backend)
-{
-  Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(points.Count);
-  const StarSurvey survey{ mesh.View(), points.View(), side, fanStarts.Data() };
-  backend.ForEach(points.Count,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { survey.FanStarts[v] = StarSurvey::NoVertex; });
-  StarSums sums = backend.template Sum<StarSums>(mesh.NumberOfEdges,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, StarSums & part)
-    { survey.NoteFan(static_cast<EdgeId>(e), part); });
-  if (sums.SeveralFans > 0)
-  {
-    return false;
-  }
-  sums = backend.template Sum<StarSums>(mesh.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, StarSums & part)
-    { survey.NoteTriangle(t, part); });
-  if (sums.Uncertain > 0)
-  {
-    throw BeyondDevice();
-  }
-  return sums.Covers == usedPoints;
-}
 
 }
 

@@ -182,13 +182,12 @@ private:
   {
     const EdgeMeshView mesh = this->Mesh.View();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
-    const FlipStep flip{ { { mesh }, EdgeGuardView{} }, worklist.GetFlags() };
+    const ChooseAndFlipStep flip{ { { { mesh }, EdgeGuardView{} }, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
     std::vector<IterationCounts> counts(rounds);
     for (std::int64_t round = 0; round < rounds; ++round)
     {
-      worklist.Filter(ChooseStep{ mesh });
-      const StepCounts flips = worklist.Run(flip);
+      const StepCounts flips = worklist.ChooseAndFlip(flip);
       counts[round] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && round == 0))
       {
