@@ -117,15 +117,6 @@ DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(
   }
 }
 
-/// Whether the two triangles of an edge run through it in opposite directions, as they should.
-DELAUNAYFLIP_HOST_DEVICE inline bool IsConsistentlyWound(const EdgeMeshView& mesh, EdgeId edge)
-{
-  const CornerId a = mesh.CornerOfHalfEdge[2 * edge];
-  const CornerId b = mesh.CornerOfHalfEdge[2 * edge + 1];
-  return mesh.Triangles[TriangleOf(a)].Vertices[NextSlot(SlotOf(a))] ==
-    mesh.Triangles[TriangleOf(b)].Vertices[PreviousSlot(SlotOf(b))];
-}
-
 }
 
 #endif

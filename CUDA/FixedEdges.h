@@ -121,7 +121,7 @@ private:
     const Quad quad = this->Mesh.GetQuad(edge);
     const TriangleRecord& a = this->Mesh.Triangles[TriangleOf(quad.CornerA)];
     const TriangleRecord& b = this->Mesh.Triangles[TriangleOf(quad.CornerB)];
-    const bool wronglyWound = !IsConsistentlyWound(this->Mesh, edge);
+    const bool wronglyWound = quad.P != GetAt(b.Vertices, PreviousSlot(SlotOf(quad.CornerB)));
     const bool duplicate = quad.A == quad.B;
     const bool region =
       this->Regions && this->Regions[a.InputTriangle] != this->Regions[b.InputTriangle];

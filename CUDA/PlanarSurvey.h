@@ -85,7 +85,8 @@ struct PlaneStep
     const CornerPoints corners{ v,
       { points.GetPlanePoint(v[0]), points.GetPlanePoint(v[1]), points.GetPlanePoint(v[2]) } };
     const PlanePoint(&p)[3] = corners.Points;
-    if (!IsFinite(p[0]) || !IsFinite(p[1]) || !IsFinite(p[2]))
+    const bool usual = IsInFilterRange(p[0]) && IsInFilterRange(p[1]) && IsInFilterRange(p[2]);
+    if (!usual && !(IsFinite(p[0]) && IsFinite(p[1]) && IsFinite(p[2])))
     {
       return;
     }
