@@ -28,25 +28,24 @@ public:
   BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, Backend backend)
     : Engine(std::move(backend))
   {
-    typename Backend::LocalMesh local = this->Engine.Localize(mesh);
+    LocalMesh local = this->Engine.Localize(mesh);
     const MeshInput input{ mesh, local.View() };
-    const MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
+    MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
     CheckTieRule(options, survey.Geometry);
     this->Order = OrderMesh(input, survey, this->Engine);
+    this->PackPoints(local, survey, options.Criterion);
     const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
-    EdgeMesh loaded = LoadTriangles(edges, this->Engine);
-    local.DropTriangles();
-    this->Order.TriangleOfRank = Array<TriangleId>();
+    EdgeMesh loaded = this->LoadTriangles(edges, local);
+    survey.Uses = Array<PointUse>();
     EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Engine);
+    local.DropPoints();
     local.DropRegions();
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
-    FlipLoopResult made =
-      FlipLoopFactory<Backend>({ input.Local.Points, survey, this->Order, options, this->Report },
-        this->Mesh, std::move(built.Table), this->Engine)
-        .Make();
-    this->Points = std::move(made.Points);
+    FlipLoopResult made = FlipLoopFactory<Backend>({ this->Points, survey, options, this->Report },
+      this->Mesh, std::move(built.Table), this->Engine)
+                            .Make();
     this->Loop = std::move(made.Loop);
     for (const Defect& defect : made.Defects)
     {
@@ -63,11 +62,15 @@ public:
     const TriangleRecord* records = this->Mesh.Triangles.Data();
     const SpatialOrderView order = this->Order.View();
     this->Engine.StoreTriangles(triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const MutableTriangleArray& target)
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const TriangleSlice& target)
       {
-        for (int slot = 0; slot < 3; ++slot)
+        const TriangleId id = records[t].InputTriangle;
+        if (target.Holds(id))
         {
-          target.Set(records[t].InputTriangle, slot, order.GetVertex(records[t].Vertices[slot]));
+          for (int slot = 0; slot < 3; ++slot)
+          {
+            target.Set(id, slot, order.GetVertex(records[t].Vertices[slot]));
+          }
         }
       });
   }
@@ -84,6 +87,38 @@ public:
   void Audit() const override { RequireConsistent(this->Mesh, this->Engine); }
 
 private:
+  using LocalMesh = typename Backend::LocalMesh;
+
+  /// Planes have no use for the caller's points afterwards, surfaces look for feature edges.
+  void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
+  {
+    const PointArray points = local.View().Points;
+    this->Points = delaunayflip::PackPoints(points, this->Order.View(),
+      PlanPacking(survey, criterion, points.Floats != nullptr), this->Engine);
+    if (survey.Geometry != GeometryKind::Surface)
+    {
+      local.DropPoints();
+    }
+  }
+
+  /// Here memory is fullest, for the caller's triangles and the engine's are both in it; so a
+  /// device goes without what it can make again.
+  EdgeMesh LoadTriangles(const EdgeMeshInput& edges, LocalMesh& local)
+  {
+    if (Backend::MemoryIsScarce)
+    {
+      this->Order.DropVertices();
+    }
+    EdgeMesh loaded = delaunayflip::LoadTriangles(edges, this->Engine);
+    local.DropTriangles();
+    this->Order.TriangleOfRank = Array<TriangleId>();
+    if (Backend::MemoryIsScarce)
+    {
+      this->Order.RestoreVertices(this->Engine);
+    }
+    return loaded;
+  }
+
   void StartReport(const TriangleMesh& mesh, const MeshSurvey& survey, const EdgeMeshResult& built)
   {
     FlipReport& report = this->Report;

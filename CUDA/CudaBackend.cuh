@@ -34,7 +34,12 @@ struct DeviceMesh
 
   const TriangleMesh& View() const { return this->Mesh; }
 
-  /// Give back what the edge mesh has in its own way.
+  /// Give back what the engine has in its own way.
+  void DropPoints()
+  {
+    this->Floats = Array<float>();
+    this->Doubles = Array<double>();
+  }
   void DropTriangles()
   {
     this->Triangles = Array<std::int32_t>();
@@ -64,6 +69,8 @@ public:
       Threads(threads)
   {
   }
+
+  static constexpr bool MemoryIsScarce = true;
 
   /// E.g. "CUDA: NVIDIA H200".
   std::string GetName() const { return "CUDA: " + this->Context->Name; }
@@ -189,23 +196,16 @@ public:
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
-    const std::int64_t size = 3 * triangles.Count;
-    Array<std::int32_t> ids = this->MakeArray<std::int32_t>(size);
-    const MutableTriangleArray local(ids.Data(), triangles.Count);
-    this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, local); });
-    // A vertex id is a number of 32 bits without a sign.
-    const auto* words = reinterpret_cast<const std::uint32_t*>(ids.Data());
-    StagedCopy copy(*this->Context, this->Threads);
-    if (triangles.Ids32)
+    const std::int64_t sliceSize =
+      std::max(SmallestSlice, (triangles.Count + SlicesOfOutput - 1) / SlicesOfOutput);
+    Array<std::int32_t> ids =
+      this->MakeArray<std::int32_t>(3 * std::min(sliceSize, triangles.Count));
+    for (std::int64_t first = 0; first < triangles.Count; first += sliceSize)
     {
-      copy.Download(size, words,
-        [&](std::int64_t i, std::uint32_t id)
-        { triangles.Ids32[i] = static_cast<std::int32_t>(id); });
-    }
-    else
-    {
-      copy.Download(
-        size, words, [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[i] = id; });
+      const std::int64_t last = std::min(triangles.Count, first + sliceSize);
+      const TriangleSlice slice{ MutableTriangleArray(ids.Data(), last - first), first, last };
+      this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, slice); });
+      this->DownloadIds(slice, triangles);
     }
   }
 
@@ -232,6 +232,31 @@ public:
   }
 
 private:
+  /// Triangles go to the host by slices, so that their ids need little memory; a slice costs a look
+  /// at all triangles.
+  static constexpr std::int64_t SlicesOfOutput = 8;
+  static constexpr std::int64_t SmallestSlice = std::int64_t(1) << 20;
+
+  void DownloadIds(const TriangleSlice& slice, const MutableTriangleArray& triangles) const
+  {
+    const std::int64_t begin = 3 * slice.First;
+    const std::int64_t size = 3 * slice.Array.Count;
+    // A vertex id is a number of 32 bits without a sign.
+    const auto* words = reinterpret_cast<const std::uint32_t*>(slice.Array.Ids32);
+    StagedCopy copy(*this->Context, this->Threads);
+    if (triangles.Ids32)
+    {
+      copy.Download(size, words,
+        [&](std::int64_t i, std::uint32_t id)
+        { triangles.Ids32[begin + i] = static_cast<std::int32_t>(id); });
+    }
+    else
+    {
+      copy.Download(
+        size, words, [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[begin + i] = id; });
+    }
+  }
+
   static int ResolveDevice(int device)
   {
     if (device < 0)

@@ -81,7 +81,8 @@ public:
   void Rebuild(EdgeMesh& mesh, const Backend& backend)
   {
     this->Table = EdgeTable();
-    this->Table = EdgeTable(mesh.NumberOfEdges, this->NumberOfVertices, false, backend);
+    this->Table = EdgeTable(
+      mesh.NumberOfEdges, { 0, static_cast<VertexId>(this->NumberOfVertices) }, false, backend);
     const EdgeTableView table = this->Table.View();
     const TriangleRecord* triangles = mesh.Triangles.Data();
     backend.ForEach(mesh.NumberOfTriangles,

@@ -23,8 +23,8 @@
 namespace delaunayflip
 {
 
-/// Finds or makes the table entries of the edges opposite corners 3 * triangle + slot and adds the
-/// corners to them.
+/// Finds or makes the table entries of the edges opposite corners 3 * triangle + slot, if they are
+/// of the table's slice, and adds the corners to them.
 struct PairStep
 {
   EdgeTableView Table;
@@ -36,25 +36,29 @@ struct PairStep
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, PairSums& sums) const
   {
+    TriangleRecord& triangle = this->Triangles[i / 3];
+    const std::uint64_t key = KeyOpposite(triangle, static_cast<int>(i % 3));
     // A table that has failed once is thrown away.
-    if (sums.Failures == 0)
+    if (sums.Failures == 0 && this->Table.Slice.Holds(key))
     {
-      this->Pair(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3), sums);
+      this->Pair(
+        key, triangle, MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)), sums);
     }
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE void Pair(TriangleId t, int slot, PairSums& sums) const
+  DELAUNAYFLIP_HOST_DEVICE void Pair(
+    std::uint64_t key, TriangleRecord& triangle, CornerId corner, PairSums& sums) const
   {
-    TriangleRecord& triangle = this->Triangles[t];
     bool inserted = false;
-    const std::uint32_t entry = this->Table.FindOrInsert(KeyOpposite(triangle, slot), inserted);
+    const std::uint32_t entry = this->Table.FindOrInsert(key, inserted);
     if (entry == EdgeTableView::NoSlot)
     {
       ++sums.Failures;
       return;
     }
-    const bool many = AttachCorner(this->Table, entry, MakeCorner(t, slot), inserted);
+    const int slot = SlotOf(corner);
+    const bool many = AttachCorner(this->Table, entry, corner, inserted);
     const bool isEdge = !IsLoop(triangle, slot);
     sums.Edges += isEdge && inserted ? 1 : 0;
     sums.NonManifold += isEdge && many ? 1 : 0;
@@ -62,8 +66,9 @@ private:
   }
 };
 
-/// Puts the roles of a triangle's corners and the edges' other corners in the place of table slots.
-/// @returns the number of edges that it leads.
+/// Puts the roles of a triangle's corners and the edges' other corners in the place of table slots,
+/// for the edges of the table's slice.
+/// @returns the number of edges that it leads, as far as roles are known.
 struct RoleStep
 {
   EdgeTableView Table;
@@ -85,9 +90,13 @@ struct RoleStep
     CornerId others[3];
     for (int slot = 0; slot < 3; ++slot)
     {
-      const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
-      const CornerRole role = FindRole(this->Table, triangle.HalfEdges[slot], corner, others[slot]);
-      roles |= static_cast<std::uint32_t>(role) << (2 * slot);
+      others[slot] = triangle.HalfEdges[slot];
+      if (this->Table.Slice.Holds(KeyOpposite(triangle, slot)))
+      {
+        const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
+        const CornerRole role = FindRole(this->Table, others[slot], corner, others[slot]);
+        roles |= static_cast<std::uint32_t>(role) << (2 * slot);
+      }
     }
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -186,41 +195,72 @@ EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
   return edges;
 }
 
-/// @returns false when the table is too small.
+/// Pairs the corners of a slice by a table for `expected` edges. @returns false when it is too
+/// small.
 template <typename Backend>
-bool TryPairCorners(EdgeMeshResult& result, const Backend& backend)
+bool TryPairSlice(
+  EdgeMeshResult& result, const VertexSlice& slice, std::int64_t expected, const Backend& backend)
 {
-  const EdgeTableView table = result.Table.View();
-  TriangleRecord* triangles = result.Edges.Triangles.Data();
-  const PairSums sums = backend.template Sum<PairSums>(
-    3 * result.Edges.NumberOfTriangles, PairStep{ table, triangles });
+  result.Table = EdgeTable();
+  result.Table = EdgeTable(expected, slice, true, backend);
+  const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
+    PairStep{ result.Table.View(), result.Edges.Triangles.Data() });
   // Above this share of slots in use, later searches would be long.
   constexpr double LargestFill = 0.8;
-  result.Counts.Edges = sums.Edges;
-  result.Counts.NonManifold = sums.NonManifold;
+  result.Counts.Edges += sums.Edges;
+  result.Counts.NonManifold += sums.NonManifold;
   const auto capacity = static_cast<double>(result.Table.GetCapacity());
   return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
 }
 
+/// Pairs the corners slice by slice. @returns whether all tables were large enough; the numbering
+/// is then that of the edges.
+template <typename Backend>
+bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t slices,
+  std::int64_t expected, typename Backend::Numbering& numbering, const Backend& backend)
+{
+  const std::int64_t triangles = result.Edges.NumberOfTriangles;
+  result.Counts.Edges = 0;
+  result.Counts.NonManifold = 0;
+  for (std::int64_t i = 0; i < slices; ++i)
+  {
+    const VertexSlice slice{ static_cast<VertexId>(vertices * i / slices),
+      static_cast<VertexId>(vertices * (i + 1) / slices) };
+    if (!TryPairSlice(result, slice, expected / slices, backend))
+    {
+      return false;
+    }
+    const RoleStep setRoles{ result.Table.View(), result.Edges.Triangles.Data() };
+    if (i + 1 < slices)
+    {
+      backend.ForEach(triangles, setRoles);
+      continue;
+    }
+    numbering = backend.Count(triangles, setRoles);
+  }
+  return true;
+}
+
 /// Finds the other corner of every corner's edge, and the roles, by the edge table.
+/// @param slices of the vertices, with a table each, one after the other, which saves memory; one
+/// table is for all if some slice has more edges than its share.
 /// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairByTable(
-  const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
+  const EdgeMeshInput& input, EdgeMeshResult& result, std::int64_t slices, const Backend& backend)
 {
-  const std::int64_t triangles = result.Edges.NumberOfTriangles;
-  const std::int64_t corners = 3 * triangles;
-  for (std::int64_t expected = corners / 2 + corners / 100; expected <= 4 * corners + 4;
-       expected = 2 * expected + 1)
+  const std::int64_t vertices = input.Input.Local.Points.Count;
+  const std::int64_t corners = 3 * result.Edges.NumberOfTriangles;
+  typename Backend::Numbering numbering;
+  std::int64_t expected = corners / 2 + corners / 100;
+  while (expected <= 4 * corners + 4)
   {
-    result.Table = EdgeTable();
-    result.Table =
-      EdgeTable(std::min(expected, corners), input.Input.Local.Points.Count, true, backend);
-    if (TryPairCorners(result, backend))
+    if (TryPairSlices(result, vertices, slices, std::min(expected, corners), numbering, backend))
     {
-      return backend.Count(
-        triangles, RoleStep{ result.Table.View(), result.Edges.Triangles.Data() });
+      return numbering;
     }
+    expected = slices > 1 ? expected : 2 * expected + 1;
+    slices = 1;
   }
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
@@ -232,15 +272,21 @@ inline bool NeedsTable(const EdgeMeshInput& input)
     input.Input.Caller.NumberOfConstraintEdges > 0;
 }
 
+/// Of large meshes, whose tables nobody needs later, by slices: a quarter of the table, and four
+/// looks at every triangle.
 template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  typename Backend::Numbering numbering = PairByTable(input, result, backend);
-  if (!NeedsTable(input))
+  constexpr std::int64_t Slices = 4;
+  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
+  if (NeedsTable(input))
   {
-    result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
+    return PairByTable(input, result, 1, backend);
   }
+  const bool isLarge = result.Edges.NumberOfTriangles >= SmallestSliced;
+  typename Backend::Numbering numbering = PairByTable(input, result, isLarge ? Slices : 1, backend);
+  result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
   return numbering;
 }
 
@@ -260,7 +306,7 @@ inline ThreadNumbering PairCorners(
         result.Edges.NumberOfTriangles, OtherCornerStep{ result.Edges.Triangles.Data() });
     }
   }
-  return PairByTable(input, result, backend);
+  return PairByTable(input, result, 1, backend);
 }
 
 template <typename Backend>

@@ -37,6 +37,19 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
   return x ^ (x >> 16);
 }
 
+/// The vertices [First, Last) of the engine's order: a table may be for those edges alone whose
+/// smaller vertex is one of them.
+struct VertexSlice
+{
+  VertexId First, Last;
+
+  DELAUNAYFLIP_HOST_DEVICE bool Holds(std::uint64_t key) const
+  {
+    const auto smaller = static_cast<VertexId>(key >> 32);
+    return smaller >= this->First && smaller < this->Last;
+  }
+};
+
 /// Plain pointers to an EdgeTable, for functions of both backends.
 ///
 /// A key is sought first near the place that its smaller vertex has in the order of vertices, so
@@ -57,11 +70,13 @@ struct EdgeTableView
   std::uint32_t* First; ///< Two words of the user's with every key.
   std::uint32_t* Second;
   std::uint32_t Capacity; ///< Below 2^32, so that Stride times a vertex fits 64 bits.
-  std::uint64_t Stride; ///< Slots per vertex, times 2^StrideBits.
+  VertexSlice Slice;
+  std::uint64_t Stride; ///< Slots per vertex of the slice, times 2^StrideBits.
 
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t NearSlot(VertexId smaller, std::uint32_t scattered) const
   {
-    const std::uint64_t home = (smaller * this->Stride) >> StrideBits;
+    const std::uint64_t home =
+      (std::uint64_t(smaller - this->Slice.First) * this->Stride) >> StrideBits;
     return this->Wrap(home + scattered % NearSlots);
   }
 
@@ -179,8 +194,8 @@ public:
 
   /// An empty table with room for `edges` edges, with or without the two words a key.
   template <typename Backend>
-  EdgeTable(std::int64_t edges, std::int64_t vertices, bool withWords, const Backend& backend)
-    : NumberOfVertices(static_cast<std::uint32_t>(std::max<std::int64_t>(1, vertices)))
+  EdgeTable(std::int64_t edges, const VertexSlice& slice, bool withWords, const Backend& backend)
+    : Slice(slice)
   {
     // Share of slots in use when every expected edge is in: searches stay short, memory small.
     constexpr double FillFactor = 0.6;
@@ -197,8 +212,9 @@ public:
   {
     const std::uint64_t capacity = this->Keys.Size();
     return { this->Keys.Data(), this->First.Data(), this->Second.Data(),
-      static_cast<std::uint32_t>(capacity),
-      (capacity << EdgeTableView::StrideBits) / this->NumberOfVertices };
+      static_cast<std::uint32_t>(capacity), this->Slice,
+      (capacity << EdgeTableView::StrideBits) /
+        std::max<std::uint64_t>(1, this->Slice.Last - this->Slice.First) };
   }
   bool IsEmpty() const { return this->Keys.Size() == 0; }
   std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
@@ -230,7 +246,7 @@ public:
 private:
   Array<std::uint64_t> Keys;
   Array<std::uint32_t> First, Second;
-  std::uint32_t NumberOfVertices = 1;
+  VertexSlice Slice{ 0, 0 };
 };
 
 }

@@ -13,7 +13,6 @@
 #include "MeshSurvey.h"
 #include "PackedPoints.h"
 #include "PlanarSurvey.h"
-#include "SpatialOrder.h"
 
 #include <cmath>
 #include <memory>
@@ -26,18 +25,31 @@
 namespace delaunayflip
 {
 
+/// Which coordinates a mesh is judged by. Terrain by angles: those of the projection.
+/// @param asFloat whether the caller's are of type float.
+inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion, bool asFloat)
+{
+  if (survey.Geometry == GeometryKind::Surface)
+  {
+    return { { 0, 1, 2 }, 3, asFloat, false, survey.Scale };
+  }
+  const PlaneProjection& plane = survey.Projection;
+  const bool byAngles = criterion == CriterionKind::OppositeAngles;
+  const int components = byAngles || plane.Tilted ? 3 : 2;
+  return { { plane.AxisU, plane.AxisV, plane.AxisW }, components, asFloat && components == 2,
+    byAngles && survey.Geometry == GeometryKind::PlanarXY, byAngles ? survey.Scale : 1.0 };
+}
+
 struct FlipLoopInput
 {
-  const PointArray& Points; ///< In the backend's memory.
+  const PackedPoints& Points; ///< By PlanPacking. The loop reads them; must live as long.
   const MeshSurvey& Survey;
-  const SpatialOrder& Order;
   const FlipOptions& Options;
   const FlipReport& Counts; ///< Of the input's points and edges.
 };
 
 struct FlipLoopResult
 {
-  PackedPoints Points; ///< What the loop reads; must live as long.
   std::unique_ptr<FlipLoop> Loop;
   std::vector<Defect> Defects; ///< Of triangles: without area, turned over.
 };
@@ -71,31 +83,19 @@ public:
   }
 
 private:
-  /// Terrain by angles: those of the projection.
   void MakePlanarLoop()
   {
-    const MeshSurvey& survey = this->Input.Survey;
-    const PointArray& points = this->Input.Points;
-    const PlaneProjection& plane = survey.Projection;
     const bool byAngles = this->Input.Options.Criterion == CriterionKind::OppositeAngles;
-    const int components = byAngles || plane.Tilted ? 3 : 2;
-    this->Pack(
-      { { plane.AxisU, plane.AxisV, plane.AxisW }, components, points.Floats && components == 2,
-        byAngles && survey.Geometry == GeometryKind::PlanarXY, byAngles ? survey.Scale : 1.0 });
-    this->SetPlanarRule(byAngles);
-  }
-
-  void SetPlanarRule(bool byAngles)
-  {
+    const PackedPoints& points = this->Input.Points;
     const MeshSurvey& survey = this->Input.Survey;
     const EdgeCounts& edges = this->Input.Counts.Edges;
     const bool brokenFans =
       edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
     const PlanarSurvey plane =
-      SurveyPlane(this->Mesh, this->Result.Points, brokenFans, survey.UsedPoints, this->Engine);
+      SurveyPlane(this->Mesh, points, brokenFans, survey.UsedPoints, this->Engine);
     this->Result.Defects = { plane.ZeroAreaTriangles, plane.InvertedTriangles };
     this->Guard = plane.StarsAreSimple ? EdgeGuard() : this->MakeGuard();
-    const double* doubles = this->Result.Points.Doubles.Data();
+    const double* doubles = points.Doubles.Data();
     if (byAngles)
     {
       this->SetLoop(PlanarAngleRule{ { doubles, this->GetTolerance() } }, 1.0);
@@ -104,9 +104,9 @@ private:
     {
       this->SetInCircleRule<double, 3>(doubles, plane.UniformSide);
     }
-    else if (this->Result.Points.IsFloat())
+    else if (points.IsFloat())
     {
-      this->SetInCircleRule<float, 2>(this->Result.Points.Floats.Data(), plane.UniformSide);
+      this->SetInCircleRule<float, 2>(points.Floats.Data(), plane.UniformSide);
     }
     else
     {
@@ -126,9 +126,7 @@ private:
 
   void MakeSurfaceLoop()
   {
-    this->Pack(
-      { { 0, 1, 2 }, 3, this->Input.Points.Floats != nullptr, false, this->Input.Survey.Scale });
-    const PackedPoints& points = this->Result.Points;
+    const PackedPoints& points = this->Input.Points;
     this->Result.Defects = { FindZeroAreaTriangles(this->Mesh, points, this->Engine) };
     this->Guard = this->MakeGuard();
     if (points.IsFloat())
@@ -139,12 +137,6 @@ private:
     {
       this->SetLoop(SurfaceRule<double>{ { points.Doubles.Data(), this->GetTolerance() } }, 1.0);
     }
-  }
-
-  void Pack(const PackingPlan& plan)
-  {
-    this->Result.Points =
-      PackPoints(this->Input.Points, this->Input.Order.View(), plan, this->Engine);
   }
 
   EdgeGuard MakeGuard()

@@ -50,6 +50,16 @@ struct SpatialOrderView
   }
 };
 
+/// inverse[permutation[i]] = i.
+template <typename Backend>
+void InvertPermutation(
+  const VertexId* permutation, std::int64_t count, VertexId* inverse, const Backend& backend)
+{
+  backend.ForEach(count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    { inverse[permutation[i]] = static_cast<VertexId>(i); });
+}
+
 /// Permutations between the caller's ids and ranks; empty for meshes small enough for the caches,
 /// which keep the caller's order.
 struct SpatialOrder
@@ -61,6 +71,18 @@ struct SpatialOrder
   SpatialOrderView View() const
   {
     return { this->RankOfVertex.Data(), this->VertexOfRank.Data(), this->TriangleOfRank.Data() };
+  }
+
+  /// Gives VertexOfRank back until RestoreVertices makes it again out of RankOfVertex.
+  void DropVertices() { this->VertexOfRank = Array<VertexId>(); }
+
+  template <typename Backend>
+  void RestoreVertices(const Backend& backend)
+  {
+    const auto count = static_cast<std::int64_t>(this->RankOfVertex.Size());
+    this->VertexOfRank =
+      count > 0 ? backend.template MakeArray<VertexId>(count) : Array<VertexId>();
+    InvertPermutation(this->RankOfVertex.Data(), count, this->VertexOfRank.Data(), backend);
   }
 };
 
@@ -141,13 +163,9 @@ SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const B
   order.VertexOfRank = backend.SortIndices(
     points.Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.GetKey(points, i); });
   order.RankOfVertex = backend.template MakeArray<VertexId>(points.Count);
-  const VertexId* vertexOfRank = order.VertexOfRank.Data();
-  VertexId* rankOfVertex = order.RankOfVertex.Data();
-  backend.ForEach(points.Count,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t rank)
-    { rankOfVertex[vertexOfRank[rank]] = static_cast<VertexId>(rank); });
-  order.TriangleOfRank =
-    backend.SortIndices(triangles.Count, TriangleKey{ triangles, rankOfVertex, points.Count });
+  InvertPermutation(order.VertexOfRank.Data(), points.Count, order.RankOfVertex.Data(), backend);
+  order.TriangleOfRank = backend.SortIndices(
+    triangles.Count, TriangleKey{ triangles, order.RankOfVertex.Data(), points.Count });
   return order;
 }
 

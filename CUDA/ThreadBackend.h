@@ -43,6 +43,9 @@ public:
   ThreadBackend(ThreadBackend&&) noexcept;
   ThreadBackend& operator=(ThreadBackend&&) noexcept;
 
+  /// Whether to spend time on what saves memory.
+  static constexpr bool MemoryIsScarce = false;
+
   /// E.g. "Threads: 8".
   std::string GetName() const;
 
@@ -169,16 +172,19 @@ public:
     TriangleMesh Mesh;
 
     const TriangleMesh& View() const { return this->Mesh; }
+    void DropPoints() {}
     void DropTriangles() {}
     void DropRegions() {}
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 
-  /// Calls store(t, triangles) for every triangle, to set its ids.
+  /// Calls store(t, slice) for every triangle, to set its ids in the caller's slot, which a slice
+  /// of several may not hold.
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
-    this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, triangles); });
+    const TriangleSlice all{ triangles, 0, triangles.Count };
+    this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, all); });
   }
 
   /// Calls store(i, values) for i = 0 .. size - 1, to set one of the caller's values.

@@ -102,6 +102,22 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
+/// The triangles [First, Last) of an output, in an array of their own.
+struct TriangleSlice
+{
+  MutableTriangleArray Array;
+  std::int64_t First, Last;
+
+  DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t triangle) const
+  {
+    return triangle >= this->First && triangle < this->Last;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
+  {
+    this->Array.Set(triangle - this->First, slot, vertex);
+  }
+};
+
 /// A triangle mesh with what the caller knows of its edges. Any mesh is accepted: non-manifold,
 /// open, of mixed winding, with duplicate, degenerate or unused parts.
 struct TriangleMesh

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <random>
 #include <utility>
@@ -112,7 +114,7 @@ TEST(EdgeTableTest, HubsLeaveRoomForAll)
   constexpr VertexId Hubs = 2000;
   constexpr VertexId EdgesOfHub = 30;
   const ThreadBackend backend(1);
-  EdgeTable table(Hubs * EdgesOfHub, 4 * Hubs, false, backend);
+  EdgeTable table(Hubs * EdgesOfHub, { 0, 4 * Hubs }, false, backend);
   const EdgeTableView view = table.View();
   for (VertexId other = 0; other < EdgesOfHub; ++other)
   {
@@ -152,6 +154,64 @@ TEST(EdgeMesh, PairsAlikeWithAndWithoutTheTable)
     EXPECT_EQ(with.Result.Counts.NonManifold, without.Result.Counts.NonManifold);
     EXPECT_EQ(with.Result.DuplicateTriangles.Count, without.Result.DuplicateTriangles.Count);
   }
+}
+
+/// What pairing leaves in the triangles: other corners and roles.
+std::vector<std::uint32_t> PairInSlices(
+  const TriangleMesh& mesh, std::int64_t slices, EdgeCounts& counts, const ThreadBackend& backend)
+{
+  const MeshInput input{ mesh, mesh };
+  const MeshSurvey survey = SurveyMesh(input, GeometryKind::Auto, backend);
+  const SpatialOrder order = OrderMesh(input, survey, backend);
+  const EdgeMeshInput edges{ input, survey, order, 180.0 };
+  EdgeMeshResult result;
+  result.Edges = LoadTriangles(edges, backend);
+  const ThreadNumbering numbering = PairByTable(edges, result, slices, backend);
+  counts = result.Counts;
+  std::vector<std::uint32_t> paired{ static_cast<std::uint32_t>(numbering.Total) };
+  for (std::int64_t t = 0; t < result.Edges.NumberOfTriangles; ++t)
+  {
+    const TriangleRecord& triangle = result.Edges.Triangles[t];
+    paired.insert(paired.end(), triangle.HalfEdges, triangle.HalfEdges + 3);
+    paired.push_back(triangle.Flips);
+  }
+  return paired;
+}
+
+void ExpectSlicesAlike(const TriangleMesh& mesh)
+{
+  const ThreadBackend backend(2);
+  EdgeCounts whole;
+  const std::vector<std::uint32_t> expected = PairInSlices(mesh, 1, whole, backend);
+  for (const std::int64_t slices : { 2, 3, 4, 7 })
+  {
+    EdgeCounts counts;
+    EXPECT_TRUE(expected == PairInSlices(mesh, slices, counts, backend)) << slices << " slices";
+    EXPECT_EQ(whole.Edges, counts.Edges) << slices << " slices";
+    EXPECT_EQ(whole.NonManifold, counts.NonManifold) << slices << " slices";
+  }
+}
+
+TEST(EdgeMesh, PairsAlikeInSlices)
+{
+  ExpectSlicesAlike(MakeRandomBadMesh(20000, 1).View());
+  ExpectSlicesAlike(MakeSoup(300, 2000, 5).View());
+}
+
+/// The hub's slice has half of the edges, more than its share of the table.
+TEST(EdgeMesh, PairsUnevenSlicesTogether)
+{
+  OwnedMesh<float> fan;
+  constexpr int Rim = 4000;
+  fan.Points = { 0.0f, 0.0f, 0.0f };
+  for (int i = 0; i < Rim; ++i)
+  {
+    const double angle = 6.283185307179586 * i / Rim;
+    fan.Points.insert(fan.Points.end(),
+      { static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f });
+    fan.Triangles.insert(fan.Triangles.end(), { 0, 1 + i, 1 + (i + 1) % Rim });
+  }
+  ExpectSlicesAlike(fan.View());
 }
 
 /// None of these triangles has an edge that counts, and still one repeats another.
