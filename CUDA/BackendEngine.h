@@ -19,6 +19,26 @@
 namespace delaunayflip
 {
 
+/// Sets the ids of a triangle in the caller's slot, if the target has it.
+struct StoreStep
+{
+  const TriangleRecord* Triangles;
+  SpatialOrderView Order;
+
+  template <typename Target>
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const Target& target) const
+  {
+    const TriangleRecord& triangle = this->Triangles[t];
+    if (target.Holds(triangle.InputTriangle))
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
+      }
+    }
+  }
+};
+
 /// From the caller's arrays to a loop, on a backend.
 template <typename Backend>
 class BackendEngine : public FlipEngine
@@ -59,20 +79,8 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    const TriangleRecord* records = this->Mesh.Triangles.Data();
-    const SpatialOrderView order = this->Order.View();
-    this->Engine.StoreTriangles(triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const TriangleSlice& target)
-      {
-        const TriangleId id = records[t].InputTriangle;
-        if (target.Holds(id))
-        {
-          for (int slot = 0; slot < 3; ++slot)
-          {
-            target.Set(id, slot, order.GetVertex(records[t].Vertices[slot]));
-          }
-        }
-      });
+    this->Engine.StoreTriangles(
+      triangles, StoreStep{ this->Mesh.Triangles.Data(), this->Order.View() });
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override

@@ -196,16 +196,27 @@ public:
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
-    const std::int64_t sliceSize =
-      std::max(SmallestSlice, (triangles.Count + SlicesOfOutput - 1) / SlicesOfOutput);
-    Array<std::int32_t> ids =
-      this->MakeArray<std::int32_t>(3 * std::min(sliceSize, triangles.Count));
-    for (std::int64_t first = 0; first < triangles.Count; first += sliceSize)
+    const std::int64_t size = 3 * triangles.Count;
+    const std::int64_t sliceSize = StagedCopy::GetSliceSize<std::uint32_t>(size, SlicesOfOutput);
+    Array<std::int32_t> ids = this->MakeArray<std::int32_t>(std::min(size, sliceSize));
+    const auto prepare = [&](std::int64_t first)
     {
-      const std::int64_t last = std::min(triangles.Count, first + sliceSize);
-      const TriangleSlice slice{ MutableTriangleArray(ids.Data(), last - first), first, last };
+      const IdSlice slice{ ids.Data(), first, std::min(size, first + sliceSize) };
       this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, slice); });
-      this->DownloadIds(slice, triangles);
+    };
+    // A vertex id is a number of 32 bits without a sign.
+    const auto* words = reinterpret_cast<const std::uint32_t*>(ids.Data());
+    StagedCopy copy(*this->Context, this->Threads);
+    if (triangles.Ids32)
+    {
+      copy.DownloadSlices(size, words, sliceSize, prepare,
+        [&](std::int64_t i, std::uint32_t id)
+        { triangles.Ids32[i] = static_cast<std::int32_t>(id); });
+    }
+    else
+    {
+      copy.DownloadSlices(size, words, sliceSize, prepare,
+        [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[i] = id; });
     }
   }
 
@@ -232,30 +243,9 @@ public:
   }
 
 private:
-  /// Triangles go to the host by slices, so that their ids need little memory; a slice costs a look
-  /// at all triangles.
+  /// Ids go to the host by slices, so that they need little memory; for each slice the device looks
+  /// at all triangles, while the host still converts what came before.
   static constexpr std::int64_t SlicesOfOutput = 8;
-  static constexpr std::int64_t SmallestSlice = std::int64_t(1) << 20;
-
-  void DownloadIds(const TriangleSlice& slice, const MutableTriangleArray& triangles) const
-  {
-    const std::int64_t begin = 3 * slice.First;
-    const std::int64_t size = 3 * slice.Array.Count;
-    // A vertex id is a number of 32 bits without a sign.
-    const auto* words = reinterpret_cast<const std::uint32_t*>(slice.Array.Ids32);
-    StagedCopy copy(*this->Context, this->Threads);
-    if (triangles.Ids32)
-    {
-      copy.Download(size, words,
-        [&](std::int64_t i, std::uint32_t id)
-        { triangles.Ids32[begin + i] = static_cast<std::int32_t>(id); });
-    }
-    else
-    {
-      copy.Download(
-        size, words, [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[begin + i] = id; });
-    }
-  }
 
   static int ResolveDevice(int device)
   {

@@ -46,22 +46,46 @@ public:
   template <typename T, typename Put>
   void Download(std::int64_t size, const T* device, const Put& put) const
   {
-    const std::int64_t step = CudaContext::StagingBytes / sizeof(T);
-    const std::int64_t parts = (size + step - 1) / step;
+    this->DownloadSlices(
+      size, device, size, [](std::int64_t) {}, put);
+  }
+
+  /// The same from an array of `sliceSize` values: prepare(first) begins to fill it, on the
+  /// context's stream, with those from `first` on.
+  /// @param sliceSize by GetSliceSize, or `size`.
+  template <typename T, typename Prepare, typename Put>
+  void DownloadSlices(std::int64_t size, const T* device, std::int64_t sliceSize,
+    const Prepare& prepare, const Put& put) const
+  {
+    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
+    const std::int64_t parts = (size + Step - 1) / Step;
     for (std::int64_t part = 0; part < parts + Ahead; ++part)
     {
       if (part < parts)
       {
+        const std::int64_t begin = part * Step;
+        if (begin % sliceSize == 0)
+        {
+          prepare(begin);
+        }
         const int slot = this->SlotOf(part);
-        const std::int64_t count = std::min(step, size - part * step);
-        this->Copy(this->Context.Staging[slot], device + part * step, count * sizeof(T),
-          cudaMemcpyDeviceToHost, slot);
+        this->Copy(this->Context.Staging[slot], device + begin % sliceSize,
+          std::min(Step, size - begin) * sizeof(T), cudaMemcpyDeviceToHost, slot);
       }
       if (part >= Ahead)
       {
-        this->Drain<T>(part - Ahead, step, size, put);
+        this->Drain<T>(part - Ahead, Step, size, put);
       }
     }
+  }
+
+  /// Of about `slices` slices, made of whole parts.
+  template <typename T>
+  static std::int64_t GetSliceSize(std::int64_t size, std::int64_t slices)
+  {
+    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
+    const std::int64_t parts = (size + Step - 1) / Step;
+    return std::max<std::int64_t>(1, (parts + slices - 1) / slices) * Step;
   }
 
 private:

@@ -178,13 +178,12 @@ public:
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 
-  /// Calls store(t, slice) for every triangle, to set its ids in the caller's slot, which a slice
-  /// of several may not hold.
+  /// Calls store(t, target) for every triangle, to set its ids in the caller's slot, of which a
+  /// device's target may hold some only.
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
-    const TriangleSlice all{ triangles, 0, triangles.Count };
-    this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, all); });
+    this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, triangles); });
   }
 
   /// Calls store(i, values) for i = 0 .. size - 1, to set one of the caller's values.

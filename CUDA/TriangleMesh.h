@@ -81,6 +81,9 @@ struct BasicTriangleArray
                                        : static_cast<const void*>(this->Ids64 + i));
   }
 
+  /// All of them are here; a slice (IdSlice) has some.
+  DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t) const { return true; }
+
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
   {
     const std::int64_t i = 3 * triangle + slot;
@@ -102,19 +105,26 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// The triangles [First, Last) of an output, in an array of their own.
-struct TriangleSlice
+/// The ids [First, Last) of an output, three a triangle, in an array of their own.
+struct IdSlice
 {
-  MutableTriangleArray Array;
+  std::int32_t* Ids;
   std::int64_t First, Last;
 
+  /// Whether it has an id of the triangle.
   DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t triangle) const
   {
-    return triangle >= this->First && triangle < this->Last;
+    return 3 * triangle + 2 >= this->First && 3 * triangle < this->Last;
   }
+  /// Sets an id if it is one of the slice.
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
   {
-    this->Array.Set(triangle - this->First, slot, vertex);
+    const std::int64_t i = 3 * triangle + slot;
+    if (i >= this->First && i < this->Last)
+    {
+      // Of a number of 32 bits without a sign.
+      this->Ids[i - this->First] = static_cast<std::int32_t>(vertex);
+    }
   }
 };
 
