@@ -22,9 +22,15 @@ set(CMAKE_CUDA_STANDARD 17)
 set(CMAKE_CUDA_STANDARD_REQUIRED ON)
 set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
 set(CMAKE_CUDA_VISIBILITY_PRESET hidden)
-set(delaunayflip_architectures "${CMAKE_CUDA_ARCHITECTURES}")
+# Enabling the language would store the compiler's own default in the cache, and the next run of CMake
+# would take it for the user's choice: some value must be there before.
+set(delaunayflip_choose_architectures OFF)
+if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
+  set(delaunayflip_choose_architectures ON)
+  set(CMAKE_CUDA_ARCHITECTURES 75)
+endif()
 enable_language(CUDA)
-if(NOT delaunayflip_architectures)
+if(delaunayflip_choose_architectures)
   # Every generation from Turing on that the toolkit knows, newer ones through PTX. The "all-major"
   # of toolkits before 13 begins earlier.
   if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 13 OR CMAKE_VERSION VERSION_LESS 3.23)
