@@ -53,12 +53,19 @@ public:
     MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
     CheckTieRule(options, survey.Geometry);
     this->Order = OrderMesh(input, survey, this->Engine);
-    this->PackPoints(local, survey, options.Criterion);
+    const bool isSurface = survey.Geometry == GeometryKind::Surface;
+    if (!isSurface)
+    {
+      this->PackPoints(local, survey, options.Criterion);
+    }
     const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
     EdgeMesh loaded = this->LoadTriangles(edges, local);
     survey.Uses = Array<PointUse>();
     EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Engine);
-    local.DropPoints();
+    if (isSurface)
+    {
+      this->PackPoints(local, survey, options.Criterion);
+    }
     local.DropRegions();
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
@@ -97,16 +104,14 @@ public:
 private:
   using LocalMesh = typename Backend::LocalMesh;
 
-  /// Planes have no use for the caller's points afterwards, surfaces look for feature edges.
+  /// Planes have no use for the caller's points once they are ordered, surfaces look for feature
+  /// edges first.
   void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
   {
     const PointArray points = local.View().Points;
     this->Points = delaunayflip::PackPoints(points, this->Order.View(),
       PlanPacking(survey, criterion, points.Floats != nullptr), this->Engine);
-    if (survey.Geometry != GeometryKind::Surface)
-    {
-      local.DropPoints();
-    }
+    local.DropPoints();
   }
 
   /// Here memory is fullest, for the caller's triangles and the engine's are both in it; so a

@@ -84,15 +84,16 @@ public:
     this->Table = EdgeTable(
       mesh.NumberOfEdges, { 0, static_cast<VertexId>(this->NumberOfVertices) }, false, backend);
     const EdgeTableView table = this->Table.View();
-    const TriangleRecord* triangles = mesh.Triangles.Data();
-    backend.ForEach(mesh.NumberOfTriangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    const EdgeMeshView view = mesh.View();
+    backend.ForEach(mesh.NumberOfEdges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
       {
-        const VertexId* v = triangles[t].Vertices;
+        const CornerId corner = view.CornerOfHalfEdge[2 * e];
+        const TriangleRecord& triangle = view.Triangles[TriangleOf(corner)];
         bool inserted = false;
-        table.FindOrInsert(EdgeKey(v[0], v[1]), inserted);
-        table.FindOrInsert(EdgeKey(v[1], v[2]), inserted);
-        table.FindOrInsert(EdgeKey(v[2], v[0]), inserted);
+        table.FindOrInsert(EdgeKey(triangle.Vertices[NextSlot(SlotOf(corner))],
+                             triangle.Vertices[PreviousSlot(SlotOf(corner))]),
+          inserted);
       });
     this->UsedSlots = mesh.NumberOfEdges;
   }

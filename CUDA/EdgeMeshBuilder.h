@@ -265,11 +265,10 @@ typename Backend::Numbering PairByTable(
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
-/// Whether somebody will look edges up for certain. A guard of a plane makes a table of its own.
+/// Whether the builder will look edges up. A guard makes a table of its own, which needs no words.
 inline bool NeedsTable(const EdgeMeshInput& input)
 {
-  return input.Survey.Geometry == GeometryKind::Surface ||
-    input.Input.Caller.NumberOfConstraintEdges > 0;
+  return input.Input.Caller.NumberOfConstraintEdges > 0;
 }
 
 /// Of large meshes, whose tables nobody needs later, by slices: a quarter of the table, and four
