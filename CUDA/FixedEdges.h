@@ -37,7 +37,7 @@ struct EdgeMeshInput
 struct EdgeMeshResult
 {
   EdgeMesh Edges;
-  EdgeTable Table; ///< Vertex pairs of all edges, without words.
+  EdgeTable Table; ///< Vertex pairs of all edges, without words; or empty.
   EdgeCounts Counts;
   Defect DuplicateTriangles;
   std::int64_t MissingConstraints = 0;
