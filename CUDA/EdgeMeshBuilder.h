@@ -87,20 +87,25 @@ struct RoleStep
     TriangleRecord& triangle = this->Triangles[t];
     // All three are read before anything is written, so that they are on their way together.
     std::uint32_t roles = 0;
+    bool known[3];
     CornerId others[3];
     for (int slot = 0; slot < 3; ++slot)
     {
-      others[slot] = triangle.HalfEdges[slot];
-      if (this->Table.Slice.Holds(KeyOpposite(triangle, slot)))
+      known[slot] = this->Table.Slice.Holds(KeyOpposite(triangle, slot));
+      if (known[slot])
       {
         const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
-        const CornerRole role = FindRole(this->Table, others[slot], corner, others[slot]);
+        const CornerRole role =
+          FindRole(this->Table, triangle.HalfEdges[slot], corner, others[slot]);
         roles |= static_cast<std::uint32_t>(role) << (2 * slot);
       }
     }
     for (int slot = 0; slot < 3; ++slot)
     {
-      triangle.HalfEdges[slot] = others[slot];
+      if (known[slot])
+      {
+        triangle.HalfEdges[slot] = others[slot];
+      }
     }
     triangle.Flips |= roles;
     return CountLeaders(triangle);

@@ -153,14 +153,15 @@ struct ChooseStep
     // All four states are asked for before any is looked at.
     const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
     const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
-    return IsFirst(edge, outer, ap, qa, pb, bq);
+    // Most have no bad neighbour, which is worth a branch.
+    const bool alone = (int(ap) | int(qa) | int(pb) | int(bq)) == 0;
+    return alone || IsFirst(edge, outer, ap, qa, pb, bq);
   }
 
 private:
   bool IsBad(HalfEdgeId halfEdge) const
   {
-    // Of an edge that sits out another chunk may store the state again, the same.
-    return AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]) == EdgeState::Bad;
+    return WasBad(AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]));
   }
 };
 
@@ -232,10 +233,7 @@ struct FlipStep : SurgeryStep
 
   void Prefetch(const Quad& quad) const
   {
-    const OuterHalfEdges outer = GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB);
-    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
-    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
-    ChooseStep{ this->Mesh }.Prefetch(outer);
+    this->PrefetchOuter(GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB));
   }
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
@@ -243,6 +241,13 @@ struct FlipStep : SurgeryStep
   }
 
 protected:
+  void PrefetchOuter(const OuterHalfEdges& outer) const
+  {
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
+    ChooseStep{ this->Mesh }.Prefetch(outer);
+  }
+
   /// @param excluded what becomes of outer edges that are bad.
   DELAUNAYFLIP_ALWAYS_INLINE void FlipAndMark(
     EdgeId edge, const Quad& quad, StepCounts& counts, EdgeState excluded) const
@@ -280,31 +285,16 @@ struct ChooseAndFlipStep : FlipStep
   {
     return ChooseStep{ this->Mesh }.Load(edge);
   }
-  void Prefetch(const OuterHalfEdges& outer) const
-  {
-    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
-    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
-    ChooseStep{ this->Mesh }.Prefetch(outer);
-  }
+  void Prefetch(const OuterHalfEdges& outer) const { this->PrefetchOuter(outer); }
   /// @returns whether the edge wins.
   bool Choose(EdgeId edge, const OuterHalfEdges& outer) const
   {
-    const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
-    const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
-    const bool own = AtomicLoad(&this->Mesh.States[edge]) == EdgeState::Bad;
-    // Two of three bad edges have no bad neighbour.
-    const bool alone = (int(ap) | int(qa) | int(pb) | int(bq)) == 0;
-    return own && (alone || IsFirst(edge, outer, ap, qa, pb, bq));
+    return AtomicLoad(&this->Mesh.States[edge]) == EdgeState::Bad &&
+      ChooseStep{ this->Mesh }(edge, outer);
   }
   void operator()(EdgeId edge, StepCounts& counts) const
   {
     this->FlipAndMark(edge, this->Mesh.GetQuad(edge), counts, EdgeState::Excluded);
-  }
-
-private:
-  bool IsBad(HalfEdgeId halfEdge) const
-  {
-    return WasBad(AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]));
   }
 };
 
