@@ -34,7 +34,14 @@ struct AngleSurvey
   Rule Decision;
   double Scale; ///< Power of two that brings the rule's coordinates near 1.
 
-  DELAUNAYFLIP_HOST_DEVICE LargestValue operator()(std::int64_t t) const
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Decision.Address(vertex));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, LargestValue& sum) const
   {
     const VertexId* v = this->Triangles[t].Vertices;
     const Vector3 a = this->GetPosition(v[0]);
@@ -43,7 +50,7 @@ struct AngleSurvey
     LargestValue largest;
     largest.Value =
       Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
-    return largest;
+    sum += largest;
   }
 
 private:

@@ -98,10 +98,7 @@ public:
   double MeasureAngles() const
   {
     const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Scale };
-    return this->Backend
-      .template Sum<LargestValue>(this->Mesh.NumberOfTriangles,
-        [=] __device__(std::int64_t t, LargestValue & largest) { largest += survey(t); })
-      .Value;
+    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
   /// The first edge whose first corner is of `triangle` or a later one.

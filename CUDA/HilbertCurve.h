@@ -12,7 +12,7 @@ namespace delaunayflip
 {
 
 /// Position along the Hilbert curve of a cell, each coordinate of `bits` bits (Skilling,
-/// Programming the Hilbert curve, 2004).
+/// Programming the Hilbert curve, 2004), level after level.
 template <int Axes>
 DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes], int bits)
 {
@@ -42,6 +42,58 @@ DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes],
     index ^= index >> distance;
   }
   return index;
+}
+
+/// How the plane's Hilbert curve is turned from level to level, all levels at once: bit i of every
+/// word is of level i. A turn exchanges the axes or not, E, and inverts both or not, I; what a
+/// level makes of the turn that it finds is affine over the field of two elements:
+///
+///     E' = EE E + EI I + E0,  I' = IE E + II I + I0
+struct HilbertTurns
+{
+  std::uint32_t EE, EI, E0, IE, II, I0;
+
+  /// What every level makes of the turn at the start, if it does so of that `distance` levels above
+  /// it.
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE HilbertTurns Follow(int distance) const
+  {
+    // Levels above the first leave the turn as it is.
+    const std::uint32_t ee = ~(~this->EE >> distance), ii = ~(~this->II >> distance);
+    const std::uint32_t ei = this->EI >> distance, ie = this->IE >> distance;
+    const std::uint32_t e0 = this->E0 >> distance, i0 = this->I0 >> distance;
+    return { (this->EE & ee) ^ (this->EI & ie), (this->EE & ei) ^ (this->EI & ii),
+      (this->EE & e0) ^ (this->EI & i0) ^ this->E0, (this->IE & ee) ^ (this->II & ie),
+      (this->IE & ei) ^ (this->II & ii), (this->IE & e0) ^ (this->II & i0) ^ this->I0 };
+  }
+};
+
+/// Bit i becomes bit 2 i.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t SpreadBits(std::uint32_t x)
+{
+  x = (x | (x << 8)) & 0x00ff00ffu;
+  x = (x | (x << 4)) & 0x0f0f0f0fu;
+  x = (x | (x << 2)) & 0x33333333u;
+  return (x | (x << 1)) & 0x55555555u;
+}
+
+/// The same in the plane, by doubling the distance over which turns are known: a third of the time.
+/// @param u, v of at most 16 bits.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
+  std::uint32_t u, std::uint32_t v, int bits)
+{
+  const std::uint32_t levels = (std::uint32_t(1) << bits) - 1;
+  // A cell in the lower half of the second axis, once this is turned, exchanges the axes; in the
+  // upper half of the first, too, it also inverts both.
+  const std::uint32_t differ = u ^ v;
+  HilbertTurns turns{ ~differ, levels, ~v & levels, differ, ~differ, differ & ~v };
+  for (int distance = 1; distance < bits; distance *= 2)
+  {
+    turns = turns.Follow(distance);
+  }
+  const std::uint32_t exchanged = turns.E0 >> 1;
+  const std::uint32_t inverted = turns.I0 >> 1;
+  const std::uint32_t turnedU = u ^ inverted ^ (exchanged & differ);
+  return (SpreadBits(turnedU) << 1) | SpreadBits(differ);
 }
 
 /// Cell, of 2^bits, of a coordinate in [lower, lower + width]; 0 for what is not in it (NaN).

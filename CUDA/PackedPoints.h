@@ -32,6 +32,11 @@ struct PackedPointsView
     const std::size_t i = std::size_t(this->Components) * vertex + component;
     return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
   }
+  DELAUNAYFLIP_HOST_DEVICE const void* Address(VertexId vertex) const
+  {
+    const std::size_t i = std::size_t(this->Components) * vertex;
+    return this->Floats ? static_cast<const void*>(this->Floats + i) : this->Doubles + i;
+  }
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlanePoint GetPlanePoint(
     VertexId vertex) const
   {

@@ -77,6 +77,17 @@ struct PlaneStep
   StarSurvey Survey;
   bool ExamineStars;
 
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Survey.Mesh.Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Survey.Points.Address(vertex));
+      if (this->ExamineStars)
+      {
+        delaunayflip::Prefetch(&this->Survey.FanStarts[vertex]);
+      }
+    }
+  }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, PlaneSums& sums) const
   {
     const TriangleRecord& triangle = this->Survey.Mesh.Triangles[t];

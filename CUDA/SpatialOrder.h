@@ -112,9 +112,8 @@ struct OrderingFrame
       return HilbertIndex(cell, Bits);
     }
     constexpr int Bits = SortKeyBits / 2;
-    std::uint32_t cell[2] = { this->GetCell(points, i, this->Projection.AxisU, Bits),
-      this->GetCell(points, i, this->Projection.AxisV, Bits) };
-    return HilbertIndex(cell, Bits);
+    return HilbertIndex(this->GetCell(points, i, this->Projection.AxisU, Bits),
+      this->GetCell(points, i, this->Projection.AxisV, Bits), Bits);
   }
 };
 

@@ -67,10 +67,7 @@ public:
 
   double FindLargestSquaredCotangent() const override
   {
-    const AngleSurvey<Rule> survey = this->Angles();
-    return this->Backend
-      .template Sum<LargestValue>(this->Mesh.NumberOfTriangles,
-        [&survey](std::int64_t t, LargestValue& largest) { largest += survey(t); })
+    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, this->Angles())
       .Value;
   }
 
@@ -238,7 +235,7 @@ private:
     LargestValue largest;
     for (std::int64_t t = firstTriangle; t < lastTriangle; ++t)
     {
-      largest += survey(t);
+      survey(t, largest);
     }
     return largest.Value;
   }
