@@ -4,8 +4,6 @@
 #define DELAUNAYFLIP_ARRAY_H
 
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <utility>
 
 namespace delaunayflip
@@ -23,11 +21,6 @@ public:
 
   /// @param bytes as it was allocated.
   virtual void Free(void* memory, std::size_t bytes) noexcept = 0;
-
-  /// That of this process. Large blocks come from the system and go back to it when freed (a heap
-  /// would keep them, and builds need much for a short while), and ask for huge pages, because
-  /// scattered accesses to gigabytes otherwise miss the TLB every time.
-  static Memory& OfHost();
 };
 
 /// A block of uninitialised values of a trivial type, owned; moved, never copied. Only arrays in
@@ -37,7 +30,7 @@ class Array
 {
 public:
   Array() = default;
-  explicit Array(std::size_t size, Memory& memory = Memory::OfHost())
+  Array(std::size_t size, Memory& memory)
     : Values(static_cast<T*>(memory.Allocate(size * sizeof(T)))),
       Count(size),
       Owner(&memory)

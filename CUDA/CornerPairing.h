@@ -83,7 +83,7 @@ public:
       [this](std::int64_t begin, std::int64_t end)
       {
         PairSums sums;
-        Scratch scratch(this->GetLargest(begin, end));
+        Scratch scratch(this->GetLargest(begin, end), this->Backend);
         for (std::int64_t block = begin; block < end; ++block)
         {
           this->PairBlock(block, scratch, sums);
@@ -105,18 +105,18 @@ private:
   /// A table for the edges of `corners` corners, and the places that these have in it.
   struct Scratch
   {
-    explicit Scratch(std::uint32_t corners)
-      : Keys(GetCapacity(corners)),
-        Words(GetCapacity(corners)),
-        Places(corners)
+    Scratch(std::uint32_t corners, const ThreadBackend& backend)
+      : Keys(backend.MakeArray<std::uint64_t>(GetCapacity(corners))),
+        Words(backend.MakeArray<std::uint64_t>(GetCapacity(corners))),
+        Places(backend.MakeArray<std::uint32_t>(corners))
     {
     }
 
-    /// A power of two that leaves room even if no two corners share an edge.
+    /// A power of two that leaves half of it free even if no two corners share an edge.
     static std::uint32_t GetCapacity(std::uint32_t corners)
     {
       std::uint32_t capacity = 2;
-      while (capacity <= corners)
+      while (capacity < 2 * corners)
       {
         capacity *= 2;
       }
@@ -172,7 +172,7 @@ private:
   /// Lists every block's corners, in an order that decides nothing.
   void DealCorners()
   {
-    this->Corners = Array<CornerId>(this->Starts.back());
+    this->Corners = this->Backend.MakeArray<CornerId>(this->Starts.back());
     std::vector<std::uint32_t> ends(this->Starts.begin(), this->Starts.end() - 1);
     this->Backend.ForRange(this->NumberOfTriangles,
       [&](std::int64_t begin, std::int64_t end)
@@ -219,7 +219,6 @@ private:
     }
   }
 
-  /// Without a branch on whether an edge is new, which would be a coin toss.
   void EnterCorners(
     const CornerId* corners, std::uint32_t size, Scratch& scratch, PairSums& sums) const
   {
@@ -236,7 +235,8 @@ private:
       std::uint32_t place =
         static_cast<std::uint32_t>((((key * 0x9e3779b97f4a7c15u) >> 32) * capacity) >> 32);
       std::uint64_t seen = keys[place];
-      while (static_cast<int>(seen != key) & static_cast<int>(seen != Empty))
+      // While neither is 0, by one branch: whether an edge is new would be a coin toss.
+      while (std::min(seen ^ key, seen ^ Empty) != 0)
       {
         place = (place + 1) & (capacity - 1);
         seen = keys[place];
@@ -255,7 +255,7 @@ private:
   TriangleRecord* Triangles;
   std::int64_t NumberOfTriangles;
   const ThreadBackend& Backend;
-  int BlockBits = 11;
+  int BlockBits = 9;
   std::vector<std::uint32_t> Starts; ///< Of the blocks in Corners, and the end.
   std::vector<std::vector<std::uint32_t>> CountsOfRange; ///< What blocks get of each range.
   Array<CornerId> Corners;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineChoice.h"
 
-#include "Array.h"
 #include "CudaDevice.h"
+#include "HostMemory.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +24,8 @@ bool WantsCuda(const TriangleMesh& mesh, const FlipOptions& options)
 template <typename Id>
 void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 {
-  Array<Id> stored(static_cast<std::size_t>(3 * count));
+  HostMemory memory;
+  Array<Id> stored(static_cast<std::size_t>(3 * count), memory);
   engine.StoreTriangles(MutableTriangleArray(stored.Data(), count));
   std::copy_n(stored.Data(), 3 * count, ids);
 }

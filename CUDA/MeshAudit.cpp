@@ -157,8 +157,8 @@ public:
     : Mesh(mesh),
       Options(options)
   {
-    const MeshSurvey survey =
-      SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, ThreadBackend(1));
+    const ThreadBackend backend(1);
+    const MeshSurvey survey = SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, backend);
     this->Geometry = survey.Geometry;
     this->Projection = survey.Projection;
     for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)

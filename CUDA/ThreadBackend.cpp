@@ -102,7 +102,8 @@ public:
 #endif
 
 ThreadBackend::ThreadBackend(int threads)
-  : Threads(new Pool(ResolveThreads(threads)))
+  : Threads(new Pool(ResolveThreads(threads))),
+    Memory(new HostMemory)
 {
 }
 
@@ -127,46 +128,6 @@ void ThreadBackend::ForChunks(
   {
     work(chunk);
   }
-}
-
-void ThreadBackend::SortByDigit(
-  const Array<KeyedIndex>& from, Array<KeyedIndex>& to, int shift) const
-{
-  constexpr std::uint32_t Digits = 1u << (SortKeyBits / 2);
-  constexpr std::int64_t Grain = 1 << 17;
-  const std::int64_t size = from.Size();
-  const std::int64_t chunks = (size + Grain - 1) / Grain;
-  const auto digitOf = [shift](const KeyedIndex& item)
-  { return (item.Key >> shift) & (Digits - 1); };
-  std::vector<std::uint32_t> starts(chunks * Digits, 0);
-  const auto count = [&](std::int64_t begin, std::int64_t end)
-  {
-    std::uint32_t* counts = &starts[begin / Grain * Digits];
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      ++counts[digitOf(from[i])];
-    }
-  };
-  this->ForRange(size, count, Grain);
-  std::uint32_t start = 0;
-  for (std::uint32_t digit = 0; digit < Digits; ++digit)
-  {
-    for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
-    {
-      const std::uint32_t items = starts[chunk * Digits + digit];
-      starts[chunk * Digits + digit] = start;
-      start += items;
-    }
-  }
-  const auto place = [&](std::int64_t begin, std::int64_t end)
-  {
-    std::uint32_t* next = &starts[begin / Grain * Digits];
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      to[next[digitOf(from[i])]++] = from[i];
-    }
-  };
-  this->ForRange(size, place, Grain);
 }
 
 }

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_THREADBACKEND_H
 
 #include "Array.h"
+#include "HostMemory.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
@@ -151,7 +152,7 @@ public:
   template <typename T>
   Array<T> MakeArray(std::int64_t size) const
   {
-    return Array<T>(static_cast<std::size_t>(size));
+    return Array<T>(static_cast<std::size_t>(size), *this->Memory);
   }
 
   /// `size` values from the backend's memory to the host's, and back.
@@ -237,35 +238,76 @@ private:
     }
   }
 
-  /// One pass of a stable radix sort: `from` to `to` by the digit at `shift`.
-  struct KeyedIndex
-  {
-    std::uint32_t Key;
-    std::uint32_t Index;
-  };
-  void SortByDigit(const Array<KeyedIndex>& from, Array<KeyedIndex>& to, int shift) const;
+  static constexpr int DigitBits = SortKeyBits / 2;
+
+  /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
+  /// i by digitOf(i), of DigitBits bits.
+  template <typename DigitOf, typename Put>
+  void PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const;
 
   class Pool;
   std::unique_ptr<Pool> Threads;
+  std::unique_ptr<HostMemory> Memory;
 };
+
+template <typename DigitOf, typename Put>
+void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const
+{
+  constexpr std::uint32_t Digits = 1u << DigitBits;
+  constexpr std::int64_t Grain = 1 << 17;
+  const std::int64_t chunks = (size + Grain - 1) / Grain;
+  std::vector<std::uint32_t> starts(chunks * Digits, 0);
+  const auto count = [&](std::int64_t begin, std::int64_t end)
+  {
+    std::uint32_t* counts = &starts[begin / Grain * Digits];
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      ++counts[digitOf(i)];
+    }
+  };
+  this->ForRange(size, count, Grain);
+  std::uint32_t start = 0;
+  for (std::uint32_t digit = 0; digit < Digits; ++digit)
+  {
+    for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
+    {
+      const std::uint32_t items = starts[chunk * Digits + digit];
+      starts[chunk * Digits + digit] = start;
+      start += items;
+    }
+  }
+  const auto place = [&](std::int64_t begin, std::int64_t end)
+  {
+    std::uint32_t* next = &starts[begin / Grain * Digits];
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      put(i, next[digitOf(i)]++);
+    }
+  };
+  this->ForRange(size, place, Grain);
+}
 
 template <typename KeyOf>
 Array<std::uint32_t> ThreadBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
 {
-  Array<KeyedIndex> items(size);
-  Array<KeyedIndex> sorted(size);
+  struct KeyedIndex
+  {
+    std::uint32_t Key, Index;
+  };
+  Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
+  Array<KeyedIndex> sorted = this->MakeArray<KeyedIndex>(size); // by the lower digit
   this->ForRange(size,
     [&](std::int64_t begin, std::int64_t end)
-    {
-      Loop(begin, end, keyOf,
-        [&](std::int64_t i) {
-          items[i] = { keyOf(i), static_cast<std::uint32_t>(i) };
-        });
+    { Loop(begin, end, keyOf, [&](std::int64_t i) { keys[i] = keyOf(i); }); });
+  this->PlaceByDigit(
+    size, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
+    [&](std::int64_t i, std::uint32_t place) {
+      sorted[place] = { keys[i], static_cast<std::uint32_t>(i) };
     });
-  this->SortByDigit(items, sorted, 0);
-  this->SortByDigit(sorted, items, SortKeyBits / 2);
-  Array<std::uint32_t> indices(size);
-  this->ForEach(size, [&](std::int64_t i) { indices[i] = items[i].Index; });
+  Array<std::uint32_t> indices = std::move(keys);
+  this->PlaceByDigit(
+    size, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
+    [&](std::int64_t i, std::uint32_t place) { indices[place] = sorted[i].Index; });
   return indices;
 }
 
