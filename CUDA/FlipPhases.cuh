@@ -214,6 +214,7 @@ __device__ __noinline__ void ResolveUncertain(
       isBad += NoteState(loop, edge, state, isMisshapen) ? 1 : 0;
       uncertain += state == EdgeState::Uncertain ? 1 : 0;
     });
+  team.Warn(uncertain > 0);
   team.Add(RoundSum::Uncertain, uncertain);
   team.Add(RoundSum::IsBad, isBad);
   team.Add(RoundSum::IsMisshapen, isMisshapen);

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_TEAM_CUH
 #define DELAUNAYFLIP_TEAM_CUH
 
+#include "EdgeFlip.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
 #include "RoundSums.h"
@@ -21,20 +22,66 @@ constexpr int LoopBlocks = 2;
 /// What the blocks of a team share in device memory; zero before a launch.
 struct alignas(128) TeamState
 {
-  unsigned int Arrivals;
+  unsigned long long Arrivals; ///< TeamNews of all blocks so far.
+};
+
+/// What blocks tell each other as they arrive: one number, of which all see the sum. From the
+/// lowest bits on how many have arrived, by how much the bad edges became more, and how many have
+/// warned. Warnings may run over, for only a change of them is looked at; arrivals may where nobody
+/// looks at what is above them.
+struct TeamNews
+{
+  static constexpr int ArrivalBits = 20;
+  static constexpr int WarningShift = ArrivalBits + 32;
+
+  unsigned long long Value;
+
+  __device__ static TeamNews Make(bool warns, int badChange)
+  {
+    const auto change = static_cast<unsigned long long>(static_cast<long long>(badChange));
+    return { 1ull + (change << ArrivalBits) + ((warns ? 1ull : 0ull) << WarningShift) };
+  }
+  __device__ bool HasArrived(unsigned expected) const
+  {
+    constexpr int Unused = 32 - ArrivalBits;
+    return static_cast<int>((static_cast<unsigned>(this->Value) - expected) << Unused) >= 0;
+  }
+  __device__ int GetBadChange() const { return static_cast<int>(this->Value >> ArrivalBits); }
+  /// Modulo 2^12, which is more than blocks can be at a time.
+  __device__ unsigned GetWarnings() const
+  {
+    // A negative number has borrowed from what is above it.
+    const unsigned borrowed = this->GetBadChange() < 0 ? 1 : 0;
+    return (static_cast<unsigned>(this->Value >> WarningShift) + borrowed) & 0xFFFu;
+  }
 };
 
 constexpr int LoopWarps = LoopThreads / WarpSize;
 /// Edges that a warp lists before it works on them: more than a full unit of a worklist.
 constexpr int WarpListSize = 384;
 
+/// A bad edge, and all that choosing it reads but the states of its neighbours.
+struct BadEdge
+{
+  EdgeId Edge;
+  CornerPair Corners;
+  OuterHalfEdges Outer;
+};
+/// Bad edges that a warp lists where there are few.
+constexpr int MostListedByWarp = 48;
+
 /// Shared memory of a block.
 struct TeamMemory
 {
   EdgeId Lists[LoopWarps][WarpListSize];
+  BadEdge Listed[LoopWarps][MostListedByWarp];
   int SizeOfList; ///< Of all lists as one.
   unsigned int Sums[NumberOfRoundSums];
   unsigned int Expected; ///< Arrivals that the next wait waits for, but for its own.
+  unsigned int Warns; ///< Whether this block warns,
+  int BadChange; ///< and by how much its bad edges have become more, since the last wait.
+  TeamNews News; ///< Of the last wait,
+  bool IsWarned; ///< and whether anyone warned before it.
 };
 
 __device__ inline TeamMemory& GetTeamMemory()
@@ -44,19 +91,19 @@ __device__ inline TeamMemory& GetTeamMemory()
 }
 
 /// What the calling thread, or who waited for it, wrote before is seen by whoever acquires after.
-__device__ inline void AddRelease(unsigned int* address)
+__device__ inline void AddRelease(unsigned long long* address, unsigned long long value)
 {
-  asm volatile("red.release.gpu.global.add.u32 [%0], 1;"
+  asm volatile("red.release.gpu.global.add.u64 [%0], %1;"
                :
-               : "l"(__cvta_generic_to_global(address))
+               : "l"(__cvta_generic_to_global(address)), "l"(value)
                : "memory");
 }
 
-__device__ inline unsigned int LoadAcquire(const unsigned int* address)
+__device__ inline unsigned long long LoadAcquire(const unsigned long long* address)
 {
-  unsigned int value = 0;
-  asm volatile("ld.acquire.gpu.global.u32 %0, [%1];"
-               : "=r"(value)
+  unsigned long long value = 0;
+  asm volatile("ld.acquire.gpu.global.u64 %0, [%1];"
+               : "=l"(value)
                : "l"(__cvta_generic_to_global(address))
                : "memory");
   return value;
@@ -68,16 +115,24 @@ class Team
 {
 public:
   /// Blocks [team * size, (team + 1) * size) of the grid are a team.
-  __device__ Team(TeamState* states, unsigned size)
+  /// @param hasFewEdges so that nothing in the first-level caches is read twice.
+  __device__ Team(TeamState* states, unsigned size, bool hasFewEdges = false)
     : State(&states[blockIdx.x / size]),
-      Size(size)
+      Size(size),
+      HasFewEdges(hasFewEdges)
   {
     TeamMemory& memory = GetTeamMemory();
     if (threadIdx.x < NumberOfRoundSums)
     {
       memory.Sums[threadIdx.x] = 0;
+    }
+    if (threadIdx.x == 0)
+    {
       memory.Expected = 0;
       memory.SizeOfList = 0;
+      memory.Warns = 0;
+      memory.BadChange = 0;
+      memory.News = {};
     }
     __syncthreads();
   }
@@ -114,6 +169,21 @@ public:
     }
   }
 
+  /// Tells all threads behind the next wait. Of two waits that follow each other one only may have
+  /// warnings before it: a block may be at the next wait while others look what was told before.
+  __device__ void Warn(bool warning) const
+  {
+    if (warning)
+    {
+      GetTeamMemory().Warns = 1;
+    }
+  }
+  /// Whether anyone warned before the last wait.
+  __device__ bool IsWarned() const { return GetTeamMemory().IsWarned; }
+
+  /// How many more edges are bad, of those counted before the last wait that had a round.
+  __device__ int GetBadChange() const { return GetTeamMemory().News.GetBadChange(); }
+
   /// Waits for all threads of the team; what they wrote before is then seen.
   __device__ void Wait()
   {
@@ -137,24 +207,49 @@ private:
   /// The first thread's release and acquire cover the block: barriers are before and behind.
   __device__ void WaitForBlocks()
   {
-    if (this->Size > 1 && threadIdx.x == 0)
+    if (threadIdx.x == 0)
     {
-      const unsigned expected = GetTeamMemory().Expected += this->Size;
-      unsigned* arrivals = &this->State->Arrivals;
-      AddRelease(arrivals);
-      // To acquire empties the first-level cache, which another block may be using: not before all
-      // are there.
-      while (static_cast<int>(AtomicLoad(arrivals) - expected) < 0)
-      {
-      }
-      LoadAcquire(arrivals);
+      TeamMemory& memory = GetTeamMemory();
+      const TeamNews own = TeamNews::Make(memory.Warns != 0, memory.BadChange);
+      const TeamNews all =
+        this->Size > 1 ? this->Arrive(own) : TeamNews{ memory.News.Value + own.Value };
+      memory.IsWarned = all.GetWarnings() != memory.News.GetWarnings();
+      memory.News = all;
+      memory.Warns = 0;
+      memory.BadChange = 0;
     }
     __syncthreads();
+  }
+
+  /// @returns the news of all blocks.
+  __device__ TeamNews Arrive(TeamNews own)
+  {
+    const unsigned expected = GetTeamMemory().Expected += this->Size;
+    unsigned long long* arrivals = &this->State->Arrivals;
+    AddRelease(arrivals, own.Value);
+    TeamNews news{};
+    // To acquire empties the first-level cache, which another block may be using: then not before
+    // all are there.
+    while (!this->HasFewEdges && !news.HasArrived(expected))
+    {
+      news.Value = AtomicLoad(arrivals);
+    }
+    do
+    {
+      news.Value = LoadAcquire(arrivals);
+    } while (!news.HasArrived(expected));
+    return news;
   }
 
   __device__ void FlushSums(RoundSums* round) const
   {
     const unsigned i = threadIdx.x;
+    if (i == 0)
+    {
+      GetTeamMemory().BadChange = static_cast<int>(
+        GetSum(RoundSum::IsBad) - GetSum(RoundSum::WasBad) - GetSum(RoundSum::Flipped));
+    }
+    __syncwarp();
     if (i < NumberOfRoundSums && GetTeamMemory().Sums[i] != 0)
     {
       atomicAdd(&round->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
@@ -162,8 +257,14 @@ private:
     }
   }
 
+  __device__ static unsigned GetSum(RoundSum sum)
+  {
+    return GetTeamMemory().Sums[static_cast<int>(sum)];
+  }
+
   TeamState* State;
   unsigned Size;
+  bool HasFewEdges;
 };
 
 }

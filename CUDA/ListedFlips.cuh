@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_LISTEDFLIPS_CUH
+#define DELAUNAYFLIP_LISTEDFLIPS_CUH
+
+#include "FlipPhases.cuh"
+
+/// @file
+/// Iterations with few bad edges, in two phases instead of three. A detection lists what is bad
+/// with all that a choice reads but the states of the neighbours, which nobody changes before the
+/// next detection; so winners may flip while others still choose. And it costs fewer loads that
+/// wait for each other, of which such an iteration is made.
+
+namespace delaunayflip
+{
+
+/// The bad edges that a warp has found, in shared memory.
+class BadList
+{
+public:
+  __device__ BadEdge& operator[](int i) const
+  {
+    return GetTeamMemory().Listed[threadIdx.x / WarpSize][i];
+  }
+  __device__ int GetSize() const { return this->Size; }
+  __device__ bool HasOverflown() const { return this->Size > MostListedByWarp; }
+  __device__ void Clear() { this->Size = 0; }
+
+  /// Takes those of the edges of a warp's lanes that are bad, as long as there is room.
+  __device__ void Add(bool isBad, const BadEdge& edge)
+  {
+    const unsigned bad = __ballot_sync(WholeWarp, isBad);
+    const int place = this->Size + __popc(bad & ((1u << (threadIdx.x % WarpSize)) - 1));
+    if (isBad && place < MostListedByWarp)
+    {
+      (*this)[place] = edge;
+    }
+    this->Size += __popc(bad);
+  }
+
+private:
+  int Size = 0; ///< The same in all lanes.
+};
+
+/// Detect, which also lists what is bad, and warns where that is not all. Judges bad edges again
+/// that are no candidates, to have them in the list; they do not count as tested. What FlipListed
+/// has flipped is no longer bad.
+template <typename Rule>
+__device__ void DetectAndList(
+  const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
+{
+  const EdgeBits& bits = loop.Bits;
+  unsigned tested = 0, wasBad = 0, isBad = 0, wasMisshapen = 0, isMisshapen = 0;
+  bool uncertain = false;
+  list.Clear();
+  worklist.Run(
+    team, loop.Mesh,
+    [&](const EdgeByte& byte)
+    {
+      // All are asked for before any is looked at.
+      const unsigned marked = byte.Load(bits.Candidates);
+      const unsigned asleep = byte.Load(bits.Asleep);
+      const unsigned winners = byte.Load(bits.Winners);
+      const unsigned seenBad = byte.Load(bits.Bad);
+      const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
+      const unsigned candidates = marked & ~asleep;
+      const unsigned bad = seenBad & ~winners;
+      byte.Clear(bits.Candidates, marked, marked);
+      byte.Clear(bits.Winners, winners, winners);
+      byte.Clear(bits.Bad, seenBad, seenBad);
+      byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
+      tested += __popc(candidates);
+      wasBad += __popc(bad);
+      wasMisshapen += __popc(candidates & misshapen);
+      return candidates | bad;
+    },
+    [&](EdgeId edge, const CornerPair& corners)
+    {
+      BadEdge found{ edge, corners, {} };
+      EdgeState state = EdgeState::Good;
+      if (edge != NoEdge)
+      {
+        found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
+        state = loop.Decision.Judge(loop.Mesh.GetQuad(corners));
+        if (state == EdgeState::Uncertain)
+        {
+          EdgeBits::Set(bits.Candidates, edge);
+          uncertain = true;
+        }
+        isBad += NoteState(loop, edge, state, isMisshapen) ? 1 : 0;
+      }
+      list.Add(state == EdgeState::Bad, found);
+    });
+  team.Add(RoundSum::Tested, tested);
+  team.Add(RoundSum::WasBad, wasBad);
+  team.Add(RoundSum::IsBad, isBad);
+  if (Rule::MayBlock)
+  {
+    team.Add(RoundSum::WasMisshapen, wasMisshapen);
+    team.Add(RoundSum::IsMisshapen, isMisshapen);
+  }
+  team.Warn(uncertain || list.HasOverflown());
+  if (worklist.IsAny(uncertain))
+  {
+    ResolveUncertain(loop, worklist, team);
+  }
+}
+
+/// Chooses among the bad edges by the lists of all warps, which hold them all, and flips the
+/// winners. These stay marked as bad until the next DetectAndList, for others to choose by.
+template <typename Rule>
+__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
+{
+  unsigned flips = 0;
+  const auto isBad = [&](HalfEdgeId halfEdge)
+  { return EdgeBits::Has(loop.Bits.Bad, EdgeOf(halfEdge)); };
+  const int lane = threadIdx.x % WarpSize;
+  for (int i = lane; i - lane < list.GetSize(); i += WarpSize)
+  {
+    FlippedRecords flipped;
+    bool wins = false;
+    BadEdge bad{};
+    if (i < list.GetSize())
+    {
+      bad = list[i];
+      const Quad quad = GetQuadOf(loop.Mesh, bad.Corners);
+      const OuterHalfEdges& outer = bad.Outer;
+      wins = IsFirst(
+        bad.Edge, outer, isBad(outer.AP), isBad(outer.QA), isBad(outer.PB), isBad(outer.BQ));
+      if (wins)
+      {
+        FlipEdge(loop.Mesh, bad.Edge, quad, flipped.Keep());
+      }
+    }
+    flipped.Store(loop.Mesh.Triangles);
+    if (wins)
+    {
+      ++flips;
+      EdgeBits::Set(loop.Bits.Winners, bad.Edge);
+      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.AP));
+      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.QA));
+      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.PB));
+      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.BQ));
+    }
+  }
+  team.Add(RoundSum::Flipped, flips);
+}
+
+}
+
+#endif
