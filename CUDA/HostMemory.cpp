@@ -36,7 +36,8 @@ void* AllocateFromHeap(std::size_t bytes)
 namespace
 {
 constexpr std::size_t HugePage = std::size_t(2) << 20;
-constexpr std::size_t SmallestMapped = HugePage / 2;
+/// Of smaller blocks much of a huge page would stay unused.
+constexpr std::size_t SmallestMapped = 2 * HugePage;
 
 std::size_t RoundToPages(std::size_t bytes) { return (bytes + HugePage - 1) / HugePage * HugePage; }
 

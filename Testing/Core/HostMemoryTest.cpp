@@ -38,7 +38,7 @@ TEST(HostMemory, BlocksKeepWhatTheyHoldWhilePagesMove)
 {
   HostMemory memory;
   std::vector<Array<std::uint8_t>> blocks;
-  // Sizes around a huge page and a mapped block, and larger ones made of what was freed.
+  // Some from the heap, some of pages, and larger ones made of what was freed.
   std::size_t size = Megabyte - 1;
   for (int round = 0; round < 60; ++round)
   {
@@ -52,7 +52,7 @@ TEST(HostMemory, BlocksKeepWhatTheyHoldWhilePagesMove)
     {
       ASSERT_TRUE(Holds(block, block[0])) << "round " << round;
     }
-    size = size * 7 / 3 % (9 * Megabyte) + 1;
+    size = size * 7 / 3 % (13 * Megabyte) + 1;
   }
 }
 
