@@ -11,6 +11,7 @@
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 #define DELAUNAYFLIP_MAPS_MEMORY
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace delaunayflip
@@ -36,10 +37,22 @@ void* AllocateFromHeap(std::size_t bytes)
 namespace
 {
 constexpr std::size_t HugePage = std::size_t(2) << 20;
-/// Of smaller blocks much of a huge page would stay unused.
-constexpr std::size_t SmallestMapped = 2 * HugePage;
+constexpr std::size_t SmallestMapped = HugePage / 2;
 
-std::size_t RoundToPages(std::size_t bytes) { return (bytes + HugePage - 1) / HugePage * HugePage; }
+std::size_t RoundUp(std::size_t bytes, std::size_t unit)
+{
+  return (bytes + unit - 1) / unit * unit;
+}
+
+/// Whole huge pages, where an eighth of the block at most stays unused.
+std::size_t GetMappedSize(std::size_t bytes)
+{
+  const std::size_t size = RoundUp(bytes, HugePage);
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return size - bytes <= bytes / 8 ? size : RoundUp(bytes, page);
+}
+
+std::size_t GetHugeSize(std::size_t mapped) { return mapped / HugePage * HugePage; }
 
 /// Address space that begins at a huge page.
 char* MapPages(std::size_t bytes)
@@ -78,12 +91,13 @@ void* HostMemory::Allocate(std::size_t bytes)
   {
     return AllocateFromHeap(bytes);
   }
-  const std::size_t size = RoundToPages(bytes);
+  const std::size_t size = GetMappedSize(bytes);
+  const std::size_t huge = GetHugeSize(size);
   char* begin = MapPages(size);
-  const std::size_t moved = this->MoveSpare(begin, size);
-  if (moved < size)
+  const std::size_t moved = this->MoveSpare(begin, huge);
+  if (moved < huge)
   {
-    madvise(begin + moved, size - moved, MADV_HUGEPAGE);
+    madvise(begin + moved, huge - moved, MADV_HUGEPAGE);
   }
   return begin;
 }
@@ -95,8 +109,17 @@ void HostMemory::Free(void* memory, std::size_t bytes) noexcept
     std::free(memory);
     return;
   }
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  this->Spare = new (memory) SpareSpan{ this->Spare, RoundToPages(bytes) };
+  const std::size_t size = GetMappedSize(bytes);
+  const std::size_t huge = GetHugeSize(size);
+  if (huge < size)
+  {
+    munmap(static_cast<char*>(memory) + huge, size - huge);
+  }
+  if (huge > 0)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Spare = new (memory) SpareSpan{ this->Spare, huge };
+  }
 }
 
 /// Moves spare pages to mapped address space. @returns how many bytes of it.
