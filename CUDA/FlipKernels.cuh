@@ -102,7 +102,7 @@ public:
       if (goOn)
       {
         this->Detect(round);
-        goOn = done<this->Limits.Iterations&& this->Bad> 0 && !this->IsUncertain(round);
+        goOn = this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(round);
       }
     }
     return done;

@@ -14,7 +14,7 @@ namespace delaunayflip
 /// Memory of this process. Large blocks are of huge pages, because scattered accesses to gigabytes
 /// otherwise miss the TLB every time. Their pages go from one block to the next by being mapped
 /// anew, in any number, and back to the system with the memory itself: to touch a fresh page costs
-/// as much as a pass over it, and on a virtual machine ten times as much. May be used by several
+/// as much as a pass over it, and on a virtual machine many times as much. May be used by several
 /// threads.
 class HostMemory : public Memory
 {
