@@ -220,13 +220,47 @@ __device__ __noinline__ void ResolveUncertain(
   team.Add(RoundSum::IsMisshapen, isMisshapen);
 }
 
+/// What a thread counts while it detects.
+struct DetectionCounts
+{
+  unsigned Tested = 0, WasBad = 0, IsBad = 0, WasMisshapen = 0, IsMisshapen = 0;
+  bool Uncertain = false;
+
+  template <typename Rule>
+  __device__ void AddTo(const Team& team) const
+  {
+    team.Add(RoundSum::Tested, this->Tested);
+    team.Add(RoundSum::WasBad, this->WasBad);
+    team.Add(RoundSum::IsBad, this->IsBad);
+    if (Rule::MayBlock)
+    {
+      team.Add(RoundSum::WasMisshapen, this->WasMisshapen);
+      team.Add(RoundSum::IsMisshapen, this->IsMisshapen);
+    }
+  }
+};
+
+/// Judges an edge by plain arithmetic; one of which that cannot tell stays a candidate.
+template <typename Rule>
+__device__ EdgeState JudgeAndNote(
+  const LoopView<Rule>& loop, EdgeId edge, const CornerPair& corners, DetectionCounts& counts)
+{
+  const EdgeState state = loop.Decision.Judge(loop.Mesh.GetQuad(corners));
+  if (state == EdgeState::Uncertain)
+  {
+    EdgeBits::Set(loop.Bits.Candidates, edge);
+    counts.Uncertain = true;
+  }
+  counts.IsBad += NoteState(loop, edge, state, counts.IsMisshapen) ? 1 : 0;
+  return state;
+}
+
 /// Judges the candidates, which are none any more then.
 template <typename Rule, typename Worklist>
 __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
   const EdgeBits& bits = loop.Bits;
-  unsigned tested = 0, wasBad = 0, isBad = 0, wasMisshapen = 0, isMisshapen = 0;
-  bool uncertain = false;
+  DetectionCounts counts;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
@@ -242,34 +276,20 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
       byte.Clear(bits.Bad, bad, candidates & bad);
       byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
       byte.Clear(bits.Obstructed, obstructed, candidates & obstructed);
-      tested += __popc(candidates);
-      wasBad += __popc(candidates & bad);
-      wasMisshapen += __popc(candidates & misshapen);
+      counts.Tested += __popc(candidates);
+      counts.WasBad += __popc(candidates & bad);
+      counts.WasMisshapen += __popc(candidates & misshapen);
       return candidates;
     },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      if (edge == NoEdge)
+      if (edge != NoEdge)
       {
-        return;
+        JudgeAndNote(loop, edge, corners, counts);
       }
-      const EdgeState state = loop.Decision.Judge(loop.Mesh.GetQuad(corners));
-      if (state == EdgeState::Uncertain)
-      {
-        EdgeBits::Set(bits.Candidates, edge);
-        uncertain = true;
-      }
-      isBad += NoteState(loop, edge, state, isMisshapen) ? 1 : 0;
     });
-  team.Add(RoundSum::Tested, tested);
-  team.Add(RoundSum::WasBad, wasBad);
-  team.Add(RoundSum::IsBad, isBad);
-  if (Rule::MayBlock)
-  {
-    team.Add(RoundSum::WasMisshapen, wasMisshapen);
-    team.Add(RoundSum::IsMisshapen, isMisshapen);
-  }
-  if (worklist.IsAny(uncertain))
+  counts.AddTo<Rule>(team);
+  if (worklist.IsAny(counts.Uncertain))
   {
     ResolveUncertain(loop, worklist, team);
   }

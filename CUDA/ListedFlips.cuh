@@ -50,8 +50,7 @@ __device__ void DetectAndList(
   const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
 {
   const EdgeBits& bits = loop.Bits;
-  unsigned tested = 0, wasBad = 0, isBad = 0, wasMisshapen = 0, isMisshapen = 0;
-  bool uncertain = false;
+  DetectionCounts counts;
   list.Clear();
   worklist.Run(
     team, loop.Mesh,
@@ -69,9 +68,9 @@ __device__ void DetectAndList(
       byte.Clear(bits.Winners, winners, winners);
       byte.Clear(bits.Bad, seenBad, seenBad);
       byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
-      tested += __popc(candidates);
-      wasBad += __popc(bad);
-      wasMisshapen += __popc(candidates & misshapen);
+      counts.Tested += __popc(candidates);
+      counts.WasBad += __popc(bad);
+      counts.WasMisshapen += __popc(candidates & misshapen);
       return candidates | bad;
     },
     [&](EdgeId edge, const CornerPair& corners)
@@ -81,26 +80,13 @@ __device__ void DetectAndList(
       if (edge != NoEdge)
       {
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
-        state = loop.Decision.Judge(loop.Mesh.GetQuad(corners));
-        if (state == EdgeState::Uncertain)
-        {
-          EdgeBits::Set(bits.Candidates, edge);
-          uncertain = true;
-        }
-        isBad += NoteState(loop, edge, state, isMisshapen) ? 1 : 0;
+        state = JudgeAndNote(loop, edge, corners, counts);
       }
       list.Add(state == EdgeState::Bad, found);
     });
-  team.Add(RoundSum::Tested, tested);
-  team.Add(RoundSum::WasBad, wasBad);
-  team.Add(RoundSum::IsBad, isBad);
-  if (Rule::MayBlock)
-  {
-    team.Add(RoundSum::WasMisshapen, wasMisshapen);
-    team.Add(RoundSum::IsMisshapen, isMisshapen);
-  }
-  team.Warn(uncertain || list.HasOverflown());
-  if (worklist.IsAny(uncertain))
+  counts.AddTo<Rule>(team);
+  team.Warn(counts.Uncertain || list.HasOverflown());
+  if (worklist.IsAny(counts.Uncertain))
   {
     ResolveUncertain(loop, worklist, team);
   }
