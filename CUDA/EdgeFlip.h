@@ -17,11 +17,12 @@ struct OuterHalfEdges
   HalfEdgeId AP, QA, PB, BQ;
 };
 
+/// Of the half-edges of both triangles.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
-  const TriangleRecord& upper, int slotA, const TriangleRecord& lower, int slotB)
+  const HalfEdgeId (&upper)[3], int slotA, const HalfEdgeId (&lower)[3], int slotB)
 {
-  return { GetAt(upper.HalfEdges, PreviousSlot(slotA)), GetAt(upper.HalfEdges, NextSlot(slotA)),
-    GetAt(lower.HalfEdges, NextSlot(slotB)), GetAt(lower.HalfEdges, PreviousSlot(slotB)) };
+  return { GetAt(upper, PreviousSlot(slotA)), GetAt(upper, NextSlot(slotA)),
+    GetAt(lower, NextSlot(slotB)), GetAt(lower, PreviousSlot(slotB)) };
 }
 
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
@@ -29,7 +30,7 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfE
 {
   ConstTriangleAccess upper = mesh.Triangles[TriangleOf(cornerA)];
   ConstTriangleAccess lower = mesh.Triangles[TriangleOf(cornerB)];
-  return GetOuterHalfEdges(upper, SlotOf(cornerA), lower, SlotOf(cornerB));
+  return GetOuterHalfEdges(upper.HalfEdges, SlotOf(cornerA), lower.HalfEdges, SlotOf(cornerB));
 }
 
 /// Puts `vertex` where the flip takes one away, and the two half-edges that move with it.
@@ -53,20 +54,19 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
              b                      b
 
     Each triangle keeps two vertices and two edges in their slots; edges p-b and q-a change hands.
-    Writes the records of t and s and the words of their own four sides, nothing else. On a device
-    store(0, t, record) and store(1, s, record) write the records.
+    Writes the records of t and s, `upper` and `lower`, and the words of their own four sides,
+    nothing else. On a device store(0, t, record) and store(1, s, record) write the records.
     @returns the outer half-edges, whose edges must be judged again. */
 template <typename Store>
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
-  const EdgeMeshView& mesh, EdgeId edge, const Quad& quad, [[maybe_unused]] const Store& store)
+  const EdgeMeshView& mesh, EdgeId edge, const Quad& quad, TriangleAccess upper,
+  TriangleAccess lower, [[maybe_unused]] const Store& store)
 {
   const TriangleId t = TriangleOf(quad.CornerA);
   const TriangleId s = TriangleOf(quad.CornerB);
   const int slotA = SlotOf(quad.CornerA);
   const int slotB = SlotOf(quad.CornerB);
-  TriangleAccess upper = mesh.Triangles[t];
-  TriangleAccess lower = mesh.Triangles[s];
-  const OuterHalfEdges outer = GetOuterHalfEdges(upper, slotA, lower, slotB);
+  const OuterHalfEdges outer = GetOuterHalfEdges(upper.HalfEdges, slotA, lower.HalfEdges, slotB);
 
   ReplaceAfter(upper, slotA, quad.B, outer.PB, 2 * edge);
   ReplaceAfter(lower, slotB, quad.A, outer.QA, 2 * edge + 1);

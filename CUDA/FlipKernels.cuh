@@ -19,18 +19,21 @@ template <typename Rule, typename Worklist>
 __device__ void RunFlips(
   const LoopView<Rule>& loop, const Worklist& worklist, Team& team, RoundSums* round)
 {
+  if (!HasGuard<Worklist>(loop))
+  {
+    ChooseAndFlip(loop, worklist, team);
+    team.Wait();
+    return;
+  }
   Choose(loop, worklist, team);
   team.Wait();
-  if (HasGuard<Worklist>(loop))
-  {
-    Claim(loop, worklist, team);
-    team.Wait();
-    Confirm(loop, worklist, team);
-    team.Wait();
-  }
+  Claim(loop, worklist, team);
+  team.Wait();
+  Confirm(loop, worklist, team);
+  team.Wait();
   FlipWinners(loop, worklist, team);
-  // Who has a guard decides by the sums whether to go on.
-  team.Wait(HasGuard<Worklist>(loop) ? round : nullptr);
+  // Whether to go on depends on the sums.
+  team.Wait(round);
 }
 
 /// Judges and guards.

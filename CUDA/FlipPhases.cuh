@@ -57,7 +57,69 @@ __device__ bool HasGuard(const LoopView<Rule>& loop)
   return Worklist::MayGuard && loop.Guard.Active;
 }
 
-/// ChooseStep's text on bits. Reads Bad, which does not change meanwhile; sets Winners.
+/// Makes the outer edges of a flip candidates.
+template <typename Rule>
+__device__ void MarkOuter(const LoopView<Rule>& loop, const OuterHalfEdges& outer)
+{
+  EdgeBits::Set(loop.Bits.Candidates, EdgeOf(outer.AP));
+  EdgeBits::Set(loop.Bits.Candidates, EdgeOf(outer.QA));
+  EdgeBits::Set(loop.Bits.Candidates, EdgeOf(outer.PB));
+  EdgeBits::Set(loop.Bits.Candidates, EdgeOf(outer.BQ));
+}
+
+/// Whether a bad edge comes before its bad neighbours. Bad does not change meanwhile.
+template <typename Rule>
+__device__ bool Wins(const LoopView<Rule>& loop, EdgeId edge, const OuterHalfEdges& outer)
+{
+  const auto isBad = [&](HalfEdgeId halfEdge)
+  { return EdgeBits::Has(loop.Bits.Bad, EdgeOf(halfEdge)); };
+  const bool ap = isBad(outer.AP), qa = isBad(outer.QA);
+  const bool pb = isBad(outer.PB), bq = isBad(outer.BQ);
+  return IsFirst(edge, outer, ap, qa, pb, bq);
+}
+
+/// Chooses among the bad edges and flips the winners, which stay marked as bad until the next
+/// detection, for others to choose by.
+///
+/// So an edge may be looked at while a neighbour flips. It loses then, as it must, whether its
+/// words and its triangles are read as they were before that flip or as they are after: a triangle
+/// that flips holds the flipped edge, which is bad and comes first, before and after; or it has
+/// lost the edge that is looked at to its partner. What a winner reads nobody changes.
+template <typename Rule, typename Worklist>
+__device__ void ChooseAndFlip(
+  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+{
+  unsigned flips = 0;
+  worklist.Run(
+    team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Bad); },
+    [&](EdgeId edge, const CornerPair& corners)
+    {
+      FlippedRecords flipped;
+      OuterHalfEdges outer{};
+      bool wins = false;
+      if (edge != NoEdge)
+      {
+        const RecordPair records(loop.Mesh, corners);
+        outer = records.GetOuter();
+        wins = Wins(loop, edge, outer) && records.Hold(edge);
+        if (wins)
+        {
+          FlipEdge(
+            loop.Mesh, edge, records.GetQuad(), records.Upper, records.Lower, flipped.Keep());
+        }
+      }
+      flipped.Store(loop.Mesh.Triangles);
+      if (wins)
+      {
+        ++flips;
+        EdgeBits::Set(loop.Bits.Winners, edge);
+        MarkOuter(loop, outer);
+      }
+    });
+  team.Add(RoundSum::Flipped, flips);
+}
+
+/// Chooses alone, where winners have claims to make before they flip; sets Winners.
 template <typename Rule, typename Worklist>
 __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
@@ -66,16 +128,7 @@ __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, con
     team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Bad); },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      if (edge == NoEdge)
-      {
-        return;
-      }
-      const OuterHalfEdges outer = choose.Load(corners);
-      const auto isBad = [&](HalfEdgeId halfEdge)
-      { return EdgeBits::Has(loop.Bits.Bad, EdgeOf(halfEdge)); };
-      const bool ap = isBad(outer.AP), qa = isBad(outer.QA);
-      const bool pb = isBad(outer.PB), bq = isBad(outer.BQ);
-      if (IsFirst(edge, outer, ap, qa, pb, bq))
+      if (edge != NoEdge && Wins(loop, edge, choose.Load(corners)))
       {
         EdgeBits::Set(loop.Bits.Winners, edge);
       }
@@ -127,8 +180,6 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
 {
   const SurgeryStep surgery{ { loop.Mesh }, loop.Guard };
   StepCounts counts;
-  const auto mark = [&](HalfEdgeId halfEdge)
-  { EdgeBits::Set(loop.Bits.Candidates, EdgeOf(halfEdge)); };
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
@@ -145,8 +196,9 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
       FlippedRecords flipped;
       if (edge != NoEdge)
       {
-        quad = GetQuadOf(loop.Mesh, corners);
-        outer = FlipEdge(loop.Mesh, edge, quad, flipped.Keep());
+        const RecordPair records(loop.Mesh, corners);
+        quad = records.GetQuad();
+        outer = FlipEdge(loop.Mesh, edge, quad, records.Upper, records.Lower, flipped.Keep());
       }
       flipped.Store(loop.Mesh.Triangles);
       if (edge != NoEdge)
@@ -156,10 +208,7 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
         {
           surgery.TellGuard(edge, quad, counts);
         }
-        mark(outer.AP);
-        mark(outer.QA);
-        mark(outer.PB);
-        mark(outer.BQ);
+        MarkOuter(loop, outer);
       }
     });
   team.Add(RoundSum::Flipped, static_cast<unsigned>(counts.Flipped));
@@ -268,12 +317,15 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
       // All are asked for before any is looked at.
       const unsigned marked = byte.Load(bits.Candidates);
       const unsigned asleep = byte.Load(bits.Asleep);
-      const unsigned bad = byte.Load(bits.Bad);
+      const unsigned winners = byte.Load(bits.Winners);
+      const unsigned seenBad = byte.Load(bits.Bad);
       const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
       const unsigned obstructed = HasGuard<Worklist>(loop) ? byte.Load(bits.Obstructed) : 0;
       const unsigned candidates = marked & ~asleep;
+      const unsigned bad = seenBad & ~winners;
       byte.Clear(bits.Candidates, marked, marked);
-      byte.Clear(bits.Bad, bad, candidates & bad);
+      byte.Clear(bits.Winners, winners, winners);
+      byte.Clear(bits.Bad, seenBad, winners | (candidates & bad));
       byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
       byte.Clear(bits.Obstructed, obstructed, candidates & obstructed);
       counts.Tested += __popc(candidates);

@@ -198,8 +198,10 @@ struct SurgeryStep : QuadStep
   DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Flip(
     EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
+    TriangleRecord* triangles = this->Mesh.Triangles;
     const OuterHalfEdges outer =
-      FlipEdge(this->Mesh, edge, quad, [](int, TriangleId, const TriangleRecord&) {});
+      FlipEdge(this->Mesh, edge, quad, triangles[TriangleOf(quad.CornerA)],
+        triangles[TriangleOf(quad.CornerB)], [](int, TriangleId, const TriangleRecord&) {});
     ++counts.Flipped;
     this->TellGuard(edge, quad, counts);
     return outer;

@@ -98,8 +98,6 @@ template <typename Rule>
 __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
 {
   unsigned flips = 0;
-  const auto isBad = [&](HalfEdgeId halfEdge)
-  { return EdgeBits::Has(loop.Bits.Bad, EdgeOf(halfEdge)); };
   const int lane = threadIdx.x % WarpSize;
   for (int i = lane; i - lane < list.GetSize(); i += WarpSize)
   {
@@ -109,13 +107,12 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const B
     if (i < list.GetSize())
     {
       bad = list[i];
-      const Quad quad = GetQuadOf(loop.Mesh, bad.Corners);
-      const OuterHalfEdges& outer = bad.Outer;
-      wins = IsFirst(
-        bad.Edge, outer, isBad(outer.AP), isBad(outer.QA), isBad(outer.PB), isBad(outer.BQ));
+      const RecordPair records(loop.Mesh, bad.Corners);
+      wins = Wins(loop, bad.Edge, bad.Outer);
       if (wins)
       {
-        FlipEdge(loop.Mesh, bad.Edge, quad, flipped.Keep());
+        FlipEdge(
+          loop.Mesh, bad.Edge, records.GetQuad(), records.Upper, records.Lower, flipped.Keep());
       }
     }
     flipped.Store(loop.Mesh.Triangles);
@@ -123,10 +120,7 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const B
     {
       ++flips;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
-      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.AP));
-      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.QA));
-      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.PB));
-      EdgeBits::Set(loop.Bits.Candidates, EdgeOf(bad.Outer.BQ));
+      MarkOuter(loop, bad.Outer);
     }
   }
   team.Add(RoundSum::Flipped, flips);

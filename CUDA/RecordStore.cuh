@@ -10,7 +10,7 @@
 #include <cstdint>
 
 /// @file
-/// How a warp stores the triangles that its flips change.
+/// How the threads of a warp load the triangles that they flip, and store them.
 
 namespace delaunayflip
 {
@@ -75,15 +75,53 @@ struct FlippedRecords
   }
 };
 
-/// The quad by both whole records, which a flip needs anyway.
-__device__ inline Quad GetQuadOf(const EdgeMeshView& mesh, const CornerPair& corners)
+/// A triangle that another thread may be flipping: each half is as it was before or as it is after,
+/// for aligned 16 bytes are loaded, and stored by StoreHalf, in one access.
+__device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
 {
-  const TriangleRecord upper = mesh.Triangles[TriangleOf(corners.A)];
-  const TriangleRecord lower = mesh.Triangles[TriangleOf(corners.B)];
-  const int slot = SlotOf(corners.A);
-  return { corners.A, corners.B, GetAt(upper.Vertices, slot), GetAt(upper.Vertices, NextSlot(slot)),
-    GetAt(upper.Vertices, PreviousSlot(slot)), GetAt(lower.Vertices, SlotOf(corners.B)) };
+  TriangleRecord record;
+  asm volatile("ld.global.v4.b32 {%0, %1, %2, %3}, [%8];\n\t"
+               "ld.global.v4.b32 {%4, %5, %6, %7}, [%8 + 16];"
+               : "=r"(record.Vertices[0]), "=r"(record.Vertices[1]), "=r"(record.Vertices[2]),
+               "=r"(record.InputTriangle), "=r"(record.HalfEdges[0]), "=r"(record.HalfEdges[1]),
+               "=r"(record.HalfEdges[2]), "=r"(record.Flips)
+               : "l"(__cvta_generic_to_global(triangle))
+               : "memory");
+  return record;
 }
+
+/// Both triangles of an edge, whole.
+struct RecordPair
+{
+  CornerPair Corners;
+  TriangleRecord Upper, Lower; ///< Of Corners.A and Corners.B.
+
+  __device__ RecordPair(const EdgeMeshView& mesh, const CornerPair& corners)
+    : Corners(corners),
+      Upper(LoadRecord(&mesh.Triangles[TriangleOf(corners.A)])),
+      Lower(LoadRecord(&mesh.Triangles[TriangleOf(corners.B)]))
+  {
+  }
+
+  __device__ Quad GetQuad() const
+  {
+    const int slot = SlotOf(this->Corners.A);
+    return { this->Corners.A, this->Corners.B, GetAt(this->Upper.Vertices, slot),
+      GetAt(this->Upper.Vertices, NextSlot(slot)), GetAt(this->Upper.Vertices, PreviousSlot(slot)),
+      GetAt(this->Lower.Vertices, SlotOf(this->Corners.B)) };
+  }
+  __device__ OuterHalfEdges GetOuter() const
+  {
+    return GetOuterHalfEdges(this->Upper.HalfEdges, SlotOf(this->Corners.A), this->Lower.HalfEdges,
+      SlotOf(this->Corners.B));
+  }
+  /// Whether both triangles have the edge there.
+  __device__ bool Hold(EdgeId edge) const
+  {
+    return EdgeOf(GetAt(this->Upper.HalfEdges, SlotOf(this->Corners.A))) == edge &&
+      EdgeOf(GetAt(this->Lower.HalfEdges, SlotOf(this->Corners.B))) == edge;
+  }
+};
 
 }
 
