@@ -94,9 +94,8 @@ public:
   {
     const TriangleRecord* records = this->Mesh.Triangles.Data();
     this->Engine.StoreValues(this->Mesh.NumberOfTriangles, counts,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int32_t * target) {
-        target[records[t].InputTriangle] = static_cast<std::int32_t>(records[t].Flips / OneFlip);
-      });
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const OutputSlice& target)
+      { target.Set(records[t].InputTriangle, records[t].Flips / OneFlip); });
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Engine); }

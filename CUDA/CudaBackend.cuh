@@ -196,38 +196,31 @@ public:
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
-    const std::int64_t size = 3 * triangles.Count;
-    const std::int64_t sliceSize = StagedCopy::GetSliceSize<std::uint32_t>(size, SlicesOfOutput);
-    Array<std::int32_t> ids = this->MakeArray<std::int32_t>(std::min(size, sliceSize));
-    const auto prepare = [&](std::int64_t first)
-    {
-      const IdSlice slice{ ids.Data(), first, std::min(size, first + sliceSize) };
-      this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, slice); });
+    const auto fill = [&](const OutputSlice& ids) {
+      this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, IdSlice{ ids }); });
     };
     // A vertex id is a number of 32 bits without a sign.
-    const auto* words = reinterpret_cast<const std::uint32_t*>(ids.Data());
-    StagedCopy copy(*this->Context, this->Threads);
     if (triangles.Ids32)
     {
-      copy.DownloadSlices(size, words, sliceSize, prepare,
+      this->DownloadSlices(3 * triangles.Count, fill,
         [&](std::int64_t i, std::uint32_t id)
         { triangles.Ids32[i] = static_cast<std::int32_t>(id); });
     }
     else
     {
-      copy.DownloadSlices(size, words, sliceSize, prepare,
+      this->DownloadSlices(3 * triangles.Count, fill,
         [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[i] = id; });
     }
   }
 
-  template <typename T, typename Store>
-  void StoreValues(std::int64_t size, T* values, const Store& store) const
+  template <typename Store>
+  void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
-    Array<T> local = this->MakeArray<T>(size);
-    T* target = local.Data();
-    this->ForEach(size, [=] __device__(std::int64_t i) { store(i, target); });
-    StagedCopy(*this->Context, this->Threads)
-      .Download(size, target, [values](std::int64_t i, T value) { values[i] = value; });
+    this->DownloadSlices(
+      size,
+      [&](const OutputSlice& slice)
+      { this->ForEach(size, [=] __device__(std::int64_t i) { store(i, slice); }); },
+      [=](std::int64_t i, std::uint32_t value) { values[i] = static_cast<std::int32_t>(value); });
   }
 
   /// Calls launch(stream), which launches a kernel, and checks it.
@@ -243,8 +236,23 @@ public:
   }
 
 private:
-  /// Ids go to the host by slices, so that they need little memory; for each slice the device looks
-  /// at all triangles, while the host still converts what came before.
+  /// Calls put(i, value) for i = 0 .. size - 1. What is put goes to the host by slices, so that it
+  /// needs little memory: fill(slice) launches what sets the values of a slice, for which the
+  /// device looks at all triangles, while the host still converts what came before.
+  template <typename Fill, typename Put>
+  void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
+  {
+    const std::int64_t sliceSize = StagedCopy::GetSliceSize<std::uint32_t>(size, SlicesOfOutput);
+    Array<std::uint32_t> values = this->MakeArray<std::uint32_t>(std::min(size, sliceSize));
+    StagedCopy(*this->Context, this->Threads)
+      .DownloadSlices(
+        size, values.Data(), sliceSize,
+        [&](std::int64_t first) {
+          fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
+        },
+        put);
+  }
+
   static constexpr std::int64_t SlicesOfOutput = 8;
 
   static int ResolveDevice(int device)

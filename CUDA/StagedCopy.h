@@ -42,17 +42,9 @@ public:
     }
   }
 
-  /// Calls put(i, value) for the values of i = 0 .. size - 1.
-  template <typename T, typename Put>
-  void Download(std::int64_t size, const T* device, const Put& put) const
-  {
-    this->DownloadSlices(
-      size, device, size, [](std::int64_t) {}, put);
-  }
-
-  /// The same from an array of `sliceSize` values: prepare(first) begins to fill it, on the
-  /// context's stream, with those from `first` on.
-  /// @param sliceSize by GetSliceSize, or `size`.
+  /// Calls put(i, value) for the values of i = 0 .. size - 1, from an array of `sliceSize` values:
+  /// prepare(first) begins to fill it, on the context's stream, with those from `first` on.
+  /// @param sliceSize by GetSliceSize.
   template <typename T, typename Prepare, typename Put>
   void DownloadSlices(std::int64_t size, const T* device, std::int64_t sliceSize,
     const Prepare& prepare, const Put& put) const

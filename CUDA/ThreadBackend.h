@@ -187,11 +187,13 @@ public:
     this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, triangles); });
   }
 
-  /// Calls store(i, values) for i = 0 .. size - 1, to set one of the caller's values.
-  template <typename T, typename Store>
-  void StoreValues(std::int64_t size, T* values, const Store& store) const
+  /// Calls store(i, target) for i = 0 .. size - 1, to set one of the caller's values by
+  /// target.Set(index, value).
+  template <typename Store>
+  void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
-    this->ForEach(size, [&](std::int64_t i) { store(i, values); });
+    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(values), 0, size };
+    this->ForEach(size, [&](std::int64_t i) { store(i, all); });
   }
 
   static constexpr std::int64_t DefaultGrain = 16384;

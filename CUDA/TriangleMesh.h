@@ -105,26 +105,35 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// The ids [First, Last) of an output, three a triangle, in an array of their own.
+/// Values [First, Last) of an output of 32-bit numbers, in an array of their own.
+struct OutputSlice
+{
+  std::uint32_t* Values;
+  std::int64_t First, Last;
+
+  /// Sets value i if it is one of the slice.
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t i, std::uint32_t value) const
+  {
+    if (i >= this->First && i < this->Last)
+    {
+      this->Values[i - this->First] = value;
+    }
+  }
+};
+
+/// A slice of ids, three a triangle.
 struct IdSlice
 {
-  std::int32_t* Ids;
-  std::int64_t First, Last;
+  OutputSlice Ids;
 
   /// Whether it has an id of the triangle.
   DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t triangle) const
   {
-    return 3 * triangle + 2 >= this->First && 3 * triangle < this->Last;
+    return 3 * triangle + 2 >= this->Ids.First && 3 * triangle < this->Ids.Last;
   }
-  /// Sets an id if it is one of the slice.
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
   {
-    const std::int64_t i = 3 * triangle + slot;
-    if (i >= this->First && i < this->Last)
-    {
-      // Of a number of 32 bits without a sign.
-      this->Ids[i - this->First] = static_cast<std::int32_t>(vertex);
-    }
+    this->Ids.Set(3 * triangle + slot, static_cast<std::uint32_t>(vertex));
   }
 };
 

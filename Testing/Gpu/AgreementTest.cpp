@@ -159,6 +159,18 @@ INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
     AgreementCase{ "DirtySphere", MakeDirtySphere, GeometryKind::Auto }),
   [](const auto& test) { return std::string(test.param.Name); });
 
+// Ids and counts of flips come down in parts of two million numbers, each in a slice of its own.
+TEST(FloatAgreementTest, OutputsOfSeveralSlicesAreWhole)
+{
+  if (!HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU";
+  }
+  const OwnedMesh<float> mesh = MakeRandomBadMesh(1100000, 22);
+  ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
+    Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
+}
+
 TEST(FloatAgreementTest, TheGpuGivesTheCpusBits)
 {
   if (!HasCudaDevice())
