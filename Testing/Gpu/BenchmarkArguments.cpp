@@ -90,7 +90,8 @@ const char* const BenchmarkUsage =
   "  --meshes DIR         also the real meshes of export_meshes.py\n"
   "  --json FILE          writes the rows, the machine and the GPU\n"
   "  --quick              few sizes and runs; options behind it change them\n"
-  "  --describe           only prints the machine and the GPU as JSON\n";
+  "  --describe           only prints the machine and the GPU as JSON\n"
+  "  --sector-rates       only measures how many random sectors a second the GPU serves\n";
 
 BenchmarkArguments ParseArguments(int argc, char** argv)
 {
@@ -105,6 +106,10 @@ BenchmarkArguments ParseArguments(int argc, char** argv)
     else if (name == "--describe")
     {
       arguments.DescribeOnly = true;
+    }
+    else if (name == "--sector-rates")
+    {
+      arguments.SectorRatesOnly = true;
     }
     else if (i + 1 == argc || !TakeOption(name, argv[++i], arguments))
     {

@@ -22,6 +22,7 @@ struct BenchmarkArguments
   std::string MeshFolder;
   std::string JsonPath;
   bool DescribeOnly = false;
+  bool SectorRatesOnly = false;
 };
 
 /// What a user may ask for, for --help and after a wrong argument.

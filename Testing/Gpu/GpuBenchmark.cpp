@@ -6,6 +6,7 @@
 #include "FilterTiming.h"
 #include "GpuDescription.h"
 #include "Machine.h"
+#include "SectorRates.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -260,6 +261,11 @@ int RunProgram(const BenchmarkArguments& arguments)
   if (arguments.DescribeOnly)
   {
     std::printf("{\n  %s\n}\n", DescribeInJson().c_str());
+    return 0;
+  }
+  if (arguments.SectorRatesOnly)
+  {
+    PrintSectorRates();
     return 0;
   }
   GpuBenchmark benchmark(arguments);
