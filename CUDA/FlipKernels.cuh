@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPKERNELS_CUH
 #define DELAUNAYFLIP_FLIPKERNELS_CUH
 
+#include "DetectionPhases.cuh"
 #include "FlipPhases.cuh"
 #include "ListedFlips.cuh"
 #include "RoundSums.h"

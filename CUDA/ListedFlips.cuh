@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_LISTEDFLIPS_CUH
 #define DELAUNAYFLIP_LISTEDFLIPS_CUH
 
+#include "DetectionPhases.cuh"
 #include "FlipPhases.cuh"
 
 /// @file

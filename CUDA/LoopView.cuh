@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_LOOPVIEW_CUH
+#define DELAUNAYFLIP_LOOPVIEW_CUH
+
+#include "DeviceWorklist.cuh"
+#include "EdgeBits.h"
+#include "EdgeGuard.h"
+#include "EdgeMesh.h"
+#include "RoundSums.h"
+#include "Team.cuh"
+
+namespace delaunayflip
+{
+
+/// The edges of a chunk of FlipLoop's schedule.
+struct DeviceChunk
+{
+  EdgeId FirstEdge, LastEdge;
+};
+
+/// What the loop's kernels read and write.
+template <typename Rule>
+struct LoopView
+{
+  EdgeMeshView Mesh; ///< Its States are those at first.
+  Rule Decision;
+  EdgeGuardView Guard;
+  EdgeBits Bits;
+  int Splits; ///< 2^Splits warps share a unit.
+  EdgeId NumberOfEdges;
+  DeviceChunk* Chunks;
+  int NumberOfChunks;
+  TeamState* Teams; ///< Zero before a launch.
+  RoundSums* Rounds; ///< One an iteration and one more; zero before a launch.
+  int* RoundsDone; ///< Iterations of this launch.
+
+  __device__ WarpWorklist GetWorklist() const { return { 0, this->NumberOfEdges, this->Splits }; }
+  __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const
+  {
+    return { chunk.FirstEdge, chunk.LastEdge };
+  }
+};
+
+template <typename Worklist, typename Rule>
+__device__ bool HasGuard(const LoopView<Rule>& loop)
+{
+  return Worklist::MayGuard && loop.Guard.Active;
+}
+
+}
+
+#endif
