@@ -76,7 +76,7 @@ struct FlippedRecords
 };
 
 /// A triangle that another thread may be flipping: each half is as it was before or as it is after,
-/// for aligned 16 bytes are loaded, and stored by StoreHalf, in one access.
+/// for hardware loads aligned 16 bytes, and stores them (StoreHalf), in one piece.
 __device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
 {
   TriangleRecord record;
