@@ -15,14 +15,60 @@
 namespace delaunayflip
 {
 
+// Halves of records are loaded while others store them, so they must be accessed in one piece: as
+// numbers of 128 bits, which PTX has from CUDA 12.3 on. Before, vectors of four words make the same
+// instructions.
+#if __CUDACC_VER_MAJOR__ > 12 || (__CUDACC_VER_MAJOR__ == 12 && __CUDACC_VER_MINOR__ >= 3)
+#define DELAUNAYFLIP_HAS_B128 1
+#else
+#define DELAUNAYFLIP_HAS_B128 0
+#endif
+
 /// One instruction for all lanes, whatever chose their values.
 __device__ inline void StoreHalf(uint4* address, const uint4& value)
 {
+#if DELAUNAYFLIP_HAS_B128
+  const std::uint64_t low = value.x | std::uint64_t(value.y) << 32;
+  const std::uint64_t high = value.z | std::uint64_t(value.w) << 32;
+  asm volatile("{\n\t"
+               ".reg .b128 half;\n\t"
+               "mov.b128 half, {%1, %2};\n\t"
+               "st.relaxed.gpu.global.b128 [%0], half;\n\t"
+               "}"
+               :
+               : "l"(__cvta_generic_to_global(address)), "l"(low), "l"(high)
+               : "memory");
+#else
   asm volatile(
-    "st.global.v4.b32 [%0], {%1, %2, %3, %4};"
+    "st.relaxed.gpu.global.v4.b32 [%0], {%1, %2, %3, %4};"
     :
     : "l"(__cvta_generic_to_global(address)), "r"(value.x), "r"(value.y), "r"(value.z), "r"(value.w)
     : "memory");
+#endif
+}
+
+__device__ inline uint4 LoadHalf(const uint4* address)
+{
+  uint4 value;
+#if DELAUNAYFLIP_HAS_B128
+  std::uint64_t low, high;
+  asm volatile("{\n\t"
+               ".reg .b128 half;\n\t"
+               "ld.relaxed.gpu.global.b128 half, [%2];\n\t"
+               "mov.b128 {%0, %1}, half;\n\t"
+               "}"
+               : "=l"(low), "=l"(high)
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+  value = { static_cast<unsigned>(low), static_cast<unsigned>(low >> 32),
+    static_cast<unsigned>(high), static_cast<unsigned>(high >> 32) };
+#else
+  asm volatile("ld.relaxed.gpu.global.v4.b32 {%0, %1, %2, %3}, [%4];"
+               : "=r"(value.x), "=r"(value.y), "=r"(value.z), "=r"(value.w)
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+#endif
+  return value;
 }
 
 /// A record that two neighbouring lanes store together, half of it each: whole sectors at once.
@@ -75,19 +121,14 @@ struct FlippedRecords
   }
 };
 
-/// A triangle that another thread may be flipping: each half is as it was before or as it is after,
-/// for hardware loads aligned 16 bytes, and stores them (StoreHalf), in one piece.
+/// A triangle that another thread may be flipping: its half-edges are as they were before, or as
+/// they are after. Its vertices are of use only if it is not.
 __device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
 {
-  TriangleRecord record;
-  asm volatile("ld.global.v4.b32 {%0, %1, %2, %3}, [%8];\n\t"
-               "ld.global.v4.b32 {%4, %5, %6, %7}, [%8 + 16];"
-               : "=r"(record.Vertices[0]), "=r"(record.Vertices[1]), "=r"(record.Vertices[2]),
-               "=r"(record.InputTriangle), "=r"(record.HalfEdges[0]), "=r"(record.HalfEdges[1]),
-               "=r"(record.HalfEdges[2]), "=r"(record.Flips)
-               : "l"(__cvta_generic_to_global(triangle))
-               : "memory");
-  return record;
+  const auto* halves = reinterpret_cast<const uint4*>(triangle);
+  const uint4 first = halves[0];
+  const uint4 second = LoadHalf(&halves[1]);
+  return { { first.x, first.y, first.z }, first.w, { second.x, second.y, second.z }, second.w };
 }
 
 /// Both triangles of an edge, whole.
