@@ -101,35 +101,42 @@ __device__ EdgeState JudgeAndNote(
   return state;
 }
 
-/// Judges the candidates, which are none any more then.
+/// Takes the edges to judge from a byte: its candidates, which are none any more then, and if asked
+/// what else is bad. What has flipped since the last detection is no longer bad.
+template <typename Rule>
+__device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad,
+  bool hasGuard, DetectionCounts& counts)
+{
+  // All are asked for before any is looked at.
+  const EdgeBits& bits = loop.Bits;
+  const unsigned marked = byte.Load(bits.Candidates);
+  const unsigned asleep = byte.Load(bits.Asleep);
+  const unsigned winners = byte.Load(bits.Winners);
+  const unsigned seenBad = byte.Load(bits.Bad);
+  const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
+  const unsigned obstructed = hasGuard ? byte.Load(bits.Obstructed) : 0;
+  const unsigned candidates = marked & ~asleep;
+  const unsigned bad = seenBad & ~winners;
+  byte.Clear(bits.Candidates, marked, marked);
+  byte.Clear(bits.Winners, winners, winners);
+  byte.Clear(bits.Bad, seenBad, takeBad ? seenBad : winners | (candidates & bad));
+  byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
+  byte.Clear(bits.Obstructed, obstructed, candidates & obstructed);
+  counts.Tested += __popc(candidates);
+  counts.WasBad += __popc(takeBad ? bad : candidates & bad);
+  counts.WasMisshapen += __popc(candidates & misshapen);
+  return takeBad ? candidates | bad : candidates;
+}
+
+/// Judges the candidates.
 template <typename Rule, typename Worklist>
 __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  const EdgeBits& bits = loop.Bits;
   DetectionCounts counts;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
-    {
-      // All are asked for before any is looked at.
-      const unsigned marked = byte.Load(bits.Candidates);
-      const unsigned asleep = byte.Load(bits.Asleep);
-      const unsigned winners = byte.Load(bits.Winners);
-      const unsigned seenBad = byte.Load(bits.Bad);
-      const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
-      const unsigned obstructed = HasGuard<Worklist>(loop) ? byte.Load(bits.Obstructed) : 0;
-      const unsigned candidates = marked & ~asleep;
-      const unsigned bad = seenBad & ~winners;
-      byte.Clear(bits.Candidates, marked, marked);
-      byte.Clear(bits.Winners, winners, winners);
-      byte.Clear(bits.Bad, seenBad, winners | (candidates & bad));
-      byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
-      byte.Clear(bits.Obstructed, obstructed, candidates & obstructed);
-      counts.Tested += __popc(candidates);
-      counts.WasBad += __popc(candidates & bad);
-      counts.WasMisshapen += __popc(candidates & misshapen);
-      return candidates;
-    },
+    { return TakeCandidates(loop, byte, false, HasGuard<Worklist>(loop), counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       if (edge != NoEdge)

@@ -44,36 +44,16 @@ private:
 };
 
 /// Detect, which also lists what is bad, and warns where that is not all. Judges bad edges again
-/// that are no candidates, to have them in the list; they do not count as tested. What FlipListed
-/// has flipped is no longer bad.
+/// that are no candidates, to have them in the list; they do not count as tested.
 template <typename Rule>
 __device__ void DetectAndList(
   const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
 {
-  const EdgeBits& bits = loop.Bits;
   DetectionCounts counts;
   list.Clear();
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    {
-      // All are asked for before any is looked at.
-      const unsigned marked = byte.Load(bits.Candidates);
-      const unsigned asleep = byte.Load(bits.Asleep);
-      const unsigned winners = byte.Load(bits.Winners);
-      const unsigned seenBad = byte.Load(bits.Bad);
-      const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
-      const unsigned candidates = marked & ~asleep;
-      const unsigned bad = seenBad & ~winners;
-      byte.Clear(bits.Candidates, marked, marked);
-      byte.Clear(bits.Winners, winners, winners);
-      byte.Clear(bits.Bad, seenBad, seenBad);
-      byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
-      counts.Tested += __popc(candidates);
-      counts.WasBad += __popc(bad);
-      counts.WasMisshapen += __popc(candidates & misshapen);
-      return candidates | bad;
-    },
+    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, false, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       BadEdge found{ edge, corners, {} };

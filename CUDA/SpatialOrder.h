@@ -144,8 +144,8 @@ struct TriangleKey
 
 /// Vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in planar
 /// geometry, 128^3 on surfaces), triangles by the rank of their first vertex: the triangles of a
-/// fan are together, so that more edges lie within chunks than by the median rank, 70 instead of 59
-/// of 100 flips (counted on the random bad mesh of a million points, Documentation/performance.md).
+/// fan are together, so that rounds within chunks do more than by the median rank, 51 instead of 43
+/// of 100 flips of the random bad mesh of 5 M points (Documentation/performance.md).
 template <typename Backend>
 SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
 {

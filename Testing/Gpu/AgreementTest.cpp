@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaDevice.h"
 #include "FlipTestSupport.h"
+#include "GpuTestSupport.h"
 
 #include <gtest/gtest.h>
 
@@ -159,24 +160,20 @@ INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
     AgreementCase{ "DirtySphere", MakeDirtySphere, GeometryKind::Auto }),
   [](const auto& test) { return std::string(test.param.Name); });
 
-// Ids and counts of flips come down in parts of two million numbers, each in a slice of its own.
-TEST(FloatAgreementTest, OutputsOfSeveralSlicesAreWhole)
+class FloatAgreementTest : public GpuTest
 {
-  if (!HasCudaDevice())
-  {
-    GTEST_SKIP() << "no GPU";
-  }
+};
+
+// Ids and counts of flips come down in parts of two million numbers, each in a slice of its own.
+TEST_F(FloatAgreementTest, OutputsOfSeveralSlicesAreWhole)
+{
   const OwnedMesh<float> mesh = MakeRandomBadMesh(1100000, 22);
   ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
     Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
 }
 
-TEST(FloatAgreementTest, TheGpuGivesTheCpusBits)
+TEST_F(FloatAgreementTest, TheGpuGivesTheCpusBits)
 {
-  if (!HasCudaDevice())
-  {
-    GTEST_SKIP() << "no GPU";
-  }
   const OwnedMesh<float> mesh = MakeRandomBadMesh(200000, 21);
   ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
     Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
