@@ -52,7 +52,7 @@ vtk_module_build(
   MODULES ${delaunayflip_modules}
   HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip"
   INSTALL_EXPORT DelaunayFlip)
-install(FILES CUDA/FlipReport.h CUDA/FlipOptions.h # of vtkDelaunayFlip::GetReport()
+install(FILES Engine/FlipReport.h Engine/FlipOptions.h # of vtkDelaunayFlip::GetReport()
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip")
 
 # find_package(DelaunayFlip) of other projects.

@@ -7,6 +7,8 @@
 #include "CudaContext.h"
 #include "CudaError.h"
 #include "CudaKernels.cuh"
+#include "EdgeMesh.h"
+#include "EdgeMeshSteps.h"
 #include "FlipError.h"
 #include "StagedCopy.h"
 #include "ThreadBackend.h"
@@ -152,8 +154,11 @@ public:
     }
   }
 
-  template <typename KeyOf>
+  template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
+
+  /// A device has no other way than the edge table.
+  bool PairCorners(EdgeMesh&, std::int64_t, PairSums&, Numbering&) const { return false; }
 
   /// Sets the bytes of `size` values.
   template <typename T>
@@ -289,7 +294,7 @@ private:
   ThreadBackend Threads;
 };
 
-template <typename KeyOf>
+template <int KeyBits, typename KeyOf>
 Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
 {
   Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
@@ -310,7 +315,7 @@ Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& ke
     [&](void* temporary, std::size_t& bytes)
     {
       return cub::DeviceRadixSort::SortPairs(
-        temporary, bytes, keyBuffer, indexBuffer, size, 0, SortKeyBits, this->GetStream());
+        temporary, bytes, keyBuffer, indexBuffer, size, 0, KeyBits, this->GetStream());
     });
   return indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
 }

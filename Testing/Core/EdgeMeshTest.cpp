@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CornerPairing.h"
 #include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "GeneratedMeshes.h"

@@ -22,7 +22,7 @@ LICENSED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake")
 
 LARGEST = 1_000_000  # bytes
 
-LIBRARY_FOLDERS = ("CUDA/", "Filters/", "Plugin/", "Rendering/")
+LIBRARY_FOLDERS = ("CUDA/", "Engine/", "Filters/", "Plugin/", "Rendering/")
 FORBIDDEN = re.compile(
     r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b"
 )

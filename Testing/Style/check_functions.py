@@ -22,7 +22,7 @@ COMMAND = [
     "ctags",
     "--options=NONE",
     "--languages=C++,Python",
-    "--langmap=C++:+.h",
+    "--langmap=C++:+.h.cuh.cu",
     "--kinds-C++=f",
     "--kinds-Python=fm",
     "--fields=+ne",

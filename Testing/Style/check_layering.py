@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Usage: check_layering.py ROOT
 
-Includes point downwards only: CUDA knows no VTK, Filters knows CUDA's public headers, Rendering
-knows Filters alone, Command knows CUDA's public headers and Filters, Plugin knows none of them;
-nothing that ships knows Testing or Examples.
+Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
+Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
+engine: Filters and Command see its public headers, Rendering sees Filters alone, Plugin none of
+these; nothing that ships sees Testing or Examples. The engine sees no VTK.
 """
 
 import os
@@ -16,62 +17,72 @@ from source_tree import CPP_SUFFIXES, finish, list_files, read
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
-# The headers of the engine that other layers may include; they include only each other.
-DOORS = {
-    "CudaDevice.h",
-    "DelaunayFlip.h",
-    "FlipError.h",
-    "FlipOptions.h",
-    "FlipReport.h",
-    "HostDevice.h",
-    "MeshAudit.h",
-    "PolygonSplit.h",
-    "Predicates.h",
-    "TriangleMesh.h",
-}
+PUBLIC = "the engine's public headers"
+CHOICE = "Engine"  # what stands at its root, except the public headers
 
-# Layer: the layers that it may include.
-BELOW = {
-    "CUDA": {"CUDA"},
-    "Filters": {"CUDA", "Filters"},
+# Layers above the engine, and what they may include.
+ABOVE = {
+    "Filters": {PUBLIC, "Filters"},
     "Rendering": {"Filters", "Rendering"},
-    "Command": {"CUDA", "Filters", "Command"},
+    "Command": {PUBLIC, "Filters", "Command"},
     "Plugin": {"Plugin"},
-    "Examples": {"CUDA", "Filters", "Rendering", "Examples"},
+    "Examples": {PUBLIC, "Filters", "Rendering", "Examples"},
 }
 
 
-def layer_of(path):
-    return path.split("/", 1)[0] if "/" in path else ""
+def read_list(root, name):
+    """The words of `set(name ...)` in Engine/CMakeLists.txt."""
+    text = re.sub(r"#.*", "", read(root, "Engine/CMakeLists.txt"))
+    return re.search(rf"set\({name}\s+([^)]*)\)", text).group(1).split()
 
 
-def violations(path, name, home):
+class Layers:
+    """Which layer a file belongs to, and which layers each may include."""
+
+    def __init__(self, root):
+        self.public = set(read_list(root, "delaunayflip_engine_headers"))
+        rooms = read_list(root, "delaunayflip_engine_rooms")
+        self.floors = [PUBLIC, *(f"Engine/{room}" for room in rooms), "CUDA", CHOICE]
+
+    def of(self, path):
+        folder, name = os.path.split(path)
+        if folder == "Engine" and name in self.public:
+            return PUBLIC
+        if folder == "Engine" or folder in self.floors:
+            return folder
+        return path.split("/", 1)[0] if "/" in path else ""
+
+    def below(self, layer):
+        """The layers that `layer` may include; None where anything goes."""
+        if layer in self.floors:
+            return set(self.floors[: self.floors.index(layer) + 1])
+        return ABOVE.get(layer)
+
+
+def violations(layers, path, name, home):
     """What is wrong with file `path` including `name`; `home` maps header names to layers."""
-    layer, header = layer_of(path), os.path.basename(name)
-    if layer == "CUDA" and header.lower().startswith("vtk"):
+    layer, header = layers.of(path), os.path.basename(name)
+    below = layers.below(layer)
+    if below is None:
+        return
+    if layer in layers.floors and header.lower().startswith("vtk"):
         yield f"{path}: the engine includes {name} of VTK"
     target = home.get(header)
-    if target is None:
-        return
-    if target not in BELOW[layer]:
+    if target is not None and target not in below:
         yield f"{path}: {layer} includes {name} of {target}"
-    elif target == "CUDA" and header not in DOORS:
-        if layer != "CUDA":
-            yield f"{path}: {name} is internal to CUDA"
-        elif os.path.basename(path) in DOORS:
-            yield f"{path}: a public header includes the internal {name}"
 
 
 def main():
     root = sys.argv[1]
+    layers = Layers(root)
     paths = [path for path in list_files(root) if path.endswith(CPP_SUFFIXES)]
-    home = {os.path.basename(path): layer_of(path) for path in paths if path.endswith(".h")}
+    headers = [path for path in paths if path.endswith((".h", ".cuh"))]
+    home = {os.path.basename(path): layers.of(path) for path in headers}
     problems = [
         problem
         for path in paths
-        if layer_of(path) in BELOW
         for name in INCLUDE.findall(read(root, path))
-        for problem in violations(path, name, home)
+        for problem in violations(layers, path, name, home)
     ]
     finish("layering", problems)
 

@@ -8,7 +8,7 @@ import sys
 
 SKIPPED = 125  # CTest's SKIP_RETURN_CODE in this project
 
-CPP_SUFFIXES = (".h", ".cpp", ".cxx")
+CPP_SUFFIXES = (".h", ".cpp", ".cxx", ".cuh", ".cu")
 
 UNTRACKED = (".git", "demo-output", "__pycache__")
 

@@ -4,6 +4,8 @@
 #define DELAUNAYFLIP_THREADBACKEND_H
 
 #include "Array.h"
+#include "EdgeMesh.h"
+#include "EdgeMeshSteps.h"
 #include "HostMemory.h"
 #include "TriangleMesh.h"
 
@@ -18,9 +20,6 @@
 
 namespace delaunayflip
 {
-
-/// Bits of the keys that backends sort by.
-constexpr int SortKeyBits = 22;
 
 /// Number of the first item of every piece of a range, and of all items (ForEachNumbered).
 struct ThreadNumbering
@@ -145,9 +144,16 @@ public:
       });
   }
 
-  /// 0 .. size - 1 by keyOf(i) of at most SortKeyBits bits; equal keys keep their order.
-  template <typename KeyOf>
+  /// 0 .. size - 1 by keyOf(i), a number of KeyBits bits; equal keys keep their order.
+  template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
+
+  /// Finds the other corner of every corner's edge without a table of all edges
+  /// (CornerPairing.h), and numbers the edges.
+  /// @returns false where one vertex has so many edges that the shared table is faster; nothing is
+  /// changed then.
+  bool PairCorners(
+    EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const;
 
   template <typename T>
   Array<T> MakeArray(std::int64_t size) const
@@ -240,11 +246,9 @@ private:
     }
   }
 
-  static constexpr int DigitBits = SortKeyBits / 2;
-
   /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
   /// i by digitOf(i), of DigitBits bits.
-  template <typename DigitOf, typename Put>
+  template <int DigitBits, typename DigitOf, typename Put>
   void PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const;
 
   class Pool;
@@ -252,7 +256,7 @@ private:
   std::unique_ptr<HostMemory> Memory;
 };
 
-template <typename DigitOf, typename Put>
+template <int DigitBits, typename DigitOf, typename Put>
 void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const
 {
   constexpr std::uint32_t Digits = 1u << DigitBits;
@@ -289,9 +293,11 @@ void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, cons
   this->ForRange(size, place, Grain);
 }
 
-template <typename KeyOf>
+template <int KeyBits, typename KeyOf>
 Array<std::uint32_t> ThreadBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
 {
+  static_assert(KeyBits % 2 == 0, "two passes, half of the bits each");
+  constexpr int DigitBits = KeyBits / 2;
   struct KeyedIndex
   {
     std::uint32_t Key, Index;
@@ -301,13 +307,13 @@ Array<std::uint32_t> ThreadBackend::SortIndices(std::int64_t size, const KeyOf& 
   this->ForRange(size,
     [&](std::int64_t begin, std::int64_t end)
     { Loop(begin, end, keyOf, [&](std::int64_t i) { keys[i] = keyOf(i); }); });
-  this->PlaceByDigit(
+  this->PlaceByDigit<DigitBits>(
     size, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
     [&](std::int64_t i, std::uint32_t place) {
       sorted[place] = { keys[i], static_cast<std::uint32_t>(i) };
     });
   Array<std::uint32_t> indices = std::move(keys);
-  this->PlaceByDigit(
+  this->PlaceByDigit<DigitBits>(
     size, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
     [&](std::int64_t i, std::uint32_t place) { indices[place] = sorted[i].Index; });
   return indices;

@@ -20,13 +20,6 @@ namespace delaunayflip
 
 constexpr std::int64_t StatesPerSet = 64;
 
-/// The states that a step wants, first to last.
-struct StateRange
-{
-  EdgeState First;
-  EdgeState Last;
-};
-
 #if defined(DELAUNAYFLIP_STATES_BY_SSE2)
 
 /// Which of 64 states are wanted. Other threads may change some of them meanwhile, as long as the

@@ -6,6 +6,7 @@
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
 #include "InCircleBatch.h"
+#include "StateWords.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>

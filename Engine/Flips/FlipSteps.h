@@ -8,7 +8,6 @@
 #include "EdgeMesh.h"
 #include "FlipRules.h"
 #include "HostDevice.h"
-#include "StateWords.h"
 #include "StepCounts.h"
 
 #include <cstdint>

@@ -51,6 +51,13 @@ enum class EdgeState : std::uint8_t
   Candidate ///< To be judged: new, or an incident triangle changed.
 };
 
+/// States from the first to the last.
+struct StateRange
+{
+  EdgeState First;
+  EdgeState Last;
+};
+
 /// Bad or Excluded.
 inline bool WasBad(EdgeState state)
 {

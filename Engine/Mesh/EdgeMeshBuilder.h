@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_EDGEMESHBUILDER_H
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
-#include "CornerPairing.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
@@ -276,41 +275,34 @@ inline bool NeedsTable(const EdgeMeshInput& input)
   return input.Input.Caller.NumberOfConstraintEdges > 0;
 }
 
-/// Of large meshes, whose tables nobody needs later, by slices: a quarter of the table, and four
-/// looks at every triangle.
+/// Finds the other corner of every corner's edge, in the way that the backend prefers.
+/// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  constexpr std::int64_t Slices = 4;
-  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
   if (NeedsTable(input))
   {
     return PairByTable(input, result, 1, backend);
   }
-  const bool isLarge = result.Edges.NumberOfTriangles >= SmallestSliced;
-  typename Backend::Numbering numbering = PairByTable(input, result, isLarge ? Slices : 1, backend);
-  result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
-  return numbering;
-}
-
-/// On threads without the table, unless it is needed.
-inline ThreadNumbering PairCorners(
-  const EdgeMeshInput& input, EdgeMeshResult& result, const ThreadBackend& backend)
-{
-  if (!NeedsTable(input))
+  typename Backend::Numbering numbering;
+  PairSums sums;
+  if (backend.PairCorners(result.Edges, input.Input.Local.Points.Count, sums, numbering))
   {
-    CornerPairing pairing(result.Edges, input.Input.Local.Points.Count, backend);
-    if (pairing.IsEven())
-    {
-      const PairSums sums = pairing.Run();
-      result.Counts.Edges = sums.Edges;
-      result.Counts.NonManifold = sums.NonManifold;
-      return backend.Count(
-        result.Edges.NumberOfTriangles, OtherCornerStep{ result.Edges.Triangles.Data() });
-    }
+    result.Counts.Edges = sums.Edges;
+    result.Counts.NonManifold = sums.NonManifold;
+    return numbering;
   }
-  return PairByTable(input, result, 1, backend);
+  // In slices the table takes a quarter of the memory, and every triangle is looked at four times.
+  constexpr std::int64_t Slices = 4;
+  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
+  const bool inSlices = Backend::MemoryIsScarce && result.Edges.NumberOfTriangles >= SmallestSliced;
+  numbering = PairByTable(input, result, inSlices ? Slices : 1, backend);
+  if (Backend::MemoryIsScarce)
+  {
+    result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
+  }
+  return numbering;
 }
 
 template <typename Backend>

@@ -7,7 +7,6 @@
 #include "EdgeMesh.h"
 #include "HilbertCurve.h"
 #include "MeshSurvey.h"
-#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 /// @file
@@ -20,6 +19,9 @@ namespace delaunayflip
 
 /// Smaller meshes fit a second-level cache in any order.
 constexpr std::int64_t SmallestOrderedMesh = 1 << 14; // triangles
+
+/// Bits of the keys that vertices and triangles are sorted by.
+constexpr int SortKeyBits = 22;
 
 /// Plain pointers to a SpatialOrder, for functions of both backends.
 struct SpatialOrderView
@@ -157,11 +159,11 @@ SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const B
     return order;
   }
   const OrderingFrame frame{ survey.Box, survey.Geometry, survey.Projection };
-  order.VertexOfRank = backend.SortIndices(
+  order.VertexOfRank = backend.template SortIndices<SortKeyBits>(
     points.Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.GetKey(points, i); });
   order.RankOfVertex = backend.template MakeArray<VertexId>(points.Count);
   InvertPermutation(order.VertexOfRank.Data(), points.Count, order.RankOfVertex.Data(), backend);
-  order.TriangleOfRank = backend.SortIndices(
+  order.TriangleOfRank = backend.template SortIndices<SortKeyBits>(
     triangles.Count, TriangleKey{ triangles, order.RankOfVertex.Data(), points.Count });
   return order;
 }
