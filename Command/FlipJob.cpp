@@ -148,8 +148,8 @@ public:
     vtkNew<vtkPolyData> mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
     // The same mesh gives the same file, whenever and wherever; the report has these two.
-    mesh->GetFieldData()->RemoveArray("Seconds");
-    mesh->GetFieldData()->RemoveArray("Backend");
+    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
+    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
     this->WriteOutput(mesh);
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);

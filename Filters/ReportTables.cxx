@@ -8,7 +8,7 @@
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 
 #include <string>
@@ -18,53 +18,77 @@ namespace delaunayflip
 namespace
 {
 
-template <typename ArrayT, typename Member>
-void AddColumn(const FlipReport& report, const char* name, Member member, vtkFieldData* data)
+/// Adds the arrays of a report to a table or to the field data of a mesh.
+class ArrayWriter
 {
-  vtkNew<ArrayT> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(report.Iterations.size()));
-  vtkIdType row = 0;
-  for (const IterationRecord& record : report.Iterations)
+public:
+  ArrayWriter(const FlipReport& report, const char* prefix, vtkFieldData* data)
+    : Report(report),
+      Prefix(prefix),
+      Data(data)
   {
-    column->SetValue(row++, record.*member);
   }
-  data->AddArray(column);
+
+  /// One value an iteration.
+  template <typename ArrayT, typename Member>
+  void AddColumn(const char* name, Member member) const
+  {
+    const auto column = this->AddArray<ArrayT>(name);
+    column->SetNumberOfValues(static_cast<vtkIdType>(this->Report.Iterations.size()));
+    vtkIdType row = 0;
+    for (const IterationRecord& record : this->Report.Iterations)
+    {
+      column->SetValue(row++, record.*member);
+    }
+  }
+
+  template <typename ArrayT, typename Value>
+  void AddValue(const char* name, const Value& value) const
+  {
+    this->AddArray<ArrayT>(name)->InsertNextValue(value);
+  }
+
+private:
+  template <typename ArrayT>
+  vtkSmartPointer<ArrayT> AddArray(const char* name) const
+  {
+    auto array = vtkSmartPointer<ArrayT>::New();
+    array->SetName((this->Prefix + name).c_str());
+    this->Data->AddArray(array);
+    return array;
+  }
+
+  const FlipReport& Report;
+  std::string Prefix;
+  vtkFieldData* Data;
+};
+
 }
 
-template <typename ArrayT, typename Value>
-void AddValue(const char* name, const Value& value, vtkFieldData* data)
+void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldData* data)
 {
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  data->AddArray(array);
+  const ArrayWriter writer(report, prefix, data);
+  writer.AddColumn<vtkIdTypeArray>("Iteration", &IterationRecord::Iteration);
+  writer.AddColumn<vtkIdTypeArray>("Tested", &IterationRecord::Tested);
+  writer.AddColumn<vtkIdTypeArray>("NonDelaunay", &IterationRecord::NonDelaunay);
+  writer.AddColumn<vtkIdTypeArray>("Flipped", &IterationRecord::Flipped);
+  writer.AddColumn<vtkIdTypeArray>("Excluded", &IterationRecord::Excluded);
+  writer.AddColumn<vtkIdTypeArray>("Blocked", &IterationRecord::Blocked);
+  writer.AddColumn<vtkDoubleArray>("MinimumAngle", &IterationRecord::MinimumAngle);
+  writer.AddColumn<vtkDoubleArray>("Seconds", &IterationRecord::Seconds);
 }
 
-}
-
-void AddIterationColumns(const FlipReport& report, vtkFieldData* data)
+void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data)
 {
-  AddColumn<vtkIdTypeArray>(report, "Iteration", &IterationRecord::Iteration, data);
-  AddColumn<vtkIdTypeArray>(report, "Tested", &IterationRecord::Tested, data);
-  AddColumn<vtkIdTypeArray>(report, "NonDelaunay", &IterationRecord::NonDelaunay, data);
-  AddColumn<vtkIdTypeArray>(report, "Flipped", &IterationRecord::Flipped, data);
-  AddColumn<vtkIdTypeArray>(report, "Excluded", &IterationRecord::Excluded, data);
-  AddColumn<vtkIdTypeArray>(report, "Blocked", &IterationRecord::Blocked, data);
-  AddColumn<vtkDoubleArray>(report, "MinimumAngle", &IterationRecord::MinimumAngle, data);
-  AddColumn<vtkDoubleArray>(report, "Seconds", &IterationRecord::Seconds, data);
-}
-
-void AddTotals(const FlipReport& report, vtkFieldData* data)
-{
-  AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
-  AddValue<vtkStringArray>("StopReason", ToString(report.StopReason), data);
-  AddValue<vtkIdTypeArray>("TotalFlips", report.TotalFlips, data);
-  AddValue<vtkIdTypeArray>("NonDelaunayEdges", report.NonDelaunayAfter, data);
-  AddValue<vtkIdTypeArray>("FixedEdges", report.Edges.Fixed, data);
-  AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold, data);
-  AddValue<vtkStringArray>("GeometryUsed", ToString(report.GeometryUsed), data);
-  AddValue<vtkStringArray>("Backend", report.Backend, data);
+  const ArrayWriter writer(report, prefix, data);
+  writer.AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0);
+  writer.AddValue<vtkStringArray>("StopReason", ToString(report.StopReason));
+  writer.AddValue<vtkIdTypeArray>("TotalFlips", report.TotalFlips);
+  writer.AddValue<vtkIdTypeArray>("NonDelaunayEdges", report.NonDelaunayAfter);
+  writer.AddValue<vtkIdTypeArray>("FixedEdges", report.Edges.Fixed);
+  writer.AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold);
+  writer.AddValue<vtkStringArray>("GeometryUsed", ToString(report.GeometryUsed));
+  writer.AddValue<vtkStringArray>("Backend", report.Backend);
 }
 
 }

@@ -10,12 +10,16 @@ namespace delaunayflip
 
 struct FlipReport;
 
+/// How the names of arrays begin in the field data of a mesh, where the user may have a "Seconds"
+/// of his own. A table, which has nothing else, needs no prefix.
+constexpr const char* FieldPrefix = "DelaunayFlip:";
+
 /// Adds one array for each column of the iterations, with one tuple an iteration. Arrays of equal
 /// names are replaced.
-void AddIterationColumns(const FlipReport& report, vtkFieldData* data);
+void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldData* data);
 
 /// Adds the arrays of one tuple that sum the run up. Arrays of equal names are replaced.
-void AddTotals(const FlipReport& report, vtkFieldData* data);
+void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data);
 
 }
 

@@ -191,7 +191,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   {
     this->Report->StopReason = StopReasonKind::Converged;
     data.Output->ShallowCopy(data.Input);
-    AddIterationColumns(*this->Report, data.Iterations->GetRowData());
+    AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
     return;
   }
   if (!isLive)
@@ -208,10 +208,10 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   run->Store(data.Output, this->GenerateFlipCount);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = run->GetReport();
-  AddIterationColumns(*this->Report, data.Iterations->GetRowData());
+  AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
   // The totals first: ParaView lists no field data when the first array is empty.
-  AddTotals(*this->Report, data.Output->GetFieldData());
-  AddIterationColumns(*this->Report, data.Output->GetFieldData());
+  AddTotals(*this->Report, FieldPrefix, data.Output->GetFieldData());
+  AddIterationColumns(*this->Report, FieldPrefix, data.Output->GetFieldData());
   this->Warn(run->Warning);
   if (isLive)
   {
@@ -255,10 +255,11 @@ std::string vtkDelaunayFlip::DescribeTrouble() const
 {
   std::string text = DescribeDefects(this->Report->Defects);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
-  if (this->Report->StopReason == StopReasonKind::IterationLimit &&
-    this->Report->NonDelaunayAfter > 0)
+  const bool askedForLimit = this->MaximumIterations >= 0;
+  if (this->Report->StopReason == StopReasonKind::IterationLimit && !askedForLimit)
   {
-    add("stopped by the iteration limit with " + std::to_string(this->Report->NonDelaunayAfter) +
+    add("stopped by the safety limit of " + std::to_string(this->Report->Iterations.size()) +
+      " iterations with " + std::to_string(this->Report->NonDelaunayAfter) +
       " edges left that are not Delaunay");
   }
   if (!this->Report->Fallback.empty())

@@ -25,8 +25,10 @@
  * with one row an iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
  * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
  * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
- * NonDelaunayEdges, FixedEdges, NonManifoldEdges, GeometryUsed and Backend. Input without
- * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
+ * NonDelaunayEdges, FixedEdges, NonManifoldEdges, GeometryUsed and Backend. In the field data each
+ * name begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that arrays of the input with
+ * such names pass. Input without triangles, polygons or strips passes as a shallow copy, with a
+ * table of no rows.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
@@ -238,8 +240,9 @@ public:
   ///@{
   /**
    * Upper limit of iterations: -1 (default) goes on until no edge can flip, 0 makes none. On
-   * surfaces -1 has a safety limit of the number of triangles + 1000. A limit that leaves edges to
-   * flip gives a warning; the output is a valid mesh.
+   * surfaces -1 has a safety limit of the number of triangles + 1000, which gives a warning when it
+   * is reached; a limit that was asked for gives none. StopReason tells of either, and the output
+   * is a valid mesh.
    */
   vtkSetClampMacro(MaximumIterations, vtkIdType, -1, VTK_ID_MAX);
   vtkGetMacro(MaximumIterations, vtkIdType);

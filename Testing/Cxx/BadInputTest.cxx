@@ -254,7 +254,8 @@ TEST(VtkDelaunayFlip, NonManifoldEdgesStay)
   filter->SetFeatureAngle(180.0);
   vtkPolyData* output = filter.Run();
   EXPECT_EQ(GetCells(output->GetPolys()), GetCells(mesh->GetPolys()));
-  EXPECT_EQ(output->GetFieldData()->GetArray("NonManifoldEdges")->GetComponent(0, 0), 1.0);
+  EXPECT_EQ(
+    output->GetFieldData()->GetArray("DelaunayFlip:NonManifoldEdges")->GetComponent(0, 0), 1.0);
 }
 
 TEST(VtkDelaunayFlip, IsolatedPointsStay)

@@ -79,7 +79,7 @@ void Shear(vtkPolyData* mesh, double factor)
 /// The flips of every iteration.
 std::vector<double> GetFlips(vtkDelaunayFlip* filter)
 {
-  vtkDataArray* flipped = filter->GetOutput()->GetFieldData()->GetArray("Flipped");
+  vtkDataArray* flipped = filter->GetOutput()->GetFieldData()->GetArray("DelaunayFlip:Flipped");
   std::vector<double> flips;
   for (vtkIdType i = 0; i < flipped->GetNumberOfTuples(); ++i)
   {
@@ -91,7 +91,7 @@ std::vector<double> GetFlips(vtkDelaunayFlip* filter)
 vtkIdType CountFixedEdges(vtkDelaunayFlip* filter)
 {
   return static_cast<vtkIdType>(
-    filter->GetOutput()->GetFieldData()->GetArray("FixedEdges")->GetTuple1(0));
+    filter->GetOutput()->GetFieldData()->GetArray("DelaunayFlip:FixedEdges")->GetTuple1(0));
 }
 
 }
@@ -117,7 +117,8 @@ TEST(LiveUpdate, EveryStepGivesAValidMesh)
     vtkPolyData* output = RunCleanly(filter);
     EXPECT_EQ(filter->GetNumberOfIterations(), ++iterations);
     EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), iterations);
-    EXPECT_EQ(output->GetFieldData()->GetArray("Flipped")->GetNumberOfTuples(), iterations);
+    EXPECT_EQ(
+      output->GetFieldData()->GetArray("DelaunayFlip:Flipped")->GetNumberOfTuples(), iterations);
     EXPECT_GT(filter->GetTotalFlips(), flips);
     flips = filter->GetTotalFlips();
     EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
@@ -371,7 +372,7 @@ TEST(LiveUpdate, EndsAtTheIterationLimit)
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
   EXPECT_FALSE(filter->GetNeedsUpdate());
-  EXPECT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(filter.GetWarnings().empty());
 }
 
 TEST(LiveUpdate, WarnsOnce)

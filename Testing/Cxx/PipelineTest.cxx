@@ -16,6 +16,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
 
 namespace
 {
@@ -23,6 +26,29 @@ namespace
 vtkSmartPointer<vtkPolyData> MakeLongRun()
 {
   return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); // 37 iterations
+}
+
+/// A fan of 18 triangles whose points lie on one circle.
+vtkSmartPointer<vtkPolyData> MakeCircle(std::mt19937& random)
+{
+  constexpr double Turn = 2.0 * 3.14159265358979323846;
+  std::array<double, 20> angles;
+  for (double& angle : angles)
+  {
+    angle = Turn * random() / random.max();
+  }
+  std::sort(angles.begin(), angles.end());
+  Points points;
+  for (const double angle : angles)
+  {
+    points.push_back({ std::cos(angle), std::sin(angle), 0.0 });
+  }
+  Cells triangles;
+  for (vtkIdType point = 2; point < 20; ++point)
+  {
+    triangles.push_back({ 0, point - 1, point });
+  }
+  return MakeMesh(points, triangles);
 }
 
 }
@@ -68,17 +94,37 @@ TEST(VtkDelaunayFlip, AbortLeavesAValidMesh)
   EXPECT_EQ(output->GetNumberOfCells(), mesh->GetNumberOfCells());
 }
 
-TEST(VtkDelaunayFlip, IterationLimitWarns)
+TEST(VtkDelaunayFlip, LimitThatWasAskedForGivesNoWarning)
 {
   auto mesh = MakeLongRun();
   WatchedFilter filter(mesh);
   filter->SetMaximumIterations(5);
-  vtkPolyData* output = filter.Run();
+  vtkSmartPointer<vtkPolyData> output = RunCleanly(filter);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
   EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+}
+
+TEST(VtkDelaunayFlip, SafetyLimitWarns)
+{
+  // Without a tolerance, rounding calls both diagonals of some quads bad: flips go round in
+  // circles.
+  std::mt19937 random(1);
+  WatchedFilter filter;
+  filter->SetGeometryToSurface();
+  filter->SetTolerance(0.0);
+  for (int mesh = 0; mesh < 1000 && filter.GetWarnings().empty(); ++mesh)
+  {
+    filter->SetInputData(MakeCircle(random));
+    filter.Run();
+  }
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1018);
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_NE(filter.GetWarnings()[0].find("iteration limit"), std::string::npos);
+  EXPECT_NE(filter.GetWarnings()[0].find("stopped by the safety limit of 1018 iterations"),
+    std::string::npos)
+    << filter.GetWarnings()[0];
 }
 
 TEST(VtkDelaunayFlip, NoIterationsNoFlips)
@@ -132,7 +178,7 @@ TEST(VtkDelaunayFlip, MultiBlock)
   auto* first = vtkPolyData::SafeDownCast(meshes->GetBlock(0));
   ASSERT_NE(first, nullptr);
   EXPECT_TRUE(HasEdge(first, 1, 3));
-  EXPECT_EQ(first->GetFieldData()->GetArray("TotalFlips")->GetComponent(0, 0), 1.0);
+  EXPECT_EQ(first->GetFieldData()->GetArray("DelaunayFlip:TotalFlips")->GetComponent(0, 0), 1.0);
   auto* second =
     vtkPolyData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(meshes->GetBlock(2))->GetBlock(0));
   EXPECT_EQ(CountViolations(second), 0);

@@ -24,23 +24,36 @@ namespace
 const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded",
   "Blocked", "MinimumAngle", "Seconds" };
 
+const char* const Totals[] = { "Converged", "StopReason", "TotalFlips", "NonDelaunayEdges",
+  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "Backend" };
+
+/// Adds field data.
+void AddText(vtkPolyData* mesh, const std::string& name)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name.c_str());
+  array->InsertNextValue("of the user");
+  mesh->GetFieldData()->AddArray(array);
+}
+
 /// 6 triangles that take flips {1, 2, 3, 2, 1}.
 vtkSmartPointer<vtkPolyData> MakeWorstCase()
 {
   return ToPolyData(delaunayflip::MakeWorstCaseMesh(4));
 }
 
-double GetTotal(vtkPolyData* mesh, const char* name)
+double GetTotal(vtkPolyData* mesh, const std::string& name)
 {
-  vtkDataArray* array = mesh->GetFieldData()->GetArray(name);
+  vtkDataArray* array = mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
   EXPECT_NE(array, nullptr) << name;
   EXPECT_EQ(array->GetNumberOfTuples(), 1) << name;
   return array->GetComponent(0, 0);
 }
 
-std::string GetText(vtkPolyData* mesh, const char* name)
+std::string GetText(vtkPolyData* mesh, const std::string& name)
 {
-  auto* array = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray(name));
+  auto* array = vtkStringArray::SafeDownCast(
+    mesh->GetFieldData()->GetAbstractArray(("DelaunayFlip:" + name).c_str()));
   EXPECT_NE(array, nullptr) << name;
   return array->GetValue(0);
 }
@@ -75,12 +88,13 @@ TEST(VtkDelaunayFlip, FieldDataRepeatTheTable)
 {
   WatchedFilter filter(MakeWorstCase());
   auto output = RunCleanly(filter);
-  for (const char* column : Columns)
+  for (const std::string column : Columns)
   {
-    vtkDataArray* array = output->GetFieldData()->GetArray(column);
+    vtkDataArray* array = output->GetFieldData()->GetArray(("DelaunayFlip:" + column).c_str());
     ASSERT_NE(array, nullptr) << column;
     ASSERT_EQ(array->GetNumberOfTuples(), 5);
-    auto* other = vtkDataArray::SafeDownCast(filter->GetIterations()->GetColumnByName(column));
+    auto* other =
+      vtkDataArray::SafeDownCast(filter->GetIterations()->GetColumnByName(column.c_str()));
     for (vtkIdType row = 0; row < 5; ++row)
     {
       const double value = array->GetComponent(row, 0);
@@ -105,20 +119,32 @@ TEST(VtkDelaunayFlip, TotalsAreFieldData)
 
 TEST(VtkDelaunayFlip, FieldDataOfTheInputPass)
 {
+  // Of the names that the table has, too.
+  std::vector<std::string> names(std::begin(Columns), std::end(Columns));
+  names.insert(names.end(), std::begin(Totals), std::end(Totals));
   auto mesh = MakeWorstCase();
-  vtkNew<vtkStringArray> title;
-  title->SetName("Title");
-  title->InsertNextValue("worst case");
-  mesh->GetFieldData()->AddArray(title);
-  vtkNew<vtkStringArray> stale; // of an earlier run, say
-  stale->SetName("TotalFlips");
-  mesh->GetFieldData()->AddArray(stale);
+  for (const std::string& name : names)
+  {
+    AddText(mesh, name);
+  }
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
-  EXPECT_EQ(GetText(output, "Title"), "worst case");
-  EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
-  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 2);
-  EXPECT_EQ(mesh->GetFieldData()->GetAbstractArray("TotalFlips"), stale);
+  for (const std::string& name : names)
+  {
+    EXPECT_EQ(output->GetFieldData()->GetAbstractArray(name.c_str()),
+      mesh->GetFieldData()->GetAbstractArray(name.c_str()))
+      << name;
+  }
+}
+
+TEST(VtkDelaunayFlip, FieldDataOfAnEarlierRunAreReplaced)
+{
+  auto mesh = MakeWorstCase();
+  AddText(mesh, "DelaunayFlip:TotalFlips");
+  WatchedFilter filter(mesh);
+  EXPECT_EQ(GetTotal(RunCleanly(filter), "TotalFlips"), 9.0);
+  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
 }
 
 TEST(VtkDelaunayFlip, TrackQualityGivesEveryAngle)

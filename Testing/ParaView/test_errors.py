@@ -51,12 +51,11 @@ class Errors(PluginTest):
 
 
 class Warnings(PluginTest):
-    def test_iteration_limit(self):
+    def test_limit_that_was_asked_for_gives_none(self):
         with Messages() as messages:
             flip = simple.DelaunayFlip(Input=self.read(make_fan(20)), MaximumIterations=2)
             refresh(flip)
-        self.assertIn("iteration limit", messages.text)
-        self.assertNotIn("ERROR", messages.text)
+        self.assertEqual(messages.text, "")
         self.assertEqual(flip.StopReason, "iteration limit")
         self.assertEqual(flip.NumberOfIterations, 2)
         self.assertGreater(flip.NumberOfNonDelaunayEdges, 0)

@@ -44,7 +44,7 @@ class Inputs(PluginTest):
         output = fetch(self.flip(group))
         blocks = [output.GetPartition(i, 0) if hasattr(output, "GetPartition")
                   else output.GetBlock(i) for i in range(2)]
-        flips = [block.GetFieldData().GetArray("TotalFlips").GetTuple1(0) for block in blocks]
+        flips = [block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0) for block in blocks]
         alone = [self.flip(self.read(make_fan(n))).TotalFlips for n in (20, 30)]
         self.assertEqual(flips, alone)
         self.assertGreater(min(flips), 20)
@@ -107,7 +107,7 @@ class Outputs(PluginTest):
             information = flip.GetDataInformation().DataInformation
             arrays = information.GetFieldDataInformation()
             for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
-                self.assertIsNotNone(arrays.GetArrayInformation(name), name)
+                self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
 
     def test_read_back(self):
         self.assertEqual(self.filter.StopReason, "converged")

@@ -71,7 +71,7 @@ class LiveFlip(unittest.TestCase):
     def test_frames(self):
         self.run_well("--frames", self.prefix)
         frames = self.list_frames()
-        steps = self.read_result().GetFieldData().GetArray("Flipped").GetNumberOfTuples()
+        steps = self.read_result().GetFieldData().GetArray("DelaunayFlip:Flipped").GetNumberOfTuples()
         self.assertEqual(frames, [f"frame{i:04d}.png" for i in range(steps + 1)])
         for number in ("0000", "0005", "0010"):
             frame, baseline = f"{self.prefix}{number}.png", f"{BASELINES}/LiveFlip{number}.png"
