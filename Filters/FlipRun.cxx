@@ -42,9 +42,13 @@ vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
   mesh->ShallowCopy(input);
   if (copyPoints && input->GetPoints())
   {
-    vtkNew<vtkPoints> points;
-    points->DeepCopy(input->GetPoints());
-    mesh->SetPoints(points);
+    vtkPoints* points = input->GetPoints();
+    // Not vtkPoints::DeepCopy, which rounds to the precision of the copy.
+    auto data = vtkSmartPointer<vtkDataArray>::Take(points->GetData()->NewInstance());
+    data->DeepCopy(points->GetData());
+    vtkNew<vtkPoints> copy;
+    copy->SetData(data);
+    mesh->SetPoints(copy);
   }
   return mesh;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live updates: some iterations at a time, and the same mesh in the end.
+/// Live updates: some iterations at a time.
 
-#include "FilterTestSupport.h"
+#include "LiveTestSupport.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -16,85 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <vector>
-
-namespace
-{
-
-vtkSmartPointer<vtkPolyData> MakeBadPlane()
-{
-  return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(400, 3));
-}
-
-vtkSmartPointer<vtkPolyData> MakeBadSphere()
-{
-  return ToPolyData(delaunayflip::MakeBadSphere(40, 20, 4));
-}
-
-/// The cells of a run without live update.
-Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle = 30.0)
-{
-  WatchedFilter filter(mesh);
-  filter->SetFeatureAngle(featureAngle);
-  return GetCells(RunCleanly(filter)->GetPolys());
-}
-
-class LiveFilter : public WatchedFilter
-{
-public:
-  explicit LiveFilter(vtkPolyData* input)
-    : WatchedFilter(input)
-  {
-    (*this)->LiveUpdateOn();
-  }
-
-  /// Updates until there is nothing left to do. @returns the number of updates.
-  int RunToTheEnd()
-  {
-    constexpr int Most = 1000; // a run that does not end fails its test
-    int updates = 0;
-    do
-    {
-      this->Run();
-      ++updates;
-    } while ((*this)->Advance() && updates < Most);
-    return updates;
-  }
-
-  Cells GetTriangles() { return GetCells((*this)->GetOutput()->GetPolys()); }
-};
-
-/// Moves the points in place: a shear, which makes other edges bad.
-void Shear(vtkPolyData* mesh, double factor)
-{
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    double x[3];
-    mesh->GetPoint(point, x);
-    mesh->GetPoints()->SetPoint(point, x[0] + factor * x[1], x[1], x[2]);
-  }
-  mesh->GetPoints()->Modified();
-}
-
-/// The flips of every iteration.
-std::vector<double> GetFlips(vtkDelaunayFlip* filter)
-{
-  vtkDataArray* flipped = filter->GetOutput()->GetFieldData()->GetArray("DelaunayFlip:Flipped");
-  std::vector<double> flips;
-  for (vtkIdType i = 0; i < flipped->GetNumberOfTuples(); ++i)
-  {
-    flips.push_back(flipped->GetTuple1(i));
-  }
-  return flips;
-}
-
-vtkIdType CountFixedEdges(vtkDelaunayFlip* filter)
-{
-  return static_cast<vtkIdType>(
-    filter->GetOutput()->GetFieldData()->GetArray("DelaunayFlip:FixedEdges")->GetTuple1(0));
-}
-
-}
 
 TEST(LiveUpdate, IsOffByDefault)
 {
@@ -131,29 +52,6 @@ TEST(LiveUpdate, EveryStepGivesAValidMesh)
   } while (filter->Advance());
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_GT(iterations, 5);
-}
-
-TEST(LiveUpdate, EndsWithTheSameBits)
-{
-  for (const auto& mesh : { MakeBadPlane(), MakeBadSphere() })
-  {
-    for (const vtkIdType step : { 1, 4, 1000 })
-    {
-      WatchedFilter once(mesh);
-      once->GenerateFlipCountOn();
-      vtkSmartPointer<vtkPolyData> expected = RunCleanly(once);
-      LiveFilter live(mesh);
-      live->GenerateFlipCountOn();
-      live->SetIterationsPerUpdate(step);
-      const int updates = live.RunToTheEnd();
-      EXPECT_EQ(updates, (once->GetNumberOfIterations() + step - 1) / step);
-      EXPECT_EQ(live.GetTriangles(), GetCells(expected->GetPolys()));
-      EXPECT_EQ(GetNumbers(live->GetOutput()->GetCellData(), "vtkDelaunayFlipCount"),
-        GetNumbers(expected->GetCellData(), "vtkDelaunayFlipCount"));
-      EXPECT_EQ(GetFlips(live.Get()), GetFlips(once.Get()));
-      EXPECT_EQ(live->GetTotalFlips(), once->GetTotalFlips());
-    }
-  }
 }
 
 TEST(LiveUpdate, NothingIsDoneWhenNobodyAsks)
@@ -270,97 +168,6 @@ TEST(LiveUpdate, AttributesPassOnTheWay)
   EXPECT_EQ(GetNumbers(filter->GetOutput()->GetPointData(), "Number")[0], 100);
   filter.RunToTheEnd();
   EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
-}
-
-TEST(LiveUpdate, MovedPointsStartWarmly)
-{
-  auto mesh = MakeBadPlane();
-  LiveFilter filter(mesh);
-  const int updates = filter.RunToTheEnd();
-  Shear(mesh, 0.05);
-  EXPECT_LT(filter.RunToTheEnd(), updates);
-  EXPECT_GT(filter->GetTotalFlips(), 0);
-  EXPECT_EQ(filter->GetOutput()->GetPoints(), mesh->GetPoints());
-  EXPECT_EQ(CountViolations(filter->GetOutput()), 0);
-  EXPECT_LT(filter->GetTotalFlips(), mesh->GetNumberOfPoints());
-}
-
-TEST(LiveUpdate, MovedPointsKeepTheirSlots)
-{
-  auto mesh = MakeBadSphere();
-  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
-  LiveFilter filter(mesh);
-  filter.RunToTheEnd();
-  const Cells before = filter.GetTriangles();
-  Shear(mesh, 0.0);
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter->GetTotalFlips(), 0);
-  EXPECT_EQ(filter.GetTriangles(), before);
-  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number")[7], 7);
-}
-
-TEST(LiveUpdate, FixedEdgesTravelWithMovedPoints)
-{
-  auto mesh = MakeBadSphere();
-  LiveFilter filter(mesh);
-  filter->SetFeatureAngle(12.0);
-  filter.RunToTheEnd();
-  const vtkIdType fixedBefore = CountFixedEdges(filter.Get());
-  ASSERT_GT(fixedBefore, 0);
-  for (int i = 0; i < 2; ++i)
-  {
-    Shear(mesh, 0.3);
-    filter.RunToTheEnd();
-    EXPECT_EQ(CountFixedEdges(filter.Get()), fixedBefore);
-  }
-  EXPECT_GT(filter->GetTotalFlips(), 0);
-}
-
-TEST(LiveUpdate, FeatureEdgesStayWhenFlattened)
-{
-  // A roof along 0-2, then flat: the ridge stays though a flat rhombus would flip it.
-  auto mesh = MakeRhombus();
-  mesh->GetPoints()->SetPoint(1, 0.0, -1.0, -1.0);
-  mesh->GetPoints()->SetPoint(3, 0.0, 1.0, -1.0);
-  LiveFilter filter(mesh);
-  filter->SetGeometryToSurface();
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
-  mesh->GetPoints()->SetPoint(1, 0.0, -1.0, 0.0);
-  mesh->GetPoints()->SetPoint(3, 0.0, 1.0, 0.0);
-  mesh->GetPoints()->Modified();
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
-  filter->Restart();
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-}
-
-TEST(LiveUpdate, PlaneThatBecomesASurfaceStartsAgain)
-{
-  auto mesh = MakeRhombus();
-  LiveFilter filter(mesh);
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-  mesh->GetPoints()->SetPoint(1, 0.0, -1.0, -1.0);
-  mesh->GetPoints()->SetPoint(3, 0.0, 1.0, -1.0);
-  mesh->GetPoints()->Modified();
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_SURFACE);
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
-}
-
-TEST(LiveUpdate, QuadsStartWarmly)
-{
-  auto mesh =
-    MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
-  LiveFilter filter(mesh);
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-  Shear(mesh, 0.01);
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter->GetTotalFlips(), 0);
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
 }
 
 TEST(LiveUpdate, EndsAtTheIterationLimit)

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// A live run ends with what an update gives at once, bit for bit.
+
+#include "LiveTestSupport.h"
+
+#include "CudaDevice.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkPoints.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+namespace
+{
+
+using Mesh = vtkSmartPointer<vtkPolyData>;
+
+constexpr double Size = 10.0; // at 1e7, floats are 1 apart: rounding ruins these meshes
+
+std::string Print(vtkAbstractArray* array)
+{
+  std::ostringstream text;
+  text << std::hexfloat;
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+  {
+    const int components = array->GetNumberOfComponents();
+    const int component = static_cast<int>(i % components);
+    numbers ? text << numbers->GetComponent(i / components, component)
+            : text << array->GetVariantValue(i).ToString();
+    text << ' ';
+  }
+  return text.str();
+}
+
+/// Every array but those of seconds.
+std::map<std::string, std::string> GetContents(vtkFieldData* data)
+{
+  std::map<std::string, std::string> contents;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = array->GetName();
+    if (name.find("Seconds") == std::string::npos)
+    {
+      contents[name] = Print(array);
+    }
+  }
+  return contents;
+}
+
+void ExpectSame(vtkDelaunayFlip* live, vtkDelaunayFlip* once)
+{
+  EXPECT_EQ(GetCells(live->GetOutput()->GetPolys()), GetCells(once->GetOutput()->GetPolys()));
+  EXPECT_EQ(live->GetOutput()->GetPoints(), once->GetOutput()->GetPoints());
+  EXPECT_EQ(GetContents(live->GetIterations()->GetRowData()),
+    GetContents(once->GetIterations()->GetRowData()));
+  EXPECT_EQ(
+    GetContents(live->GetOutput()->GetFieldData()), GetContents(once->GetOutput()->GetFieldData()));
+  EXPECT_EQ(
+    GetContents(live->GetOutput()->GetCellData()), GetContents(once->GetOutput()->GetCellData()));
+  EXPECT_EQ(live->GetTotalFlips(), once->GetTotalFlips());
+  EXPECT_EQ(live->GetStopReason(), once->GetStopReason());
+}
+
+using Setting = std::function<void(vtkDelaunayFlip*)>;
+
+/// Runs a mesh at once and live, with steps of several lengths.
+void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
+{
+  WatchedFilter once(mesh);
+  once->GenerateFlipCountOn();
+  set(once.Get());
+  once.Run();
+  EXPECT_TRUE(once.GetErrors().empty());
+  EXPECT_GT(once->GetTotalFlips(), 0);
+  EXPECT_TRUE(once->GetConverged());
+  for (const vtkIdType step : { 1, 7, 1000 })
+  {
+    LiveFilter live(mesh);
+    live->GenerateFlipCountOn();
+    live->SetIterationsPerUpdate(step);
+    set(live.Get());
+    const int updates = live.RunToTheEnd();
+    EXPECT_EQ(updates, (once->GetNumberOfIterations() + step - 1) / step);
+    ExpectSame(live.Get(), once.Get());
+    EXPECT_EQ(live.GetWarnings().size(), once.GetWarnings().size());
+  }
+}
+
+/// Enlarges a mesh and moves it away, into points of this type.
+template <typename ArrayT>
+void Place(vtkPolyData* mesh, double scale, double offset)
+{
+  vtkNew<ArrayT> array;
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    double x[3];
+    mesh->GetPoint(point, x);
+    const double placed[3] = { scale * x[0] + offset, scale * x[1] + 3.0 * offset, scale * x[2] };
+    array->SetTuple(point, placed);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(array);
+  mesh->SetPoints(points);
+}
+
+Mesh MakeTerrain()
+{
+  auto mesh = MakeBadPlane();
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    double x[3];
+    mesh->GetPoint(point, x);
+    mesh->GetPoints()->SetPoint(point, x[0], x[1], 0.2 * x[0] * x[1]);
+  }
+  return mesh;
+}
+
+/// A mesh with lines and regions that keep bad edges from flipping.
+Mesh MakeDividedTerrain()
+{
+  auto mesh = MakeTerrain();
+  Cells lines;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); cell += 20)
+  {
+    const Cell triangle = GetCell(mesh, cell);
+    lines.push_back({ triangle[0], triangle[1] });
+  }
+  vtkNew<vtkIntArray> regions;
+  regions->SetName("Region");
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells() + static_cast<vtkIdType>(lines.size());
+       ++cell)
+  {
+    regions->InsertNextValue(static_cast<int>(cell / 100));
+  }
+  mesh->SetLines(MakeCells(lines));
+  mesh->GetCellData()->AddArray(regions);
+  return mesh;
+}
+
+void SetNothing(vtkDelaunayFlip*) {}
+
+void SetTerrain(vtkDelaunayFlip* filter) { filter->SetGeometryToPlanarXY(); }
+
+void Divide(vtkDelaunayFlip* filter)
+{
+  filter->SetGeometryToPlanarXY();
+  filter->SetRegionArray("Region");
+  vtkNew<vtkPolyData> constraints;
+  constraints->SetLines(MakeCells({ GetCell(filter->GetPolyDataInput(0), 250) }));
+  filter->SetConstraintsData(constraints);
+}
+
+struct Kind
+{
+  const char* Name;
+  Mesh (*Make)();
+  void (*Set)(vtkDelaunayFlip*);
+};
+
+const Kind Kinds[] = { { "Plane", MakeBadPlane, SetNothing },
+  { "Terrain", MakeTerrain, SetTerrain }, { "Divided", MakeDividedTerrain, Divide },
+  { "Surface", MakeBadSphere, SetNothing } };
+
+/// Mesh, whether points are double, offset, backend.
+using Parameters = std::tuple<Kind, bool, double, int>;
+
+std::string GetName(const testing::TestParamInfo<Parameters>& info)
+{
+  std::ostringstream name;
+  name << std::get<0>(info.param).Name << (std::get<1>(info.param) ? "Double" : "Float") << "At"
+       << static_cast<long>(std::get<2>(info.param))
+       << (std::get<3>(info.param) == vtkDelaunayFlip::BACKEND_CUDA ? "OnCuda" : "OnThreads");
+  return name.str();
+}
+
+class LiveBits : public testing::TestWithParam<Parameters>
+{
+};
+
+}
+
+TEST_P(LiveBits, AreThoseOfAnUpdateAtOnce)
+{
+  const auto [kind, isDouble, offset, backend] = this->GetParam();
+  if (backend == vtkDelaunayFlip::BACKEND_CUDA && !delaunayflip::HasCudaDevice())
+  {
+    GTEST_SKIP() << "no GPU that this build can use";
+  }
+  auto mesh = kind.Make();
+  // Floats that far away have room for large meshes only.
+  isDouble ? Place<vtkDoubleArray>(mesh, Size, offset)
+           : Place<vtkFloatArray>(mesh, 1000.0 * Size, offset);
+  ExpectLiveIsAtOnce(mesh,
+    [set = kind.Set, where = backend](vtkDelaunayFlip* filter)
+    {
+      filter->SetBackend(where);
+      set(filter);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(LiveUpdate, LiveBits,
+  testing::Combine(testing::ValuesIn(Kinds), testing::Bool(), testing::Values(0.0, 1e6, 1e7),
+    testing::Values(static_cast<int>(vtkDelaunayFlip::BACKEND_THREADS),
+      static_cast<int>(vtkDelaunayFlip::BACKEND_CUDA))),
+  GetName);
+
+TEST(LiveUpdate, BitsDoNotDependOnTheLayoutOfPoints)
+{
+  for (const auto place : { Place<vtkSOADataArrayTemplate<double>>,
+         Place<vtkSOADataArrayTemplate<float>>, Place<vtkTypeInt64Array> })
+  {
+    auto mesh = MakeTerrain();
+    place(mesh, 1e6, 1e7);
+    ExpectLiveIsAtOnce(mesh, SetTerrain);
+  }
+}
