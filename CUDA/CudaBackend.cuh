@@ -72,6 +72,11 @@ public:
   {
   }
 
+  std::unique_ptr<DeviceScope> MakeCurrent() const
+  {
+    return std::unique_ptr<DeviceScope>(new CurrentDevice(this->Context->Device));
+  }
+
   static constexpr bool MemoryIsScarce = true;
 
   /// E.g. "CUDA: NVIDIA H200".

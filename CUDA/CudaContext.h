@@ -5,6 +5,7 @@
 
 #include "Array.h"
 #include "CudaError.h"
+#include "FlipEngine.h"
 
 #include <cuda_runtime_api.h>
 
@@ -66,11 +67,11 @@ private:
 };
 
 /// Makes a device current for the calling thread, and its old one again.
-class CurrentDevice
+class CurrentDevice : public DeviceScope
 {
 public:
   explicit CurrentDevice(int device);
-  ~CurrentDevice();
+  ~CurrentDevice() override;
   CurrentDevice(const CurrentDevice&) = delete;
   CurrentDevice& operator=(const CurrentDevice&) = delete;
 

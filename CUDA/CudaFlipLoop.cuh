@@ -30,18 +30,14 @@ public:
   /// @param scale power of two that brings the rule's coordinates near 1, for angles.
   CudaFlipLoop(
     EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const CudaBackend& backend)
-    : Mesh(mesh),
+    : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
+      Mesh(mesh),
       Decision(rule),
       Scale(scale),
       Guard(std::move(guard)),
       Backend(backend),
-      ChunkBits(FindChunkBits(mesh.NumberOfTriangles)),
       Bits(mesh, backend)
   {
-    const bool hasChunks = !this->Guard.IsActive() && mesh.NumberOfTriangles > SmallestChunkedMesh;
-    this->NumberOfChunks =
-      hasChunks ? static_cast<int>(((mesh.NumberOfTriangles - 1) >> this->ChunkBits) + 1) : 0;
-    this->RoundsLeft = hasChunks ? ChunkRounds : 0;
     this->Chunks = backend.MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = backend.MakeArray<Results>(1);
     this->PlanGrid();
@@ -49,33 +45,10 @@ public:
     this->CutIntoChunks();
   }
 
-  StepCounts Detect() override
-  {
-    const CurrentDevice device(this->Backend.GetContext().Device);
-    this->DetectAll();
-    return this->Found;
-  }
-
-  std::vector<IterationCounts> Advance(const AdvancePlan& plan) override
-  {
-    const CurrentDevice device(this->Backend.GetContext().Device);
-    std::vector<IterationCounts> iterations;
-    if (this->RoundsLeft > 0)
-    {
-      iterations = this->RunChunks(plan);
-      this->DetectAll();
-    }
-    if (iterations.empty())
-    {
-      iterations = this->Iterate(plan);
-    }
-    return iterations;
-  }
-
   double FindLargestSquaredCotangent() const override
   {
-    const CurrentDevice device(this->Backend.GetContext().Device);
-    return this->MeasureAngles();
+    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Scale };
+    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
   // Public because device lambdas ask for them.
@@ -93,12 +66,6 @@ public:
         chunks[c] = { FirstEdgeOf(words, edges, c << bits),
           FirstEdgeOf(words, edges, (c + 1) << bits) };
       });
-  }
-
-  double MeasureAngles() const
-  {
-    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Scale };
-    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
   /// The first edge whose first corner is of `triangle` or a later one.
@@ -120,6 +87,55 @@ public:
       }
     }
     return static_cast<EdgeId>(begin);
+  }
+
+protected:
+  StepCounts DetectAll() override
+  {
+    this->Prepare();
+    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, this->View());
+    const Results& results = this->FetchResults();
+    const RoundSums& all = results.Rounds[1];
+    this->Edges = { GetSum(results.Rounds[0], RoundSum::Tested), GetSum(all, RoundSum::AllBad),
+      GetSum(all, RoundSum::AllMisshapen), GetSum(all, RoundSum::AllObstructed) };
+    return this->Edges.ToCounts();
+  }
+
+  /// A launch of iterations on the whole mesh.
+  std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
+  {
+    const bool measure = plan.MeasureFirst || plan.MeasureAll;
+    const std::int64_t most = measure ? 1 : std::min<std::int64_t>(plan.Iterations, MostIterations);
+    const std::int64_t freshSlots =
+      this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
+    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
+      static_cast<unsigned long long>(freshSlots) };
+    this->Prepare();
+    this->LaunchTogether(this->GridBlocks, IterateKernel<Rule>, this->View(), limits);
+    std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
+    if (measure)
+    {
+      iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
+    }
+    return iterations;
+  }
+
+  std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) override
+  {
+    this->Bits.DeferEdgesBetweenChunks(this->Mesh, this->ChunkBits);
+    std::vector<IterationCounts> iterations;
+    while (static_cast<std::int64_t>(iterations.size()) < plan.Iterations)
+    {
+      const bool measure = plan.MeasureAll || (plan.MeasureFirst && iterations.empty());
+      const std::int64_t left = plan.Iterations - static_cast<std::int64_t>(iterations.size());
+      this->LaunchChunks(measure ? 1 : static_cast<int>(left), iterations);
+      if (measure)
+      {
+        iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
+      }
+    }
+    this->Bits.RecallEdges();
+    return iterations;
   }
 
 private:
@@ -167,7 +183,8 @@ private:
   {
     const int blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
     const auto teams = static_cast<int>(this->Backend.GetContext().CacheBytes / ChunkBytes);
-    this->Teams = std::max(1, std::min({ teams, this->NumberOfChunks, blocks }));
+    const auto chunks = static_cast<int>(this->NumberOfChunks);
+    this->Teams = std::max(1, std::min({ teams, chunks, blocks }));
     this->BlocksOfTeam = blocks / this->Teams;
     this->TeamStates = this->Backend.template MakeArray<TeamState>(this->Teams);
   }
@@ -176,8 +193,9 @@ private:
   {
     Results* results = this->DeviceResults.Data();
     return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
-      static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(), this->NumberOfChunks,
-      this->TeamStates.Data(), results->Rounds, &results->RoundsDone };
+      static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(),
+      static_cast<int>(this->NumberOfChunks), this->TeamStates.Data(), results->Rounds,
+      &results->RoundsDone };
   }
 
   /// Clears what kernels count in.
@@ -221,36 +239,6 @@ private:
     return *results;
   }
 
-  void DetectAll()
-  {
-    this->Prepare();
-    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, this->View());
-    const Results& results = this->FetchResults();
-    const RoundSums& all = results.Rounds[1];
-    this->Edges = { GetSum(results.Rounds[0], RoundSum::Tested), GetSum(all, RoundSum::AllBad),
-      GetSum(all, RoundSum::AllMisshapen), GetSum(all, RoundSum::AllObstructed) };
-    this->Found = this->Edges.ToCounts();
-  }
-
-  /// A launch of iterations on the whole mesh.
-  std::vector<IterationCounts> Iterate(const AdvancePlan& plan)
-  {
-    const bool measure = plan.MeasureFirst || plan.MeasureAll;
-    const std::int64_t most = measure ? 1 : std::min<std::int64_t>(plan.Iterations, MostIterations);
-    const std::int64_t freshSlots =
-      this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
-    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
-      static_cast<unsigned long long>(freshSlots) };
-    this->Prepare();
-    this->LaunchTogether(this->GridBlocks, IterateKernel<Rule>, this->View(), limits);
-    std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
-    if (measure)
-    {
-      iterations.back().SquaredCotangent = this->MeasureAngles();
-    }
-    return iterations;
-  }
-
   std::vector<IterationCounts> ReadIterations(std::int64_t freshSlots)
   {
     const Results& results = this->FetchResults();
@@ -270,48 +258,14 @@ private:
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
       if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
       {
-        this->DetectAll(); // which the kernel left to us
+        this->Detect(); // which the kernel left to us
       }
     }
     return iterations;
   }
 
-  /// The rounds that chunks run for themselves, at most as many as the plan and the schedule allow.
-  /// None when no chunk has anything to flip.
-  std::vector<IterationCounts> RunChunks(const AdvancePlan& plan)
-  {
-    const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
-    const bool isFirst = this->RoundsLeft == ChunkRounds;
-    this->Bits.DeferEdgesBetweenChunks(this->Mesh, this->ChunkBits);
-    std::vector<IterationCounts> total;
-    while (static_cast<std::int64_t>(total.size()) < rounds)
-    {
-      const bool measure = plan.MeasureAll || (plan.MeasureFirst && total.empty());
-      this->RunRounds(
-        measure ? 1 : static_cast<int>(rounds - static_cast<std::int64_t>(total.size())), total);
-      if (measure)
-      {
-        total.back().SquaredCotangent = this->MeasureAngles();
-      }
-    }
-    this->Bits.RecallEdges();
-    this->RoundsLeft -= rounds;
-    while (!total.empty() && total.back().Flipped == 0)
-    {
-      total.pop_back();
-      this->RoundsLeft = 0;
-    }
-    if (isFirst && !total.empty())
-    {
-      // The first round knows all edges; those between chunks are excluded from it.
-      total[0].Tested = this->Found.Tested;
-      total[0].Bad = this->Found.Bad;
-      total[0].Blocked = this->Found.Blocked;
-    }
-    return total;
-  }
-
-  void RunRounds(int rounds, std::vector<IterationCounts>& total)
+  /// Adds so many iterations within chunks.
+  void LaunchChunks(int rounds, std::vector<IterationCounts>& total)
   {
     this->Prepare();
     this->LaunchTogether(this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>, this->View(),
@@ -333,9 +287,6 @@ private:
   double Scale;
   EdgeGuard Guard;
   const CudaBackend& Backend;
-  int ChunkBits; ///< 2^ChunkBits triangles a chunk.
-  int NumberOfChunks = 0;
-  std::int64_t RoundsLeft = 0; ///< Of those within chunks.
   int GridBlocks = 1;
   int Teams = 1;
   int BlocksOfTeam = 1;

@@ -35,18 +35,24 @@ ChosenEngine::ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options)
   : Mesh(mesh),
     Options(options)
 {
-  this->Run(
-    [this]
+  try
+  {
+    this->Engine =
+      WantsCuda(mesh, options) ? MakeCudaEngine(mesh, options) : MakeThreadEngine(mesh, options);
+  }
+  catch (const BackendUnavailable& error)
+  {
+    if (options.Backend == BackendKind::CUDA)
     {
-      const bool onGpu = this->Fallback.empty() && WantsCuda(this->Mesh, this->Options);
-      this->Engine = onGpu ? MakeCudaEngine(this->Mesh, this->Options)
-                           : MakeThreadEngine(this->Mesh, this->Options);
-    });
+      throw;
+    }
+    this->FallBack(error.what());
+  }
 }
 
 StepCounts ChosenEngine::Detect()
 {
-  const StepCounts found = this->Run([this] { return this->Engine->GetLoop().Detect(); });
+  const StepCounts found = this->Run([](FlipEngine& engine) { return engine.GetLoop().Detect(); });
   this->HasDetected = true;
   return found;
 }
@@ -54,14 +60,15 @@ StepCounts ChosenEngine::Detect()
 std::vector<IterationCounts> ChosenEngine::Advance(const AdvancePlan& plan)
 {
   std::vector<IterationCounts> iterations =
-    this->Run([&] { return this->Engine->GetLoop().Advance(plan); });
+    this->Run([&](FlipEngine& engine) { return engine.GetLoop().Advance(plan); });
   this->Iterations += static_cast<std::int64_t>(iterations.size());
   return iterations;
 }
 
 double ChosenEngine::FindLargestSquaredCotangent()
 {
-  return this->Run([this] { return this->Engine->GetLoop().FindLargestSquaredCotangent(); });
+  return this->Run(
+    [](FlipEngine& engine) { return engine.GetLoop().FindLargestSquaredCotangent(); });
 }
 
 void ChosenEngine::StoreTriangles(const MutableTriangleArray& triangles)
@@ -69,26 +76,31 @@ void ChosenEngine::StoreTriangles(const MutableTriangleArray& triangles)
   const bool isInput = (triangles.Ids32 && triangles.Ids32 == this->Mesh.Triangles.Ids32) ||
     (triangles.Ids64 && triangles.Ids64 == this->Mesh.Triangles.Ids64);
   this->Run(
-    [&]
+    [&](const FlipEngine& engine)
     {
       if (isInput && triangles.Ids32)
       {
-        StoreAtOnce(*this->Engine, triangles.Ids32, triangles.Count);
+        StoreAtOnce(engine, triangles.Ids32, triangles.Count);
       }
       else if (isInput)
       {
-        StoreAtOnce(*this->Engine, triangles.Ids64, triangles.Count);
+        StoreAtOnce(engine, triangles.Ids64, triangles.Count);
       }
       else
       {
-        this->Engine->StoreTriangles(triangles);
+        engine.StoreTriangles(triangles);
       }
     });
 }
 
 void ChosenEngine::StoreFlipCounts(std::int32_t* counts)
 {
-  this->Run([&] { this->Engine->StoreFlipCounts(counts); });
+  this->Run([&](const FlipEngine& engine) { engine.StoreFlipCounts(counts); });
+}
+
+void ChosenEngine::Audit()
+{
+  this->RunOnce([](const FlipEngine& engine) { engine.Audit(); });
 }
 
 void ChosenEngine::FallBack(const std::string& reason)

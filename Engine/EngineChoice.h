@@ -41,16 +41,16 @@ public:
   // As FlipEngine's. The triangles may be those of the input.
   void StoreTriangles(const MutableTriangleArray& triangles);
   void StoreFlipCounts(std::int32_t* counts);
-  void Audit() const { this->Engine->Audit(); }
+  void Audit();
 
 private:
-  /// Calls work(), and again on the CPU when the GPU failed.
+  /// Calls work(engine), and again on the CPU when the GPU failed.
   template <typename Work>
   auto Run(const Work& work)
   {
     try
     {
-      return work();
+      return this->RunOnce(work);
     }
     catch (const BackendUnavailable& error)
     {
@@ -60,7 +60,14 @@ private:
       }
       this->FallBack(error.what());
     }
-    return work();
+    return this->RunOnce(work);
+  }
+
+  template <typename Work>
+  auto RunOnce(const Work& work)
+  {
+    const std::unique_ptr<DeviceScope> current = this->Engine->MakeCurrent();
+    return work(*this->Engine);
   }
 
   void FallBack(const std::string& reason);

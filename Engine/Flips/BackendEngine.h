@@ -6,7 +6,7 @@
 #include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipEngine.h"
-#include "FlipLoopFactory.h"
+#include "FlipLoopChoice.h"
 #include "InputChecks.h"
 #include "MeshSurvey.h"
 #include "PackedPoints.h"
@@ -40,19 +40,19 @@ struct StoreStep
 };
 
 /// From the caller's arrays to a loop, on a backend.
-template <typename Backend>
+template <typename BackendT>
 class BackendEngine : public FlipEngine
 {
 public:
   /// Keeps nothing of `mesh`.
-  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, Backend backend)
-    : Engine(std::move(backend))
+  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend)
+    : Backend(std::move(backend))
   {
-    LocalMesh local = this->Engine.Localize(mesh);
+    LocalMesh local = this->Backend.Localize(mesh);
     const MeshInput input{ mesh, local.View() };
-    MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Engine);
+    MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
-    this->Order = OrderMesh(input, survey, this->Engine);
+    this->Order = OrderMesh(input, survey, this->Backend);
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
     if (!isSurface)
     {
@@ -61,7 +61,7 @@ public:
     const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
     EdgeMesh loaded = this->LoadTriangles(edges, local);
     survey.Uses = Array<PointUse>();
-    EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Engine);
+    EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend);
     if (isSurface)
     {
       this->PackPoints(local, survey, options.Criterion);
@@ -70,9 +70,9 @@ public:
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
-    FlipLoopResult made = FlipLoopFactory<Backend>({ this->Points, survey, options, this->Report },
-      this->Mesh, std::move(built.Table), this->Engine)
-                            .Make();
+    FlipLoopResult made =
+      ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh },
+        std::move(built.Table), this->Backend);
     this->Loop = std::move(made.Loop);
     for (const Defect& defect : made.Defects)
     {
@@ -80,28 +80,30 @@ public:
     }
   }
 
+  std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
+
   FlipLoop& GetLoop() override { return *this->Loop; }
 
   const FlipReport& GetInputReport() const override { return this->Report; }
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    this->Engine.StoreTriangles(
+    this->Backend.StoreTriangles(
       triangles, StoreStep{ this->Mesh.Triangles.Data(), this->Order.View() });
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override
   {
     const TriangleRecord* records = this->Mesh.Triangles.Data();
-    this->Engine.StoreValues(this->Mesh.NumberOfTriangles, counts,
+    this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const OutputSlice& target)
       { target.Set(records[t].InputTriangle, records[t].Flips / OneFlip); });
   }
 
-  void Audit() const override { RequireConsistent(this->Mesh, this->Engine); }
+  void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 
 private:
-  using LocalMesh = typename Backend::LocalMesh;
+  using LocalMesh = typename BackendT::LocalMesh;
 
   /// Planes have no use for the caller's points once they are ordered, surfaces look for feature
   /// edges first.
@@ -109,7 +111,7 @@ private:
   {
     const PointArray points = local.View().Points;
     this->Points = delaunayflip::PackPoints(points, this->Order.View(),
-      PlanPacking(survey, criterion, points.Floats != nullptr), this->Engine);
+      PlanPacking(survey, criterion, points.Floats != nullptr), this->Backend);
     local.DropPoints();
   }
 
@@ -117,16 +119,16 @@ private:
   /// device goes without what it can make again.
   EdgeMesh LoadTriangles(const EdgeMeshInput& edges, LocalMesh& local)
   {
-    if (Backend::MemoryIsScarce)
+    if (BackendT::MemoryIsScarce)
     {
       this->Order.DropVertices();
     }
-    EdgeMesh loaded = delaunayflip::LoadTriangles(edges, this->Engine);
+    EdgeMesh loaded = delaunayflip::LoadTriangles(edges, this->Backend);
     local.DropTriangles();
     this->Order.TriangleOfRank = Array<TriangleId>();
-    if (Backend::MemoryIsScarce)
+    if (BackendT::MemoryIsScarce)
     {
-      this->Order.RestoreVertices(this->Engine);
+      this->Order.RestoreVertices(this->Backend);
     }
     return loaded;
   }
@@ -139,7 +141,7 @@ private:
     report.Edges = built.Counts;
     report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
     report.GeometryUsed = survey.Geometry;
-    report.Backend = this->Engine.GetName();
+    report.Backend = this->Backend.GetName();
     this->AddDefect(survey.NonFinitePoints);
     this->AddDefect(survey.RepeatedIds);
     this->AddDefect(built.DuplicateTriangles);
@@ -155,7 +157,7 @@ private:
     }
   }
 
-  Backend Engine;
+  BackendT Backend;
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;

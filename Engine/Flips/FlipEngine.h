@@ -14,11 +14,22 @@
 namespace delaunayflip
 {
 
+/// Undoes what a backend did to the calling thread.
+class DeviceScope
+{
+public:
+  virtual ~DeviceScope() = default;
+};
+
 /// A mesh on a backend, ready to flip: what a session drives. BackendEngine.h makes one.
 class FlipEngine
 {
 public:
   virtual ~FlipEngine() = default;
+
+  /// Makes the engine's device current in the calling thread for as long as the result is kept;
+  /// null where there is no device. Whoever calls another function does this first.
+  virtual std::unique_ptr<DeviceScope> MakeCurrent() const = 0;
 
   virtual FlipLoop& GetLoop() = 0;
 

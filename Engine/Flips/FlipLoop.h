@@ -5,13 +5,12 @@
 
 #include "StepCounts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 /// @file
-/// The loop: detect -> choose an independent set -> flip, over a worklist.
+/// The loop and its schedule, for every geometry and backend.
 
 namespace delaunayflip
 {
@@ -44,55 +43,70 @@ struct AdvancePlan
   bool MeasureAll; ///< And after every one.
 };
 
-/// The loop for any geometry. Between calls the mesh is valid.
+/// The loop, over what a backend provides. Between calls the mesh is valid.
+///
+/// An iteration has these passes. Each runs for all its edges at once and ends before the next
+/// begins; the same numbers stand in FlipSteps.h and where the backends run the passes.
+///
+/// 1. Judge the candidates by floating-point arithmetic, and resolve exactly those that it cannot
+///    decide.
+/// 2. Guard, where flips could make an edge that exists: block bad edges whose new edge exists, and
+///    free those whose obstacle has gone.
+/// 3. Count the bad and the blocked edges. None bad: the loop has converged.
+/// 4. Choose an independent set of the bad edges by their priorities.
+/// 5. Claim and confirm, with a guard only: of two winners that would make the same edge one waits.
+/// 6. Flip the winners. Their outer edges are the candidates of the next iteration.
+///
+/// Passes 1 to 3 are a detection. The loop keeps what the last one found, so an iteration begins
+/// with pass 4 and ends with the detection for the next.
 ///
 /// The schedule is part of the algorithm, the same for every backend. Where no guard is needed and
-/// the mesh has more than 2^16 triangles, the first iterations run in chunks of it alone (2^14 to
-/// 2^16 triangles in the engine's order, which fit a cache): edges between two chunks sit out. Each
-/// chunk then has all its iterations at once, in cache, while the statistics are those of rounds
-/// over the whole mesh. After that, iterations span the mesh.
+/// the mesh has more than 2^16 triangles, the first 12 iterations run within chunks of 2^14 to 2^16
+/// triangles in the engine's order, which fit a cache: edges between two chunks sit out. A chunk
+/// runs all these iterations at once, in cache; the counts are summed over the chunks, iteration by
+/// iteration. After that, iterations span the mesh.
 class FlipLoop
 {
 public:
   virtual ~FlipLoop() = default;
 
-  /// Judges what is new and counts what is bad: the state before an iteration, or the end state.
-  virtual StepCounts Detect() = 0;
+  /// The first detection.
+  const StepCounts& Detect();
 
-  /// What the last Detect found.
+  /// What the last detection found.
   const StepCounts& GetFound() const { return this->Found; }
 
-  /// Iterates after a Detect that found bad edges: once, or several times where chunks work for
-  /// themselves, and detects again. @returns the iterations.
-  virtual std::vector<IterationCounts> Advance(const AdvancePlan& plan) = 0;
+  /// Runs one or more iterations, at most as many as planned, after a detection that found bad
+  /// edges, and detects again. @returns the iterations.
+  std::vector<IterationCounts> Advance(const AdvancePlan& plan);
 
   /// LargestSquaredCotangent (SurfaceAngles.h) over all triangles.
   virtual double FindLargestSquaredCotangent() const = 0;
 
 protected:
-  /// Smaller meshes have no chunks.
-  static constexpr std::int64_t SmallestChunkedMesh = std::int64_t(1) << 16; // triangles
+  /// @param hasGuard whether flips need a guard, which chunks do without.
+  FlipLoop(std::int64_t triangles, bool hasGuard);
 
-  /// Chunks of 2^16 triangles, with their edges and points, fill 3 MB. Meshes that would have few
-  /// of them have smaller ones, so that many threads get one each: 16 threads flip a random bad
-  /// mesh of 100,000 points in 11 ms instead of 25, a GPU in the same time
-  /// (Documentation/performance.md).
-  static int FindChunkBits(std::int64_t triangles)
-  {
-    constexpr int Most = 16, Fewest = 14;
-    constexpr std::int64_t WantedChunks = 16;
-    int bits = Most;
-    while (bits > Fewest && triangles >> bits < WantedChunks)
-    {
-      --bits;
-    }
-    return bits;
-  }
+  bool HasChunks() const { return this->NumberOfChunks > 0; }
 
-  /// Rounds within chunks before iterations span the mesh.
-  static constexpr std::int64_t ChunkRounds = 12;
+  /// Passes 1 to 3 for the whole mesh. @returns what they found.
+  virtual StepCounts DetectAll() = 0;
 
+  /// Passes 4 to 6 and a detection, on the whole mesh, once or more. Sets Found.
+  virtual std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) = 0;
+
+  /// Runs exactly plan.Iterations iterations within chunks, while the edges between chunks are
+  /// deferred; afterwards these are candidates. Without a detection at the end.
+  virtual std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) = 0;
+
+  int ChunkBits; ///< 2^ChunkBits triangles per chunk.
+  std::int64_t NumberOfChunks; ///< 0: no iterations within chunks.
   StepCounts Found;
+
+private:
+  std::vector<IterationCounts> RunChunks(const AdvancePlan& plan);
+
+  std::int64_t ChunkIterationsLeft;
 };
 
 /// The loop of a backend by a rule: LoopOf<Backend, Rule>::Type.

@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
+#include "FlipEngine.h"
 #include "HostMemory.h"
 #include "TriangleMesh.h"
 
@@ -42,6 +43,9 @@ public:
   ~ThreadBackend();
   ThreadBackend(ThreadBackend&&) noexcept;
   ThreadBackend& operator=(ThreadBackend&&) noexcept;
+
+  /// Threads have no device.
+  std::unique_ptr<DeviceScope> MakeCurrent() const { return nullptr; }
 
   /// Whether to spend time on what saves memory.
   static constexpr bool MemoryIsScarce = false;

@@ -28,47 +28,60 @@ public:
   /// @param scale power of two that brings the rule's coordinates near 1, for angles.
   ThreadFlipLoop(
     EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const ThreadBackend& backend)
-    : Mesh(mesh),
+    : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
+      Mesh(mesh),
       Decision(rule),
       Scale(scale),
       Guard(std::move(guard)),
       Backend(backend),
-      ChunkBits(FindChunkBits(mesh.NumberOfTriangles)),
       Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
   {
     this->CutIntoChunks();
-  }
-
-  StepCounts Detect() override
-  {
-    const EdgeMeshView mesh = this->Mesh.View();
-    this->Found = this->Guard.IsActive()
-      ? this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve(),
-          GuardStep{ { mesh }, this->Guard.View().Edges })
-      : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
-    return this->Found;
-  }
-
-  std::vector<IterationCounts> Advance(const AdvancePlan& plan) override
-  {
-    std::vector<IterationCounts> iterations;
-    if (this->RoundsLeft > 0)
-    {
-      iterations = this->RunChunks(plan);
-      this->Detect();
-    }
-    if (iterations.empty())
-    {
-      iterations.push_back(this->Iterate(plan.MeasureFirst || plan.MeasureAll));
-      this->Detect();
-    }
-    return iterations;
   }
 
   double FindLargestSquaredCotangent() const override
   {
     return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, this->Angles())
       .Value;
+  }
+
+protected:
+  StepCounts DetectAll() override
+  {
+    const EdgeMeshView mesh = this->Mesh.View();
+    return this->Guard.IsActive()
+      ? this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve(),
+          GuardStep{ { mesh }, this->Guard.View().Edges })
+      : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
+  }
+
+  std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
+  {
+    const StepCounts flips = this->FlipOnce();
+    const double angle =
+      plan.MeasureFirst || plan.MeasureAll ? this->FindLargestSquaredCotangent() : -INFINITY;
+    const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.Blocked,
+      flips.Flipped, angle };
+    this->Detect();
+    return { iteration };
+  }
+
+  std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) override
+  {
+    this->DeferEdgesBetweenChunks();
+    std::vector<std::vector<IterationCounts>> parts(this->Chunks.size());
+    this->Backend.ForChunks(static_cast<std::int64_t>(parts.size()),
+      [&](std::int64_t i) { parts[i] = this->RunChunk(this->Chunks[i], plan); });
+    this->RecallEdges();
+    std::vector<IterationCounts> total(plan.Iterations);
+    for (const std::vector<IterationCounts>& part : parts)
+    {
+      for (std::int64_t i = 0; i < plan.Iterations; ++i)
+      {
+        total[i] += part[i];
+      }
+    }
+    return total;
   }
 
 private:
@@ -84,18 +97,13 @@ private:
   JudgeStep<Rule> Judge() const { return { { this->Mesh.View() }, this->Decision }; }
   ResolveStep<Rule> Resolve() const { return { { this->Mesh.View() }, this->Decision }; }
 
-  /// A mesh of one chunk has none.
   void CutIntoChunks()
   {
     const std::int64_t triangles = this->Mesh.NumberOfTriangles;
-    if (this->Guard.IsActive() || triangles <= SmallestChunkedMesh)
-    {
-      return;
-    }
     const std::int64_t size = std::int64_t(1) << this->ChunkBits;
     const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
     std::int64_t edge = 0;
-    for (std::int64_t t = 0; t < triangles; t += size)
+    for (std::int64_t t = 0; this->HasChunks() && t < triangles; t += size)
     {
       Chunk chunk{ t, std::min(triangles, t + size), edge, 0, 0 };
       while (edge < this->Mesh.NumberOfEdges && TriangleOf(words[2 * edge]) < chunk.LastTriangle)
@@ -105,90 +113,42 @@ private:
       chunk.LastEdge = edge;
       this->Chunks.push_back(chunk);
     }
-    this->RoundsLeft = ChunkRounds;
   }
 
-  IterationCounts Iterate(bool measure)
+  StepCounts FlipOnce()
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    this->Worklist.Filter(this->Backend, ChooseStep{ mesh });
     const EdgeGuardView guard = this->Guard.View();
-    if (guard.Active)
+    this->Worklist.Filter(this->Backend, ChooseStep{ mesh }); // pass 4
+    if (guard.Active) // pass 5
     {
       this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, guard.Claims });
       this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
     }
-    const StepCounts flips =
-      this->Worklist.Run(this->Backend, FlipStep{ { { mesh }, guard }, this->Worklist.GetFlags() });
-    if (this->Guard.IsActive())
+    const StepCounts flips = this->Worklist.Run(
+      this->Backend, FlipStep{ { { mesh }, guard }, this->Worklist.GetFlags() }); // pass 6
+    if (guard.Active)
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
     }
-    return { this->Found.Tested, this->Found.Bad, this->Found.Blocked, flips.Flipped,
-      measure ? this->FindLargestSquaredCotangent() : -INFINITY };
+    return flips;
   }
 
-  /// The rounds that chunks run for themselves, at most as many as the plan and the schedule allow.
-  /// None when no chunk has anything to flip.
-  std::vector<IterationCounts> RunChunks(const AdvancePlan& plan)
-  {
-    const std::int64_t rounds = std::min(this->RoundsLeft, plan.Iterations);
-    const bool isFirst = this->RoundsLeft == ChunkRounds;
-    this->DeferEdgesBetweenChunks();
-    std::vector<std::vector<IterationCounts>> parts(this->Chunks.size());
-    this->Backend.ForChunks(static_cast<std::int64_t>(parts.size()),
-      [&](std::int64_t i) { parts[i] = this->RunChunk(this->Chunks[i], rounds, plan); });
-    this->RecallEdges();
-    std::vector<IterationCounts> total = SumRounds(parts, rounds);
-    if (isFirst && !total.empty())
-    {
-      // The first round knows all edges; those between chunks are excluded from it.
-      total[0].Tested = this->Found.Tested;
-      total[0].Bad = this->Found.Bad;
-      total[0].Blocked = this->Found.Blocked;
-    }
-    this->RoundsLeft -= rounds;
-    if (static_cast<std::int64_t>(total.size()) < rounds)
-    {
-      this->RoundsLeft = 0;
-    }
-    return total;
-  }
-
-  /// Sums over chunks, without the rounds at the end in which none flipped.
-  static std::vector<IterationCounts> SumRounds(
-    const std::vector<std::vector<IterationCounts>>& parts, std::int64_t rounds)
-  {
-    std::vector<IterationCounts> total(rounds);
-    for (const std::vector<IterationCounts>& part : parts)
-    {
-      for (std::int64_t round = 0; round < rounds; ++round)
-      {
-        total[round] += part[round];
-      }
-    }
-    while (!total.empty() && total.back().Flipped == 0)
-    {
-      total.pop_back();
-    }
-    return total;
-  }
-
-  std::vector<IterationCounts> RunChunk(
-    Chunk& chunk, std::int64_t rounds, const AdvancePlan& plan) const
+  /// All iterations of a chunk, on the calling thread.
+  std::vector<IterationCounts> RunChunk(Chunk& chunk, const AdvancePlan& plan) const
   {
     const EdgeMeshView mesh = this->Mesh.View();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
     const ChooseAndFlipStep flip{ { { { mesh }, EdgeGuardView{} }, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
-    std::vector<IterationCounts> counts(rounds);
-    for (std::int64_t round = 0; round < rounds; ++round)
+    std::vector<IterationCounts> counts(plan.Iterations);
+    for (std::int64_t i = 0; i < plan.Iterations; ++i)
     {
       const StepCounts flips = worklist.ChooseAndFlip(flip);
-      counts[round] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
-      if (plan.MeasureAll || (plan.MeasureFirst && round == 0))
+      counts[i] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
+      if (plan.MeasureAll || (plan.MeasureFirst && i == 0))
       {
-        counts[round].SquaredCotangent =
+        counts[i].SquaredCotangent =
           this->FindLargestSquaredCotangent(chunk.FirstTriangle, chunk.LastTriangle);
       }
       found = worklist.Detect(this->Judge(), this->Resolve());
@@ -245,10 +205,8 @@ private:
   double Scale;
   EdgeGuard Guard;
   const ThreadBackend& Backend;
-  int ChunkBits; ///< 2^ChunkBits triangles a chunk.
   EdgeWorklist Worklist;
   std::vector<Chunk> Chunks;
-  std::int64_t RoundsLeft = 0; ///< Of those within chunks.
 };
 
 template <typename Rule>

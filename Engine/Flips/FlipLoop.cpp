@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipLoop.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Smaller meshes have no chunks.
+constexpr std::int64_t SmallestChunkedMesh = std::int64_t(1) << 16; // triangles
+
+/// Iterations within chunks before iterations span the mesh.
+constexpr std::int64_t ChunkIterations = 12;
+
+/// Chunks of 2^16 triangles, with their edges and points, fill 3 MB. Meshes that would have few of
+/// them have smaller ones, so that many threads get one each: 16 threads flip a random bad mesh of
+/// 100,000 points in 11 ms instead of 25, a GPU in the same time (Documentation/performance.md).
+int FindChunkBits(std::int64_t triangles)
+{
+  constexpr int Most = 16, Fewest = 14;
+  constexpr std::int64_t WantedChunks = 16;
+  int bits = Most;
+  while (bits > Fewest && triangles >> bits < WantedChunks)
+  {
+    --bits;
+  }
+  return bits;
+}
+}
+
+FlipLoop::FlipLoop(std::int64_t triangles, bool hasGuard)
+  : ChunkBits(FindChunkBits(triangles)),
+    NumberOfChunks(
+      hasGuard || triangles <= SmallestChunkedMesh ? 0 : ((triangles - 1) >> this->ChunkBits) + 1),
+    ChunkIterationsLeft(this->HasChunks() ? ChunkIterations : 0)
+{
+}
+
+const StepCounts& FlipLoop::Detect()
+{
+  this->Found = this->DetectAll();
+  return this->Found;
+}
+
+std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
+{
+  std::vector<IterationCounts> iterations;
+  if (this->ChunkIterationsLeft > 0)
+  {
+    iterations = this->RunChunks(plan);
+    this->Detect();
+  }
+  return iterations.empty() ? this->IterateMesh(plan) : iterations;
+}
+
+/// As many iterations within chunks as the plan and the schedule allow; none when no chunk has
+/// anything to flip.
+std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
+{
+  const bool isFirst = this->ChunkIterationsLeft == ChunkIterations;
+  const std::int64_t most = std::min(this->ChunkIterationsLeft, plan.Iterations);
+  std::vector<IterationCounts> iterations =
+    this->IterateChunks({ most, plan.MeasureFirst, plan.MeasureAll });
+  this->ChunkIterationsLeft -= most;
+  while (!iterations.empty() && iterations.back().Flipped == 0)
+  {
+    iterations.pop_back();
+    this->ChunkIterationsLeft = 0;
+  }
+  if (isFirst && !iterations.empty())
+  {
+    // The detection before the first iteration covered all edges; those between chunks count as
+    // excluded from it.
+    iterations[0].Tested = this->Found.Tested;
+    iterations[0].Bad = this->Found.Bad;
+    iterations[0].Blocked = this->Found.Blocked;
+  }
+  return iterations;
+}
+
+}
