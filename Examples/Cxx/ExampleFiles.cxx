@@ -2,105 +2,85 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExampleFiles.h"
 
-#include <vtkCellArray.h>
+#include "BadMesh.h"
+#include "MeshFile.h"
+
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipLiveView.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkRenderWindow.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <array>
-#include <cstdlib>
+#include <CLI/CLI.hpp>
+
 #include <iostream>
-#include <vector>
+#include <map>
+#include <stdexcept>
 
 namespace
 {
 
-using Point = std::array<double, 2>;
-using Triangle = std::array<vtkIdType, 3>;
+const std::map<std::string, int> Geometries = { { "auto", vtkDelaunayFlip::GEOMETRY_AUTO },
+  { "planar", vtkDelaunayFlip::GEOMETRY_PLANAR },
+  { "planar-xy", vtkDelaunayFlip::GEOMETRY_PLANAR_XY },
+  { "surface", vtkDelaunayFlip::GEOMETRY_SURFACE } };
 
-constexpr int Rim = 3; // points a side
-constexpr std::size_t Splits = 300;
-
-/// A square with points along its rim, all joined to one within.
-void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
+int Fail(ExitStatus status, const std::string& message)
 {
-  const double sides[4][4] = { { 0, 0, 1, 0 }, { 1, 0, 0, 1 }, { 1, 1, -1, 0 }, { 0, 1, 0, -1 } };
-  points = { { 0.44, 0.53 } };
-  for (const auto& side : sides)
-  {
-    for (int i = 0; i < Rim; ++i)
-    {
-      points.push_back({ side[0] + side[2] * i / Rim, side[1] + side[3] * i / Rim });
-    }
-  }
-  for (vtkIdType i = 0; i < 4 * Rim; ++i)
-  {
-    triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * Rim) });
-  }
+  std::cerr << "error: " << message << "\n";
+  return status;
 }
 
-/// The fan, each of its triangles split into three again and again: slivers.
-vtkSmartPointer<vtkPolyData> MakeBadMesh()
+std::string CheckExtension(const std::string& file)
 {
-  std::vector<Point> points;
-  std::vector<Triangle> triangles;
-  MakeFan(points, triangles);
-  for (std::size_t i = 0; i < Splits; ++i)
-  {
-    const Triangle t = triangles[i];
-    const auto mix = [&](int k)
-    { return 0.28 * points[t[0]][k] + 0.33 * points[t[1]][k] + 0.39 * points[t[2]][k]; };
-    const auto p = static_cast<vtkIdType>(points.size());
-    points.push_back({ mix(0), mix(1) });
-    triangles.insert(triangles.end(), { { t[0], t[1], p }, { t[1], t[2], p }, { t[2], t[0], p } });
-  }
-  vtkNew<vtkPoints> places;
-  for (const Point& point : points)
-  {
-    places->InsertNextPoint(point[0], point[1], 0.0);
-  }
-  vtkNew<vtkCellArray> cells;
-  for (std::size_t i = Splits; i < triangles.size(); ++i)
-  {
-    cells->InsertNextCell(3, triangles[i].data());
-  }
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  mesh->SetPoints(places);
-  mesh->SetPolys(cells);
-  return mesh;
+  return HasKnownExtension(file)
+    ? ""
+    : file + ": unknown file extension; known are .vtk .vtp .ply .stl .obj";
 }
 
 }
 
-ExampleFiles::ExampleFiles(int argc, char* argv[])
+std::optional<int> ExampleFiles::ReadArguments(int argc, char* argv[])
 {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() > 1 && arguments[arguments.size() - 2] == "--frames")
+  CLI::App app("Shows in a window how a mesh flips its way to Delaunay; the window names the keys.",
+    "LiveFlip");
+  app.footer("Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.");
+  app
+    .add_option(
+      "MESH", this->Mesh, "File to read: .vtk .vtp .ply .stl .obj (default: a bad mesh made here)")
+    ->check(CheckExtension);
+  app
+    .add_option("--geometry", this->Geometry,
+      "Where edges are judged; planar-xy: by x and y, for terrain (default: auto)")
+    ->check(CLI::IsMember(Geometries));
+  app.add_option("--frames", this->FramePrefix,
+    "Instead of opening a window write every step, as FRAMES0000.png, FRAMES0001.png and so on, "
+    "and the last mesh as FRAMES.vtp");
+  try
   {
-    this->FramePrefix = arguments.back();
-    arguments.resize(arguments.size() - 2);
+    app.parse(argc, argv);
   }
-  if (!arguments.empty())
+  catch (const CLI::ParseError& error)
   {
-    this->Mesh = arguments[0];
+    return app.exit(error) == 0 ? Done : WrongUsage;
   }
+  return std::nullopt;
 }
 
 vtkSmartPointer<vtkPolyData> ExampleFiles::ReadMesh() const
 {
-  if (this->Mesh.empty())
+  try
   {
-    return MakeBadMesh();
+    return this->Mesh.empty() ? MakeBadMesh() : ReadMeshFile(this->Mesh);
   }
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(this->Mesh.c_str());
-  reader->Update();
-  return reader->GetOutput();
+  catch (const std::runtime_error& error)
+  {
+    Fail(BadFile, error.what());
+    return nullptr;
+  }
 }
+
+int ExampleFiles::GetGeometry() const { return Geometries.at(this->Geometry); }
 
 int ExampleFiles::WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window) const
 {
@@ -111,12 +91,23 @@ int ExampleFiles::WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* wi
   while (view->Step())
   {
   }
-  std::cout << view->GetFrameNumber() << " steps, " << view->GetFilter()->GetTotalFlips()
-            << " flips\n";
+  vtkDelaunayFlip* flip = view->GetFilter();
+  if (!view->GetConverged())
+  {
+    const bool isWrong = flip->GetFailure() == vtkDelaunayFlip::FAILURE_OPTIONS;
+    return Fail(isWrong ? WrongUsage : BadFile, "the mesh could not be flipped");
+  }
+  std::cout << view->GetFrameNumber() << " steps, " << flip->GetTotalFlips() << " flips\n";
+  return this->WriteMesh(flip->GetOutputPort());
+}
+
+int ExampleFiles::WriteMesh(vtkAlgorithmOutput* mesh) const
+{
+  const std::string file = this->FramePrefix + ".vtp";
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
-  writer->SetInputConnection(view->GetFilter()->GetOutputPort());
-  writer->SetFileName((this->FramePrefix + ".vtp").c_str());
+  writer->SetInputConnection(mesh);
+  writer->SetFileName(file.c_str());
   writer->Write();
-  return writer->GetErrorCode() == 0 && view->GetConverged() ? EXIT_SUCCESS : EXIT_FAILURE;
+  return writer->GetErrorCode() == 0 ? Done : Fail(BadFile, file + ": cannot be written");
 }

@@ -24,10 +24,11 @@
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <random>
 #include <string>
@@ -144,6 +145,16 @@ vtkSmartPointer<vtkRenderer> MakeView(vtkAlgorithmOutput* mesh, double left)
   return view;
 }
 
+bool WriteMesh(vtkDelaunayFlip* flip, const std::string& file)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
+  writer->SetInputConnection(flip->GetOutputPort());
+  writer->SetFileName(file.c_str());
+  writer->Write();
+  return writer->GetErrorCode() == 0;
+}
+
 bool WritePicture(vtkDelaunayFlip* flip, const std::string& file)
 {
   vtkNew<vtkRenderWindow> window;
@@ -166,7 +177,20 @@ bool WritePicture(vtkDelaunayFlip* flip, const std::string& file)
 
 int main(int argc, char* argv[])
 {
-  const std::string folder = argc > 1 ? argv[1] : ".";
+  std::string folder = ".";
+  CLI::App app(
+    "Flips a terrain of bad triangles; writes FOLDER/terrain.vtp and FOLDER/terrain.png.",
+    "FlipTerrain");
+  app.footer("Exit status: 0 done; 2 wrong usage; 3 a file cannot be written.");
+  app.add_option("FOLDER", folder, "Where to write (default: here)");
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   vtkNew<vtkDelaunayFlip> flip;
   flip->SetInputData(MakeTerrain(900));
@@ -176,10 +200,11 @@ int main(int argc, char* argv[])
             << " iterations, " << flip->GetNumberOfNonDelaunayEdges()
             << " edges left that are not Delaunay\n";
 
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
-  writer->SetInputConnection(flip->GetOutputPort());
-  writer->SetFileName((folder + "/terrain.vtp").c_str());
-  const bool written = writer->Write() != 0 && WritePicture(flip, folder + "/terrain.png");
-  return written && flip->GetConverged() ? EXIT_SUCCESS : EXIT_FAILURE;
+  const bool isWritten = WriteMesh(flip, folder + "/terrain.vtp");
+  if (!isWritten || !WritePicture(flip, folder + "/terrain.png"))
+  {
+    std::cerr << "error: " << folder << ": cannot be written to\n";
+    return 3;
+  }
+  return flip->GetConverged() ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Usage: LiveFlip [MESH.vtp] [--frames PREFIX]
+/// Usage: LiveFlip [MESH] [--geometry auto|planar|planar-xy|surface] [--frames PREFIX]
 ///
 /// Shows in a window how a mesh, by default a bad one made here, flips its way to Delaunay; the
 /// window names the keys. With --frames no window opens: every step is written as PREFIX0000.png,
@@ -16,9 +16,19 @@
 
 int main(int argc, char* argv[])
 {
-  const ExampleFiles files(argc, argv);
+  ExampleFiles files;
+  if (const auto status = files.ReadArguments(argc, argv))
+  {
+    return *status;
+  }
+  const auto mesh = files.ReadMesh();
+  if (!mesh)
+  {
+    return BadFile;
+  }
   vtkNew<vtkDelaunayFlip> flip;
-  flip->SetInputData(files.ReadMesh());
+  flip->SetInputData(mesh);
+  flip->SetGeometry(files.GetGeometry());
   vtkNew<vtkRenderWindow> window;
   window->SetWindowName("Delaunay flips");
   window->SetSize(700, 700);
@@ -35,5 +45,5 @@ int main(int argc, char* argv[])
   view->SetFrameInterval(200); // milliseconds
   view->Run();
   interactor->Start();
-  return 0;
+  return Done;
 }

@@ -1,14 +1,13 @@
 #!/usr/bin/env pvpython
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: pvpython flip_movie.py FOLDER [MESH.vtp]
-
-Writes the frames of a run, one an iteration, to FOLDER/flip.0000.png and following, each triangle
-coloured by how often it was part of a flip so far. Without a mesh it makes one of bad triangles.
+"""Writes the frames of a run, one per iteration, to FOLDER/flip.0000.png and following, each triangle
+coloured by how often it was part of a flip so far.
 
 The plugin is found by PV_PLUGIN_PATH. A movie is what a video encoder makes of the frames, or give
 SaveAnimation the name of an .avi or .ogv file.
 """
+import argparse
 import os
 import random
 import sys
@@ -17,6 +16,33 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+FORMATS = (".vtk", ".vtp", ".ply", ".stl", ".obj")
+GEOMETRIES = {"auto": "Auto", "planar": "Planar", "planar-xy": "Planar XY", "surface": "Surface"}
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(
+        usage="pvpython flip_movie.py [-h] [--geometry GEOMETRY] FOLDER [MESH]",
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.")
+    parser.add_argument("folder", metavar="FOLDER", help="where to write; is made if need be")
+    parser.add_argument(
+        "mesh", nargs="?", metavar="MESH",
+        help=f"file to read: {' '.join(FORMATS)} (default: a bad mesh made here)")
+    parser.add_argument(
+        "--geometry", choices=GEOMETRIES, default="auto", metavar="GEOMETRY",
+        help="where edges are judged: auto, planar, planar-xy (by x and y, for terrain), or surface "
+             "(default: auto)")
+    arguments = parser.parse_args()
+    if arguments.mesh and not arguments.mesh.lower().endswith(FORMATS):
+        parser.error(f"{arguments.mesh}: unknown file extension; known are {' '.join(FORMATS)}")
+    return arguments
+
+
+def fail(message):
+    print("error:", message, file=sys.stderr)
+    sys.exit(3)
 
 
 def is_left(a, b, p):
@@ -89,16 +115,32 @@ def animate(flip, iterations):
     return scene
 
 
+def read_mesh(file):
+    if not os.path.isfile(file) or not os.access(file, os.R_OK):
+        fail(f"{file}: no such file, or it may not be read")
+    reader = simple.OpenDataFile(file)
+    reader.UpdatePipeline()
+    if reader.GetDataInformation().GetNumberOfCells() == 0:
+        fail(f"{file}: no mesh could be read")
+    return reader
+
+
 def main():
-    folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
-    mesh = sys.argv[2] if len(sys.argv) > 2 else os.path.join(folder, "mesh.vtp")
-    if len(sys.argv) == 2:
+    arguments = read_arguments()
+    folder = arguments.folder
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        fail(f"{folder}: {error.strerror}")
+    mesh = arguments.mesh or os.path.join(folder, "mesh.vtp")
+    if not arguments.mesh:
         write_bad_mesh(mesh)
 
     flip = simple.DelaunayFlip(
-        Input=simple.XMLPolyDataReader(FileName=[mesh]), GenerateFlipCount=1)
+        Input=read_mesh(mesh), Geometry=GEOMETRIES[arguments.geometry], GenerateFlipCount=1)
     iterations = count_iterations(flip)
+    if flip.GetDataInformation().GetNumberOfCells() == 0:
+        fail(f"{mesh}: the mesh could not be flipped")
     most_flips = flip.CellData["vtkDelaunayFlipCount"].GetRange()[1]
     view = show(flip, most_flips)
     animate(flip, iterations)

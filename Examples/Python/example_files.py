@@ -1,11 +1,29 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files that live_flip.py reads and writes."""
+"""The command line of live_flip.py, and the files that it reads and writes."""
 import argparse
+import multiprocessing
+import os
+import sys
 
-from vtkmodules.vtkCommonCore import vtkPoints
+from delaunayflip import vtkDelaunayFlip
+from vtkmodules.vtkCommonCore import (
+    vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow)
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+DONE, WRONG_USAGE, BAD_FILE = 0, 2, 3  # exit statuses, those of delaunay-flip
+
+READERS = {".vtk": vtkPolyDataReader, ".vtp": vtkXMLPolyDataReader, ".ply": vtkPLYReader,
+           ".stl": vtkSTLReader, ".obj": vtkOBJReader}
+
+GEOMETRIES = {"auto": vtkDelaunayFlip.GEOMETRY_AUTO, "planar": vtkDelaunayFlip.GEOMETRY_PLANAR,
+              "planar-xy": vtkDelaunayFlip.GEOMETRY_PLANAR_XY,
+              "surface": vtkDelaunayFlip.GEOMETRY_SURFACE}
 
 RIM, SPLITS = 3, 300
 
@@ -32,22 +50,75 @@ def make_bad_mesh():
     return mesh
 
 
+def get_extension(file):
+    return os.path.splitext(file)[1].lower()
+
+
 def read_arguments(description):
     parser = argparse.ArgumentParser(
-        description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mesh", nargs="?", help=".vtp file (default: a bad mesh made here)")
-    parser.add_argument("--frames", metavar="PREFIX", help="write frames instead of showing them")
-    return parser.parse_args()
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.")
+    parser.add_argument(
+        "mesh", nargs="?", metavar="MESH",
+        help=f"file to read: {' '.join(READERS)} (default: a bad mesh made here)")
+    parser.add_argument(
+        "--geometry", choices=GEOMETRIES, default="auto",
+        help="where edges are judged; planar-xy: by x and y, for terrain (default: auto)")
+    parser.add_argument(
+        "--frames", metavar="PREFIX", help="write frames instead of showing them in a window")
+    arguments = parser.parse_args()
+    if arguments.mesh and get_extension(arguments.mesh) not in READERS:
+        parser.error(
+            f"{arguments.mesh}: unknown file extension; known are {' '.join(READERS)}")
+    return arguments
+
+
+def fail(status, message):
+    print("error:", message, file=sys.stderr)
+    sys.exit(status)
+
+
+def complaints_of(reader):
+    """Lets a reader of VTK read. Returns what was wrong; "" where nothing was."""
+    # Some files that were cut off crash the reader: a child process tries first.
+    child = multiprocessing.get_context("fork").Process(target=reader.Update)
+    child.start()
+    child.join()
+    if child.exitcode != 0:
+        return "VTK's reader crashed; the file is probably cut off or corrupt"
+    reader.Update()
+    messages = vtkOutputWindow.GetInstance().GetOutput().splitlines()
+    if messages:
+        return messages[1].split("): ")[-1]  # the first line names a file of VTK
+    return "" if reader.GetOutput().GetNumberOfCells() else "no mesh in it"
 
 
 def read_mesh(file):
     """The mesh of a file; for None a square of 612 triangles, most of them slivers."""
     if not file:
         return make_bad_mesh()
-    reader = vtkXMLPolyDataReader()
+    if not os.path.isfile(file) or not os.access(file, os.R_OK):
+        fail(BAD_FILE, f"{file}: no such file, or it may not be read")
+    reader = READERS[get_extension(file)]()
     reader.SetFileName(file)
-    reader.Update()
-    return reader.GetOutput()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    vtkOutputWindow.SetInstance(vtkStringOutputWindow())  # collects the messages
+    complaints = complaints_of(reader)
+    vtkOutputWindow.SetInstance(None)
+    vtkLogger.SetStderrVerbosity(verbosity)
+    if complaints:
+        fail(BAD_FILE, f"{file}: cannot be read: {complaints}")
+    return join_points(reader) if get_extension(file) == ".obj" else reader.GetOutput()
+
+
+def join_points(reader):
+    """One point a place: vtkOBJReader repeats a point for every normal and texture coordinate."""
+    clean = vtkCleanPolyData()
+    clean.SetInputConnection(reader.GetOutputPort())
+    clean.SetTolerance(0.0)
+    clean.Update()
+    return clean.GetOutput()
 
 
 def write_frames(view, window, prefix):
@@ -59,10 +130,14 @@ def write_frames(view, window, prefix):
     while view.Step():
         pass
     flip = view.GetFilter()
+    if not view.GetConverged():
+        wrong_options = flip.GetFailure() == vtkDelaunayFlip.FAILURE_OPTIONS
+        fail(WRONG_USAGE if wrong_options else BAD_FILE, "the mesh could not be flipped")
     writer = vtkXMLPolyDataWriter()
     writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
     writer.SetInputConnection(flip.GetOutputPort())
     writer.SetFileName(prefix + ".vtp")
     writer.Write()
+    if writer.GetErrorCode() != 0:
+        fail(BAD_FILE, f"{prefix}.vtp: cannot be written")
     print(view.GetFrameNumber(), "steps,", flip.GetTotalFlips(), "flips")
-    return 0 if writer.GetErrorCode() == 0 and view.GetConverged() else 1

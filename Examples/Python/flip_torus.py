@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: flip_torus.py [FOLDER]
-
-Makes a torus of bad triangles, flips it, and writes to FOLDER (default: here) torus.vtp, the
-Delaunay mesh, and torus.png, before (left) and after (right), each triangle coloured by its
-smallest angle.
+"""Makes a torus of bad triangles, flips it, and writes to FOLDER torus.vtp, the Delaunay mesh, and
+torus.png, before (left) and after (right), each triangle coloured by its smallest angle.
 """
+import argparse
 import math
 import random
 import sys
@@ -97,8 +95,21 @@ def write_picture(flip, file):
     return writer.GetErrorCode() == 0
 
 
+def write_mesh(flip, file):
+    writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
+    writer.SetInputConnection(flip.GetOutputPort())
+    writer.SetFileName(file)
+    writer.Write()
+    return writer.GetErrorCode() == 0
+
+
 def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else "."
+    parser = argparse.ArgumentParser(
+        description=__doc__, epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be written.")
+    parser.add_argument("folder", nargs="?", default=".", metavar="FOLDER",
+                        help="where to write (default: here)")
+    folder = parser.parse_args().folder
 
     flip = vtkDelaunayFlip()
     flip.SetInputData(make_torus())
@@ -107,12 +118,10 @@ def main():
     print(flip.GetTotalFlips(), "flips in", flip.GetNumberOfIterations(), "iterations,",
           flip.GetNumberOfNonDelaunayEdges(), "edges left that are not Delaunay")
 
-    writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
-    writer.SetInputConnection(flip.GetOutputPort())
-    writer.SetFileName(folder + "/torus.vtp")
-    written = writer.Write() != 0 and write_picture(flip, folder + "/torus.png")
-    return 0 if written and flip.GetConverged() else 1
+    if not (write_mesh(flip, folder + "/torus.vtp") and write_picture(flip, folder + "/torus.png")):
+        print(f"error: {folder}: cannot be written to", file=sys.stderr)
+        return 3
+    return 0 if flip.GetConverged() else 1
 
 
 if __name__ == "__main__":

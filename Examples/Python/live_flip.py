@@ -9,7 +9,7 @@ and the last mesh as PREFIX.vtp.
 import sys
 
 from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipLiveView
-from example_files import read_arguments, read_mesh, write_frames
+from example_files import DONE, GEOMETRIES, read_arguments, read_mesh, write_frames
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderWindowInteractor
 
@@ -18,6 +18,7 @@ def main():
     arguments = read_arguments(__doc__)
     flip = vtkDelaunayFlip()
     flip.SetInputData(read_mesh(arguments.mesh))
+    flip.SetGeometry(GEOMETRIES[arguments.geometry])
     window = vtkRenderWindow()
     window.SetWindowName("Delaunay flips")
     window.SetSize(700, 700)
@@ -28,11 +29,12 @@ def main():
     view.SetFilter(flip)
     view.SetInteractor(interactor)
     if arguments.frames:
-        return write_frames(view, window, arguments.frames)
+        write_frames(view, window, arguments.frames)
+        return DONE
     view.SetFrameInterval(200)  # milliseconds
     view.Run()
     interactor.Start()
-    return 0
+    return DONE
 
 
 if __name__ == "__main__":

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BadMesh.h"
+
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <array>
+#include <vector>
+
+namespace
+{
+
+using Point = std::array<double, 2>;
+using Triangle = std::array<vtkIdType, 3>;
+
+constexpr int Rim = 3; // points a side
+constexpr std::size_t Splits = 300;
+
+/// A square with points along its rim, all joined to one within.
+void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
+{
+  const double sides[4][4] = { { 0, 0, 1, 0 }, { 1, 0, 0, 1 }, { 1, 1, -1, 0 }, { 0, 1, 0, -1 } };
+  points = { { 0.44, 0.53 } };
+  for (const auto& side : sides)
+  {
+    for (int i = 0; i < Rim; ++i)
+    {
+      points.push_back({ side[0] + side[2] * i / Rim, side[1] + side[3] * i / Rim });
+    }
+  }
+  for (vtkIdType i = 0; i < 4 * Rim; ++i)
+  {
+    triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * Rim) });
+  }
+}
+
+}
+
+/// The fan, each of its triangles split into three again and again: slivers.
+vtkSmartPointer<vtkPolyData> MakeBadMesh()
+{
+  std::vector<Point> points;
+  std::vector<Triangle> triangles;
+  MakeFan(points, triangles);
+  for (std::size_t i = 0; i < Splits; ++i)
+  {
+    const Triangle t = triangles[i];
+    const auto mix = [&](int k)
+    { return 0.28 * points[t[0]][k] + 0.33 * points[t[1]][k] + 0.39 * points[t[2]][k]; };
+    const auto p = static_cast<vtkIdType>(points.size());
+    points.push_back({ mix(0), mix(1) });
+    triangles.insert(triangles.end(), { { t[0], t[1], p }, { t[1], t[2], p }, { t[2], t[0], p } });
+  }
+  vtkNew<vtkPoints> places;
+  for (const Point& point : points)
+  {
+    places->InsertNextPoint(point[0], point[1], 0.0);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = Splits; i < triangles.size(); ++i)
+  {
+    cells->InsertNextCell(3, triangles[i].data());
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(places);
+  mesh->SetPolys(cells);
+  return mesh;
+}

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef MeshFile_h
+#define MeshFile_h
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+/// Whether the extension is one of .vtk, .vtp, .ply, .stl and .obj, in upper or lower case.
+bool HasKnownExtension(const std::string& file);
+
+/// The mesh of a file.
+/// @throws std::runtime_error that names the file and says what is wrong with it.
+vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& file);
+
+#endif
