@@ -3,7 +3,7 @@
 #include "ExampleFiles.h"
 
 #include "BadMesh.h"
-#include "MeshFile.h"
+#include "ReadMeshFile.h"
 
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipLiveView.h>

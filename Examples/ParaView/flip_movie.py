@@ -122,7 +122,8 @@ def read_mesh(file):
     reader.UpdatePipeline()
     if reader.GetDataInformation().GetNumberOfCells() == 0:
         fail(f"{file}: no mesh could be read")
-    return reader
+    # The reader of .obj files repeats a point for every normal and texture coordinate.
+    return simple.Clean(Input=reader) if file.lower().endswith(".obj") else reader
 
 
 def main():

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/ParaView/flip_movie.py: a frame an iteration, three of them compared with baselines.
+"""Examples/ParaView/flip_movie.py: a frame per iteration, three of them compared with baselines,
+what it reads, and what it says when something is wrong.
 
 The pictures may differ by TOLERANCE in the measure of vtkImageDifference, which is what VTK's own
 image tests allow: other drivers draw the edges' pixels a little differently.
@@ -35,29 +36,66 @@ def compare(file, baseline):
     return difference.GetThresholdedError()
 
 
-class Movie(unittest.TestCase):
-    def test_frames(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.write_frames(folder)
-            frames = sorted(name for name in os.listdir(folder) if name.endswith(".png"))
-            self.assertEqual(frames, [f"flip.{i:04d}.png" for i in range(FRAMES)])
-            for frame in (frames[0], frames[FRAMES // 2], frames[-1]):
-                baseline = os.path.join(HERE, "Baseline", frame)
-                with self.subTest(frame):
-                    self.assertLess(compare(os.path.join(folder, frame), baseline), TOLERANCE)
-            self.assertGreater(
-                compare(os.path.join(folder, frames[0]), os.path.join(folder, frames[-1])),
-                10 * TOLERANCE)
+def run_example(*arguments):
+    environment = dict(
+        os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["DELAUNAYFLIP_PLUGIN"]))
+    return subprocess.run(
+        [os.environ["DELAUNAYFLIP_PVPYTHON"], EXAMPLE, *arguments], env=environment,
+        timeout=PATIENCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, encoding="utf-8", check=False)
 
-    def write_frames(self, folder):
-        environment = dict(
-            os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["DELAUNAYFLIP_PLUGIN"]))
-        run = subprocess.run(
-            [os.environ["DELAUNAYFLIP_PVPYTHON"], EXAMPLE, folder], env=environment,
-            timeout=PATIENCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, encoding="utf-8", check=False)
+
+class Movie(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def test_frames(self):
+        self.expect(f"{FRAMES} frames of 779 flips")
+        frames = self.list_frames()
+        self.assertEqual(frames, [f"flip.{i:04d}.png" for i in range(FRAMES)])
+        for frame in (frames[0], frames[FRAMES // 2], frames[-1]):
+            baseline = os.path.join(HERE, "Baseline", frame)
+            with self.subTest(frame):
+                self.assertLess(compare(self.path(frame), baseline), TOLERANCE)
+        self.assertGreater(
+            compare(self.path(frames[0]), self.path(frames[-1])), 10 * TOLERANCE)
+
+    def test_a_file_of_another_format(self):
+        """A roof whose ridge must flip as seen from above; in space it is a feature edge."""
+        file = self.path("roof.obj")
+        with open(file, "w", encoding="ascii") as roof:
+            roof.write("v -3 0 1\nv 0 -1 0\nv 3 0 1\nv 0 1 0\nvn 0 1 1\nvn 0 -1 1\n"
+                       "f 1//2 2//2 3//2\nf 1//1 3//1 4//1\n")
+        self.expect("2 frames of 1 flips", file, "--geometry", "planar-xy")
+        self.expect("1 frames of 0 flips", file, "--geometry", "surface")
+
+    def test_what_is_wrong_is_told(self):
+        for status, message, *arguments in (
+                (2, "known are .vtk .vtp .ply .stl .obj", "mesh.xyz"),
+                (2, "invalid choice: 'round'", "--geometry", "round"),
+                (3, "error: missing.vtp: no such file", "missing.vtp")):
+            with self.subTest(message):
+                run = run_example(self.folder, *arguments)
+                self.assertEqual(run.returncode, status, run.stdout)
+                self.assertIn(message, run.stdout)
+
+    def test_help(self):
+        run = run_example("--help")
         self.assertEqual(run.returncode, 0, run.stdout)
-        self.assertIn(f"{FRAMES} frames of 779 flips", run.stdout)
+        self.assertIn("--geometry", run.stdout)
+
+    def expect(self, outcome, *arguments):
+        run = run_example(self.folder, *arguments)
+        self.assertEqual(run.returncode, 0, run.stdout)
+        self.assertIn(outcome, run.stdout)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def list_frames(self):
+        return sorted(name for name in os.listdir(self.folder) if name.endswith(".png"))
 
 
 if __name__ == "__main__":

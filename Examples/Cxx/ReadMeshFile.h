@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef MeshFile_h
-#define MeshFile_h
+#ifndef ReadMeshFile_h
+#define ReadMeshFile_h
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>

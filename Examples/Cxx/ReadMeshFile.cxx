@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshFile.h"
+#include "ReadMeshFile.h"
 
 #include <vtkCleanPolyData.h>
 #include <vtkLogger.h>
