@@ -17,7 +17,7 @@ if(DELAUNAYFLIP_BUILD_RENDERING)
     list(APPEND delaunayflip_vtk_drawing InteractionStyle RenderingUI)
   endif()
 endif()
-set(delaunayflip_vtk CommonCore CommonDataModel CommonExecutionModel
+set(delaunayflip_vtk CommonCore CommonDataModel CommonExecutionModel CommonMisc
   IOGeometry IOLegacy IOPLY IOXML vtksys)
 if(DELAUNAYFLIP_BUILD_TESTING)
   list(APPEND delaunayflip_vtk FiltersCore FiltersVerdict IOImage RenderingCore RenderingOpenGL2

@@ -4,6 +4,7 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
+#include "FlipFailure.h"
 #include "FlipRun.h"
 #include "HostProgram.h"
 #include "ReportTables.h"
@@ -11,6 +12,7 @@
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -20,8 +22,6 @@
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -134,50 +134,28 @@ int vtkDelaunayFlip::RequestData(
     vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(
       outputVector->GetInformationObject(0)) > 1 };
   this->HasExecuted = true;
-  this->Failure = this->TryToFlip(data);
-  if (this->Failure == FAILURE_NONE)
+  this->SetFailure(Attempt([&]() { this->Flip(data); }));
+  if (this->Failure != FAILURE_NONE)
   {
-    return 1;
+    *this->Report = FlipReport();
+    this->MayGoOn = false;
+    data.Output->Initialize();
+    data.Iterations->Initialize();
+    AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
+    vtkErrorMacro(<< this->ErrorMessage);
   }
-  *this->Report = FlipReport();
-  this->MayGoOn = false;
-  data.Output->Initialize();
-  data.Iterations->Initialize();
-  return 0;
+  // Also after an error. Of 0 the representations downstream would not hear the end, without which
+  // ParaView's views wait for them and update them no more.
+  return 1;
 }
 
 //------------------------------------------------------------------------------
-int vtkDelaunayFlip::TryToFlip(const Connection& data)
+void vtkDelaunayFlip::SetFailure(const FlipFailure& failure)
 {
-  try
-  {
-    this->Flip(data);
-    return FAILURE_NONE;
-  }
-  catch (const InvalidOptions& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return FAILURE_OPTIONS;
-  }
-  catch (const BackendUnavailable& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return FAILURE_BACKEND;
-  }
-  catch (const FlipError& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return FAILURE_MESH;
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Not enough memory for " << data.Input->GetNumberOfCells() << " cells.");
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-  }
-  return FAILURE_OTHER;
+  this->Failure = failure.Kind;
+  this->ErrorMessage = failure.Message;
+  this->StopReasonText = "failed: " + failure.Message;
+  this->SetErrorCode(failure ? vtkErrorCode::UserError + failure.Kind : vtkErrorCode::NoError);
 }
 
 //------------------------------------------------------------------------------
@@ -329,12 +307,19 @@ vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
 
 bool vtkDelaunayFlip::GetConverged() const { return this->Report->Converged(); }
 
-int vtkDelaunayFlip::GetStopReason() const { return static_cast<int>(this->Report->StopReason); }
+int vtkDelaunayFlip::GetStopReason() const
+{
+  return this->Failure != FAILURE_NONE ? static_cast<int>(STOP_REASON_FAILED)
+                                       : static_cast<int>(this->Report->StopReason);
+}
 
 const char* vtkDelaunayFlip::GetStopReasonAsString() const
 {
-  return ToString(this->Report->StopReason);
+  return this->Failure != FAILURE_NONE ? this->StopReasonText.c_str()
+                                       : ToString(this->Report->StopReason);
 }
+
+const char* vtkDelaunayFlip::GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 
 int vtkDelaunayFlip::GetGeometryUsed() const
 {

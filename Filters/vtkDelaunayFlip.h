@@ -78,6 +78,7 @@ class vtkTable;
 namespace delaunayflip
 {
 class FlipRun;
+struct FlipFailure;
 struct FlipOptions;
 struct FlipReport;
 struct IterationRecord;
@@ -358,8 +359,9 @@ public:
 
   ///@{
   /**
-   * Why the last update ended. NOT_STARTED before any, and after an error; RUNNING when a live
-   * update has made its iterations and more are to come.
+   * Why the last update ended. NOT_STARTED before any; RUNNING when a live update has made its
+   * iterations and more are to come; FAILED after an error, when the outputs are empty and the text
+   * is "failed: " and why. The update after an error needs nothing but what puts it right.
    */
   enum StopReasonType
   {
@@ -367,7 +369,8 @@ public:
     STOP_REASON_CONVERGED = 1,
     STOP_REASON_ITERATION_LIMIT = 2,
     STOP_REASON_ABORTED = 3,
-    STOP_REASON_RUNNING = 4
+    STOP_REASON_RUNNING = 4,
+    STOP_REASON_FAILED = 5
   };
   int GetStopReason() const;
   const char* GetStopReasonAsString() const;
@@ -393,6 +396,7 @@ public:
    * What was at fault when the last update failed: FAILURE_OPTIONS contradict each other or the
    * mesh, FAILURE_MESH names points that do not exist or is too large, FAILURE_BACKEND cannot run
    * here, FAILURE_OTHER (no memory). FAILURE_NONE before any update and after one that succeeded.
+   * GetErrorCode() is then vtkErrorCode::UserError plus this number, or vtkErrorCode::NoError.
    */
   enum FailureType
   {
@@ -404,6 +408,11 @@ public:
   };
   vtkGetMacro(Failure, int);
   ///@}
+
+  /**
+   * Why the last update failed, in words; "" before any update and after one that succeeded.
+   */
+  const char* GetErrorMessage() const;
 
   /**
    * Everything that is known of the last update, for C++ callers that include FlipReport.h.
@@ -444,7 +453,7 @@ private:
   struct Connection;
 
   void Flip(const Connection& data);
-  int TryToFlip(const Connection& data);
+  void SetFailure(const delaunayflip::FlipFailure& failure);
   delaunayflip::FlipOptions GetOptions() const;
   bool Observe(const delaunayflip::IterationRecord& record);
   bool IsLive(const Connection& data);
@@ -452,6 +461,8 @@ private:
   void Warn(std::string& last);
 
   int Failure = FAILURE_NONE;
+  std::string ErrorMessage;
+  std::string StopReasonText; ///< After an error.
   bool HasExecuted = false;
   bool HasCompositeInput = false;
   bool HasWarnedOfComposite = false;

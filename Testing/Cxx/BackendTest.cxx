@@ -129,7 +129,7 @@ TEST(VtkDelaunayFlip, ForcedBackendThatIsAbsentIsAnError)
   ASSERT_EQ(filter.GetErrors().size(), 1u);
   EXPECT_NE(filter.GetErrors()[0].find(Reason), std::string::npos) << filter.GetErrors()[0];
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_BACKEND);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
   EXPECT_EQ(output->GetNumberOfCells(), 0);
   EXPECT_EQ(output->GetNumberOfPoints(), 0);
 

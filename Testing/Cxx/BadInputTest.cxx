@@ -26,7 +26,7 @@ std::string GetError(WatchedFilter& filter)
   vtkPolyData* output = filter.Run();
   EXPECT_EQ(output->GetNumberOfCells(), 0);
   EXPECT_EQ(output->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
   EXPECT_EQ(filter.GetErrors().size(), 1u);
   return filter.GetErrors().empty() ? "" : filter.GetErrors()[0];
 }

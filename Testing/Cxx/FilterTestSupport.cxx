@@ -128,7 +128,7 @@ WatchedFilter::WatchedFilter()
 {
   this->Watch(this->Filter, vtkCommand::ErrorEvent, &this->Errors);
   this->Watch(this->Filter, vtkCommand::WarningEvent, &this->Warnings);
-  this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, nullptr);
+  this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, &this->ExecutiveErrors);
 }
 
 WatchedFilter::WatchedFilter(vtkPolyData* input)
@@ -143,13 +143,8 @@ void WatchedFilter::Watch(
   vtkNew<vtkCallbackCommand> command;
   command->SetClientData(messages);
   command->SetCallback(
-    [](vtkObject*, unsigned long, void* target, void* text)
-    {
-      if (target)
-      {
-        static_cast<std::vector<std::string>*>(target)->emplace_back(
-          static_cast<const char*>(text));
-      }
+    [](vtkObject*, unsigned long, void* target, void* text) {
+      static_cast<std::vector<std::string>*>(target)->emplace_back(static_cast<const char*>(text));
     });
   object->AddObserver(event, command);
 }

@@ -80,6 +80,7 @@ public:
 
   const std::vector<std::string>& GetErrors() const { return this->Errors; }
   const std::vector<std::string>& GetWarnings() const { return this->Warnings; }
+  const std::vector<std::string>& GetExecutiveErrors() const { return this->ExecutiveErrors; }
 
 private:
   void Watch(vtkObject* object, unsigned long event, std::vector<std::string>* messages);
@@ -87,6 +88,7 @@ private:
   vtkNew<vtkDelaunayFlip> Filter;
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
+  std::vector<std::string> ExecutiveErrors;
 };
 
 /// Calls a function at every progress event.

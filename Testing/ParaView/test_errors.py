@@ -19,7 +19,8 @@ class Errors(PluginTest):
         for word in words:
             self.assertIn(word, messages.text)
         self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
-        self.assertEqual(flip.StopReason, "not started")
+        self.assertTrue(flip.StopReason.startswith("failed: "), flip.StopReason)
+        self.assertIn(words[0], flip.StopReason)
         return flip
 
     def test_contradicting_properties(self):
@@ -42,6 +43,17 @@ class Errors(PluginTest):
 
     def test_bad_tolerance(self):
         self.fail_with(["olerance"], self.read(make_fan(10)), Tolerance=2.0)
+
+    def test_ten_in_a_row(self):
+        flip = simple.DelaunayFlip(Input=simple.Sphere())
+        for geometry in ("Planar", "Surface") * 10:
+            flip.Geometry = geometry
+            with Messages() as messages:
+                refresh(flip)
+            fails = geometry == "Planar"
+            self.assertEqual(messages.text.count("ERROR"), int(fails), messages.text)
+            self.assertEqual(fetch(flip).GetNumberOfCells() == 0, fails)
+            self.assertEqual(flip.StopReason.split(":")[0], "failed" if fails else "converged")
 
     def test_nothing_to_flip_is_no_error(self):
         mesh = make_fan(10)

@@ -253,6 +253,24 @@ class Input(unittest.TestCase):
         self.assertEqual(watched.run().GetNumberOfCells(), 0)
         self.assertEqual(len(watched.errors), 1)
 
+    def test_ten_errors_in_a_row(self):
+        watched = Watched(make_rhombus())
+        flip = watched.filter
+        flip.SetTieRuleToCanonical()
+        for i in range(10):
+            flip.SetGeometryToSurface()
+            flip.SetFeatureAngle(i)
+            self.assertEqual(watched.run().GetNumberOfCells(), 0)
+            self.assertEqual(len(watched.errors), i + 1)
+            self.assertEqual(flip.GetStopReason(), vtkDelaunayFlip.STOP_REASON_FAILED)
+            self.assertEqual(flip.GetStopReasonAsString(), "failed: " + flip.GetErrorMessage())
+            self.assertIn("tie rule", flip.GetErrorMessage())
+            self.assertEqual(flip.GetErrorCode(), 40000 + vtkDelaunayFlip.FAILURE_OPTIONS)
+        flip.SetGeometryToAuto()
+        self.assertIn(frozenset((1, 3)), get_edges(watched.run()))
+        self.assertEqual(flip.GetErrorMessage(), "")
+        self.assertEqual(flip.GetErrorCode(), 0)
+
 
 class Pipeline(unittest.TestCase):
 
