@@ -72,13 +72,17 @@ public:
     {
       this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer);
     }
-    this->MeasureEnd();
+    if (!this->IsRunning())
+    {
+      this->MeasureEnd();
+    }
     this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
     return this->IsRunning();
   }
 
   const FlipReport& GetReport()
   {
+    this->MeasureEnd();
     this->Report.Backend = this->Engine.GetInputReport().Backend;
     this->Report.Fallback = this->Engine.GetFallback();
     return this->Report;
@@ -146,6 +150,7 @@ private:
     const bool isFirst = this->Report.Iterations.empty();
     const std::vector<IterationCounts> iterations =
       this->Engine.Advance({ most, isFirst, this->Options.TrackQuality });
+    this->IsMeasured = false;
     this->Detected(this->Engine.GetFound());
 #if !defined(NDEBUG)
     this->Engine.Audit();
@@ -191,14 +196,16 @@ private:
     this->Report.TotalBlocked += record.Blocked;
   }
 
-  /// The smallest angle is known at the first and the last iteration, without a pass between.
+  /// The smallest angle is known at the first and the last iteration, without a pass between. At a
+  /// stop on the way, it takes one where somebody asks for the report.
   void MeasureEnd()
   {
-    if (this->Report.Iterations.empty())
+    if (this->IsMeasured)
     {
       return;
     }
     this->Report.MinimumAngleAfter = this->MeasureAngle();
+    this->IsMeasured = true;
     if (!this->IsRunning())
     {
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
@@ -210,6 +217,7 @@ private:
   ChosenEngine Engine;
   StepCounts Found; ///< By the last Detect.
   FlipReport Report;
+  bool IsMeasured = true; ///< MinimumAngleAfter is that of the mesh.
 };
 
 FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options)

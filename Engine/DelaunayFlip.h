@@ -39,7 +39,8 @@ public:
   /// @returns whether another call could still change the mesh.
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {});
 
-  /// What has happened so far.
+  /// What has happened so far. The first call after an Advance that did not reach the end looks for
+  /// the smallest angle, a pass over the mesh.
   const FlipReport& GetReport() const;
 
   /// Writes the triangles in their input slots. A triangle that no flip touched keeps its three ids

@@ -8,6 +8,7 @@
 #include "FlipRun.h"
 #include "HostProgram.h"
 #include "ReportTables.h"
+#include "TimedAdvance.h"
 #include "VersionDifferences.h"
 
 #include "vtkCompositeDataSet.h"
@@ -181,8 +182,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
       { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
       isLive });
   *this->Report = run->GetReport();
-  const bool mayGoOn = run->GetSession().Advance(isLive ? this->IterationsPerUpdate : -1,
-    [this](const IterationRecord& record) { return this->Observe(record); });
+  const bool mayGoOn = this->Advance(run->GetSession(), isLive);
   run->Store(data.Output, this->GenerateFlipCount);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = run->GetReport();
@@ -216,6 +216,20 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
 }
 
 //------------------------------------------------------------------------------
+/// The iterations of one update.
+/// @returns whether another update could still change the mesh.
+bool vtkDelaunayFlip::Advance(FlipSession& session, bool isLive)
+{
+  const FlipObserver observer = [this](const IterationRecord& record)
+  { return this->Observe(record); };
+  if (isLive && this->IterationsPerUpdate == 0)
+  {
+    constexpr double Seconds = 0.05; // the header says so
+    return AdvanceFor(session, Seconds, observer);
+  }
+  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer);
+}
+
 bool vtkDelaunayFlip::Observe(const IterationRecord& record)
 {
   this->Report->Iterations.push_back(record);
@@ -289,7 +303,7 @@ void vtkDelaunayFlip::Restart()
 bool vtkDelaunayFlip::GetNeedsUpdate()
 {
   const bool isUnderWay = this->Run && this->Report->StopReason == StopReasonKind::Running;
-  return isUnderWay && this->Advance();
+  return isUnderWay && !this->Paused && this->Advance();
 }
 
 //------------------------------------------------------------------------------
@@ -355,6 +369,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
+  os << indent << "Paused: " << this->Paused << "\n";
   os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
   os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";

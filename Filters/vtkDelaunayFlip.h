@@ -78,6 +78,7 @@ class vtkTable;
 namespace delaunayflip
 {
 class FlipRun;
+class FlipSession;
 struct FlipFailure;
 struct FlipOptions;
 struct FlipReport;
@@ -293,9 +294,11 @@ public:
 
   ///@{
   /**
-   * Iterations that an update makes when LiveUpdate is on: 1 (default) or more.
+   * Iterations that an update makes when LiveUpdate is on: 1 (default) or more, or 0 for as many as
+   * fit 50 ms, at least one. With 0 the meshes on the way may differ from run to run; the last one
+   * and the table do not.
    */
-  vtkSetClampMacro(IterationsPerUpdate, vtkIdType, 1, VTK_ID_MAX);
+  vtkSetClampMacro(IterationsPerUpdate, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(IterationsPerUpdate, vtkIdType);
   ///@}
 
@@ -306,14 +309,29 @@ public:
    */
   bool Advance();
 
+  ///@{
+  /**
+   * Hold a live run: while this is on, GetNeedsUpdate() returns false; Advance() and Step() still
+   * work. Default off. To set it does not mark the filter as modified, for that would make a step.
+   */
+  void SetPaused(bool paused) { this->Paused = paused; }
+  vtkGetMacro(Paused, bool);
+  vtkBooleanMacro(Paused, bool);
+  ///@}
+
+  /**
+   * As Advance(): one more update of a live run, paused or not. For a button beside Paused.
+   */
+  bool Step() { return this->Advance(); }
+
   /**
    * Lets the next update of a live run start from the input again.
    */
   void Restart();
 
   /**
-   * For programs that poll (ParaView's LiveSource): as Advance(), but false before the first update
-   * and after an abort.
+   * For programs that poll (ParaView's LiveSource): as Advance(), but false before the first
+   * update, after an abort and while Paused.
    */
   bool GetNeedsUpdate();
 
@@ -448,6 +466,7 @@ protected:
   bool GenerateFlipCount = false;
   bool LiveUpdate = false;
   vtkIdType IterationsPerUpdate = 1;
+  bool Paused = false;
 
 private:
   struct Connection;
@@ -455,6 +474,7 @@ private:
   void Flip(const Connection& data);
   void SetFailure(const delaunayflip::FlipFailure& failure);
   delaunayflip::FlipOptions GetOptions() const;
+  bool Advance(delaunayflip::FlipSession& session, bool isLive);
   bool Observe(const delaunayflip::IterationRecord& record);
   bool IsLive(const Connection& data);
   std::string DescribeTrouble() const;

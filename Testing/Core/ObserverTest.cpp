@@ -150,6 +150,25 @@ TEST_F(ObserverTest, TheIterationLimitHolds)
   }
 }
 
+TEST_F(ObserverTest, ReportsHaveTheAngleOfEveryStop)
+{
+  FlipSession session = MakeSession(this->Mesh.View());
+  for (int stop = 0; stop < 3; ++stop)
+  {
+    ASSERT_TRUE(session.Advance(1));
+    ASSERT_TRUE(session.Advance(1)); // nobody asked for the angle before it
+    const std::vector<std::int32_t> triangles = Store(session);
+    EXPECT_NEAR(MinimumAngle(WithTriangles(this->Mesh.View(), triangles), GeometryKind::Planar),
+      session.GetReport().MinimumAngleAfter, 1e-9);
+    EXPECT_EQ(stop > 0, std::isnan(session.GetReport().Iterations[2 * stop].MinimumAngle));
+    EXPECT_TRUE(std::isnan(session.GetReport().Iterations.back().MinimumAngle));
+  }
+  session.Advance();
+  EXPECT_EQ(this->Complete.Report.MinimumAngleAfter, session.GetReport().MinimumAngleAfter);
+  EXPECT_EQ(
+    this->Complete.Report.MinimumAngleAfter, session.GetReport().Iterations.back().MinimumAngle);
+}
+
 TEST_F(ObserverTest, AnglesAreMeasuredAtBothEndsOrEverywhere)
 {
   const std::vector<IterationRecord>& rows = this->Complete.Report.Iterations;

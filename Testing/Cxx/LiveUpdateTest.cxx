@@ -22,6 +22,7 @@ TEST(LiveUpdate, IsOffByDefault)
   WatchedFilter filter(MakeBadPlane());
   EXPECT_FALSE(filter->GetLiveUpdate());
   EXPECT_EQ(filter->GetIterationsPerUpdate(), 1);
+  EXPECT_FALSE(filter->GetPaused());
   RunCleanly(filter);
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_FALSE(filter->Advance());

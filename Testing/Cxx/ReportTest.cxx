@@ -187,7 +187,8 @@ TEST(VtkDelaunayFlip, PrintSelfNamesEveryProperty)
   filter->Print(text);
   for (const char* name : { "Geometry", "Criterion", "Tolerance", "TieRule", "FeatureAngle",
          "RegionArray", "LinesAsConstraints", "Triangulate", "Backend", "DeviceId",
-         "NumberOfThreads", "MaximumIterations", "TrackQuality", "GenerateFlipCount" })
+         "NumberOfThreads", "MaximumIterations", "TrackQuality", "GenerateFlipCount", "LiveUpdate",
+         "IterationsPerUpdate", "Paused" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

@@ -92,7 +92,7 @@ class Proxy(PluginTest):
                  if self.property(name).GetPanelVisibility() == "default"]
         self.assertEqual(set(basic), {
             "Geometry", "FeatureAngle", "RegionArray", "MaximumIterations", "LiveUpdate",
-            "IterationsPerUpdate", "Restart", "NumberOfIterations",
+            "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
             "TotalFlips", "NumberOfNonDelaunayEdges", "StopReason", "GeometryUsed", "BackendUsed"})
 
     def test_iterations_can_be_animated(self):

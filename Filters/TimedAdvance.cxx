@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TimedAdvance.h"
+
+#include "DelaunayFlip.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto getElapsed = [start]()
+  { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  double elapsed = 0.0;
+  double iterations = 1.0;
+  bool mayGoOn = false;
+  do
+  {
+    const double before = elapsed;
+    mayGoOn = session.Advance(static_cast<std::int64_t>(iterations), observer);
+    elapsed = getElapsed();
+    // Several at a time cost less, on a GPU above all, but one may take longer than those before.
+    const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
+    iterations = std::min(fitting, 2.0 * iterations);
+  } while (mayGoOn && iterations >= 1.0);
+  return mayGoOn;
+}
+
+}

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef TimedAdvance_h
+#define TimedAdvance_h
+
+#include "FlipReport.h"
+
+namespace delaunayflip
+{
+
+class FlipSession;
+
+/// FlipSession::Advance with as many iterations as fit a time, at least one.
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer);
+
+}
+
+#endif
