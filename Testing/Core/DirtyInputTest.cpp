@@ -49,20 +49,6 @@ FlipResult FlipDirty(const OwnedMesh<double>& mesh, GeometryKind geometry)
   return result;
 }
 
-std::int64_t CountDefect(const FlipReport& report, const std::string& word)
-{
-  for (const Defect& defect : report.Defects)
-  {
-    if (defect.What.find(word) != std::string::npos)
-    {
-      EXPECT_EQ(std::min<std::size_t>(3, defect.Count), defect.FirstIds.size());
-      EXPECT_TRUE(std::is_sorted(defect.FirstIds.begin(), defect.FirstIds.end()));
-      return defect.Count;
-    }
-  }
-  return 0;
-}
-
 TEST(DirtyInput, EmptyMeshesAreDone)
 {
   const OwnedMesh<double> empty[] = { {}, { { 1, 2, 3, 4, 5, 6 }, {} } };

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 /// @file
@@ -64,8 +65,12 @@ void ExpectSameTopology(
 /// that are not the sums of the rows.
 void ExpectConsistentStatistics(const FlipReport& report);
 
-/// Reports a failure for every difference other than times and the backend's name.
+/// Reports a failure for every difference other than times, the backend's name and its fallback.
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b);
+
+/// The count of the first defect whose text holds `word`, or 0; reports a failure unless it names
+/// its first ids.
+std::int64_t CountDefect(const FlipReport& report, const std::string& word);
 
 bool HasEdge(const std::vector<std::int32_t>& triangles, std::int64_t p, std::int64_t q);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "Predicates.h"
 
 #include <gtest/gtest.h>
 
@@ -110,6 +111,25 @@ TEST(Overlap, FlatPillowsGainNoEdgeTwice)
   EXPECT_LT(0, blocked);
 }
 
+/// The slots of the triangles that turn to a side (1, -1), or to none (0), by exact orientations.
+std::vector<std::int64_t> FindTurns(const OwnedMesh<double>& mesh, int side)
+{
+  std::vector<std::int64_t> slots;
+  for (std::size_t corner = 0; corner < mesh.Triangles.size(); corner += 3)
+  {
+    const double* points[3];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      points[i] = &mesh.Points[3 * static_cast<std::size_t>(mesh.Triangles[corner + i])];
+    }
+    if (Orientation(points[0], points[1], points[2]) == side)
+    {
+      slots.push_back(static_cast<std::int64_t>(corner / 3));
+    }
+  }
+  return slots;
+}
+
 /// A vertex pulled out of its star turns triangles over; pairs of opposite turns never flip.
 TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
 {
@@ -121,8 +141,17 @@ TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
     mesh.Points[3 * point] = DrawIndex(random, 1000) / 1000.0;
   }
   FlipOverlapping(mesh);
-  const FlipReport report = MakeSession(mesh.View()).GetReport();
-  EXPECT_FALSE(DescribeDefects(report.Defects).empty());
+  std::vector<std::int64_t> inverted = FindTurns(mesh, -1);
+  ASSERT_LT(20u, inverted.size());
+  ASSERT_LT(inverted.size(), FindTurns(mesh, 1).size());
+  ASSERT_TRUE(FindTurns(mesh, 0).empty());
+  const std::vector<Defect> defects = MakeSession(mesh.View()).GetReport().Defects;
+  ASSERT_EQ(1u, defects.size()) << DescribeDefects(defects);
+  EXPECT_EQ("triangles that turn the other way than most", defects[0].What);
+  EXPECT_EQ(static_cast<std::int64_t>(inverted.size()), defects[0].Count);
+  EXPECT_EQ(DefectIds::Triangles, defects[0].Ids);
+  inverted.resize(3);
+  EXPECT_EQ(inverted, defects[0].FirstIds);
 }
 
 }
