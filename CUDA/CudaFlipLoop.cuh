@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 
 #include "AngleSurvey.h"
-#include "BadEdges.h"
+#include "BadEdgeCounts.h"
 #include "CudaBackend.cuh"
 #include "DeviceEdgeBits.cuh"
 #include "EdgeGuard.h"
@@ -95,9 +95,10 @@ protected:
     this->Prepare();
     this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, this->View());
     const Results& results = this->FetchResults();
-    const RoundSums& all = results.Rounds[1];
-    this->Edges = { GetSum(results.Rounds[0], RoundSum::Tested), GetSum(all, RoundSum::AllBad),
-      GetSum(all, RoundSum::AllMisshapen), GetSum(all, RoundSum::AllObstructed) };
+    const IterationSums& all = results.Sums[1];
+    this->Edges = { GetSum(results.Sums[0], IterationSum::Tested),
+      GetSum(all, IterationSum::AllBad), GetSum(all, IterationSum::AllBlockedByShape),
+      GetSum(all, IterationSum::AllBlockedByEdge) };
     return this->Edges.ToCounts();
   }
 
@@ -147,8 +148,8 @@ private:
   /// What a launch leaves behind.
   struct Results
   {
-    int RoundsDone;
-    RoundSums Rounds[MostIterations + 1];
+    int IterationsDone;
+    IterationSums Sums[MostIterations + 1];
   };
 
   /// As many blocks as run at the same time, which their barriers need.
@@ -194,8 +195,8 @@ private:
     Results* results = this->DeviceResults.Data();
     return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
       static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(),
-      static_cast<int>(this->NumberOfChunks), this->TeamStates.Data(), results->Rounds,
-      &results->RoundsDone };
+      static_cast<int>(this->NumberOfChunks), this->TeamStates.Data(), results->Sums,
+      &results->IterationsDone };
   }
 
   /// Clears what kernels count in.
@@ -229,9 +230,9 @@ private:
   {
     auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0]);
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
-    for (const RoundSums& round : results->Rounds)
+    for (const IterationSums& iteration : results->Sums)
     {
-      if (GetSum(round, RoundSum::Uncertain) > 0)
+      if (GetSum(iteration, IterationSum::Uncertain) > 0)
       {
         throw BeyondDevice();
       }
@@ -244,13 +245,13 @@ private:
     const Results& results = this->FetchResults();
     std::vector<IterationCounts> iterations;
     StepCounts flips;
-    for (int i = 0; i < results.RoundsDone; ++i)
+    for (int i = 0; i < results.IterationsDone; ++i)
     {
-      const RoundSums& round = results.Rounds[i];
-      iterations.push_back(this->Edges.ToIteration(round));
-      this->Edges = this->Edges.Follow(round, this->Guard.IsActive());
-      flips.FreshSlots += GetSum(round, RoundSum::FreshSlots);
-      flips.LostInserts += GetSum(round, RoundSum::LostInserts);
+      const IterationSums& iteration = results.Sums[i];
+      iterations.push_back(this->Edges.ToIteration(iteration));
+      this->Edges = this->Edges.Follow(iteration, this->Guard.IsActive());
+      flips.FreshSlots += GetSum(iteration, IterationSum::FreshSlots);
+      flips.LostInserts += GetSum(iteration, IterationSum::LostInserts);
     }
     this->Found = this->Edges.ToCounts();
     if (this->Guard.IsActive())
@@ -265,19 +266,19 @@ private:
   }
 
   /// Adds so many iterations within chunks.
-  void LaunchChunks(int rounds, std::vector<IterationCounts>& total)
+  void LaunchChunks(int iterations, std::vector<IterationCounts>& total)
   {
     this->Prepare();
     this->LaunchTogether(this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>, this->View(),
-      this->BlocksOfTeam, rounds);
+      this->BlocksOfTeam, iterations);
     const Results& results = this->FetchResults();
-    const RoundSums& sums = results.Rounds[rounds];
-    BadEdges edges{ this->TestedInChunks, GetSum(sums, RoundSum::AllBad),
-      GetSum(sums, RoundSum::AllMisshapen), 0 };
-    for (int i = 0; i < rounds; ++i)
+    const IterationSums& sums = results.Sums[iterations];
+    BadEdgeCounts edges{ this->TestedInChunks, GetSum(sums, IterationSum::AllBad),
+      GetSum(sums, IterationSum::AllBlockedByShape), 0 };
+    for (int i = 0; i < iterations; ++i)
     {
-      total.push_back(edges.ToIteration(results.Rounds[i]));
-      edges = edges.Follow(results.Rounds[i], false);
+      total.push_back(edges.ToIteration(results.Sums[i]));
+      edges = edges.Follow(results.Sums[i], false);
     }
     this->TestedInChunks = edges.Tested;
   }
@@ -290,13 +291,13 @@ private:
   int GridBlocks = 1;
   int Teams = 1;
   int BlocksOfTeam = 1;
-  std::int64_t TestedInChunks = 0; ///< By the last round within chunks.
+  std::int64_t TestedInChunks = 0; ///< By the last iteration within chunks.
   int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
   DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
-  BadEdges Edges; ///< As Found, in detail.
+  BadEdgeCounts Edges; ///< As Found, in detail.
 };
 
 template <typename Rule>

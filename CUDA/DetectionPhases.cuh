@@ -6,8 +6,8 @@
 #include "EdgeBits.h"
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
+#include "IterationSums.h"
 #include "LoopView.cuh"
-#include "RoundSums.h"
 #include "Team.cuh"
 
 /// @file
@@ -19,7 +19,7 @@ namespace delaunayflip
 /// Sets what a judgement says. @returns whether the edge is bad.
 template <typename Rule>
 __device__ bool NoteState(
-  const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& misshapen)
+  const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
 {
   if (state == EdgeState::Bad)
   {
@@ -27,8 +27,8 @@ __device__ bool NoteState(
   }
   if (Rule::MayBlock && state == EdgeState::BlockedByShape)
   {
-    EdgeBits::Set(loop.Bits.Misshapen, edge);
-    ++misshapen;
+    EdgeBits::Set(loop.Bits.BlockedByShape, edge);
+    ++blockedByShape;
   }
   return state == EdgeState::Bad;
 }
@@ -40,15 +40,15 @@ template <typename Rule, typename Worklist>
 __device__ __noinline__ void ResolveUncertain(
   const LoopView<Rule>& loop, Worklist worklist, Team team)
 {
-  unsigned uncertain = 0, isBad = 0, isMisshapen = 0;
+  unsigned uncertain = 0, isBad = 0, isBlockedByShape = 0;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
     {
       const unsigned marked = byte.Load(loop.Bits.Candidates);
-      const unsigned asleep = byte.Load(loop.Bits.Asleep);
+      const unsigned fixedOrDeferred = byte.Load(loop.Bits.FixedOrDeferred);
       byte.Clear(loop.Bits.Candidates, marked, marked);
-      return marked & ~asleep;
+      return marked & ~fixedOrDeferred;
     },
     [&](EdgeId edge, const CornerPair& corners)
     {
@@ -57,31 +57,31 @@ __device__ __noinline__ void ResolveUncertain(
         return;
       }
       const EdgeState state = loop.Decision.JudgeExactly(loop.Mesh.GetQuad(corners));
-      isBad += NoteState(loop, edge, state, isMisshapen) ? 1 : 0;
+      isBad += NoteState(loop, edge, state, isBlockedByShape) ? 1 : 0;
       uncertain += state == EdgeState::Uncertain ? 1 : 0;
     });
   team.Warn(uncertain > 0);
-  team.Add(RoundSum::Uncertain, uncertain);
-  team.Add(RoundSum::IsBad, isBad);
-  team.Add(RoundSum::IsMisshapen, isMisshapen);
+  team.Add(IterationSum::Uncertain, uncertain);
+  team.Add(IterationSum::IsBad, isBad);
+  team.Add(IterationSum::IsBlockedByShape, isBlockedByShape);
 }
 
 /// What a thread counts while it detects.
 struct DetectionCounts
 {
-  unsigned Tested = 0, WasBad = 0, IsBad = 0, WasMisshapen = 0, IsMisshapen = 0;
+  unsigned Tested = 0, WasBad = 0, IsBad = 0, WasBlockedByShape = 0, IsBlockedByShape = 0;
   bool Uncertain = false;
 
   template <typename Rule>
   __device__ void AddTo(const Team& team) const
   {
-    team.Add(RoundSum::Tested, this->Tested);
-    team.Add(RoundSum::WasBad, this->WasBad);
-    team.Add(RoundSum::IsBad, this->IsBad);
+    team.Add(IterationSum::Tested, this->Tested);
+    team.Add(IterationSum::WasBad, this->WasBad);
+    team.Add(IterationSum::IsBad, this->IsBad);
     if (Rule::MayBlock)
     {
-      team.Add(RoundSum::WasMisshapen, this->WasMisshapen);
-      team.Add(RoundSum::IsMisshapen, this->IsMisshapen);
+      team.Add(IterationSum::WasBlockedByShape, this->WasBlockedByShape);
+      team.Add(IterationSum::IsBlockedByShape, this->IsBlockedByShape);
     }
   }
 };
@@ -97,7 +97,7 @@ __device__ EdgeState JudgeAndNote(
     EdgeBits::Set(loop.Bits.Candidates, edge);
     counts.Uncertain = true;
   }
-  counts.IsBad += NoteState(loop, edge, state, counts.IsMisshapen) ? 1 : 0;
+  counts.IsBad += NoteState(loop, edge, state, counts.IsBlockedByShape) ? 1 : 0;
   return state;
 }
 
@@ -110,21 +110,21 @@ __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& b
   // All are asked for before any is looked at.
   const EdgeBits& bits = loop.Bits;
   const unsigned marked = byte.Load(bits.Candidates);
-  const unsigned asleep = byte.Load(bits.Asleep);
+  const unsigned fixedOrDeferred = byte.Load(bits.FixedOrDeferred);
   const unsigned winners = byte.Load(bits.Winners);
   const unsigned seenBad = byte.Load(bits.Bad);
-  const unsigned misshapen = Rule::MayBlock ? byte.Load(bits.Misshapen) : 0;
-  const unsigned obstructed = hasGuard ? byte.Load(bits.Obstructed) : 0;
-  const unsigned candidates = marked & ~asleep;
+  const unsigned blockedByShape = Rule::MayBlock ? byte.Load(bits.BlockedByShape) : 0;
+  const unsigned blockedByEdge = hasGuard ? byte.Load(bits.BlockedByEdge) : 0;
+  const unsigned candidates = marked & ~fixedOrDeferred;
   const unsigned bad = seenBad & ~winners;
   byte.Clear(bits.Candidates, marked, marked);
   byte.Clear(bits.Winners, winners, winners);
   byte.Clear(bits.Bad, seenBad, takeBad ? seenBad : winners | (candidates & bad));
-  byte.Clear(bits.Misshapen, misshapen, candidates & misshapen);
-  byte.Clear(bits.Obstructed, obstructed, candidates & obstructed);
+  byte.Clear(bits.BlockedByShape, blockedByShape, candidates & blockedByShape);
+  byte.Clear(bits.BlockedByEdge, blockedByEdge, candidates & blockedByEdge);
   counts.Tested += __popc(candidates);
   counts.WasBad += __popc(takeBad ? bad : candidates & bad);
-  counts.WasMisshapen += __popc(candidates & misshapen);
+  counts.WasBlockedByShape += __popc(candidates & blockedByShape);
   return takeBad ? candidates | bad : candidates;
 }
 
@@ -158,16 +158,16 @@ __device__ void GuardBadEdges(
 {
   const EdgeBits& bits = loop.Bits;
   const GuardStep guard{ { loop.Mesh }, loop.Guard.Edges };
-  unsigned allBad = 0, allObstructed = 0;
+  unsigned allBad = 0, allBlockedByEdge = 0;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
     {
       const unsigned bad = byte.Load(bits.Bad);
-      const unsigned obstructed = byte.Load(bits.Obstructed);
+      const unsigned blockedByEdge = byte.Load(bits.BlockedByEdge);
       byte.Clear(bits.Bad, bad, bad);
-      byte.Clear(bits.Obstructed, obstructed, obstructed);
-      return bad | obstructed;
+      byte.Clear(bits.BlockedByEdge, blockedByEdge, blockedByEdge);
+      return bad | blockedByEdge;
     },
     [&](EdgeId edge, const CornerPair& corners)
     {
@@ -176,32 +176,32 @@ __device__ void GuardBadEdges(
         return;
       }
       const bool isBad = guard.Decide(guard.Load(edge)) == EdgeState::Bad;
-      EdgeBits::Set(isBad ? bits.Bad : bits.Obstructed, edge);
+      EdgeBits::Set(isBad ? bits.Bad : bits.BlockedByEdge, edge);
       allBad += isBad ? 1 : 0;
-      allObstructed += isBad ? 0 : 1;
+      allBlockedByEdge += isBad ? 0 : 1;
     });
-  team.Add(RoundSum::AllBad, allBad);
-  team.Add(RoundSum::AllObstructed, allObstructed);
+  team.Add(IterationSum::AllBad, allBad);
+  team.Add(IterationSum::AllBlockedByEdge, allBlockedByEdge);
 }
 
 /// Counts what is bad in a range.
 template <typename Rule, typename Worklist>
 __device__ void CountAll(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  unsigned bad = 0, misshapen = 0, obstructed = 0;
+  unsigned bad = 0, blockedByShape = 0, blockedByEdge = 0;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
     {
       bad += __popc(byte.Load(loop.Bits.Bad));
-      misshapen += __popc(byte.Load(loop.Bits.Misshapen));
-      obstructed += __popc(byte.Load(loop.Bits.Obstructed));
+      blockedByShape += __popc(byte.Load(loop.Bits.BlockedByShape));
+      blockedByEdge += __popc(byte.Load(loop.Bits.BlockedByEdge));
       return 0u;
     },
     [](EdgeId, const CornerPair&) {});
-  team.Add(RoundSum::AllBad, bad);
-  team.Add(RoundSum::AllMisshapen, misshapen);
-  team.Add(RoundSum::AllObstructed, obstructed);
+  team.Add(IterationSum::AllBad, bad);
+  team.Add(IterationSum::AllBlockedByShape, blockedByShape);
+  team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
 }
 
 }

@@ -26,8 +26,9 @@ public:
     this->NumberOfWords = units * EdgeUnits::UnitSize / 32;
     this->Words = backend.MakeArray<std::uint32_t>(EdgeBits::Kinds * this->NumberOfWords);
     std::uint32_t* words = this->Words.Data();
-    for (std::uint32_t** bits : { &this->Bits.Fixed, &this->Bits.Asleep, &this->Bits.Candidates,
-           &this->Bits.Bad, &this->Bits.Winners, &this->Bits.Misshapen, &this->Bits.Obstructed })
+    for (std::uint32_t** bits :
+      { &this->Bits.Fixed, &this->Bits.FixedOrDeferred, &this->Bits.Candidates, &this->Bits.Bad,
+        &this->Bits.Winners, &this->Bits.BlockedByShape, &this->Bits.BlockedByEdge })
     {
       *bits = words;
       words += this->NumberOfWords;
@@ -56,9 +57,10 @@ public:
           fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
         }
         bits.Fixed[word] = fixed;
-        bits.Asleep[word] = fixed;
+        bits.FixedOrDeferred[word] = fixed;
         bits.Candidates[word] = ~fixed;
-        bits.Bad[word] = bits.Winners[word] = bits.Misshapen[word] = bits.Obstructed[word] = 0;
+        bits.Bad[word] = bits.Winners[word] = bits.BlockedByShape[word] = bits.BlockedByEdge[word] =
+          0;
       });
   }
 
@@ -81,9 +83,9 @@ public:
         const std::uint32_t deferred = __ballot_sync(WholeWarp, between);
         if (e % 32 == 0)
         {
-          bits.Asleep[e / 32] |= deferred;
+          bits.FixedOrDeferred[e / 32] |= deferred;
           bits.Bad[e / 32] &= ~deferred;
-          bits.Misshapen[e / 32] &= ~deferred;
+          bits.BlockedByShape[e / 32] &= ~deferred;
         }
       });
   }
@@ -94,8 +96,8 @@ public:
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        bits.Candidates[word] = bits.Asleep[word] & ~bits.Fixed[word];
-        bits.Asleep[word] = bits.Fixed[word];
+        bits.Candidates[word] = bits.FixedOrDeferred[word] & ~bits.Fixed[word];
+        bits.FixedOrDeferred[word] = bits.Fixed[word];
       });
   }
 

@@ -11,17 +11,17 @@
 namespace delaunayflip
 {
 
-/// What a device's loop knows of the edges, a bit an edge each: the states of EdgeMesh.h in a form
-/// of which the second-level cache of a GPU holds all.
+/// What a device's loop knows of the edges: the states of EdgeMesh.h as one bit per edge and state,
+/// so that the second-level cache of a GPU holds all of them.
 struct EdgeBits
 {
-  std::uint32_t* Fixed; ///< EdgeState::Fixed, and what is no edge.
-  std::uint32_t* Asleep; ///< Fixed, or EdgeState::Deferred: candidates of these are none.
+  std::uint32_t* Fixed; ///< EdgeState::Fixed, and the bits behind the last edge.
+  std::uint32_t* FixedOrDeferred; ///< These edges sit out: their bits in Candidates are ignored.
   std::uint32_t* Candidates;
   std::uint32_t* Bad;
-  std::uint32_t* Winners; ///< Of the bad ones.
-  std::uint32_t* Misshapen; ///< EdgeState::BlockedByShape.
-  std::uint32_t* Obstructed; ///< EdgeState::BlockedByEdge.
+  std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
+  std::uint32_t* BlockedByShape;
+  std::uint32_t* BlockedByEdge;
 
   static constexpr int Kinds = 7;
 

@@ -5,8 +5,8 @@
 
 #include "DetectionPhases.cuh"
 #include "FlipPhases.cuh"
+#include "IterationSums.h"
 #include "ListedFlips.cuh"
-#include "RoundSums.h"
 #include "Team.cuh"
 
 /// @file
@@ -18,7 +18,7 @@ namespace delaunayflip
 /// Chooses and flips.
 template <typename Rule, typename Worklist>
 __device__ void RunFlips(
-  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, RoundSums* round)
+  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
 {
   if (!HasGuard<Worklist>(loop))
   {
@@ -34,13 +34,13 @@ __device__ void RunFlips(
   team.Wait();
   FlipWinners(loop, worklist, team);
   // Whether to go on depends on the sums.
-  team.Wait(round);
+  team.Wait(iteration);
 }
 
 /// Judges and guards.
 template <typename Rule, typename Worklist>
 __device__ void RunDetection(
-  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, RoundSums* round)
+  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
 {
   Detect(loop, worklist, team);
   if (HasGuard<Worklist>(loop))
@@ -49,20 +49,20 @@ __device__ void RunDetection(
     __syncwarp();
     GuardBadEdges(loop, worklist, team);
   }
-  team.Wait(round);
+  team.Wait(iteration);
 }
 
-/// A detection on the whole mesh, counted in Rounds[0], and a count of all that is bad, in
-/// Rounds[1].
+/// A detection on the whole mesh, counted in Sums[0], and a count of all that is bad, in
+/// Sums[1].
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
 {
   Team team(loop.Teams, gridDim.x);
   const WarpWorklist worklist = loop.GetWorklist();
-  RunDetection(loop, worklist, team, &loop.Rounds[0]);
+  RunDetection(loop, worklist, team, &loop.Sums[0]);
   CountAll(loop, worklist, team);
-  team.Wait(&loop.Rounds[1]);
+  team.Wait(&loop.Sums[1]);
 }
 
 /// When a launch of IterateKernel ends.
@@ -73,9 +73,9 @@ struct IterationLimits
   unsigned long long FreshSlots; ///< or when more slots of the guard table were used first.
 };
 
-__device__ inline long long LoadSum(const RoundSums& round, RoundSum sum)
+__device__ inline long long LoadSum(const IterationSums& iteration, IterationSum sum)
 {
-  return static_cast<long long>(AtomicLoad(&round.Values[static_cast<int>(sum)]));
+  return static_cast<long long>(AtomicLoad(&iteration.Values[static_cast<int>(sum)]));
 }
 
 /// Iterations on the whole mesh, of one thread.
@@ -100,13 +100,13 @@ public:
     int done = 0;
     for (bool goOn = true; goOn;)
     {
-      RoundSums* round = &this->Loop.Rounds[done++];
-      this->Flip(round);
-      goOn = this->HasRoom(round);
+      IterationSums* iteration = &this->Loop.Sums[done++];
+      this->Flip(iteration);
+      goOn = this->HasRoom(iteration);
       if (goOn)
       {
-        this->Detect(round);
-        goOn = this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(round);
+        this->Detect(iteration);
+        goOn = this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(iteration);
       }
     }
     return done;
@@ -115,7 +115,7 @@ public:
   __device__ bool IsFirstThread() const { return this->Members.IsFirstThread(); }
 
 private:
-  __device__ void Flip(RoundSums* round)
+  __device__ void Flip(IterationSums* iteration)
   {
     if (this->IsListed)
     {
@@ -123,46 +123,46 @@ private:
       this->Members.Wait();
       return;
     }
-    RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, round);
+    RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
   }
 
   /// Whether a detection may follow: not where the guard's table must be made anew first.
-  __device__ bool HasRoom(const RoundSums* round)
+  __device__ bool HasRoom(const IterationSums* iteration)
   {
     if (!this->Loop.Guard.Active)
     {
       return true;
     }
-    this->FreshSlots += LoadSum(*round, RoundSum::FreshSlots);
+    this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
     return this->FreshSlots <= this->Limits.FreshSlots &&
-      LoadSum(*round, RoundSum::LostInserts) == 0;
+      LoadSum(*iteration, IterationSum::LostInserts) == 0;
   }
 
   /// Lists what is bad where it is little, and where the last detection did.
-  __device__ void Detect(RoundSums* round)
+  __device__ void Detect(IterationSums* iteration)
   {
     const WarpWorklist worklist = this->Loop.GetWorklist();
     const bool list = this->IsListed || this->Bad <= this->MostListed;
     if (list)
     {
       DetectAndList(this->Loop, worklist, this->Members, this->List);
-      this->Members.Wait(round);
+      this->Members.Wait(iteration);
       this->IsListed = !this->Members.IsWarned();
     }
     else
     {
-      RunDetection(this->Loop, worklist, this->Members, round);
+      RunDetection(this->Loop, worklist, this->Members, iteration);
     }
-    this->Bad = this->Loop.Guard.Active ? LoadSum(*round, RoundSum::AllBad)
+    this->Bad = this->Loop.Guard.Active ? LoadSum(*iteration, IterationSum::AllBad)
                                         : this->Limits.Bad + this->Members.GetBadChange();
     // Where there was no room there will be none until there is far less.
     this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
   }
 
   /// Whether a device cannot tell of some edge. Those who could not have warned.
-  __device__ bool IsUncertain(const RoundSums* round) const
+  __device__ bool IsUncertain(const IterationSums* iteration) const
   {
-    return this->Members.IsWarned() && LoadSum(*round, RoundSum::Uncertain) > 0;
+    return this->Members.IsWarned() && LoadSum(*iteration, IterationSum::Uncertain) > 0;
   }
 
   const LoopView<Rule>& Loop;
@@ -175,7 +175,7 @@ private:
   unsigned long long FreshSlots = 0;
 };
 
-/// Iterations on the whole mesh after a detection; what they count goes to Rounds, one each. The
+/// Iterations on the whole mesh after a detection; what they count goes to Sums, one each. The
 /// last detection is missing when the guard's table must be made anew before it.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
@@ -185,15 +185,15 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const int done = iterations.Run();
   if (iterations.IsFirstThread())
   {
-    *loop.RoundsDone = done;
+    *loop.IterationsDone = done;
   }
 }
 
-/// Rounds within chunks: a team takes a chunk through all of them, while it is in the cache, then
-/// the next. They count in Rounds; Rounds[rounds] gets what was bad before.
+/// Sums within chunks: a team takes a chunk through all of them, while it is in the cache, then
+/// the next. They count in Sums; Sums[iterations] gets what was bad before.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
-  RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int rounds)
+  RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int iterations)
 {
   Team team(loop.Teams, blocksOfTeam);
   const int teams = gridDim.x / blocksOfTeam;
@@ -201,11 +201,11 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   {
     const BlockWorklist worklist = loop.GetWorklist(loop.Chunks[c]);
     CountAll(loop, worklist, team);
-    team.Wait(&loop.Rounds[rounds]);
-    for (int i = 0; i < rounds; ++i)
+    team.Wait(&loop.Sums[iterations]);
+    for (int i = 0; i < iterations; ++i)
     {
-      RunFlips(loop, worklist, team, &loop.Rounds[i]);
-      RunDetection(loop, worklist, team, &loop.Rounds[i]);
+      RunFlips(loop, worklist, team, &loop.Sums[i]);
+      RunDetection(loop, worklist, team, &loop.Sums[i]);
     }
   }
 }

@@ -7,9 +7,9 @@
 #include "EdgeBits.h"
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
+#include "IterationSums.h"
 #include "LoopView.cuh"
 #include "RecordStore.cuh"
-#include "RoundSums.h"
 #include "StepCounts.h"
 #include "Team.cuh"
 
@@ -80,7 +80,7 @@ __device__ void ChooseAndFlip(
         MarkOuter(loop, outer);
       }
     });
-  team.Add(RoundSum::Flipped, flips);
+  team.Add(IterationSum::Flipped, flips);
 }
 
 /// Chooses alone, where winners have claims to make before they flip; sets Winners.
@@ -175,11 +175,11 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
         MarkOuter(loop, outer);
       }
     });
-  team.Add(RoundSum::Flipped, static_cast<unsigned>(counts.Flipped));
+  team.Add(IterationSum::Flipped, static_cast<unsigned>(counts.Flipped));
   if (HasGuard<Worklist>(loop))
   {
-    team.Add(RoundSum::FreshSlots, static_cast<unsigned>(counts.FreshSlots));
-    team.Add(RoundSum::LostInserts, static_cast<unsigned>(counts.LostInserts));
+    team.Add(IterationSum::FreshSlots, static_cast<unsigned>(counts.FreshSlots));
+    team.Add(IterationSum::LostInserts, static_cast<unsigned>(counts.LostInserts));
   }
 }
 

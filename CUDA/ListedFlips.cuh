@@ -104,7 +104,7 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const B
       MarkOuter(loop, bad.Outer);
     }
   }
-  team.Add(RoundSum::Flipped, flips);
+  team.Add(IterationSum::Flipped, flips);
 }
 
 }

@@ -7,7 +7,7 @@
 #include "EdgeBits.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
-#include "RoundSums.h"
+#include "IterationSums.h"
 #include "Team.cuh"
 
 namespace delaunayflip
@@ -32,8 +32,8 @@ struct LoopView
   DeviceChunk* Chunks;
   int NumberOfChunks;
   TeamState* Teams; ///< Zero before a launch.
-  RoundSums* Rounds; ///< One an iteration and one more; zero before a launch.
-  int* RoundsDone; ///< Iterations of this launch.
+  IterationSums* Sums; ///< One an iteration and one more; zero before a launch.
+  int* IterationsDone; ///< Iterations of this launch.
 
   __device__ WarpWorklist GetWorklist() const { return { 0, this->NumberOfEdges, this->Splits }; }
   __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const

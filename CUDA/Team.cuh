@@ -6,7 +6,7 @@
 #include "EdgeFlip.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
-#include "RoundSums.h"
+#include "IterationSums.h"
 
 namespace delaunayflip
 {
@@ -25,10 +25,19 @@ struct alignas(128) TeamState
   unsigned long long Arrivals; ///< TeamNews of all blocks so far.
 };
 
-/// What blocks tell each other as they arrive: one number, of which all see the sum. From the
-/// lowest bits on how many have arrived, by how much the bad edges became more, and how many have
-/// warned. Warnings may run over, for only a change of them is looked at; arrivals may where nobody
-/// looks at what is above them.
+/// What thread blocks tell each other when they arrive at a wait. Every block adds its own number
+/// to one number of 64 bits, and all blocks see the sum:
+///
+/// | bits     | sum over the blocks of                  | range                                   |
+/// |----------|-----------------------------------------|-----------------------------------------|
+/// | 0 .. 19  | 1: how many have arrived, at all waits  | modulo 2^20; compared with an expected  |
+/// |          |                                         | number                                  |
+/// | 20 .. 51 | the change of the number of bad edges   | signed, 32 bits                         |
+/// | 52 .. 63 | 1 if the block warns                    | modulo 2^12; only a change of it counts |
+///
+/// More than 2^20 arrivals in a launch carry into the change of bad edges, so only kernels that
+/// read neither this nor the warnings may have so many (RunChunksKernel). A negative change borrows
+/// from the warnings; GetWarnings() puts that right.
 struct TeamNews
 {
   static constexpr int ArrivalBits = 20;
@@ -76,7 +85,7 @@ struct TeamMemory
   EdgeId Lists[LoopWarps][WarpListSize];
   BadEdge Listed[LoopWarps][MostListedByWarp];
   int SizeOfList; ///< Of all lists as one.
-  unsigned int Sums[NumberOfRoundSums];
+  unsigned int Sums[NumberOfIterationSums];
   unsigned int Expected; ///< Arrivals that the next wait waits for, but for its own.
   unsigned int Warns; ///< Whether this block warns,
   int BadChange; ///< and by how much its bad edges have become more, since the last wait.
@@ -122,7 +131,7 @@ public:
       HasFewEdges(hasFewEdges)
   {
     TeamMemory& memory = GetTeamMemory();
-    if (threadIdx.x < NumberOfRoundSums)
+    if (threadIdx.x < NumberOfIterationSums)
     {
       memory.Sums[threadIdx.x] = 0;
     }
@@ -153,7 +162,7 @@ public:
   __device__ bool IsFirstThread() const { return this->GetThread() == 0; }
 
   /// Counts what the threads of a warp say. All of them call it.
-  __device__ void Add(RoundSum sum, unsigned value) const
+  __device__ void Add(IterationSum sum, unsigned value) const
   {
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
     value = __reduce_add_sync(WholeWarp, value);
@@ -181,7 +190,7 @@ public:
   /// Whether anyone warned before the last wait.
   __device__ bool IsWarned() const { return GetTeamMemory().IsWarned; }
 
-  /// How many more edges are bad, of those counted before the last wait that had a round.
+  /// How many more edges are bad, of those counted before the last wait that had an iteration.
   __device__ int GetBadChange() const { return GetTeamMemory().News.GetBadChange(); }
 
   /// Waits for all threads of the team; what they wrote before is then seen.
@@ -191,13 +200,13 @@ public:
     this->WaitForBlocks();
   }
 
-  /// As Wait(), and adds what was counted since the last such call to `round`, unless null.
-  __device__ void Wait(RoundSums* round)
+  /// As Wait(), and adds what was counted since the last such call to `iteration`, unless null.
+  __device__ void Wait(IterationSums* iteration)
   {
     __syncthreads();
-    if (round && threadIdx.x < WarpSize)
+    if (iteration && threadIdx.x < WarpSize)
     {
-      this->FlushSums(round);
+      this->FlushSums(iteration);
       __syncwarp();
     }
     this->WaitForBlocks();
@@ -241,23 +250,23 @@ private:
     return news;
   }
 
-  __device__ void FlushSums(RoundSums* round) const
+  __device__ void FlushSums(IterationSums* iteration) const
   {
     const unsigned i = threadIdx.x;
     if (i == 0)
     {
       GetTeamMemory().BadChange = static_cast<int>(
-        GetSum(RoundSum::IsBad) - GetSum(RoundSum::WasBad) - GetSum(RoundSum::Flipped));
+        GetSum(IterationSum::IsBad) - GetSum(IterationSum::WasBad) - GetSum(IterationSum::Flipped));
     }
     __syncwarp();
-    if (i < NumberOfRoundSums && GetTeamMemory().Sums[i] != 0)
+    if (i < NumberOfIterationSums && GetTeamMemory().Sums[i] != 0)
     {
-      atomicAdd(&round->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
+      atomicAdd(&iteration->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
       GetTeamMemory().Sums[i] = 0;
     }
   }
 
-  __device__ static unsigned GetSum(RoundSum sum)
+  __device__ static unsigned GetSum(IterationSum sum)
   {
     return GetTeamMemory().Sums[static_cast<int>(sum)];
   }

@@ -22,18 +22,18 @@
 namespace delaunayflip
 {
 
-/// One flag a block of edges, for some blocks.
-struct BlockFlags
+/// A flag per segment of 1024 edges, for some segments.
+struct SegmentFlags
 {
-  static constexpr int BlockBits = 10;
+  static constexpr int SegmentBits = 10;
 
   std::uint8_t* Flags;
-  std::int64_t FirstBlock;
+  std::int64_t FirstSegment;
 
-  /// Flags the block of an edge.
+  /// Flags the segment of an edge.
   void Set(EdgeId edge) const
   {
-    std::uint8_t* flag = &this->Flags[(edge >> BlockBits) - this->FirstBlock];
+    std::uint8_t* flag = &this->Flags[(edge >> SegmentBits) - this->FirstSegment];
     if (AtomicLoad(flag) == 0)
     {
       AtomicStore(flag, std::uint8_t(1));
@@ -230,7 +230,7 @@ private:
 /// edge, both with the same value; an edge that sits out keeps its state.
 struct FlipStep : SurgeryStep
 {
-  BlockFlags Active;
+  SegmentFlags Active;
 
   void Prefetch(const Quad& quad) const
   {

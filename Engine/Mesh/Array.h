@@ -23,7 +23,7 @@ public:
   virtual void Free(void* memory, std::size_t bytes) noexcept = 0;
 };
 
-/// A block of uninitialised values of a trivial type, owned; moved, never copied. Only arrays in
+/// Uninitialised values of a trivial type, owned; moved, never copied. Only arrays in
 /// the host's memory may be indexed on the host.
 template <typename T>
 class Array

@@ -16,8 +16,8 @@
 
 /// @file
 /// Which corners face the same edge, on threads: corners are dealt out by the smaller vertex of
-/// their edge to blocks of vertices, and each block pairs its own in a table that fits a cache and
-/// that no other thread knows. The edge table (EdgeTable.h), all of it in memory and shared, is
+/// their edge to buckets of vertices, and each bucket pairs its own in a table that fits a cache
+/// and that no other thread knows. The edge table (EdgeTable.h), all of it in memory and shared, is
 /// needed only by those who look edges up later.
 
 namespace delaunayflip
@@ -59,19 +59,19 @@ public:
       NumberOfTriangles(mesh.NumberOfTriangles),
       Backend(backend)
   {
-    while ((vertices >> this->BlockBits) >= MostBlocks)
+    while ((vertices >> this->BucketBits) >= MostBuckets)
     {
-      ++this->BlockBits;
+      ++this->BucketBits;
     }
-    this->Starts.assign((vertices >> this->BlockBits) + 2, 0);
+    this->Starts.assign((vertices >> this->BucketBits) + 2, 0);
     this->CountCorners();
   }
 
-  /// Whether no block has so many corners that a thread would be long alone with it: one vertex may
-  /// have most of the edges.
+  /// Whether no bucket has so many corners that a thread would be long alone with it: one vertex
+  /// may have most of the edges.
   bool IsEven(std::uint32_t mostCorners = 1u << 20) const
   {
-    return this->GetLargest(0, this->CountBlocks()) <= mostCorners;
+    return this->GetLargest(0, this->CountBuckets()) <= mostCorners;
   }
 
   /// Sets HalfEdges to other corners, as OtherCornerStep expects them.
@@ -79,23 +79,23 @@ public:
   {
     this->DealCorners();
     return this->Backend.SumRanges<PairSums>(
-      this->CountBlocks(),
+      this->CountBuckets(),
       [this](std::int64_t begin, std::int64_t end)
       {
         PairSums sums;
         Scratch scratch(this->GetLargest(begin, end), this->Backend);
-        for (std::int64_t block = begin; block < end; ++block)
+        for (std::int64_t bucket = begin; bucket < end; ++bucket)
         {
-          this->PairBlock(block, scratch, sums);
+          this->PairBucket(bucket, scratch, sums);
         }
         return sums;
       },
-      BlocksPerTask);
+      BucketsPerTask);
   }
 
 private:
-  static constexpr std::int64_t MostBlocks = 4096;
-  static constexpr std::int64_t BlocksPerTask = 4;
+  static constexpr std::int64_t MostBuckets = 4096;
+  static constexpr std::int64_t BucketsPerTask = 4;
   /// Corners between the request for a triangle and its use.
   static constexpr std::uint32_t PrefetchDistance = 32;
   static constexpr std::uint64_t Empty = EdgeTableView::Empty;
@@ -128,22 +128,22 @@ private:
     Array<std::uint32_t> Places;
   };
 
-  std::int64_t CountBlocks() const { return static_cast<std::int64_t>(this->Starts.size()) - 1; }
+  std::int64_t CountBuckets() const { return static_cast<std::int64_t>(this->Starts.size()) - 1; }
 
-  std::uint32_t GetBlock(const TriangleRecord& triangle, int slot) const
+  std::uint32_t GetBucket(const TriangleRecord& triangle, int slot) const
   {
     return std::min(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]) >>
-      this->BlockBits;
+      this->BucketBits;
   }
 
-  /// How many corners of triangles [begin, end) every block gets.
+  /// How many corners of triangles [begin, end) every bucket gets.
   void CountIn(std::int64_t begin, std::int64_t end, std::vector<std::uint32_t>& counts) const
   {
     for (std::int64_t t = begin; t < end; ++t)
     {
       for (int slot = 0; slot < 3; ++slot)
       {
-        ++counts[this->GetBlock(this->Triangles[t], slot)];
+        ++counts[this->GetBucket(this->Triangles[t], slot)];
       }
     }
   }
@@ -158,18 +158,18 @@ private:
         std::vector<std::uint32_t>& counts = this->CountsOfRange[begin / Grain];
         counts.assign(this->Starts.size() - 1, 0);
         this->CountIn(begin, end, counts);
-        for (std::size_t block = 0; block < counts.size(); ++block)
+        for (std::size_t bucket = 0; bucket < counts.size(); ++bucket)
         {
-          AtomicAdd(&this->Starts[block + 1], counts[block]);
+          AtomicAdd(&this->Starts[bucket + 1], counts[bucket]);
         }
       });
-    for (std::size_t block = 1; block < this->Starts.size(); ++block)
+    for (std::size_t bucket = 1; bucket < this->Starts.size(); ++bucket)
     {
-      this->Starts[block] += this->Starts[block - 1];
+      this->Starts[bucket] += this->Starts[bucket - 1];
     }
   }
 
-  /// Lists every block's corners, in an order that decides nothing.
+  /// Lists every bucket's corners, in an order that decides nothing.
   void DealCorners()
   {
     this->Corners = this->Backend.MakeArray<CornerId>(this->Starts.back());
@@ -178,35 +178,35 @@ private:
       [&](std::int64_t begin, std::int64_t end)
       {
         std::vector<std::uint32_t>& next = this->CountsOfRange[begin / ThreadBackend::DefaultGrain];
-        for (std::size_t block = 0; block < next.size(); ++block)
+        for (std::size_t bucket = 0; bucket < next.size(); ++bucket)
         {
-          next[block] = AtomicAdd(&ends[block], next[block]);
+          next[bucket] = AtomicAdd(&ends[bucket], next[bucket]);
         }
         for (std::int64_t t = begin; t < end; ++t)
         {
           for (int slot = 0; slot < 3; ++slot)
           {
-            this->Corners[next[this->GetBlock(this->Triangles[t], slot)]++] =
+            this->Corners[next[this->GetBucket(this->Triangles[t], slot)]++] =
               MakeCorner(static_cast<TriangleId>(t), slot);
           }
         }
       });
   }
 
-  std::uint32_t GetLargest(std::int64_t firstBlock, std::int64_t lastBlock) const
+  std::uint32_t GetLargest(std::int64_t firstBucket, std::int64_t lastBucket) const
   {
     std::uint32_t largest = 0;
-    for (std::int64_t block = firstBlock; block < lastBlock; ++block)
+    for (std::int64_t bucket = firstBucket; bucket < lastBucket; ++bucket)
     {
-      largest = std::max(largest, this->Starts[block + 1] - this->Starts[block]);
+      largest = std::max(largest, this->Starts[bucket + 1] - this->Starts[bucket]);
     }
     return largest;
   }
 
-  void PairBlock(std::int64_t block, Scratch& scratch, PairSums& sums) const
+  void PairBucket(std::int64_t bucket, Scratch& scratch, PairSums& sums) const
   {
-    const CornerId* corners = this->Corners.Data() + this->Starts[block];
-    const std::uint32_t size = this->Starts[block + 1] - this->Starts[block];
+    const CornerId* corners = this->Corners.Data() + this->Starts[bucket];
+    const std::uint32_t size = this->Starts[bucket + 1] - this->Starts[bucket];
     this->EnterCorners(corners, size, scratch, sums);
     for (std::uint32_t i = 0; i < size; ++i)
     {
@@ -255,9 +255,9 @@ private:
   TriangleRecord* Triangles;
   std::int64_t NumberOfTriangles;
   const ThreadBackend& Backend;
-  int BlockBits = 9;
-  std::vector<std::uint32_t> Starts; ///< Of the blocks in Corners, and the end.
-  std::vector<std::vector<std::uint32_t>> CountsOfRange; ///< What blocks get of each range.
+  int BucketBits = 9;
+  std::vector<std::uint32_t> Starts; ///< Of the buckets in Corners, and the end.
+  std::vector<std::vector<std::uint32_t>> CountsOfRange; ///< What buckets get of each range.
   Array<CornerId> Corners;
 };
 

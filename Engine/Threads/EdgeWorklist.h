@@ -14,10 +14,10 @@
 #include <vector>
 
 /// @file
-/// The worklist of a range of edges: blocks of 1024, a flag for every block that holds something to
-/// do. A detection looks at flagged blocks only and finds its candidates by their states, in order,
-/// each once, so it costs what is active in it. It lists what is bad; the rest of an iteration goes
-/// by these lists, one a task.
+/// The worklist of a range of edges: segments of 1024, a flag for every segment that holds
+/// something to do. A detection looks at flagged segments only and finds its candidates by their
+/// states, in order, each once, so it costs what is active in it. It lists what is bad; the rest of
+/// an iteration goes by these lists, one a task.
 
 namespace delaunayflip
 {
@@ -25,30 +25,31 @@ namespace delaunayflip
 class EdgeWorklist
 {
 public:
-  /// Edges [first, last), every block active.
+  /// Edges [first, last), every segment active.
   /// @param mayBlock whether steps may leave edges blocked.
   EdgeWorklist(const EdgeState* states, std::int64_t first, std::int64_t last, bool mayBlock)
     : States(states),
       MayBlock(mayBlock),
       FirstEdge(first),
       LastEdge(last),
-      FirstBlock(first >> BlockBits),
-      Flags(first < last ? ((last - 1) >> BlockBits) - FirstBlock + 1 : 0, 1)
+      FirstSegment(first >> SegmentBits),
+      Flags(first < last ? ((last - 1) >> SegmentBits) - FirstSegment + 1 : 0, 1)
   {
   }
 
-  /// Where steps flag the blocks of edges that they make candidates.
-  BlockFlags GetFlags() { return { this->Flags.data(), this->FirstBlock }; }
+  /// Where steps flag the segments of edges that they make candidates.
+  SegmentFlags GetFlags() { return { this->Flags.data(), this->FirstSegment }; }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Runs steps, all of them on some blocks before the next, on the candidates of flagged blocks:
-  /// for steps that write nothing which another edge's step reads. Then lists and counts what is
-  /// bad; blocks in which an edge is bad or blocked stay flagged. @returns what was counted.
+  /// Runs steps, all of them on some segments before the next, on the candidates of flagged
+  /// segments: for steps that write nothing which another edge's step reads. Then lists and counts
+  /// what is bad; segments in which an edge is bad or blocked stay flagged. @returns what was
+  /// counted.
   template <typename... Steps>
   StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
   {
-    this->Gather(BlocksPerTask);
+    this->Gather(SegmentsPerTask);
     return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
   }
 
@@ -87,9 +88,9 @@ public:
   }
 
 private:
-  static constexpr int BlockBits = BlockFlags::BlockBits;
-  static constexpr std::int64_t BlockSize = std::int64_t(1) << BlockBits;
-  static constexpr std::int64_t BlocksPerTask = 8;
+  static constexpr int SegmentBits = SegmentFlags::SegmentBits;
+  static constexpr std::int64_t SegmentSize = std::int64_t(1) << SegmentBits;
+  static constexpr std::int64_t SegmentsPerTask = 8;
   static constexpr std::int64_t SetSize = StatesPerSet;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 16;
@@ -98,7 +99,7 @@ private:
   /// Room behind lists, for edges that are asked for and not worked on.
   static constexpr std::int64_t Padding = 3 * PrefetchDistance;
 
-  /// Some of the gathered blocks.
+  /// Some of the gathered segments.
   struct Task
   {
     std::int64_t Begin, End;
@@ -106,24 +107,24 @@ private:
     std::int64_t Size = 0; ///< Without it.
   };
 
-  /// Cuts the flagged blocks into tasks.
-  void Gather(std::int64_t blocksPerTask)
+  /// Cuts the flagged segments into tasks.
+  void Gather(std::int64_t segmentsPerTask)
   {
-    this->Blocks.clear();
-    for (std::size_t block = 0; block < this->Flags.size(); ++block)
+    this->Segments.clear();
+    for (std::size_t segment = 0; segment < this->Flags.size(); ++segment)
     {
-      if (this->Flags[block])
+      if (this->Flags[segment])
       {
-        this->Blocks.push_back(this->FirstBlock + static_cast<std::int64_t>(block));
+        this->Segments.push_back(this->FirstSegment + static_cast<std::int64_t>(segment));
       }
     }
-    const auto size = static_cast<std::int64_t>(this->Blocks.size());
-    this->Tasks.resize((size + blocksPerTask - 1) / blocksPerTask);
+    const auto size = static_cast<std::int64_t>(this->Segments.size());
+    this->Tasks.resize((size + segmentsPerTask - 1) / segmentsPerTask);
     std::int64_t begin = 0;
     for (Task& task : this->Tasks)
     {
       task.Begin = begin;
-      task.End = std::min(size, begin + blocksPerTask);
+      task.End = std::min(size, begin + segmentsPerTask);
       begin = task.End;
       task.Edges.clear();
       task.Size = 0;
@@ -143,14 +144,14 @@ private:
   StepCounts DetectIn(Task& task, const Steps&... steps)
   {
     StepCounts counts;
-    for (std::int64_t begin = task.Begin; begin < task.End; begin += BlocksPerTask)
+    for (std::int64_t begin = task.Begin; begin < task.End; begin += SegmentsPerTask)
     {
       StepCounts group;
-      const std::int64_t end = std::min(task.End, begin + BlocksPerTask);
-      (this->RunOnBlocks(steps, begin, end, group), ...);
+      const std::int64_t end = std::min(task.End, begin + SegmentsPerTask);
+      (this->RunOnSegments(steps, begin, end, group), ...);
       for (std::int64_t i = begin; i < end; ++i)
       {
-        this->ListBad(this->Blocks[i], task.Edges, group);
+        this->ListBad(this->Segments[i], task.Edges, group);
       }
       counts += group;
     }
@@ -254,25 +255,25 @@ private:
   }
 
   template <typename Step>
-  void RunOnBlocks(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
+  void RunOnSegments(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
-    EdgeId edges[BlocksPerTask * BlockSize + Padding];
+    EdgeId edges[SegmentsPerTask * SegmentSize + Padding];
     const std::int64_t size = this->FindAll(Step::Wanted, begin, end, edges);
     ForEdges(
       step, edges, size, [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
   }
 
   template <typename Real>
-  void RunOnBlocks(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin, std::int64_t end,
-    StepCounts& counts)
+  void RunOnSegments(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin,
+    std::int64_t end, StepCounts& counts)
   {
     using Batch = InCircleBatch<Real>;
     if (!Batch::Suits(step.Decision))
     {
-      this->RunOnBlocks<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
+      this->RunOnSegments<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
       return;
     }
-    EdgeId edges[BlocksPerTask * BlockSize + Padding];
+    EdgeId edges[SegmentsPerTask * SegmentSize + Padding];
     const std::int64_t size =
       this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
     Batch batch(step.Mesh, step.Decision);
@@ -283,45 +284,45 @@ private:
 
   /// Exact arithmetic is asked for seldom.
   template <typename Rule>
-  void RunOnBlocks(
+  void RunOnSegments(
     const ResolveStep<Rule>& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
     if (counts.Uncertain > 0)
     {
-      this->RunOnBlocks<ResolveStep<Rule>>(step, begin, end, counts);
+      this->RunOnSegments<ResolveStep<Rule>>(step, begin, end, counts);
     }
   }
 
-  /// Lists what is bad in a block and counts it.
-  void ListBad(std::int64_t block, std::vector<EdgeId>& list, StepCounts& counts)
+  /// Lists what is bad in a segment and counts it.
+  void ListBad(std::int64_t segment, std::vector<EdgeId>& list, StepCounts& counts)
   {
-    EdgeId edges[BlockSize];
-    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, block, edges);
+    EdgeId edges[SegmentSize];
+    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, segment, edges);
     list.insert(list.end(), edges, edges + bad);
     const std::int64_t blocked = this->MayBlock
-      ? this->Find({ EdgeState::BlockedByShape, EdgeState::BlockedByEdge }, block, edges)
+      ? this->Find({ EdgeState::BlockedByShape, EdgeState::BlockedByEdge }, segment, edges)
       : 0;
     counts.Bad += bad;
     counts.Blocked += blocked;
-    this->Flags[block - this->FirstBlock] = bad + blocked > 0;
+    this->Flags[segment - this->FirstSegment] = bad + blocked > 0;
   }
 
-  /// Find for the gathered blocks [begin, end).
+  /// Find for the gathered segments [begin, end).
   std::int64_t FindAll(StateRange wanted, std::int64_t begin, std::int64_t end, EdgeId* found) const
   {
     std::int64_t size = 0;
     for (std::int64_t i = begin; i < end; ++i)
     {
-      size += this->Find(wanted, this->Blocks[i], found + size);
+      size += this->Find(wanted, this->Segments[i], found + size);
     }
     return size;
   }
 
-  /// Stores the edges of a block that are in a wanted state. @returns how many.
-  std::int64_t Find(StateRange wanted, std::int64_t block, EdgeId* found) const
+  /// Stores the edges of a segment that are in a wanted state. @returns how many.
+  std::int64_t Find(StateRange wanted, std::int64_t segment, EdgeId* found) const
   {
-    const std::int64_t first = std::max(this->FirstEdge, block << BlockBits);
-    const std::int64_t last = std::min(this->LastEdge, (block + 1) << BlockBits);
+    const std::int64_t first = std::max(this->FirstEdge, segment << SegmentBits);
+    const std::int64_t last = std::min(this->LastEdge, (segment + 1) << SegmentBits);
     const std::uint64_t all = ~std::uint64_t(0);
     EdgeId* end = found;
     for (std::int64_t base = first / SetSize * SetSize; base < last; base += SetSize)
@@ -341,9 +342,9 @@ private:
   bool MayBlock;
   std::int64_t FirstEdge;
   std::int64_t LastEdge;
-  std::int64_t FirstBlock;
+  std::int64_t FirstSegment;
   std::vector<std::uint8_t> Flags;
-  std::vector<std::int64_t> Blocks; ///< That were flagged.
+  std::vector<std::int64_t> Segments; ///< That were flagged.
   std::vector<Task> Tasks;
 };
 

@@ -42,11 +42,11 @@ public:
     std::mutex errorMutex;
     const auto drain = [&]()
     {
-      for (std::int64_t chunk = next++; chunk < count; chunk = next++)
+      for (std::int64_t task = next++; task < count; task = next++)
       {
         try
         {
-          work(chunk);
+          work(task);
         }
         catch (...)
         {
@@ -90,8 +90,8 @@ public:
 
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
-    this->Arena.execute([&]()
-      { tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t chunk) { work(chunk); }); });
+    this->Arena.execute(
+      [&]() { tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t task) { work(task); }); });
   }
 
   int Size;
@@ -116,7 +116,7 @@ std::string ThreadBackend::GetName() const
   return "Threads: " + std::to_string(this->Threads->Size);
 }
 
-void ThreadBackend::ForChunks(
+void ThreadBackend::ForTasks(
   std::int64_t count, const std::function<void(std::int64_t)>& work) const
 {
   if (count > 1 && this->Threads->Size > 1)
@@ -124,9 +124,9 @@ void ThreadBackend::ForChunks(
     this->Threads->Run(count, work);
     return;
   }
-  for (std::int64_t chunk = 0; chunk < count; ++chunk)
+  for (std::int64_t task = 0; task < count; ++task)
   {
-    work(chunk);
+    work(task);
   }
 }
 

@@ -53,16 +53,16 @@ public:
   /// E.g. "Threads: 8".
   std::string GetName() const;
 
-  /// Calls work(chunk) for chunk = 0 .. count - 1 and returns when all are done. An exception of a
+  /// Calls work(task) for task = 0 .. count - 1 and returns when all are done. An exception of a
   /// call is thrown again here.
-  void ForChunks(std::int64_t count, const std::function<void(std::int64_t)>& work) const;
+  void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const;
 
   /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
   template <typename Work>
   void ForRange(std::int64_t size, const Work& work, std::int64_t grain = DefaultGrain) const
   {
-    this->ForChunks((size + grain - 1) / grain,
-      [&](std::int64_t chunk) { work(chunk * grain, std::min(size, (chunk + 1) * grain)); });
+    this->ForTasks((size + grain - 1) / grain,
+      [&](std::int64_t piece) { work(piece * grain, std::min(size, (piece + 1) * grain)); });
   }
 
   /// Sum, by operator+=, of work(begin, end) over pieces of [0, size), in their order.
@@ -265,8 +265,8 @@ void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, cons
 {
   constexpr std::uint32_t Digits = 1u << DigitBits;
   constexpr std::int64_t Grain = 1 << 17;
-  const std::int64_t chunks = (size + Grain - 1) / Grain;
-  std::vector<std::uint32_t> starts(chunks * Digits, 0);
+  const std::int64_t pieces = (size + Grain - 1) / Grain;
+  std::vector<std::uint32_t> starts(pieces * Digits, 0);
   const auto count = [&](std::int64_t begin, std::int64_t end)
   {
     std::uint32_t* counts = &starts[begin / Grain * Digits];
@@ -279,10 +279,10 @@ void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, cons
   std::uint32_t start = 0;
   for (std::uint32_t digit = 0; digit < Digits; ++digit)
   {
-    for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
+    for (std::int64_t piece = 0; piece < pieces; ++piece)
     {
-      const std::uint32_t items = starts[chunk * Digits + digit];
-      starts[chunk * Digits + digit] = start;
+      const std::uint32_t items = starts[piece * Digits + digit];
+      starts[piece * Digits + digit] = start;
       start += items;
     }
   }

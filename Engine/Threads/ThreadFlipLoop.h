@@ -70,7 +70,7 @@ protected:
   {
     this->DeferEdgesBetweenChunks();
     std::vector<std::vector<IterationCounts>> parts(this->Chunks.size());
-    this->Backend.ForChunks(static_cast<std::int64_t>(parts.size()),
+    this->Backend.ForTasks(static_cast<std::int64_t>(parts.size()),
       [&](std::int64_t i) { parts[i] = this->RunChunk(this->Chunks[i], plan); });
     this->RecallEdges();
     std::vector<IterationCounts> total(plan.Iterations);

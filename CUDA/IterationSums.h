@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_ROUNDSUMS_H
-#define DELAUNAYFLIP_ROUNDSUMS_H
+#ifndef DELAUNAYFLIP_ITERATIONSUMS_H
+#define DELAUNAYFLIP_ITERATIONSUMS_H
 
 namespace delaunayflip
 {
 
 /// What an iteration on a device counts. What it finds for the next one is said as changes.
-enum class RoundSum
+enum class IterationSum
 {
   Flipped,
   FreshSlots, ///< Slots of the guard table used for the first time.
@@ -16,19 +16,19 @@ enum class RoundSum
   Uncertain, ///< A device cannot tell.
   WasBad, ///< Of Tested, before and after they were judged.
   IsBad,
-  WasMisshapen,
-  IsMisshapen,
+  WasBlockedByShape,
+  IsBlockedByShape,
   AllBad, ///< All bad edges, where they were counted: with a guard, and at first.
-  AllObstructed, ///< All that the guard blocks.
-  AllMisshapen, ///< All of EdgeState::BlockedByShape, at first.
+  AllBlockedByEdge, ///< All that the guard blocks.
+  AllBlockedByShape, ///< All of EdgeState::BlockedByShape, at first.
   Count
 };
 
-constexpr int NumberOfRoundSums = static_cast<int>(RoundSum::Count);
+constexpr int NumberOfIterationSums = static_cast<int>(IterationSum::Count);
 
-struct RoundSums
+struct IterationSums
 {
-  unsigned long long Values[NumberOfRoundSums];
+  unsigned long long Values[NumberOfIterationSums];
 };
 
 }
