@@ -18,7 +18,7 @@ def with_old_driver():
     return {**os.environ, "LD_LIBRARY_PATH": ":".join(filter(None, paths))}
 
 
-class Backends(CommandTest):
+class BackendTest(CommandTest):
     def setUp(self):
         super().setUp()
         self.small = write_mesh(worst_case(4), self.path("small.vtk"))
@@ -36,6 +36,8 @@ class Backends(CommandTest):
         with open(self.path("out.vtk"), "rb") as file:
             return file.read()
 
+
+class Backends(BackendTest):
     def test_help_tells_the_rule(self):
         text = " ".join(self.succeed("--help").stdout.split())
         self.assertIn("at least 20000 triangles", text)
@@ -65,8 +67,12 @@ class Backends(CommandTest):
         self.fail_with(5, *arguments, naming=[REASON])
         self.assertFalse(os.path.exists(self.path("out.vtk")))
 
-    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
-    def test_fallback(self):
+
+@unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
+class Fallback(BackendTest):
+    """A build with the CUDA backend where the driver is too old for it."""
+
+    def test_the_cpu_takes_over(self):
         self.run_on(self.large, "--backend", "threads")
         expected = self.output()
         report, lines = self.run_on(self.large, env=with_old_driver())
@@ -77,13 +83,11 @@ class Backends(CommandTest):
         warning = "warning: the GPU could not be used, the CPU did the work: "
         self.assertEqual(lines, [warning + report["fallback"]])
 
-    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
     def test_a_small_mesh_does_not_ask_for_a_gpu(self):
         report, lines = self.run_on(self.small, env=with_old_driver())
         self.assertEqual(lines, [])
         self.assertNotIn("fallback", report)
 
-    @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
     def test_forced_does_not_fall_back(self):
         arguments = (self.large, "out.vtk", "--backend", "cuda")
         result = self.run_command(*arguments, env=with_old_driver())

@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace
 {
@@ -98,7 +97,9 @@ TEST(VtkDelaunayFlip, FieldDataRepeatTheTable)
     for (vtkIdType row = 0; row < 5; ++row)
     {
       const double value = array->GetComponent(row, 0);
-      EXPECT_TRUE(value == other->GetComponent(row, 0) || std::isnan(value));
+      const double expected = other->GetComponent(row, 0);
+      EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected)))
+        << column << " of row " << row << ": " << value << " instead of " << expected;
     }
   }
 }
@@ -178,18 +179,4 @@ TEST(VtkDelaunayFlip, ReadBack)
   EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
   EXPECT_EQ(std::string(filter->GetBackendUsed()).rfind("Threads: ", 0), 0u);
   EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
-}
-
-TEST(VtkDelaunayFlip, PrintSelfNamesEveryProperty)
-{
-  std::ostringstream text;
-  vtkNew<vtkDelaunayFlip> filter;
-  filter->Print(text);
-  for (const char* name : { "Geometry", "Criterion", "Tolerance", "TieRule", "FeatureAngle",
-         "RegionArray", "LinesAsConstraints", "Triangulate", "Backend", "DeviceId",
-         "NumberOfThreads", "MaximumIterations", "TrackQuality", "GenerateFlipCount", "LiveUpdate",
-         "IterationsPerUpdate", "Paused" })
-  {
-    EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
-  }
 }

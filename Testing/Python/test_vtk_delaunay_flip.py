@@ -4,6 +4,7 @@
 import importlib.util
 import math
 import random
+import re
 import subprocess
 import sys
 import unittest
@@ -16,6 +17,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
+from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
@@ -342,13 +344,14 @@ class Pipeline(unittest.TestCase):
         self.assertIsInstance(watched.filter.GetOutputDataObject(1).GetBlock(1), vtkTable)
 
 
+def run_python(program):
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
 class Package(unittest.TestCase):
 
-    def run_python(self, program):
-        subprocess.run([sys.executable, "-c", program], check=True)
-
     def test_filter_needs_no_rendering(self):
-        self.run_python("""
+        run_python("""
 import sys
 from delaunayflip import *
 assert vtkDelaunayFlip().GetLiveUpdate() is False
@@ -356,15 +359,19 @@ assert not [name for name in sys.modules if "Rendering" in name]
 """)
 
     def test_names_that_are_not_there(self):
-        self.run_python("""
+        run_python("""
 import delaunayflip
 assert not hasattr(delaunayflip, "vtkDelaunayFlop")
 """)
 
-    def test_live_view_comes_when_asked_for(self):
-        if not importlib.util.find_spec("delaunayflip.vtkDelaunayFlipRendering"):
-            self.skipTest("built without the live view")
-        self.run_python("""
+
+class LiveView(unittest.TestCase):
+
+    @unittest.skipUnless(
+        importlib.util.find_spec("delaunayflip.vtkDelaunayFlipRendering"),
+        "built without the live view")
+    def test_comes_when_asked_for(self):
+        run_python("""
 import delaunayflip
 view = delaunayflip.vtkDelaunayFlipLiveView()
 assert view is not delaunayflip.vtkDelaunayFlipLiveView()
@@ -372,6 +379,41 @@ view.SetFilter(delaunayflip.vtkDelaunayFlip())
 assert view.GetFilter().GetClassName() == "vtkDelaunayFlip"
 assert view.GetColorBy() == view.COLOR_BY_SMALLEST_ANGLE
 """)
+
+
+def list_properties():
+    """What the class itself, not a base, lets callers both set and get."""
+    own = set(dir(vtkDelaunayFlip)) - set(dir(vtkPolyDataAlgorithm))
+    names = [name[3:] for name in own if name.startswith("Set")]
+    return sorted(name for name in names if "Get" + name in own)
+
+
+def change_property(flip, name):
+    """Gives a property another value; every number may become larger by 1."""
+    value = getattr(flip, "Get" + name)()
+    other = not value if isinstance(value, bool) else "x" if isinstance(value, str) else value + 1
+    getattr(flip, "Set" + name)(other)
+    return getattr(flip, "Get" + name)() != value
+
+
+class Properties(unittest.TestCase):
+
+    def read_print_out(self, flip):
+        return dict(re.findall(r"^  (\w+): (.*)$", str(flip), re.MULTILINE))
+
+    def test_the_list_is_that_of_the_class(self):
+        known = {"Geometry", "Tolerance", "RegionArray", "LiveUpdate", "IterationsPerUpdate"}
+        self.assertLessEqual(known, set(list_properties()))
+
+    def test_print_out_shows_every_property(self):
+        for name in list_properties():
+            with self.subTest(name):
+                flip = vtkDelaunayFlip()
+                before = self.read_print_out(flip)
+                self.assertTrue(change_property(flip, name))
+                after = self.read_print_out(flip)
+                changed = {line for line in after if after[line] != before.get(line)}
+                self.assertEqual(changed, {name})
 
 
 class Report(unittest.TestCase):
