@@ -140,8 +140,6 @@ protected:
   }
 
 private:
-  /// Iterations of a launch: a batch ends soon enough for whoever watches.
-  static constexpr int MostIterations = 128;
   /// Of the second-level cache for a chunk at work: half as much again as it fills.
   static constexpr std::size_t ChunkBytes = std::size_t(9) << 19;
 
@@ -169,7 +167,8 @@ private:
   /// As few blocks as have work: they wait for each other the sooner.
   void PlanGrid()
   {
-    const std::int64_t blocks = this->CountResidentBlocks(IterateKernel<Rule>);
+    const std::int64_t blocks =
+      std::min(MostIterateBlocks, this->CountResidentBlocks(IterateKernel<Rule>));
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
     {

@@ -15,6 +15,19 @@
 namespace delaunayflip
 {
 
+/// Waits in an iteration at most: four in RunFlips, where there is a guard, and one in
+/// RunDetection.
+constexpr int MostWaits = 5;
+
+/// Iterations in a launch of IterateKernel at most: few enough that an observer hears of them and
+/// can stop the run in time.
+constexpr int MostIterations = 128;
+
+/// Blocks in such a launch at most, so that what they tell each other stays in its bits.
+constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * MostWaits);
+static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
+static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
+
 /// Chooses and flips.
 template <typename Rule, typename Worklist>
 __device__ void RunFlips(

@@ -35,13 +35,15 @@ struct alignas(128) TeamState
 /// | 20 .. 51 | the change of the number of bad edges   | signed, 32 bits                         |
 /// | 52 .. 63 | 1 if the block warns                    | modulo 2^12; only a change of it counts |
 ///
-/// More than 2^20 arrivals in a launch carry into the change of bad edges, so only kernels that
-/// read neither this nor the warnings may have so many (RunChunksKernel). A negative change borrows
-/// from the warnings; GetWarnings() puts that right.
+/// More than MostArrivals in a launch carry into the change of bad edges, so only kernels that read
+/// neither this nor the warnings may have so many (RunChunksKernel); MostIterateBlocks keeps
+/// IterateKernel below. A negative change borrows from the warnings; GetWarnings() puts that right.
 struct TeamNews
 {
   static constexpr int ArrivalBits = 20;
+  static constexpr int MostArrivals = (1 << ArrivalBits) - 1;
   static constexpr int WarningShift = ArrivalBits + 32;
+  static constexpr int WarningBits = 64 - WarningShift;
 
   unsigned long long Value;
 
@@ -61,7 +63,8 @@ struct TeamNews
   {
     // A negative number has borrowed from what is above it.
     const unsigned borrowed = this->GetBadChange() < 0 ? 1 : 0;
-    return (static_cast<unsigned>(this->Value >> WarningShift) + borrowed) & 0xFFFu;
+    const auto warnings = static_cast<unsigned>(this->Value >> WarningShift);
+    return (warnings + borrowed) & ((1u << WarningBits) - 1);
   }
 };
 
