@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: check_files.py licences|sizes|words ROOT
+"""Usage: check_files.py licences|sizes|words|markdown ROOT
 
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
 words: the libraries never print to standard output and never end the process.
+markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
+be wider.
 """
 
 import os
@@ -30,6 +32,10 @@ COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL
 )
 
+MARKDOWN_COLUMNS = 100
+MARKDOWN_CODE = re.compile(r"^```.*?^```|(?:\A|(?<=\n\n))(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
+LINK_TARGET = re.compile(r"\]\([^)]*\)")
+
 
 def check_licences(root):
     for path in list_files(root):
@@ -53,17 +59,34 @@ def check_words(root):
     for path in list_files(root):
         if not path.startswith(LIBRARY_FOLDERS) or not path.endswith(CPP_SUFFIXES):
             continue
-        for number, line in enumerate(code_only(read(root, path)).splitlines(), 1):
+        text = blank(COMMENT_OR_STRING, read(root, path))
+        for number, line in enumerate(text.splitlines(), 1):
             for word in FORBIDDEN.findall(line):
                 yield f"{path}:{number}: {word}"
 
 
-def code_only(text):
-    """C++ text with comments and strings blanked and its line breaks kept."""
-    return COMMENT_OR_STRING.sub(lambda match: "\n" * match.group().count("\n"), text)
+def check_markdown(root):
+    for path in list_files(root):
+        if not path.endswith(".md"):
+            continue
+        text = blank(MARKDOWN_CODE, read(root, path))
+        for number, line in enumerate(text.splitlines(), 1):
+            columns = len(LINK_TARGET.sub("]", line))
+            if columns >= MARKDOWN_COLUMNS and not line.startswith(("|", "![")):
+                yield f"{path}:{number}: {columns} columns"
 
 
-CHECKS = {"licences": check_licences, "sizes": check_sizes, "words": check_words}
+def blank(pattern, text):
+    """The text without what matches, with all its line breaks."""
+    return pattern.sub(lambda match: "\n" * match.group().count("\n"), text)
+
+
+CHECKS = {
+    "licences": check_licences,
+    "sizes": check_sizes,
+    "words": check_words,
+    "markdown": check_markdown,
+}
 
 
 def main():

@@ -22,6 +22,12 @@ ENGINE = (
     + "set(delaunayflip_engine_rooms Geometry Mesh Flips)\n"
 )
 
+WIDE = 30 * "wide "
+MARKDOWN = (
+    f"# Head\n\n[link]({WIDE})\n\n    {WIDE}\n    {WIDE}\n\n```\nshort\n\n{WIDE}\n```\n\n"
+    f"| a | {WIDE} |\n|---|---|\n\n![{WIDE}](picture.png)\n"
+)
+
 CLEAN = {
     ".clang-format": "BasedOnStyle: Mozilla\n",
     "Engine/CMakeLists.txt": ENGINE,
@@ -32,6 +38,7 @@ CLEAN = {
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
     "Testing/Core/TestEdgeMesh.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
     "Utilities/short.py": LICENCE.replace("//", "#") + "def answer():\n    return 42\n",
+    "Documentation/wide.md": MARKDOWN,
     "Utilities/demo.sh": "#!/bin/sh\n" + LICENCE.replace("//", "#"),
 }
 
@@ -139,14 +146,28 @@ class StyleChecks(unittest.TestCase):
             "Rendering includes FlipOptions.h of the engine's public headers",
         )
 
+    def test_cuda_below_the_choice_of_a_backend(self):
+        for path in ("CUDA/Bad.cuh", "CUDA/Bad.cu"):
+            with self.subTest(path):
+                self.check_notices(
+                    ["check_layering.py"],
+                    path,
+                    '#include "EngineChoice.h"\n',
+                    "CUDA includes EngineChoice.h of Engine",
+                )
+                self.remove(path)
+
     def test_shipped_code_without_tests(self):
         self.write("Testing/Meshes/GeneratedMeshes.h", LICENCE)
-        self.check_notices(
-            ["check_layering.py"],
-            "Command/Bad.cxx",
-            '#include "GeneratedMeshes.h"\n',
-            "Command includes GeneratedMeshes.h of Testing",
-        )
+        for path, layer in (("Command/Bad.cxx", "Command"), ("CUDA/Bad.cu", "CUDA")):
+            with self.subTest(path):
+                self.check_notices(
+                    ["check_layering.py"],
+                    path,
+                    '#include "GeneratedMeshes.h"\n',
+                    f"{layer} includes GeneratedMeshes.h of Testing",
+                )
+                self.remove(path)
 
     def test_internal_header(self):
         self.check_notices(
@@ -157,14 +178,18 @@ class StyleChecks(unittest.TestCase):
         )
 
     def test_format(self):
-        self.check_notices(
-            ["check_format.py"], "CUDA/Bad.cu", "int  x ;\n", "CUDA/Bad.cu: run clang-format"
-        )
+        for path in ("CUDA/Bad.cu", "CUDA/Bad.cuh", "Engine/Bad.h", "Filters/Bad.cxx"):
+            with self.subTest(path):
+                self.check_notices(
+                    ["check_format.py"], path, "int  x ;\n", f"{path}: run clang-format"
+                )
+                self.remove(path)
 
     def test_long_function(self):
         lines = "  f();\n" * 60
         for path, text in (
             ("CUDA/Bad.cuh", f"void Long()\n{{\n{lines}}}\n"),
+            ("CUDA/Bad.cu", f"__global__ void Long()\n{{\n{lines}}}\n"),
             ("Testing/Core/TestBad.cpp", f"TEST(Long, OfGoogleTest)\n{{\n{lines}}}\n"),
             ("Utilities/bad.py", "def long():\n" + "    f()\n" * 60),
         ):
@@ -179,7 +204,8 @@ class StyleChecks(unittest.TestCase):
         self.check_notices(["check_functions.py"], "CUDA/Bad.cpp", text, "the median is 43")
 
     def test_licence(self):
-        for path in ("Engine/Bad.h", "CUDA/Bad.cuh", "CMake/Bad.cmake", "Utilities/bad.py", "Utilities/bad.sh"):
+        names = ("Engine/Bad.h", "CUDA/Bad.cuh", "CUDA/Bad.cu", "CMake/Bad.cmake", "Utilities/bad.py")
+        for path in (*names, "Utilities/bad.sh"):
             with self.subTest(path):
                 self.check_notices(["check_files.py", "licences"], path, "\n", path)
                 self.remove(path)
@@ -189,12 +215,26 @@ class StyleChecks(unittest.TestCase):
         self.check_notices(["check_files.py", "sizes"], path, text, f"{path}: 1000001 bytes")
 
     def test_words(self):
+        names = ("Filters/Bad.cxx", "Rendering/Bad.cxx", "CUDA/Bad.cu", "CUDA/Bad.cuh")
         for word in ("std::exit(1);", "abort();", "std::cout << 1;", 'std::printf("x");'):
             with self.subTest(word):
                 text = f"/* one\n two */ void F()\n{{ {word} }}\n"
-                for path in ("Filters/Bad.cxx", "Rendering/Bad.cxx", "CUDA/Bad.cu", "Engine/Mesh/Bad.h"):
+                for path in (*names, "Engine/Mesh/Bad.h"):
                     self.check_notices(["check_files.py", "words"], path, text, f"{path}:3: ")
                     self.remove(path)
+
+    def test_markdown(self):
+        words = 20 * "word "  # 99 columns and a space
+        for path, text in (
+            ("README.md", f"Short.\n\n{words.strip()}\n{words}\n"),
+            ("Documentation/method.md", f"- A list\n\n\n- {words}\n"),
+            ("CHANGELOG.md", f"    code\n\nText.\n    {words}\n"),
+            ("Engine/README.md", f"```\ncode\n```\n\n{words}[link](target)\n"),
+        ):
+            with self.subTest(path):
+                expected = f"{path}:{text.count(chr(10))}: "
+                self.check_notices(["check_files.py", "markdown"], path, text, expected)
+                self.remove(path)
 
 
 if __name__ == "__main__":
