@@ -244,11 +244,10 @@ void LiveScene::ShowScale(const char* title)
 }
 
 //------------------------------------------------------------------------------
-double LiveScene::GetSmallestAngle() const
+double LiveScene::GetSmallestAngle()
 {
-  vtkPolyData* mesh = vtkPolyData::SafeDownCast(this->Mapper->GetInput());
-  vtkDataArray* angles =
-    mesh == this->Mesh.Get() ? nullptr : mesh->GetCellData()->GetArray(QualityName);
+  this->Quality->Update();
+  vtkDataArray* angles = this->Quality->GetOutput()->GetCellData()->GetArray(QualityName);
   if (!angles || angles->GetNumberOfTuples() == 0)
   {
     return std::numeric_limits<double>::quiet_NaN();
@@ -271,6 +270,7 @@ void LiveScene::SetStatus(const std::string& text, bool isError)
 {
   const Color& red = IsDark(this->Renderer) ? LightRed : DarkRed;
   this->Status->SetInput(text.c_str());
+  this->Status->SetVisibility(!text.empty());
   Paint(this->Status->GetTextProperty(), isError ? red.data() : this->Ink);
 }
 

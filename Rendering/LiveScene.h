@@ -47,9 +47,8 @@ public:
   void SetEdgeVisibility(bool visible);
   bool GetEdgeVisibility() const;
 
-  /// The smallest angle of the mesh in degrees; NaN where triangles are not coloured by it or there
-  /// are none.
-  double GetSmallestAngle() const;
+  /// The smallest angle of the mesh in degrees; NaN where there are no triangles.
+  double GetSmallestAngle();
 
   void SetStatus(const std::string& text, bool isError);
   void SetKeys(const std::string& text);

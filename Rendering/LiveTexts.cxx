@@ -13,8 +13,8 @@
 namespace delaunayflip
 {
 
-const char* const KeyHelp =
-  "space: run/pause   n: next step   b: begin again   k: colours   g: edges   q: quit";
+const char* const KeyHelp = "space: run/pause   n: next step   b: begin again   "
+                            "k: colours   g: edges   i: statistics   q: quit";
 
 namespace
 {
@@ -30,10 +30,16 @@ std::string Group(vtkIdType number)
   return text;
 }
 
+/// 2, "flip" -> "2 flips"
+std::string Count(vtkIdType number, const std::string& things)
+{
+  return Group(number) + " " + things + (number == 1 ? "" : "s");
+}
+
 std::string DescribeCounts(vtkDelaunayFlip* filter)
 {
-  return Group(filter->GetTotalFlips()) + " flips, " +
-    Group(filter->GetNumberOfNonDelaunayEdges()) + " edges not Delaunay";
+  return Count(filter->GetTotalFlips(), "flip") + ", " +
+    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
 }
 
 std::string DescribeFailure(int failure)
@@ -83,7 +89,7 @@ std::string DescribeState(const LiveStatus& status)
 std::string DescribeMesh(const LiveStatus& status)
 {
   const std::string state = DescribeState(status);
-  const std::string triangles = Group(status.Triangles) + " triangles";
+  const std::string triangles = Count(status.Triangles, "triangle");
   if (status.State == LiveState::Failed)
   {
     return state + "\nthe mesh of frame " + Group(status.Frame);

@@ -290,14 +290,24 @@ void vtkDelaunayFlipLiveView::Render()
   this->Scene->SetColorBy(this->ColorBy);
   this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  // Off screen nobody waits for a key: who calls Step() runs it.
-  const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
-  this->Scene->SetStatus(
-    DescribeStatus({ this->Filter, this->State, isRunning, this->FrameNumber,
-      this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() }),
-    this->State == LiveState::Failed);
+  this->ShowStatus();
   this->Scene->GetRenderer()->ResetCameraClippingRange();
   this->Window->Render();
+}
+
+void vtkDelaunayFlipLiveView::ShowStatus()
+{
+  const bool hasFailed = this->State == LiveState::Failed;
+  if (!this->ShowStatistics && !hasFailed)
+  {
+    this->Scene->SetStatus("", false);
+    return;
+  }
+  // Off screen nobody waits for a key: who calls Step() runs it.
+  const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
+  const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
+    this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() };
+  this->Scene->SetStatus(DescribeStatus(status), hasFailed);
 }
 
 //------------------------------------------------------------------------------
@@ -361,6 +371,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
     { "b", [](Self* self) { self->Restart(); } },
     { "k", [](Self* self) { self->CycleColors(); } },
     { "g", [](Self* self) { self->ToggleEdges(); } },
+    { "i", [](Self* self) { self->ToggleStatistics(); } },
   };
   const char* key = this->Interactor->GetKeySym();
   const auto action = actions.find(key ? key : "");
@@ -389,6 +400,12 @@ void vtkDelaunayFlipLiveView::ToggleEdges()
   this->Render();
 }
 
+void vtkDelaunayFlipLiveView::ToggleStatistics()
+{
+  this->SetShowStatistics(!this->ShowStatistics);
+  this->Render();
+}
+
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -397,6 +414,7 @@ void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Interactor: " << this->Interactor << "\n";
   os << indent << "ColorBy: " << this->ColorBy << "\n";
   os << indent << "EdgeVisibility: " << this->EdgeVisibility << "\n";
+  os << indent << "ShowStatistics: " << this->ShowStatistics << "\n";
   os << indent << "ShowKeys: " << this->ShowKeys << "\n";
   os << indent << "FrameInterval: " << this->FrameInterval << "\n";
   os << indent << "FramePrefix: " << this->FramePrefix << "\n";

@@ -6,9 +6,8 @@
  *
  * vtkDelaunayFlipLiveView drives a vtkDelaunayFlip from the timer of an interactor and draws the
  * mesh after every step: first the input, then the mesh after each IterationsPerUpdate iterations
- * of the filter, until nothing is left to flip. On the screen it tells iteration, flips, edges left
- * that are not Delaunay, the smallest angle (where triangles are coloured by it) and whether the
- * run goes on.
+ * of the filter, until nothing is left to flip. On the screen it shows statistics: the iteration,
+ * the flips so far, the bad edges left, the smallest angle and whether the run goes on.
  *
  *     vtkNew<vtkDelaunayFlipLiveView> view;
  *     view->SetFilter(flip);
@@ -17,7 +16,7 @@
  *     interactor->Start();
  *
  * Keys: space runs and pauses, n makes one step, b begins again, k changes the colours, g shows and
- * hides the edges. These keys do not reach the interactor style; all others do.
+ * hides the edges, i the statistics. These keys do not reach the interactor style; all others do.
  *
  * What it draws into: the first renderer of the interactor's window, which it gives the faces of
  * the mesh (quads, polygons and strips as triangles; neither lines nor verts), a scale of colours
@@ -44,9 +43,9 @@
  * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
  * Start() and Restart() do nothing.
  *
- * Cost: a step of the filter, a copy of its triangles to the graphics card, and, where triangles
- * are coloured by their smallest angle, a pass of vtkMeshQuality. After the end of a run there is
- * no timer.
+ * Cost: a step of the filter, a copy of its triangles to the graphics card, and, where statistics
+ * are shown or triangles are coloured by their smallest angle, a pass of vtkMeshQuality. After the
+ * end of a run there is no timer.
  *
  * The view keeps the filter alive, but neither interactor nor window; they may go in any order.
  *
@@ -136,6 +135,19 @@ public:
   void SetEdgeVisibilityToAuto() { this->SetEdgeVisibility(EDGE_VISIBILITY_AUTO); }
   void SetEdgeVisibilityToOn() { this->SetEdgeVisibility(EDGE_VISIBILITY_ON); }
   void SetEdgeVisibilityToOff() { this->SetEdgeVisibility(EDGE_VISIBILITY_OFF); }
+  ///@}
+
+  ///@{
+  /**
+   * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
+   * the run goes on; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of the
+   * filter); the smallest angle of the mesh on the screen, in space and in degrees. For the input
+   * the second line is the number of triangles. Default on. A failure is shown in any case. Takes
+   * effect at the next frame or Render().
+   */
+  vtkSetMacro(ShowStatistics, bool);
+  vtkGetMacro(ShowStatistics, bool);
+  vtkBooleanMacro(ShowStatistics, bool);
   ///@}
 
   ///@{
@@ -231,6 +243,7 @@ protected:
 
   int ColorBy = COLOR_BY_SMALLEST_ANGLE;
   int EdgeVisibility = EDGE_VISIBILITY_AUTO;
+  bool ShowStatistics = true;
   bool ShowKeys = true;
   int FrameInterval = 50;
   std::string FramePrefix;
@@ -247,11 +260,13 @@ private:
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();
+  void ShowStatus();
   void StopTimer();
   void OnTimer(vtkObject* caller, unsigned long event, void* id);
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
   void CycleColors();
   void ToggleEdges();
+  void ToggleStatistics();
 
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;

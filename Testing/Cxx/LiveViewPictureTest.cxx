@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -76,12 +77,52 @@ TEST(LiveViewPicture, Texts)
   EXPECT_EQ(view.GetStatus().find("input, running"), 0u);
   view->Step();
   EXPECT_EQ(view.GetStatus(),
-    "iteration 1, converged\n1 flips, 0 edges not Delaunay\nsmallest angle 36.87 degrees");
-  view->SetColorByToSolid();
+    "iteration 1, converged\n1 flip, 0 bad edges left\nsmallest angle 36.87 degrees");
   view->ShowKeysOff();
   view->Render();
-  EXPECT_EQ(view.GetStatus(), "iteration 1, converged\n1 flips, 0 edges not Delaunay");
   EXPECT_EQ(view.GetKeys(), "");
+}
+
+TEST(LiveViewPicture, StatisticsAreThoseOfTheFilter)
+{
+  WatchedView view;
+  view->SetColorByToSolid();
+  view->Start();
+  while (view->Step())
+  {
+    const std::string flips = std::to_string(view.Filter->GetTotalFlips());
+    const std::string edges = std::to_string(view.Filter->GetNumberOfNonDelaunayEdges());
+    std::string status = view.GetStatus();
+    status.erase(std::remove(status.begin(), status.end(), ','), status.end()); // 1,234
+    EXPECT_NE(status.find(" running\n" + flips + " flip"), std::string::npos) << status;
+    EXPECT_NE(status.find(" " + edges + " bad edge"), std::string::npos) << status;
+    EXPECT_NE(status.find(" left\nsmallest angle "), std::string::npos) << status;
+  }
+}
+
+TEST(LiveViewPicture, StatisticsCanBeTurnedOff)
+{
+  WatchedView view;
+  view->Step();
+  const Bytes before = GetPicture(view);
+  view->ShowStatisticsOff();
+  view->Render();
+  EXPECT_EQ(view.GetStatus(), "");
+  EXPECT_NE(GetPicture(view), before);
+  view->ShowStatisticsOn();
+  view->Render();
+  EXPECT_EQ(GetPicture(view), before);
+}
+
+TEST(LiveViewPicture, AFailureIsShownInAnyCase)
+{
+  WatchedView view;
+  view->ShowStatisticsOff();
+  view->Step();
+  view.Filter->SetTieRuleToCanonical();
+  view.Filter->SetGeometryToSurface();
+  view->Step();
+  EXPECT_EQ(view.GetStatus().find("failed: "), 0u);
 }
 
 TEST(LiveViewPicture, NumbersAreGrouped)

@@ -147,6 +147,11 @@ TEST(LiveView, Keys)
   EXPECT_FALSE(view.HasEdges());
   view.Press("g");
   EXPECT_TRUE(view.HasEdges());
+  EXPECT_FALSE(view.Press("i"));
+  EXPECT_FALSE(view->GetShowStatistics());
+  EXPECT_EQ(view.GetStatus(), "");
+  view.Press("i");
+  EXPECT_NE(view.GetStatus(), "");
 }
 
 TEST(LiveView, OtherKeysReachTheStyle)
