@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -42,19 +43,27 @@ std::string DescribeCounts(vtkDelaunayFlip* filter)
     Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
 }
 
-std::string DescribeFailure(int failure)
+/// Why there is no mesh. The filter knows nothing where what feeds it has failed.
+std::string GetReason(vtkDelaunayFlip* filter)
 {
-  switch (failure)
+  const std::string message = filter->GetErrorMessage();
+  return message.empty() ? "no input" : message;
+}
+
+/// Breaks a text into lines that fit into a window.
+std::string Wrap(const std::string& text)
+{
+  constexpr std::size_t width = 60; // letters
+  std::istringstream words(text);
+  std::string wrapped;
+  std::string word;
+  for (std::size_t begin = 0; words >> word; wrapped += word)
   {
-    case vtkDelaunayFlip::FAILURE_OPTIONS:
-      return "the options do not fit";
-    case vtkDelaunayFlip::FAILURE_MESH:
-      return "the mesh cannot be used";
-    case vtkDelaunayFlip::FAILURE_BACKEND:
-      return "the backend cannot run here";
-    default:
-      return "no mesh";
+    const bool fits = wrapped.size() - begin + 1 + word.size() <= width;
+    wrapped += wrapped.empty() ? "" : fits ? " " : "\n";
+    begin = fits ? begin : wrapped.size();
   }
+  return wrapped;
 }
 
 std::string DescribeAngle(double degrees)
@@ -73,7 +82,7 @@ std::string DescribeState(const LiveStatus& status)
   switch (status.State)
   {
     case LiveState::Failed:
-      return "failed: " + DescribeFailure(status.Filter->GetFailure());
+      return Wrap("failed: " + GetReason(status.Filter));
     case LiveState::Converged:
       return "converged";
     case LiveState::Limited:

@@ -26,7 +26,7 @@ struct LiveStatus
   double SmallestAngle; ///< Degrees; NaN where unknown.
 };
 
-/// In two or three lines.
+/// In two or three lines; a failure takes as many as it needs.
 std::string DescribeStatus(const LiveStatus& status);
 
 }

@@ -95,7 +95,7 @@ int ExampleFiles::WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* wi
   if (!view->GetConverged())
   {
     const bool isWrong = flip->GetFailure() == vtkDelaunayFlip::FAILURE_OPTIONS;
-    return Fail(isWrong ? WrongUsage : BadFile, "the mesh could not be flipped");
+    return Fail(isWrong ? WrongUsage : BadFile, flip->GetErrorMessage());
   }
   std::cout << view->GetFrameNumber() << " steps, " << flip->GetTotalFlips() << " flips\n";
   return this->WriteMesh(flip->GetOutputPort());

@@ -132,7 +132,7 @@ def write_frames(view, window, prefix):
     flip = view.GetFilter()
     if not view.GetConverged():
         wrong_options = flip.GetFailure() == vtkDelaunayFlip.FAILURE_OPTIONS
-        fail(WRONG_USAGE if wrong_options else BAD_FILE, "the mesh could not be flipped")
+        fail(WRONG_USAGE if wrong_options else BAD_FILE, flip.GetErrorMessage())
     writer = vtkXMLPolyDataWriter()
     writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
     writer.SetInputConnection(flip.GetOutputPort())
