@@ -4,6 +4,7 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
+#include "FlipError.h"
 #include "FlipFailure.h"
 #include "FlipRun.h"
 #include "HostProgram.h"
@@ -166,6 +167,10 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   std::unique_ptr<FlipRun> last = std::move(this->Run);
   *this->Report = FlipReport();
   this->MayGoOn = false;
+  if (!data.Input) // a block of a composite dataset may be anything
+  {
+    throw FlipError("the input is no vtkPolyData; apply Extract Surface (vtkGeometryFilter) first");
+  }
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
   {
     this->Report->StopReason = StopReasonKind::Converged;

@@ -8,12 +8,10 @@ paraview_live.png: a live update on its way.
 
 import os
 
-from ClientTesting import Panel, idle, play
+from ClientTesting import FOLDER, Panel, idle, load_plugin, play
 from paraview import simple
-from PyQt5.QtCore import QItemSelectionModel, Qt
+from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QDockWidget
-
-FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 
 
 def arrange(client):
@@ -66,19 +64,9 @@ def apply(client, **properties):
     yield idle(0.3)
 
 
-def select_in_pipeline(client, text):
-    """Clicks an entry of the Pipeline Browser."""
-    selection = next(
-        selection for selection in client.window.findChildren(QItemSelectionModel)
-        if selection.parent().metaObject().className() == "pqPipelineBrowserWidget")
-    found = selection.model().match(selection.model().index(0, 0), Qt.DisplayRole, text, 1,
-                                    Qt.MatchExactly | Qt.MatchRecursive)
-    selection.setCurrentIndex(found[0], QItemSelectionModel.ClearAndSelect)
-
-
 def draw_chart(client, flip):
     """The table in the Pipeline Browser, its entry in the menu, Apply."""
-    select_in_pipeline(client, "Iterations")
+    client.select("Iterations")
     yield idle(0.5)
     client.choose("Delaunay Flip", "Plot Delaunay Flips")
     yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
@@ -89,7 +77,7 @@ def draw_chart(client, flip):
 
 
 def session(client):
-    simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+    load_plugin()
     arrange(client)
     yield from apply(client)
     flip = simple.GetActiveSource()
@@ -100,7 +88,7 @@ def session(client):
     Panel(client).click("LiveUpdate")
     client.apply()
     yield lambda: flip.StopReason == "running" and flip.NumberOfIterations >= 12
-    client.save_picture(os.path.join(FOLDER, "paraview_live.png"))
+    client.save_picture("paraview_live.png")
 
     Panel(client).click("LiveUpdate")
     client.apply()
@@ -108,7 +96,7 @@ def session(client):
     yield from draw_chart(client, flip)
     look_at_mesh(view)
     yield idle(0.3)
-    client.save_picture(os.path.join(FOLDER, "paraview.png"))
+    client.save_picture("paraview.png")
 
 
 play(session)

@@ -12,10 +12,11 @@ import time
 import traceback
 
 from paraview import simple
-from PyQt5.QtCore import QTimer
+from PyQt5.QtCore import QItemSelectionModel, Qt, QTimer
 from PyQt5.QtWidgets import (
-    QApplication, QCheckBox, QComboBox, QLineEdit, QMenu, QPushButton, QWidget)
+    QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QMenu, QPushButton, QWidget)
 
+FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 PATIENCE = 60  # seconds, for one wait
 TICK = 20  # milliseconds between two looks
 
@@ -46,12 +47,23 @@ class Client:
         next(action for action in titles[menu].actions()
              if action.text().replace("&", "").startswith(beginning)).trigger()
 
+    def select(self, text):
+        """Clicks an entry of the Pipeline Browser."""
+        selection = next(
+            selection for selection in self.window.findChildren(QItemSelectionModel)
+            if selection.parent().metaObject().className() == "pqPipelineBrowserWidget")
+        found = selection.model().match(
+            selection.model().index(0, 0), Qt.DisplayRole, text, 1,
+            Qt.MatchExactly | Qt.MatchRecursive)
+        selection.setCurrentIndex(found[0], QItemSelectionModel.ClearAndSelect)
+
     def apply(self):
         """Clicks Apply."""
         self.window.findChild(QPushButton, "Accept").click()
 
-    def save_picture(self, path):
-        """A picture of the whole window."""
+    def save_picture(self, name):
+        """A picture of the whole window, in FOLDER."""
+        path = os.path.join(FOLDER, name)
         self.application.processEvents()
         if not self.window.grab().save(path):
             raise OSError(f"cannot write {path}")
@@ -63,13 +75,19 @@ class Panel:
     def __init__(self, client):
         self.window = client.window
 
+    def find_all(self, name):
+        return self.window.findChildren(QWidget, name)
+
     def find(self, name, kind):
-        widgets = [widget.findChild(kind) or widget
-                   for widget in self.window.findChildren(QWidget, name)]
+        widgets = [widget.findChild(kind) or widget for widget in self.find_all(name)]
         return next(widget for widget in widgets if isinstance(widget, kind))
 
     def is_shown(self, name):
-        return any(widget.isVisible() for widget in self.window.findChildren(QWidget, name))
+        return any(widget.isVisible() for widget in self.find_all(name))
+
+    def read(self, name):
+        """The text of a property that is read back."""
+        return self.find(name, QLabel).text()
 
     def write(self, name, text):
         edit = self.find(name, QLineEdit)
@@ -85,6 +103,28 @@ class Panel:
 
     def press(self, name):
         self.find(name, QPushButton).click()
+
+
+def expect(truth, what):
+    if not truth:
+        raise AssertionError(what)
+
+
+def load_plugin():
+    simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+
+
+def start_filter(client, source, menu_entry="Delaunay Flip"):
+    """Chooses a filter of the plugin for a source, from the menu; the filter, not applied yet."""
+    before = simple.GetActiveSource()
+    simple.Show(source)
+    simple.ResetCamera()
+    simple.SetActiveSource(source)
+    yield idle(0.3)
+    client.choose("Delaunay Flip", menu_entry)
+    yield lambda: simple.GetActiveSource() not in (before, source)
+    yield idle(0.3)
+    return simple.GetActiveSource()
 
 
 def idle(seconds):

@@ -9,9 +9,8 @@ import os
 
 from paraview import servermanager, simple
 
-from ClientTesting import Panel, idle, play
+from ClientTesting import FOLDER, Panel, expect, idle, load_plugin, play
 
-FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 QUIET = 1.5  # seconds: many times the interval of polls
 
 
@@ -19,11 +18,6 @@ def get_triangles(flip):
     mesh = servermanager.Fetch(flip)
     ids = mesh.GetPolys().GetConnectivityArray()
     return [ids.GetTuple1(i) for i in range(ids.GetNumberOfTuples())]
-
-
-def expect(truth, what):
-    if not truth:
-        raise AssertionError(what)
 
 
 def has_converged(flip):
@@ -50,7 +44,7 @@ def look_at_panel(client, panel):
     panel.choose("Geometry", "Auto")
     yield idle(0.2)
     expect(panel.is_shown("FeatureAngle"), "FeatureAngle is not shown again")
-    client.save_picture(os.path.join(FOLDER, "applied.png"))
+    client.save_picture("applied.png")
 
 
 def undo(client, panel, flip):
@@ -91,7 +85,7 @@ def watch_live(client, panel, flip):
     renders.clear()
     yield idle(QUIET)
     expect(not renders, "the view was rendered after the end")
-    client.save_picture(os.path.join(FOLDER, "live.png"))
+    client.save_picture("live.png")
     panel.press("Restart")
     yield lambda: flip.StopReason == "running"
     yield has_converged(flip)
@@ -99,7 +93,7 @@ def watch_live(client, panel, flip):
 
 
 def session(client):
-    simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+    load_plugin()
     mesh = simple.XMLPolyDataReader(FileName=[os.path.join(FOLDER, "mesh.vtp")])
     simple.Show(mesh).Representation = "Surface With Edges"
     simple.ResetCamera()

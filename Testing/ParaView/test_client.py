@@ -1,17 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in ParaView's Qt client: menu, Apply, panel, undo, and the mesh improving by itself.
+"""The plugin in ParaView's Qt client: menu, Apply, panel, undo, live runs, errors and charts.
 
-client_session.py is what happens inside. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
+The scripts client_*.py are what happens inside. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
 """
 
+import glob
 import os
 import shutil
 import subprocess
 import sys
 import unittest
 
-from PluginTesting import PluginTest, main, make_fan
+from PluginTesting import PluginTest, main, make_fan, make_lines
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 125
@@ -33,20 +34,39 @@ def find_client():
 
 
 class Client(PluginTest):
-    def test_session(self):
+    """Each test is a client of its own, whose script plays a session."""
+
+    def play(self, name):
+        """Runs a script in a client; what it wrote. Its pictures go to DELAUNAYFLIP_PICTURES."""
         self.save(make_fan(14))
+        self.save(make_lines((6, 13)), "lines.vtp")
         environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
-        script = os.path.join(HERE, "client_session.py")
         client = subprocess.run(
-            [find_client(), "--script=" + script], env=environment, timeout=PATIENCE,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            encoding="utf-8", check=False)
-        for picture in ("applied.png", "live.png"):
-            if os.path.exists(self.path(picture)):
-                shutil.copy(self.path(picture), os.environ["DELAUNAYFLIP_PICTURES"])
+            [find_client(), "--script=" + os.path.join(HERE, name)], env=environment,
+            timeout=PATIENCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, encoding="utf-8", check=False)
+        for picture in glob.glob(self.path("*.png")):
+            shutil.copy(picture, os.environ["DELAUNAYFLIP_PICTURES"])
         self.assertEqual(client.returncode, 0, client.stdout)
         self.assertIn("all is well", client.stdout)
+        return client.stdout
+
+    def expect_quiet(self, written):
+        self.assertNotRegex(written, "ERR[|]|WARN[|]|warning:")
+
+    def test_session(self):
+        self.play("client_session.py")
+
+    def test_errors(self):
+        written = self.play("client_errors.py")
+        self.assertEqual(written.count("do not lie in one plane"), 10, written)
+
+    def test_chart(self):
+        self.expect_quiet(self.play("client_chart.py"))
+
+    def test_panel(self):
+        self.expect_quiet(self.play("client_panel.py"))
 
 
 if __name__ == "__main__":

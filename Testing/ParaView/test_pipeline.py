@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filter in ParaView's pipelines: what goes in, what comes out."""
 
+import math
+
 from paraview import simple
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -96,9 +98,29 @@ class Outputs(PluginTest):
 
     def test_plot(self):
         plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1))
-        table = fetch(plot)
-        self.assertEqual(table.GetNumberOfColumns(), 1)
-        self.assertEqual(get_rows(table, "Flipped"), get_rows(fetch(self.filter, 1), "Flipped"))
+        table, iterations = fetch(plot), fetch(self.filter, 1)
+        self.assertEqual(
+            [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())],
+            ["Iteration", "Flipped", "Excluded", "Blocked", "NonDelaunay", "Tested",
+             "MinimumAngle"])
+        self.assertEqual(get_rows(table, "Iteration")[0], 1)
+        for column in ("Iteration", "Flipped", "Excluded", "Blocked", "Tested"):
+            self.assertEqual(get_rows(table, column), get_rows(iterations, column))
+
+    def test_plot_on_a_logarithmic_scale(self):
+        """Counts of 0 are left out; the smallest angle has an axis of its own."""
+        plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1), LogScale=1)
+        self.assertTrue(all(math.isnan(count) for count in get_rows(fetch(plot), "Blocked")))
+        self.assertGreater(get_rows(fetch(plot), "MinimumAngle")[0], 0)
+        for before, after in zip(get_rows(fetch(self.filter, 1), "Excluded"),
+                                 get_rows(fetch(plot), "Excluded")):
+            self.assertTrue(before == after or before == 0 and math.isnan(after))
+
+    def test_plot_of_one_row_or_none(self):
+        for limit, rows in ((1, 2), (0, 0)):
+            flip = self.flip(self.read(make_fan(20)), MaximumIterations=limit)
+            plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(flip, 1))
+            self.assertEqual(get_rows(fetch(plot), "Iteration"), [1] * rows)
 
     def test_information(self):
         delaunay_already = self.flip(self.filter)

@@ -5,8 +5,8 @@
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
-engine: Filters and Command see its public headers, Rendering sees Filters alone, Plugin none of
-these; nothing that ships sees Testing or Examples. The engine sees no VTK.
+engine: Filters and Command see its public headers, Rendering and Plugin see Filters alone; nothing
+that ships sees Testing or Examples. The engine sees no VTK.
 """
 
 import os
@@ -25,7 +25,7 @@ ABOVE = {
     "Filters": {PUBLIC, "Filters"},
     "Rendering": {"Filters", "Rendering"},
     "Command": {PUBLIC, "Filters", "Command"},
-    "Plugin": {"Plugin"},
+    "Plugin": {"Filters", "Plugin"},
     "Examples": {PUBLIC, "Filters", "Rendering", "Examples"},
 }
 

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef pqDelaunayFlipLiveControls_h
+#define pqDelaunayFlipLiveControls_h
+
+#include "pqPropertyWidget.h"
+
+class QPushButton;
+class vtkSMPropertyGroup;
+
+/// Buttons that hold a live run, make one step of it, and begin it again. They act at once, without
+/// Apply.
+class pqDelaunayFlipLiveControls : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  pqDelaunayFlipLiveControls(
+    vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
+
+private Q_SLOTS:
+  void setPaused(bool isPaused);
+  void step();
+  void restart();
+  void showState();
+
+private:
+  QPushButton* addButton(const char* name);
+  void invoke(const char* command);
+
+  QPushButton* Pause;
+};
+
+#endif

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A user's session in the client with the Properties panel: buttons of a live run, the source of
+constraints, results to read, and no flood of arrays in Color By.
+
+Played by test_client.py; leaves the pictures panel*.png.
+"""
+
+import os
+
+from ClientTesting import FOLDER, Panel, expect, idle, load_plugin, play, start_filter
+from paraview import servermanager, simple
+from PyQt5.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton
+
+RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges", "StopReason",
+           "GeometryUsed", "BackendUsed"]
+QUIET = 1.5  # seconds: many times the interval of polls
+
+
+def count_edges(flip, edge):
+    """How many triangles of the output have an edge."""
+    polys = servermanager.Fetch(flip).GetPolys().GetConnectivityArray()
+    ids = [int(polys.GetTuple1(i)) for i in range(polys.GetNumberOfTuples())]
+    return sum(edge <= set(ids[i:i + 3]) for i in range(0, len(ids), 3))
+
+
+def read_results(panel, flip):
+    """What is read back is text, whole numbers without a point, and cannot be edited."""
+    for name in RESULTS:
+        expect(panel.read(name) == str(flip.GetPropertyValue(name)), f"{name}: {panel.read(name)}")
+        for widget in panel.find_all(name):
+            expect(not isinstance(widget, QLineEdit) and not widget.findChildren(QLineEdit),
+                   f"{name} looks as if it could be edited")
+    expect(panel.read("TotalFlips").isdigit(), panel.read("TotalFlips"))
+    expect(any(label.text().endswith("<b>Last Update</b></html>")
+               for label in panel.window.findChildren(QLabel) if label.isVisible()), "no title")
+
+
+def use_buttons(client, panel, flip):
+    """Pause holds the run, Step makes one step, Restart begins again, Pause lets it go on."""
+    expect(not panel.is_shown("Step"), "buttons are shown without live update")
+    panel.click("LiveUpdate")
+    yield idle(0.2)
+    expect(panel.is_shown("Step"), "buttons are not shown")
+    client.apply()
+    yield lambda: flip.NumberOfIterations >= 3
+    panel.press("Paused")
+    yield idle(0.3)
+    held = flip.NumberOfIterations
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == held and flip.StopReason == "running", "it did not pause")
+    client.save_picture("panel_paused.png")
+    panel.press("Step")
+    yield lambda: flip.NumberOfIterations == held + 1
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == held + 1, "a step made more")
+    expect(panel.read("NumberOfIterations") == str(held + 1), "the panel lags behind")
+    panel.press("Restart")
+    yield lambda: flip.NumberOfIterations == 1
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == 1, "a paused run went on after its restart")
+    panel.press("Paused")
+    yield lambda: flip.StopReason == "converged"
+    panel.click("LiveUpdate")
+    client.apply()
+    yield idle(0.3)
+
+
+def step_pauses(client, panel, flip):
+    """Step holds a run that goes on."""
+    panel.click("LiveUpdate")
+    client.apply()
+    yield lambda: flip.NumberOfIterations >= 2
+    panel.press("Step")
+    yield idle(QUIET)
+    expect(flip.StopReason == "running", "the run went on")
+    expect(panel.find("Paused", QPushButton).isChecked(), "the button does not tell")
+    panel.press("Paused")
+    yield lambda: flip.StopReason == "converged"
+    panel.click("LiveUpdate")
+    client.apply()
+    yield idle(0.3)
+
+
+def choose_constraints(client, panel, flip):
+    edge = {6, 13}  # of the input's fan; flipped unless it is asked for
+    expect(count_edges(flip, edge) == 0, "the edge is there without constraints")
+    choices = panel.find("Constraints", QComboBox)
+    texts = [choices.itemText(i) for i in range(choices.count())]
+    expect(texts[0] == "(none)" and "Lines" in texts, texts)
+    panel.choose("Constraints", "Lines")
+    client.apply()
+    yield lambda: count_edges(flip, edge) == 2
+    client.save_picture("panel.png")
+    panel.choose("Constraints", "(none)")
+    client.apply()
+    yield lambda: count_edges(flip, edge) == 0
+
+
+def get_color_choices(flip):
+    display = simple.GetDisplayProperties(flip)
+    domain = display.SMProxy.GetProperty("ColorArrayName").FindDomain("vtkSMArrayListDomain")
+    return {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
+
+
+def look_at_color_by(flip):
+    """The filter's field data are not among the choices, whatever the user hides beside them."""
+    information = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
+    expect(information.GetArrayInformation("DelaunayFlip:TotalFlips"), "no field data")
+    settings = servermanager._getPyProxy(
+        servermanager.ProxyManager().GetProxy("settings", "RepresentedArrayListSettings"))
+    for hidden in ([], ["^Side$"], ["^Other$", "^Side$"], ["^Other$"], []):
+        settings.FilterExpressions = hidden
+        names = get_color_choices(flip)
+        expect(("Side" in names) == ("^Side$" not in hidden), f"{hidden}: {names}")
+        expect(not any(name.startswith("DelaunayFlip:") for name in names), f"{hidden}: {names}")
+        expect(list(settings.FilterExpressions) == hidden, "the user's settings were changed")
+
+
+def session(client):
+    load_plugin()
+    client.window.resize(1500, 1150)
+    mesh = simple.XMLPolyDataReader(FileName=[os.path.join(FOLDER, "mesh.vtp")])
+    simple.XMLPolyDataReader(
+        registrationName="Lines", FileName=[os.path.join(FOLDER, "lines.vtp")])
+    flip = yield from start_filter(client, mesh)
+    client.apply()
+    yield lambda: flip.StopReason == "converged"
+    panel = Panel(client)
+    read_results(panel, flip)
+    look_at_color_by(flip)
+    yield from choose_constraints(client, panel, flip)
+    yield from use_buttons(client, panel, flip)
+    yield from step_pauses(client, panel, flip)
+    read_results(panel, flip)
+
+
+play(session)

@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inputs that are surfaces but no vtkPolyData, and those that are none."""
+
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray
+from vtkmodules.vtkCommonDataModel import (
+    VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE, VTK_TRIANGLE_STRIP,
+    VTK_VERTEX, vtkRectilinearGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter, vtkXMLUnstructuredGridWriter
+
+from PluginTesting import (
+    Messages, PluginTest, fetch, get_triangles, main, make_fan, refresh)
+
+# Over the points of make_fan(9), none above another cell.
+MIXED = [(VTK_TRIANGLE, (0, 1, 2)), (VTK_PIXEL, (2, 3, 8, 4)), (VTK_LINE, (0, 8)),
+         (VTK_VERTEX, (5,)), (VTK_TRIANGLE_STRIP, (4, 5, 8, 6)), (VTK_QUAD, (0, 2, 8, 7))]
+
+
+def number_cells(data):
+    """Gives every cell a number, to know it again."""
+    numbers = vtkIdTypeArray()
+    numbers.SetName("Number")
+    for i in range(data.GetNumberOfCells()):
+        numbers.InsertNextValue(i)
+    data.GetCellData().AddArray(numbers)
+
+
+def make_grid(points, cells):
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    for kind, ids in cells:
+        grid.InsertNextCell(kind, len(ids), ids)
+    number_cells(grid)
+    return grid
+
+
+def make_volume():
+    return make_grid(make_fan(5).GetPoints(), [(VTK_TETRA, (0, 1, 2, 3))])
+
+
+def get_points(data):
+    return [data.GetPoint(i) for i in range(data.GetNumberOfPoints())]
+
+
+def get_numbers(mesh):
+    numbers = mesh.GetCellData().GetArray("Number")
+    return [int(numbers.GetTuple1(i)) for i in range(mesh.GetNumberOfCells())]
+
+
+class InputTest(PluginTest):
+    def write(self, writer, data, name):
+        writer.SetDataModeToBinary()
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(data)
+        self.assertEqual(writer.Write(), 1)
+
+    def read_grid(self, grid, name="grid.vtu"):
+        self.write(vtkXMLUnstructuredGridWriter(), grid, name)
+        return simple.XMLUnstructuredGridReader(FileName=[self.path(name)])
+
+    def expect_same_points(self, before, after):
+        self.assertEqual(after.GetClassName(), "vtkPolyData")
+        self.assertEqual(get_points(after), get_points(before))
+
+
+class UnstructuredGrids(InputTest):
+    def test_triangles(self):
+        mesh = make_fan(20)
+        number_cells(mesh)
+        grid = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)])
+        from_mesh = fetch(self.flip(self.read(mesh)))
+        flip = self.flip(self.read_grid(grid))
+        self.expect_same_points(grid, fetch(flip))
+        self.assertGreater(flip.TotalFlips, 20)
+        self.assertEqual(get_triangles(fetch(flip)), get_triangles(from_mesh))
+        self.assertEqual(get_numbers(fetch(flip)), get_numbers(from_mesh))
+
+    def test_mixed_cells(self):
+        """Vertices, lines, polygons and strips come out in this order, each with its data."""
+        grid = make_grid(make_fan(9).GetPoints(), MIXED)
+        flip = simple.DelaunayFlip(Input=self.read_grid(grid), Triangulate=0)
+        refresh(flip)
+        mesh = fetch(flip)
+        self.expect_same_points(grid, mesh)
+        self.assertEqual([mesh.GetNumberOfVerts(), mesh.GetNumberOfLines()], [1, 1])
+        self.assertEqual(get_triangles(mesh), [(0, 1, 2), (2, 3, 4, 8), (0, 2, 8, 7)])
+        self.assertEqual(mesh.GetNumberOfStrips(), 1)
+        self.assertEqual(get_numbers(mesh), [3, 2, 0, 1, 5, 4])
+
+    def test_empty(self):
+        flip = self.flip(self.read_grid(make_grid(make_fan(5).GetPoints(), [])))
+        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+
+    def test_live(self):
+        """Steps go on from the last one, though the surface is extracted."""
+        mesh = make_fan(20)
+        grid = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)] +
+                         [(VTK_EMPTY_CELL, ())])
+        source = self.read_grid(grid)
+        at_once = self.flip(source)
+        live = self.flip(source, LiveUpdate=1, IterationsPerUpdate=3)
+        for step in (1, 2, 3):
+            self.assertEqual(live.NumberOfIterations, 3 * step)
+            live.SMProxy.InvokeCommand("Advance")
+            refresh(live)
+        while live.StopReason == "running":
+            live.SMProxy.InvokeCommand("Advance")
+            refresh(live)
+        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
+
+    def test_volume(self):
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=self.read_grid(make_volume()))
+            refresh(flip)
+        self.assertIn("Extract Surface", messages.text)
+        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+
+
+class Grids(InputTest):
+    """Structured data of two dimensions."""
+
+    def make_image(self):
+        return simple.Wavelet(WholeExtent=[0, 7, 0, 5, 0, 0])
+
+    def expect_grid(self, source, before, geometry, **properties):
+        flip = self.flip(source, **properties)
+        after = fetch(flip)
+        self.expect_same_points(before, after)
+        self.assertEqual(len(get_triangles(after)), 2 * 7 * 5)
+        self.assertEqual(flip.GeometryUsed, geometry)
+        self.assertEqual(after.GetPointData().GetNumberOfArrays(),
+                         before.GetPointData().GetNumberOfArrays())
+        return flip
+
+    def test_image(self):
+        image = self.make_image()
+        flip = self.expect_grid(image, fetch(image), "planar")
+        self.assertEqual(flip.TotalFlips, 0)
+        for a, b, c in get_triangles(fetch(flip)):  # each is half a pixel
+            self.assertEqual(max(a, b, c) - min(a, b, c), 9)
+
+    def test_height_field(self):
+        heights = simple.WarpByScalar(
+            Input=self.make_image(), Scalars=["POINTS", "RTData"], ScaleFactor=0.3)
+        before = fetch(heights)
+        self.assertEqual(before.GetClassName(), "vtkStructuredGrid")
+        flip = self.expect_grid(heights, before, "surface", Geometry="Surface",
+                                FeatureAngle=180)
+        self.assertGreater(flip.TotalFlips, 0)
+
+    def test_rectilinear_grid(self):
+        grid = vtkRectilinearGrid()
+        grid.SetDimensions(8, 1, 6)
+        for values, put in ((range(8), grid.SetXCoordinates), ([2], grid.SetYCoordinates),
+                            ([0, 1, 3, 7, 9, 10], grid.SetZCoordinates)):
+            coordinates = vtkDoubleArray()
+            for value in values:
+                coordinates.InsertNextValue(value)
+            put(coordinates)
+        self.write(vtkXMLRectilinearGridWriter(), grid, "grid.vtr")
+        reader = simple.XMLRectilinearGridReader(FileName=[self.path("grid.vtr")])
+        self.expect_grid(reader, grid, "planar")
+
+    def test_volume(self):
+        with Messages() as messages:
+            refresh(simple.DelaunayFlip(Input=simple.Wavelet(WholeExtent=[0, 3, 0, 3, 0, 3])))
+        self.assertIn("Extract Surface", messages.text)
+
+
+class Blocks(InputTest):
+    def get_leaves(self, output):
+        iterator = output.NewIterator()
+        leaves = []
+        while not iterator.IsDoneWithTraversal():
+            leaves.append(iterator.GetCurrentDataObject())
+            iterator.GoToNextItem()
+        return leaves
+
+    def test_blocks_that_are_no_surface_pass(self):
+        group = simple.GroupDatasets(Input=[
+            self.read_grid(make_volume(), "a.vtu"), self.read(make_fan(20)),
+            self.read_grid(make_volume(), "b.vtu"), simple.Wavelet(WholeExtent=[0, 7, 0, 5, 0, 0])])
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=group)
+            refresh(flip)
+        self.assertEqual(messages.text.count("pass unchanged"), 1)
+        self.assertNotIn("ERROR", messages.text)
+        leaves = self.get_leaves(fetch(flip))
+        self.assertEqual([leaf.GetClassName() for leaf in leaves], [
+            "vtkUnstructuredGrid", "vtkPolyData", "vtkUnstructuredGrid", "vtkPolyData"])
+        self.assertEqual(get_numbers(leaves[0]), [0])
+        self.assertEqual(leaves[3].GetNumberOfCells(), 2 * 7 * 5)
+        alone = fetch(self.flip(self.read(make_fan(20))))
+        self.assertEqual(get_triangles(leaves[1]), get_triangles(alone))
+
+
+if __name__ == "__main__":
+    main()
