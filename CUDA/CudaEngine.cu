@@ -8,14 +8,15 @@
 namespace delaunayflip
 {
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(const TriangleMesh& mesh, const FlipOptions& options)
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   try
   {
     CudaBackend backend(options.Device, options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
     return std::unique_ptr<FlipEngine>(
-      new BackendEngine<CudaBackend>(mesh, options, std::move(backend)));
+      new BackendEngine<CudaBackend>(mesh, options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {

@@ -5,11 +5,14 @@
 #include "EngineChoice.h"
 #include "FlipLoop.h"
 #include "InputChecks.h"
+#include "RunProgress.h"
 #include "SurfaceAngles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace delaunayflip
@@ -49,19 +52,21 @@ double ToDegrees(double squaredCotangent)
 class FlipSession::Implementation
 {
 public:
-  Implementation(const TriangleMesh& mesh, const FlipOptions& options)
-    : Options(Checked(mesh, options)),
-      Engine(mesh, options)
+  Implementation(
+    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+    : Mesh(mesh),
+      Options(Checked(mesh, options))
   {
-    this->Report = this->Engine.GetInputReport();
-    this->Report.MinimumAngleBefore = this->MeasureAngle();
-    this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
-    this->Report.BuildSeconds = this->Life.GetSeconds();
-    this->DetectFirst();
+    this->TryToBuild(progress);
   }
 
-  bool Advance(std::int64_t iterations, const FlipObserver& observer)
+  bool Advance(
+    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
   {
+    if (!this->Engine && !this->TryToBuild(progress))
+    {
+      return false;
+    }
     const StopWatch watch;
     const double secondsBefore = this->Report.FlipSeconds;
     this->Resume();
@@ -70,25 +75,54 @@ public:
     const std::int64_t limit = iterations < 0 ? NoLimit : done() + iterations;
     while (this->IsRunning() && done() < limit)
     {
-      this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer);
+      this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer, progress);
     }
     if (!this->IsRunning())
     {
       this->MeasureEnd();
     }
     this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
+    if (!this->IsRunning() && this->Report.StopReason != StopReasonKind::Aborted)
+    {
+      this->Progress.Tell(progress, 1.0);
+    }
     return this->IsRunning();
   }
 
   const FlipReport& GetReport()
   {
     this->MeasureEnd();
-    this->Report.Backend = this->Engine.GetInputReport().Backend;
-    this->Report.Fallback = this->Engine.GetFallback();
+    if (this->Engine)
+    {
+      this->Report.Backend = this->Engine->GetInputReport().Backend;
+      this->Report.Fallback = this->Engine->GetFallback();
+    }
     return this->Report;
   }
 
-  ChosenEngine& GetEngine() { return this->Engine; }
+  void StoreTriangles(const MutableTriangleArray& triangles)
+  {
+    if (this->Engine)
+    {
+      this->Engine->StoreTriangles(triangles);
+      return;
+    }
+    for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
+    {
+      const int slot = static_cast<int>(id % 3);
+      triangles.Set(id / 3, slot, this->Mesh.Triangles.Get(id / 3, slot));
+    }
+  }
+
+  void StoreFlipCounts(std::int32_t* counts)
+  {
+    if (this->Engine)
+    {
+      this->Engine->StoreFlipCounts(counts);
+      return;
+    }
+    std::fill_n(counts, this->Mesh.Triangles.Count, 0);
+  }
 
 private:
   static const FlipOptions& Checked(const TriangleMesh& mesh, const FlipOptions& options)
@@ -98,13 +132,60 @@ private:
     return options;
   }
 
-  double MeasureAngle() { return ToDegrees(this->Engine.FindLargestSquaredCotangent()); }
+  /// @returns false when the observer stopped it. Then, and when an exception leaves, there is no
+  /// engine.
+  bool TryToBuild(const ProgressObserver& observer)
+  {
+    const BuildProgress progress(
+      [&](double fraction) { return this->Progress.Tell(observer, fraction); });
+    try
+    {
+      this->Build(progress);
+      return true;
+    }
+    catch (const BuildAborted&)
+    {
+      this->Forget();
+      this->Report.StopReason = StopReasonKind::Aborted;
+      return false;
+    }
+    catch (...)
+    {
+      this->Forget();
+      throw;
+    }
+  }
+
+  void Build(const BuildProgress& progress)
+  {
+    const StopWatch watch;
+    this->Engine.emplace(this->Mesh, this->Options, progress);
+    this->Report = this->Engine->GetInputReport();
+    progress.Reach(this->Report.GeometryUsed, BuildStep::Prepared);
+    this->Report.MinimumAngleBefore = this->MeasureAngle();
+    this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
+    this->Report.BuildSeconds = watch.GetSeconds();
+    progress.Reach(this->Report.GeometryUsed, BuildStep::Measured);
+    this->DetectFirst();
+    progress.Reach(this->Report.GeometryUsed, BuildStep::Tested);
+    this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
+  }
+
+  void Forget()
+  {
+    this->Engine.reset();
+    this->Report = FlipReport();
+    this->Report.Points = this->Mesh.Points.Count;
+    this->Report.Triangles = this->Mesh.Triangles.Count;
+  }
+
+  double MeasureAngle() { return ToDegrees(this->Engine->FindLargestSquaredCotangent()); }
 
   /// What the input holds, and with nothing to do or no iteration allowed, the end.
   void DetectFirst()
   {
     const StopWatch watch;
-    this->Detected(this->Engine.Detect());
+    this->Detected(this->Engine->Detect());
     this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
     this->Report.FlipSeconds = watch.GetSeconds();
   }
@@ -144,18 +225,21 @@ private:
   }
 
   /// At least one iteration, at most `most`.
-  void Iterate(std::int64_t most, const FlipObserver& observer)
+  void Iterate(std::int64_t most, const FlipObserver& observer, const ProgressObserver& progress)
   {
     const StopWatch watch;
     const bool isFirst = this->Report.Iterations.empty();
+    const bool isWatched = observer || progress;
+    const std::int64_t batch = isWatched ? std::min(most, this->Progress.GetBatch()) : most;
     const std::vector<IterationCounts> iterations =
-      this->Engine.Advance({ most, isFirst, this->Options.TrackQuality });
+      this->Engine->Advance({ batch, isFirst, this->Options.TrackQuality });
     this->IsMeasured = false;
-    this->Detected(this->Engine.GetFound());
+    this->Detected(this->Engine->GetFound());
 #if !defined(NDEBUG)
-    this->Engine.Audit();
+    this->Engine->Audit();
 #endif
     const double seconds = watch.GetSeconds() / static_cast<double>(iterations.size());
+    this->Progress.KeepTime(seconds);
     const std::size_t first = this->Report.Iterations.size();
     for (const IterationCounts& counts : iterations)
     {
@@ -163,6 +247,7 @@ private:
     }
     this->Resume();
     this->Tell(observer, first);
+    this->Tell(progress);
   }
 
   /// Tells of the iterations from `first` on, when all of them are in the report.
@@ -174,6 +259,15 @@ private:
       goOn = observer(this->Report.Iterations[i]) && goOn;
     }
     if (!goOn && this->IsRunning())
+    {
+      this->Report.StopReason = StopReasonKind::Aborted;
+    }
+  }
+
+  void Tell(const ProgressObserver& progress)
+  {
+    if (this->IsRunning() &&
+      !this->Progress.TellFlips(progress, this->Report, this->Found.Bad, this->GetIterationLimit()))
     {
       this->Report.StopReason = StopReasonKind::Aborted;
     }
@@ -212,16 +306,18 @@ private:
     }
   }
 
-  StopWatch Life;
+  TriangleMesh Mesh;
   FlipOptions Options;
-  ChosenEngine Engine;
+  std::optional<ChosenEngine> Engine; ///< None after an abort while it was built.
+  RunProgress Progress;
   StepCounts Found; ///< By the last Detect.
   FlipReport Report;
   bool IsMeasured = true; ///< MinimumAngleAfter is that of the mesh.
 };
 
-FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options)
-  : Impl(new Implementation(mesh, options))
+FlipSession::FlipSession(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+  : Impl(new Implementation(mesh, options, progress))
 {
 }
 
@@ -229,28 +325,33 @@ FlipSession::~FlipSession() = default;
 FlipSession::FlipSession(FlipSession&&) noexcept = default;
 FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
 
-bool FlipSession::Advance(std::int64_t iterations, const FlipObserver& observer)
+bool FlipSession::Advance(
+  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
 {
-  return this->Impl->Advance(iterations, observer);
+  return this->Impl->Advance(iterations, observer, progress);
 }
 
 const FlipReport& FlipSession::GetReport() const { return this->Impl->GetReport(); }
 
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
-  this->Impl->GetEngine().StoreTriangles(triangles);
+  this->Impl->StoreTriangles(triangles);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  this->Impl->GetEngine().StoreFlipCounts(counts);
+  this->Impl->StoreFlipCounts(counts);
 }
 
 FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
-  const MutableTriangleArray& triangles, const FlipObserver& observer)
+  const MutableTriangleArray& triangles, const FlipObserver& observer,
+  const ProgressObserver& progress)
 {
-  FlipSession session(mesh, options);
-  session.Advance(-1, observer);
+  FlipSession session(mesh, options, progress);
+  if (session.GetReport().StopReason != StopReasonKind::Aborted)
+  {
+    session.Advance(-1, observer, progress);
+  }
   session.StoreTriangles(triangles);
   return session.GetReport();
 }

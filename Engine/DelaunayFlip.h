@@ -21,23 +21,28 @@ namespace delaunayflip
 /// A mesh on its way to Delaunay: made once from the caller's arrays, advanced by iterations, read
 /// out at any time between them. With BackendKind::Auto the caller's arrays must stay as they are
 /// as long as it lives: where a GPU fails, the CPU starts from them. Else they are not needed after
-/// the constructor.
+/// the constructor, unless a progress observer stopped it.
 ///
 /// Same mesh and options, same result, bit for bit, for any number of threads and any backend.
 class FlipSession
 {
 public:
-  /// Builds the edge mesh.
+  /// Builds the edge mesh and tests all edges. When `progress` returns false meanwhile, the
+  /// report's StopReason is Aborted and the triangles are those of the input; an Advance builds
+  /// again.
   /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
-  FlipSession(const TriangleMesh& mesh, const FlipOptions& options);
+  FlipSession(
+    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
   ~FlipSession();
   FlipSession(FlipSession&&) noexcept;
   FlipSession& operator=(FlipSession&&) noexcept;
 
   /// Runs at most `iterations` more iterations (-1: until a stop). Ends earlier when converged, at
-  /// the limit of the options, or when `observer` returns false.
-  /// @returns whether another call could still change the mesh.
-  bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {});
+  /// the limit of the options, or when an observer returns false. The next call goes on from there.
+  /// @returns whether there is more to do and nobody stopped it.
+  /// @throws as the constructor, where that was stopped.
+  bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
+    const ProgressObserver& progress = {});
 
   /// What has happened so far. The first call after an Advance that did not reach the end looks for
   /// the smallest angle, a pass over the mesh.
@@ -65,7 +70,8 @@ std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOpt
 /// array that mesh.Triangles views. Nothing is written when an exception leaves.
 /// @throws as FlipSession's constructor.
 FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
-  const MutableTriangleArray& triangles, const FlipObserver& observer = {});
+  const MutableTriangleArray& triangles, const FlipObserver& observer = {},
+  const ProgressObserver& progress = {});
 
 }
 

@@ -31,14 +31,15 @@ void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 }
 }
 
-ChosenEngine::ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options)
+ChosenEngine::ChosenEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
   : Mesh(mesh),
     Options(options)
 {
   try
   {
-    this->Engine =
-      WantsCuda(mesh, options) ? MakeCudaEngine(mesh, options) : MakeThreadEngine(mesh, options);
+    this->Engine = WantsCuda(mesh, options) ? MakeCudaEngine(mesh, options, progress)
+                                            : MakeThreadEngine(mesh, options, progress);
   }
   catch (const BackendUnavailable& error)
   {
@@ -46,7 +47,7 @@ ChosenEngine::ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options)
     {
       throw;
     }
-    this->FallBack(error.what());
+    this->FallBack(error.what(), progress);
   }
 }
 
@@ -103,11 +104,11 @@ void ChosenEngine::Audit()
   this->RunOnce([](const FlipEngine& engine) { engine.Audit(); });
 }
 
-void ChosenEngine::FallBack(const std::string& reason)
+void ChosenEngine::FallBack(const std::string& reason, const BuildProgress& progress)
 {
   this->Fallback = reason;
   this->Engine.reset();
-  this->Engine = MakeThreadEngine(this->Mesh, this->Options);
+  this->Engine = MakeThreadEngine(this->Mesh, this->Options, progress);
   if (this->HasDetected)
   {
     this->Engine->GetLoop().Detect();

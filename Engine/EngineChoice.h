@@ -25,7 +25,8 @@ class ChosenEngine
 public:
   /// The arrays of `mesh` must stay as they are for as long as this lives.
   /// @throws BackendUnavailable for BackendKind::CUDA, as every function does.
-  ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options);
+  /// @throws BuildAborted.
+  ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
   /// Why the CPU stands in for a GPU that is there; else empty.
   const std::string& GetFallback() const { return this->Fallback; }
@@ -70,7 +71,7 @@ private:
     return work(*this->Engine);
   }
 
-  void FallBack(const std::string& reason);
+  void FallBack(const std::string& reason, const BuildProgress& progress = BuildProgress());
 
   TriangleMesh Mesh;
   FlipOptions Options;

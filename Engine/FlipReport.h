@@ -100,8 +100,15 @@ struct FlipReport
 
 /// Called on the calling thread after every iteration; false aborts the run. Where iterations run
 /// together, their calls come one after the other when all of them are done, and an abort takes
-/// effect there: the first 12 of large planar meshes, and on a GPU batches of up to 128.
+/// effect there: the first 12 of large planar meshes, and on a GPU up to 128, but no more than fit
+/// a tenth of a second.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
+
+/// Called on the calling thread with the share of the work that is done, 0 .. 1, which never falls;
+/// false aborts the run. The share is an estimate of time: the build and the first test of all
+/// edges are half of it, 0.65 on surfaces, and the rest follows the flips made and those expected.
+/// 1 is told when there is nothing more to do.
+using ProgressObserver = std::function<bool(double)>;
 
 /// "converged", "iteration limit", "aborted", "running" or "not started".
 const char* ToString(StopReasonKind reason);

@@ -10,7 +10,8 @@
 namespace delaunayflip
 {
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(const TriangleMesh&, const FlipOptions&)
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const TriangleMesh&, const FlipOptions&, const BuildProgress&)
 {
   throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
 }

@@ -45,14 +45,18 @@ class BackendEngine : public FlipEngine
 {
 public:
   /// Keeps nothing of `mesh`.
-  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend)
+  /// @throws BuildAborted.
+  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend,
+    const BuildProgress& progress)
     : Backend(std::move(backend))
   {
     LocalMesh local = this->Backend.Localize(mesh);
     const MeshInput input{ mesh, local.View() };
     MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
+    progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
+    progress.Reach(survey.Geometry, BuildStep::Ordered);
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
     if (!isSurface)
     {
@@ -61,7 +65,9 @@ public:
     const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
     EdgeMesh loaded = this->LoadTriangles(edges, local);
     survey.Uses = Array<PointUse>();
-    EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend);
+    progress.Reach(survey.Geometry, BuildStep::Loaded);
+    EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend, progress);
+    progress.Reach(survey.Geometry, BuildStep::Fixed);
     if (isSurface)
     {
       this->PackPoints(local, survey, options.Criterion);

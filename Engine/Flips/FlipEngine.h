@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPENGINE_H
 #define DELAUNAYFLIP_FLIPENGINE_H
 
+#include "BuildProgress.h"
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
@@ -44,11 +45,15 @@ public:
   virtual void Audit() const = 0;
 };
 
-std::unique_ptr<FlipEngine> MakeThreadEngine(const TriangleMesh& mesh, const FlipOptions& options);
+/// @throws BuildAborted.
+std::unique_ptr<FlipEngine> MakeThreadEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
+/// @throws BuildAborted.
 /// @throws BackendUnavailable: no GPU, no memory on it, a failure of the driver; or what it was
 /// asked for needs the CPU. The message says why.
-std::unique_ptr<FlipEngine> MakeCudaEngine(const TriangleMesh& mesh, const FlipOptions& options);
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 }
 

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_EDGEMESHBUILDER_H
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
+#include "BuildProgress.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
@@ -333,13 +334,19 @@ void NumberEdges(
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
 /// @param loaded made by LoadTriangles.
-/// @throws InvalidMesh for a constraint that names no point.
+/// @throws InvalidMesh for a constraint that names no point, BuildAborted.
 template <typename Backend>
-EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const Backend& backend)
+EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const Backend& backend,
+  const BuildProgress& progress = BuildProgress())
 {
   EdgeMeshResult result;
   result.Edges = std::move(loaded);
-  NumberEdges(result, PairCorners(input, result, backend), backend);
+  {
+    const typename Backend::Numbering numbering = PairCorners(input, result, backend);
+    progress.Reach(input.Survey.Geometry, BuildStep::Paired);
+    NumberEdges(result, numbering, backend);
+  }
+  progress.Reach(input.Survey.Geometry, BuildStep::Numbered);
   FixEdges(input, result, backend);
   result.Table.DropWords();
   return result;

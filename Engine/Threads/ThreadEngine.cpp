@@ -10,10 +10,11 @@
 namespace delaunayflip
 {
 
-std::unique_ptr<FlipEngine> MakeThreadEngine(const TriangleMesh& mesh, const FlipOptions& options)
+std::unique_ptr<FlipEngine> MakeThreadEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return std::unique_ptr<FlipEngine>(
-    new BackendEngine<ThreadBackend>(mesh, options, ThreadBackend(options.NumberOfThreads)));
+  return std::unique_ptr<FlipEngine>(new BackendEngine<ThreadBackend>(
+    mesh, options, ThreadBackend(options.NumberOfThreads), progress));
 }
 
 namespace

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+/// @file
+/// delaunay-flip-progress: how honest the engine's progress is, and how long an abort may have to
+/// wait. Usage: delaunay-flip-progress [TRIANGLES], 1,000,000 without an argument. For several
+/// meshes of about that many triangles, on one thread and two, it prints the longest time between
+/// two calls of a progress observer, and which progress is told when a tenth, two tenths, ... of
+/// the time have passed.
+
+using namespace delaunayflip;
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Call
+{
+  double Seconds;
+  double Fraction;
+};
+
+struct Case
+{
+  const char* Name;
+  OwnedMesh<double> Mesh;
+  GeometryKind Geometry;
+};
+
+/// The calls of a run, with its begin and end.
+std::vector<Call> WatchRun(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  std::vector<std::int32_t> result(static_cast<std::size_t>(3 * mesh.Triangles.Count));
+  std::vector<Call> calls{ { 0.0, 0.0 } };
+  const auto start = Clock::now();
+  FlipToDelaunay(mesh, options, MutableTriangleArray(result.data(), mesh.Triangles.Count), {},
+    [&](double fraction)
+    {
+      calls.push_back({ SecondsSince(start), fraction });
+      return true;
+    });
+  calls.push_back({ SecondsSince(start), 1.0 });
+  return calls;
+}
+
+double FindLongestWait(const std::vector<Call>& calls)
+{
+  double longest = 0.0;
+  for (std::size_t i = 1; i < calls.size(); ++i)
+  {
+    longest = std::max(longest, calls[i].Seconds - calls[i - 1].Seconds);
+  }
+  return longest;
+}
+
+/// What the last call before `seconds` said.
+double GetFraction(const std::vector<Call>& calls, double seconds)
+{
+  const auto next = std::upper_bound(calls.begin(), calls.end(), seconds,
+    [](double value, const Call& call) { return value < call.Seconds; });
+  return std::prev(next)->Fraction;
+}
+
+/// Share of the time in which progress is at most 15 points off the time.
+double MeasureHonesty(const std::vector<Call>& calls)
+{
+  constexpr int Samples = 1000;
+  constexpr double Tolerance = 0.15;
+  int honest = 0;
+  for (int i = 0; i < Samples; ++i)
+  {
+    const double time = (i + 0.5) / Samples;
+    const double told = GetFraction(calls, time * calls.back().Seconds);
+    honest += std::fabs(told - time) <= Tolerance ? 1 : 0;
+  }
+  return static_cast<double>(honest) / Samples;
+}
+
+/// The run whose longest wait is the shortest: others may be at work on the machine.
+std::vector<Call> WatchBestRun(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  constexpr int Runs = 5;
+  std::vector<Call> best = WatchRun(mesh, options);
+  for (int run = 1; run < Runs; ++run)
+  {
+    std::vector<Call> calls = WatchRun(mesh, options);
+    if (FindLongestWait(calls) < FindLongestWait(best))
+    {
+      best = std::move(calls);
+    }
+  }
+  return best;
+}
+
+void Print(const Case& mesh, int threads)
+{
+  FlipOptions options;
+  options.Geometry = mesh.Geometry;
+  options.Backend = BackendKind::Threads;
+  options.NumberOfThreads = threads;
+  const std::vector<Call> calls = WatchBestRun(mesh.Mesh.View(), options);
+  std::printf("| %s | %d | %.0f | %zu | %.0f | %.0f %% |", mesh.Name, threads,
+    1000 * calls.back().Seconds, calls.size() - 2, 1000 * FindLongestWait(calls),
+    100 * MeasureHonesty(calls));
+  for (int tenth = 1; tenth < 10; ++tenth)
+  {
+    std::printf(" %.0f |", 100 * GetFraction(calls, 0.1 * tenth * calls.back().Seconds));
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+/// A Delaunay mesh whose points have been moved since by up to `share` of their mean distance.
+OwnedMesh<double> MoveDelaunayPoints(OwnedMesh<double> mesh, double share)
+{
+  FlipToDelaunay(
+    mesh.View(), {}, MutableTriangleArray(mesh.Triangles.data(), mesh.NumberOfTriangles()));
+  const double step = share / std::sqrt(static_cast<double>(mesh.NumberOfPoints()));
+  std::uint32_t random = 1;
+  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+  {
+    random = random * 1664525u + 1013904223u;
+    mesh.Points[i] += i % 3 == 2 ? 0.0 : step * (random / 2147483648.0 - 1.0);
+  }
+  return mesh;
+}
+
+/// Hills under the points of a plane.
+OwnedMesh<double> Raise(OwnedMesh<double> mesh)
+{
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i + 2] =
+      0.05 * std::sin(20.0 * mesh.Points[i]) * std::cos(17.0 * mesh.Points[i + 1]);
+  }
+  return mesh;
+}
+
+std::vector<Case> MakeCases(std::int64_t triangles)
+{
+  const OwnedMesh<double> bad = MakeRandomBadMeshDouble(triangles / 2, 1);
+  const OwnedMesh<double> moved = MoveDelaunayPoints(bad, 0.3);
+  const auto side = static_cast<std::int32_t>(std::sqrt(0.5 * static_cast<double>(triangles)));
+  return {
+    { "random bad mesh", bad, GeometryKind::Planar },
+    { "terrain of it", Raise(bad), GeometryKind::PlanarXY },
+    { "surface of it", Raise(bad), GeometryKind::Surface },
+    { "Delaunay, points moved", moved, GeometryKind::Planar },
+    { "surface of it", Raise(moved), GeometryKind::Surface },
+    { "bad sphere", MakeBadSphere(side, side, 1), GeometryKind::Auto },
+    { "grid, nothing to flip", MakeGridMesh(side, side), GeometryKind::Auto },
+  };
+}
+
+}
+
+int main(int argc, char** argv)
+{
+  const std::int64_t triangles = argc > 1 ? std::atoll(argv[1]) : 1000000;
+  std::printf("| mesh | threads | ms | calls | longest wait, ms | within 15 points "
+              "| 10 %% | 20 %% | 30 %% | 40 %% | 50 %% | 60 %% | 70 %% | 80 %% | 90 %% |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Case& mesh : MakeCases(std::max<std::int64_t>(triangles, 1000)))
+  {
+    Print(mesh, 1);
+    Print(mesh, 2);
+  }
+  return 0;
+}
