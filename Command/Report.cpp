@@ -21,6 +21,8 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["boundary_edges"] = flip.Edges.Boundary;
   json["fixed_edges"] = flip.Edges.Fixed;
   json["non_manifold_edges"] = flip.Edges.NonManifold;
+  json["constraint_edges"] = flip.Edges.Constraint;
+  json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["geometry"] = ToString(flip.GeometryUsed);
   json["backend"] = flip.Backend;
   if (!flip.Fallback.empty())

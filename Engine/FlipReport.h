@@ -73,6 +73,7 @@ struct FlipReport
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   EdgeCounts Edges;
+  std::int64_t UnmatchedConstraints = 0; ///< Given by the caller, and not an edge of the mesh.
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.

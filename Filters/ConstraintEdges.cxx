@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintEdges.h"
 
+#include "PlaceMatch.h"
 #include "PointIds.h"
+#include "PointViews.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
@@ -16,15 +18,8 @@ namespace delaunayflip
 namespace
 {
 
-void AddEdge(vtkIdType a, vtkIdType b, ConstraintEdges& edges)
-{
-  if (a != b)
-  {
-    edges.push_back({ std::min<std::int64_t>(a, b), std::max<std::int64_t>(a, b) });
-  }
-}
-
-void AddPaths(vtkCellArray* cells, bool closed, const PointIdCheck& check, ConstraintEdges& edges)
+void AddPaths(
+  vtkCellArray* cells, bool closed, const PointIdCheck& check, std::vector<PointPair>& pairs)
 {
   check.RequireValid(cells);
   vtkNew<vtkIdList> ids;
@@ -35,35 +30,67 @@ void AddPaths(vtkCellArray* cells, bool closed, const PointIdCheck& check, Const
     const vtkIdType count = ids->GetNumberOfIds();
     for (vtkIdType i = 1; i < count; ++i)
     {
-      AddEdge(ids->GetId(i - 1), ids->GetId(i), edges);
+      AddPair(ids->GetId(i - 1), ids->GetId(i), pairs);
     }
     if (closed && count > 2)
     {
-      AddEdge(ids->GetId(count - 1), ids->GetId(0), edges);
+      AddPair(ids->GetId(count - 1), ids->GetId(0), pairs);
     }
   }
 }
 
+/// Along lines and polygons of the second input, in ids of `numberOfPoints` points.
+void AddOtherPaths(vtkPolyData* others, vtkIdType numberOfPoints, std::vector<PointPair>& pairs)
+{
+  PointIdCheck check{ "constraint, cell", others->GetNumberOfVerts(), numberOfPoints };
+  AddPaths(others->GetLines(), false, check, pairs);
+  check.FirstCell += others->GetNumberOfLines();
+  AddPaths(others->GetPolys(), true, check, pairs);
 }
 
-ConstraintEdges CollectConstraintEdges(
-  vtkPolyData* mesh, vtkPolyData* constraints, vtkIdType numberOfPoints)
+void AddOthers(const ConstraintSource& source, ConstraintEdges& edges)
+{
+  std::vector<double> storage;
+  const PointArray points = ViewPoints(source.Others, storage);
+  if (points.Count == 0 || HaveSameBits(points, source.Points))
+  {
+    AddOtherPaths(source.Others, source.Points.Count, edges.Pairs);
+    return;
+  }
+  std::vector<PointPair> pairs;
+  AddOtherPaths(source.Others, points.Count, pairs);
+  PlaceMatch(points, pairs, source.Points).AddEdges(source.Triangles, edges);
+}
+
+}
+
+void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
+{
+  if (a != b)
+  {
+    pairs.push_back({ std::min(a, b), std::max(a, b) });
+  }
+}
+
+void SortPairs(std::vector<PointPair>& pairs)
+{
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+ConstraintEdges FindConstraintEdges(const ConstraintSource& source)
 {
   ConstraintEdges edges;
-  if (mesh)
+  if (source.Lines)
   {
-    const PointIdCheck check{ "line, cell", mesh->GetNumberOfVerts(), numberOfPoints };
-    AddPaths(mesh->GetLines(), false, check, edges);
+    const PointIdCheck check{ "line, cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
+    AddPaths(source.Lines->GetLines(), false, check, edges.Pairs);
   }
-  if (constraints)
+  if (source.Others)
   {
-    PointIdCheck check{ "constraint, cell", constraints->GetNumberOfVerts(), numberOfPoints };
-    AddPaths(constraints->GetLines(), false, check, edges);
-    check.FirstCell += constraints->GetNumberOfLines();
-    AddPaths(constraints->GetPolys(), true, check, edges);
+    AddOthers(source, edges);
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  SortPairs(edges.Pairs);
   return edges;
 }
 

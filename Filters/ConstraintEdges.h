@@ -3,7 +3,7 @@
 #ifndef ConstraintEdges_h
 #define ConstraintEdges_h
 
-#include "vtkType.h"
+#include "TriangleMesh.h"
 
 #include <array>
 #include <cstdint>
@@ -14,14 +14,34 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Pairs of point ids, the smaller first, ascending, none twice.
-using ConstraintEdges = std::vector<std::array<std::int64_t, 2>>;
+using PointPair = std::array<std::int64_t, 2>;
 
-/// The edges along the lines of `mesh` (unless null) and along the lines and polygons of
-/// `constraints` (unless null), whose ids are those of the mesh's points.
-/// @throws InvalidMesh when one names a point outside 0 .. numberOfPoints - 1.
-ConstraintEdges CollectConstraintEdges(
-  vtkPolyData* mesh, vtkPolyData* constraints, vtkIdType numberOfPoints);
+/// Edges that must stay.
+struct ConstraintEdges
+{
+  std::vector<PointPair> Pairs; ///< The smaller id first, ascending, none twice.
+  std::int64_t Unmatched = 0; ///< More of the second input: there the mesh has no edge.
+};
+
+struct ConstraintSource
+{
+  vtkPolyData* Lines; ///< The mesh, if edges along its lines stay, else null.
+  vtkPolyData* Others; ///< Whose lines and polygons are edges that stay, or null.
+  PointArray Points; ///< Of the mesh.
+  TriangleArray Triangles;
+};
+
+/// The edges along the lines of the mesh and along the lines and polygons of the others. These go
+/// by the point ids of the mesh where they have no points or the very ones of the mesh, else by the
+/// places of their points.
+/// @throws InvalidMesh when a cell names a point that is none.
+ConstraintEdges FindConstraintEdges(const ConstraintSource& source);
+
+/// Adds a pair, unless both are the same.
+void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs);
+
+/// Puts pairs in order, and each of them once.
+void SortPairs(std::vector<PointPair>& pairs);
 
 }
 

@@ -29,6 +29,12 @@ void Stamp(vtkCellArray* cells, std::vector<vtkMTimeType>& stamps)
   Stamp(cells->GetConnectivityArray(), stamps);
 }
 
+void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
+{
+  Stamp(mesh->GetPoints(), stamps);
+  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
+}
+
 bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
 {
   return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
@@ -79,6 +85,10 @@ FlipRun::Stamps FlipRun::StampEdges(const Request& request)
   {
     Stamp(request.Constraints->GetPolys(), stamps);
     Stamp(request.Constraints->GetLines(), stamps);
+    if (request.Constraints->GetPoints() != request.Input->GetPoints())
+    {
+      StampCoordinates(request.Constraints, stamps);
+    }
   }
   return stamps;
 }
@@ -86,8 +96,7 @@ FlipRun::Stamps FlipRun::StampEdges(const Request& request)
 FlipRun::Stamps FlipRun::StampPoints(vtkPolyData* mesh)
 {
   Stamps stamps;
-  Stamp(mesh->GetPoints(), stamps);
-  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
+  StampCoordinates(mesh, stamps);
   return stamps;
 }
 
@@ -187,6 +196,9 @@ FlipRun::Start FlipRun::GetEnd() const
   start.Triangles.resize(3 * mesh.Triangles.Count);
   this->Session.StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
   start.FixedEdges = this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Options);
+  const FlipReport report = this->GetReport();
+  start.Constraints = report.Edges.Constraint;
+  start.UnmatchedConstraints = report.UnmatchedConstraints;
   return start;
 }
 
@@ -194,8 +206,28 @@ FlipRun::Start FlipRun::GetEnd() const
 FlipReport FlipRun::GetReport() const
 {
   FlipReport report = this->Session.GetReport();
+  if (this->IsWarm())
+  {
+    report.Edges.Constraint = this->Begin.Constraints;
+    report.UnmatchedConstraints = this->Begin.UnmatchedConstraints;
+  }
+  else
+  {
+    this->AddUnmatchedConstraints(report);
+  }
   this->Current->Bridge.NumberCells(report.Defects);
   return report;
+}
+
+void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
+{
+  const std::int64_t count = this->Origin->Bridge.GetNumberOfUnmatchedConstraints();
+  report.UnmatchedConstraints += count;
+  if (count > 0)
+  {
+    report.Defects.push_back({ "constraint edges of the second input where the mesh has no edge",
+      count, {}, DefectIds::Points });
+  }
 }
 
 void FlipRun::Store(vtkPolyData* output, bool withFlipCounts) const

@@ -78,6 +78,8 @@ private:
   {
     std::vector<std::int64_t> Triangles; ///< Vertex ids, three a slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
+    std::int64_t Constraints = 0; ///< How many edges of the first mesh they held.
+    std::int64_t UnmatchedConstraints = 0;
   };
 
   FlipRun(const Request& request, Start start);
@@ -92,6 +94,7 @@ private:
   FlipOptions GetStartOptions() const;
   FlipSession MakeSession() const;
   Start GetEnd() const;
+  void AddUnmatchedConstraints(FlipReport& report) const;
 
   PolyDataBridge::Settings Settings;
   FlipOptions Options;

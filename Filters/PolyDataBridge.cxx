@@ -5,55 +5,24 @@
 #include "CellAttributes.h"
 #include "DelaunayFlip.h"
 #include "OutputCells.h"
+#include "PointViews.h"
 #include "RegionLabels.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
 namespace delaunayflip
 {
-namespace
-{
-
-/// The points in place where they lie as the engine wants them, else a copy in `storage`.
-PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
-{
-  const vtkIdType count = mesh->GetNumberOfPoints();
-  if (count == 0)
-  {
-    return {};
-  }
-  vtkDataArray* data = mesh->GetPoints()->GetData();
-  if (auto* floats = vtkArrayDownCast<vtkAOSDataArrayTemplate<float>>(data))
-  {
-    return { static_cast<const float*>(floats->GetPointer(0)), count };
-  }
-  if (auto* doubles = vtkArrayDownCast<vtkAOSDataArrayTemplate<double>>(data))
-  {
-    return { static_cast<const double*>(doubles->GetPointer(0)), count };
-  }
-  storage.resize(3 * count);
-  for (vtkIdType point = 0; point < count; ++point)
-  {
-    data->GetTuple(point, &storage[3 * point]);
-  }
-  return { static_cast<const double*>(storage.data()), count };
-}
-
-}
-
 PolyDataBridge::PolyDataBridge(
   vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
     Slots(mesh, Points, settings.Triangulate),
-    Constraints(CollectConstraintEdges(
-      settings.LinesAsConstraints ? mesh : nullptr, constraints, mesh->GetNumberOfPoints()))
+    Constraints(FindConstraintEdges(
+      { settings.LinesAsConstraints ? mesh : nullptr, constraints, Points, Slots.GetTriangles() }))
 {
   this->FreezeGhosts();
   if (!settings.RegionArray.empty())
@@ -96,8 +65,9 @@ TriangleMesh PolyDataBridge::GetMesh() const
   TriangleMesh mesh;
   mesh.Points = this->Points;
   mesh.Triangles = this->Slots.GetTriangles();
-  mesh.ConstraintEdges = this->Constraints.empty() ? nullptr : this->Constraints.front().data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Constraints.size());
+  const std::vector<PointPair>& pairs = this->Constraints.Pairs;
+  mesh.ConstraintEdges = pairs.empty() ? nullptr : pairs.front().data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(pairs.size());
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   return mesh;

@@ -38,6 +38,9 @@ public:
   /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
 
+  /// Edges of the second input where the mesh has none. More may be among GetMesh()'s.
+  std::int64_t GetNumberOfUnmatchedConstraints() const { return this->Constraints.Unmatched; }
+
   /// Views of the mesh or of this bridge, none of them of an output.
   TriangleMesh GetMesh() const;
 

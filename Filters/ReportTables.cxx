@@ -87,6 +87,8 @@ void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data)
   writer.AddValue<vtkIdTypeArray>("NonDelaunayEdges", report.NonDelaunayAfter);
   writer.AddValue<vtkIdTypeArray>("FixedEdges", report.Edges.Fixed);
   writer.AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold);
+  writer.AddValue<vtkIdTypeArray>("ConstraintEdges", report.Edges.Constraint);
+  writer.AddValue<vtkIdTypeArray>("UnmatchedConstraintEdges", report.UnmatchedConstraints);
   writer.AddValue<vtkStringArray>("GeometryUsed", ToString(report.GeometryUsed));
   writer.AddValue<vtkStringArray>("Backend", report.Backend);
 }

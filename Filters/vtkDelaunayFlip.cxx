@@ -319,6 +319,16 @@ vtkIdType vtkDelaunayFlip::GetNumberOfIterations() const
 
 vtkIdType vtkDelaunayFlip::GetTotalFlips() const { return this->Report->TotalFlips; }
 
+vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
+{
+  return this->Report->Edges.Constraint;
+}
+
+vtkIdType vtkDelaunayFlip::GetNumberOfUnmatchedConstraintEdges() const
+{
+  return this->Report->UnmatchedConstraints;
+}
+
 vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
 {
   return this->Report->NonDelaunayAfter;

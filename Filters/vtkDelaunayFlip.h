@@ -12,8 +12,8 @@
  * quads, polygons and triangle strips are split into triangles first (see Triangulate). Nothing is
  * assumed about the mesh: it may be open, non-manifold, of mixed winding, with duplicate,
  * degenerate or unused parts. What is not provably safe to flip stays as it is and is counted.
- * The optional second input holds constraint edges as lines and polygons over the same point ids,
- * as the source of vtkDelaunay2D does; lines of the first input are constraints too
+ * The optional second input holds constraint edges as lines and polygons, over the same point ids
+ * or at the same places (SetConstraintsConnection()); lines of the first input are constraints too
  * (LinesAsConstraints).
  *
  * What comes out: on port 0 the mesh, with the very same vtkPoints object and point data, verts
@@ -25,10 +25,10 @@
  * with one row an iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
  * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
  * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
- * NonDelaunayEdges, FixedEdges, NonManifoldEdges, GeometryUsed and Backend. In the field data each
- * name begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that arrays of the input with
- * such names pass. Input without triangles, polygons or strips passes as a shallow copy, with a
- * table of no rows.
+ * NonDelaunayEdges, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
+ * GeometryUsed and Backend. In the field data each name begins with "DelaunayFlip:", e.g.
+ * "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
+ * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
@@ -337,8 +337,14 @@ public:
 
   ///@{
   /**
-   * Constraint edges, optional: lines and polygons over the point ids of the first input. Its own
-   * points are not looked at.
+   * Constraint edges, optional: the edges along the lines and polygons of this input stay where
+   * they are edges of the mesh. Where it has no points, or the very points of the first input (as
+   * many, the same bits), its point ids are those of the mesh, as with the source of vtkDelaunay2D.
+   * Else edges are matched by the coordinates of their points, so that the output of
+   * vtkFeatureEdges, which numbers points anew, can be used. These must be equal, not near; where
+   * one of the inputs has float points and the other double ones, they are compared after rounding
+   * to float. Where several points of the mesh coincide, every pair of them that is an edge of the
+   * mesh is meant. Constraint edges that match none are counted, and the update gives one warning.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints);
@@ -363,6 +369,16 @@ public:
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
+  ///@}
+
+  ///@{
+  /**
+   * How many edges of the mesh the lines of the first input and the constraints of the second hold,
+   * and how many constraint edges match no edge of the mesh. After a warm start, as at the
+   * beginning.
+   */
+  vtkIdType GetNumberOfConstraintEdges() const;
+  vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
   ///@}
 
   /**

@@ -145,6 +145,7 @@ private:
     report.Points = mesh.Points.Count;
     report.Triangles = mesh.Triangles.Count;
     report.Edges = built.Counts;
+    report.UnmatchedConstraints = built.MissingConstraints;
     report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
     report.GeometryUsed = survey.Geometry;
     report.Backend = this->Backend.GetName();

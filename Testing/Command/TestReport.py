@@ -21,6 +21,7 @@ from CommandTesting import (
 
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
+    *("constraint_edges", "unmatched_constraint_edges"),
     *("geometry", "backend", "iterations", "total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "min_angle_before_deg", "min_angle_after_deg"),
     *("converged", "stop_reason", "seconds"),

@@ -48,13 +48,15 @@ def make_fan(number_of_points):
     return mesh
 
 
-def make_lines(*lines):
-    """Constraint edges: lines over the point ids of another mesh, whose points do not matter."""
-    mesh = vtkPolyData()
-    mesh.SetPoints(vtkPoints())
-    mesh.GetPoints().SetNumberOfPoints(1 + max(max(line) for line in lines))
-    mesh.SetLines(make_cells(lines))
-    return mesh
+def make_line(mesh, start, end):
+    """A constraint edge between two points of a mesh, with points of its own."""
+    line = vtkPolyData()
+    line.SetPoints(vtkPoints())
+    line.GetPoints().SetDataType(mesh.GetPoints().GetDataType())
+    for point in (start, end):
+        line.GetPoints().InsertNextPoint(mesh.GetPoint(point))
+    line.SetLines(make_cells([(0, 1)]))
+    return line
 
 
 def get_triangles(mesh):

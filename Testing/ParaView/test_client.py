@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from PluginTesting import PluginTest, main, make_fan, make_lines
+from PluginTesting import PluginTest, main, make_fan, make_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 125
@@ -39,7 +39,7 @@ class Client(PluginTest):
     def play(self, name):
         """Runs a script in a client; what it wrote. Its pictures go to DELAUNAYFLIP_PICTURES."""
         self.save(make_fan(14))
-        self.save(make_lines((6, 13)), "lines.vtp")
+        self.save(make_line(make_fan(14), 6, 13), "lines.vtp")
         environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
         client = subprocess.run(

@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
-    PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_lines, refresh)
+    PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_line, refresh)
 
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
@@ -65,8 +65,10 @@ class Inputs(PluginTest):
         source, kept = self.read(make_fan(20)), frozenset((10, 19))
         flip = self.flip(source)
         self.assertNotIn(kept, get_edges(fetch(flip)))
-        flip.Constraints = self.read(make_lines((10, 19)), "lines.vtp")
+        flip.Constraints = self.read(make_line(make_fan(20), 10, 19), "line.vtp")
         self.assertIn(kept, get_edges(fetch(flip)))
+        self.assertEqual(flip.NumberOfConstraintEdges, 1)
+        self.assertEqual(flip.NumberOfUnmatchedConstraintEdges, 0)
         flip.Constraints = None
         self.assertNotIn(kept, get_edges(fetch(flip)))
 

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointViews.h"
+
+#include "vtkAOSDataArrayTemplate.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cstring>
+
+namespace delaunayflip
+{
+namespace
+{
+
+template <typename Real>
+bool HaveSameBits(const Real* coordinates, const Real* others, std::int64_t points)
+{
+  return coordinates && others &&
+    (coordinates == others || std::memcmp(coordinates, others, 3 * points * sizeof(Real)) == 0);
+}
+
+}
+
+PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
+{
+  const vtkIdType count = mesh->GetNumberOfPoints();
+  if (count == 0)
+  {
+    return {};
+  }
+  vtkDataArray* data = mesh->GetPoints()->GetData();
+  if (auto* floats = vtkArrayDownCast<vtkAOSDataArrayTemplate<float>>(data))
+  {
+    return { static_cast<const float*>(floats->GetPointer(0)), count };
+  }
+  if (auto* doubles = vtkArrayDownCast<vtkAOSDataArrayTemplate<double>>(data))
+  {
+    return { static_cast<const double*>(doubles->GetPointer(0)), count };
+  }
+  storage.resize(3 * count);
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    data->GetTuple(point, &storage[3 * point]);
+  }
+  return { static_cast<const double*>(storage.data()), count };
+}
+
+bool HaveSameBits(const PointArray& points, const PointArray& others)
+{
+  return points.Count == others.Count &&
+    (HaveSameBits(points.Floats, others.Floats, points.Count) ||
+      HaveSameBits(points.Doubles, others.Doubles, points.Count));
+}
+
+}
