@@ -95,6 +95,29 @@ def choose_constraints(client, panel, flip):
     panel.choose("Constraints", "(none)")
     client.apply()
     yield lambda: count_edges(flip, edge) == 0
+    flip.Constraints = simple.FindSource("Lines")
+    yield lambda: choices.currentText() == "Lines"
+    flip.Constraints = None
+    yield lambda: choices.currentText() == "(none)"
+
+
+def offer_no_loop(panel, flip):
+    """What comes after the filter, which would be a loop, is not among the constraints."""
+    simple.SetActiveSource(flip)
+    later = simple.Transform(registrationName="Later", Input=flip)
+    last = simple.FeatureEdges(registrationName="Last", Input=later)
+    simple.Show(last)
+    simple.FeatureEdges(registrationName="Beside", Input=simple.FindSource("Lines")).UpdatePipeline()
+    yield idle(0.5)
+    simple.SetActiveSource(flip)
+    yield idle(0.5)
+    choices = panel.find("Constraints", QComboBox)
+    texts = {choices.itemText(i) for i in range(choices.count())}
+    expect(texts == {"(none)", "Lines", "Mesh", "Beside"}, texts)
+    for source in (last, later, simple.FindSource("Beside")):
+        simple.Delete(source)
+    yield idle(0.5)
+    expect(choices.findText("Beside") == -1, "a source that is gone")
 
 
 def get_color_choices(flip):
@@ -120,7 +143,8 @@ def look_at_color_by(flip):
 def session(client):
     load_plugin()
     client.window.resize(1500, 1150)
-    mesh = simple.XMLPolyDataReader(FileName=[os.path.join(FOLDER, "mesh.vtp")])
+    mesh = simple.XMLPolyDataReader(
+        registrationName="Mesh", FileName=[os.path.join(FOLDER, "mesh.vtp")])
     simple.XMLPolyDataReader(
         registrationName="Lines", FileName=[os.path.join(FOLDER, "lines.vtp")])
     flip = yield from start_filter(client, mesh)
@@ -130,6 +154,7 @@ def session(client):
     read_results(panel, flip)
     look_at_color_by(flip)
     yield from choose_constraints(client, panel, flip)
+    yield from offer_no_loop(panel, flip)
     yield from use_buttons(client, panel, flip)
     yield from step_pauses(client, panel, flip)
     read_results(panel, flip)

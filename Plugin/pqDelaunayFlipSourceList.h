@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef pqDelaunayFlipSourceList_h
+#define pqDelaunayFlipSourceList_h
+
+#include "pqPropertyWidget.h"
+
+#include <QString>
+#include <QStringList>
+#include <QTimer>
+#include <QVector>
+
+class QComboBox;
+class vtkSMProperty;
+
+/// The sources of polygonal data that an optional input can have, as a list beside "(none)". Unlike
+/// ParaView's own list it leaves out what comes after the filter: a loop would crash ParaView.
+class pqDelaunayFlipSourceList : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  pqDelaunayFlipSourceList(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+
+  void apply() override;
+  void reset() override;
+
+private Q_SLOTS:
+  void refill();
+  void showInput();
+  void edit();
+
+private:
+  /// An output port: its name, and the id and number that find it.
+  struct Source
+  {
+    QString Text;
+    QString Key;
+
+    bool operator==(const Source& other) const
+    {
+      return this->Text == other.Text && this->Key == other.Key;
+    }
+  };
+
+  QVector<Source> findSources() const;
+  void setInput(const QStringList& key);
+
+  QComboBox* Choices;
+  QVector<Source> Sources; ///< Of the list.
+  bool IsEdited = false; ///< Since the last Apply or Reset.
+  QTimer Changes; ///< Fires after the last of several.
+};
+
+#endif
