@@ -18,7 +18,7 @@ inline std::int64_t GetSum(const IterationSums& iteration, IterationSum sum)
   return static_cast<std::int64_t>(iteration.Values[static_cast<int>(sum)]);
 }
 
-/// What is bad on a device, by why it does not flip.
+/// The bad edges of a mesh on a device, by the reason why they do not flip.
 struct BadEdgeCounts
 {
   std::int64_t Tested = 0, Bad = 0, BlockedByShape = 0, BlockedByEdge = 0;
@@ -32,7 +32,7 @@ struct BadEdgeCounts
     return counts;
   }
 
-  /// What is bad after an iteration.
+  /// The counts after an iteration.
   BadEdgeCounts Follow(const IterationSums& iteration, bool hasGuard) const
   {
     const std::int64_t bad = this->Bad - GetSum(iteration, IterationSum::Flipped) -
@@ -44,7 +44,7 @@ struct BadEdgeCounts
       GetSum(iteration, IterationSum::AllBlockedByEdge) };
   }
 
-  /// The iteration that began with this.
+  /// The iteration that began with these counts.
   IterationCounts ToIteration(const IterationSums& iteration) const
   {
     return { this->Tested, this->Bad, this->BlockedByShape + this->BlockedByEdge,

@@ -10,6 +10,7 @@
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "FlipError.h"
+#include "OutputSlice.h"
 #include "StagedCopy.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
@@ -36,7 +37,7 @@ struct DeviceMesh
 
   const TriangleMesh& View() const { return this->Mesh; }
 
-  /// Give back what the engine has in its own way.
+  /// Free what the engine has in a form of its own by now.
   void DropPoints()
   {
     this->Floats = Array<float>();
@@ -57,8 +58,8 @@ struct DeviceNumbering
   std::int64_t Total = 0;
 };
 
-/// "For every item do this" on a GPU: what ThreadBackend is on the CPU, with the same results.
-/// Calls return before the work is done, except those that bring something to the host.
+/// "For every item do this" on a GPU: the counterpart of ThreadBackend, with the same results.
+/// Calls return before the work is done, except those that return something to the host.
 ///
 /// Every call may throw BackendUnavailable.
 class CudaBackend
@@ -199,7 +200,7 @@ public:
     CallCuda("finish the work", [&] { return cudaStreamSynchronize(this->GetStream()); });
   }
 
-  /// Brings the caller's arrays to the device.
+  /// Copies the caller's arrays to the device.
   using LocalMesh = DeviceMesh;
   LocalMesh Localize(const TriangleMesh& mesh) const;
 
@@ -209,7 +210,7 @@ public:
     const auto fill = [&](const OutputSlice& ids) {
       this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, IdSlice{ ids }); });
     };
-    // A vertex id is a number of 32 bits without a sign.
+    // Vertex ids are unsigned 32-bit numbers.
     if (triangles.Ids32)
     {
       this->DownloadSlices(3 * triangles.Count, fill,
@@ -246,9 +247,9 @@ public:
   }
 
 private:
-  /// Calls put(i, value) for i = 0 .. size - 1. What is put goes to the host by slices, so that it
-  /// needs little memory: fill(slice) launches what sets the values of a slice, for which the
-  /// device looks at all triangles, while the host still converts what came before.
+  /// Calls put(i, value) on the host for i = 0 .. size - 1. The values come to the host in slices,
+  /// which need little memory: fill(slice) launches a kernel over all triangles that sets the
+  /// values of one slice, while the host still converts the slice before it.
   template <typename Fill, typename Put>
   void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
   {
@@ -276,7 +277,7 @@ private:
 
   static unsigned GridOf(std::int64_t blocks) { return static_cast<unsigned>(blocks); }
 
-  /// Enough for every item or for several waves, whichever is less.
+  /// Enough blocks for every item, but not more than several waves of them.
   int GetBlocks(std::int64_t size) const
   {
     constexpr std::int64_t BlocksPerMultiprocessor = 32;
@@ -285,7 +286,7 @@ private:
       1, std::min(wanted, BlocksPerMultiprocessor * this->Context->Multiprocessors)));
   }
 
-  /// Calls a CUB algorithm as it wants to be: first for the size of its memory, then with it.
+  /// Calls a CUB algorithm twice, as it requires: for the size of its memory, then with the memory.
   template <typename Algorithm>
   void RunCub(const Algorithm& algorithm) const
   {
@@ -346,7 +347,7 @@ inline DeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
   copy.Upload(3 * triangles.Count, local.Triangles.Data(),
     [&](std::int64_t i)
     {
-      // What does not fit is no point, and stays none.
+      // An id that does not fit is invalid, and stays so.
       const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
       return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
     });

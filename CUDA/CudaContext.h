@@ -16,8 +16,8 @@
 namespace delaunayflip
 {
 
-/// Memory of a device, in the order of a stream. Blocks that are freed stay with it, so that the
-/// next run of the same size asks the driver for nothing.
+/// Memory of a device, allocated and freed in the order of a stream. Freed memory stays in a pool,
+/// so that the next run of the same size needs no call of the driver.
 class DeviceMemory : public Memory
 {
 public:
@@ -30,7 +30,7 @@ public:
   void* Allocate(std::size_t bytes) override;
   void Free(void* memory, std::size_t bytes) noexcept override;
 
-  /// Most bytes that were in use at a time since the last call.
+  /// The largest number of bytes in use at any time since the last call.
   std::size_t TakePeak();
 
 private:
@@ -38,8 +38,8 @@ private:
   cudaMemPool_t Pool = nullptr; ///< Null where the device has none: then cudaMalloc and cudaFree.
 };
 
-/// What a run needs besides its mesh: a stream, memory, and page-locked buffers on the way between
-/// host and device. One run at a time uses a context; it is kept for the next.
+/// What a run needs besides its mesh: a stream, memory, and page-locked buffers for copies between
+/// host and device. One run at a time uses a context; then it is kept for the next run.
 class CudaContext
 {
 public:
@@ -66,7 +66,7 @@ private:
   void Close() noexcept;
 };
 
-/// Makes a device current for the calling thread, and its old one again.
+/// Makes a device current in the calling thread, and restores the previous one.
 class CurrentDevice : public DeviceScope
 {
 public:
@@ -79,8 +79,7 @@ private:
   int Previous = -1;
 };
 
-/// A context for as long as it is held; then it waits for the next run, unless
-/// something failed in it.
+/// A context for one run. Afterwards it is kept for the next run, unless something failed in it.
 class ContextLease
 {
 public:

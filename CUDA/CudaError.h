@@ -8,23 +8,23 @@
 #include <cstdint>
 
 /// @file
-/// How calls of the CUDA runtime fail.
+/// Errors of the CUDA runtime as exceptions.
 
 namespace delaunayflip
 {
 
-/// Throws BackendUnavailable that says what was tried and why it failed, and takes the error off
-/// the runtime's record, so that nobody else meets it.
+/// Throws a BackendUnavailable that says what was tried and why it failed. Clears the runtime's
+/// last error, so that no other code meets it.
 [[noreturn]] void ThrowCudaError(cudaError_t error, const char* action);
 
 /// Whether a driver is installed, of any version. Never throws.
 bool HasCudaDriver();
 
-/// For tests: the call of CallCuda that is `calls` from now (1: the next) fails with `error`
-/// instead of being made; 0 takes the order back.
+/// For tests: instead of being made, the `calls`-th call of CallCuda from now on (1: the next)
+/// fails with `error`; 0 cancels this.
 void InjectCudaError(std::int64_t calls, cudaError_t error);
 
-/// Counts a call. @returns the error that it must fail with, usually cudaSuccess.
+/// Counts a call. @returns the error that it must fail with, or cudaSuccess.
 cudaError_t BeginCudaCall();
 
 /// Makes a call of the CUDA runtime, or a launch followed by cudaGetLastError().

@@ -53,7 +53,7 @@ public:
 
   // Public because device lambdas ask for them.
 
-  /// Chunk c holds the edges whose smallest corner it holds at first: they are numbered in order.
+  /// Chunk c has the edges whose smallest corner it has at first. Edges are numbered in that order.
   void CutIntoChunks()
   {
     DeviceChunk* chunks = this->Chunks.Data();
@@ -68,7 +68,7 @@ public:
       });
   }
 
-  /// The first edge whose first corner is of `triangle` or a later one.
+  /// The first edge whose first corner belongs to `triangle` or a later one.
   __host__ __device__ static EdgeId FirstEdgeOf(
     const CornerId* words, std::int64_t edges, std::int64_t triangle)
   {
@@ -140,17 +140,17 @@ protected:
   }
 
 private:
-  /// Of the second-level cache for a chunk at work: half as much again as it fills.
+  /// Share of the second-level cache for a chunk at work: one and a half times what it fills.
   static constexpr std::size_t ChunkBytes = std::size_t(9) << 19;
 
-  /// What a launch leaves behind.
+  /// The results of a launch.
   struct Results
   {
     int IterationsDone;
     IterationSums Sums[MostIterations + 1];
   };
 
-  /// As many blocks as run at the same time, which their barriers need.
+  /// The number of blocks that can run at the same time, as their barriers need.
   template <typename Kernel>
   int CountResidentBlocks(Kernel kernel) const
   {
@@ -164,7 +164,7 @@ private:
     return perMultiprocessor * this->Backend.GetContext().Multiprocessors;
   }
 
-  /// As few blocks as have work: they wait for each other the sooner.
+  /// Only as many blocks as have work: the fewer there are, the shorter are the waits.
   void PlanGrid()
   {
     const std::int64_t blocks =
@@ -174,7 +174,7 @@ private:
     {
       ++this->Splits;
     }
-    // What one block does in two steps it does sooner than two that wait for each other.
+    // One block is faster in two steps than two blocks that wait for each other.
     const std::int64_t wanted = parts <= 2 * LoopWarps ? 1 : (parts + LoopWarps - 1) / LoopWarps;
     this->GridBlocks = static_cast<int>(std::min(blocks, wanted));
   }
@@ -198,7 +198,7 @@ private:
       &results->IterationsDone };
   }
 
-  /// Clears what kernels count in.
+  /// Clears the counters of the kernels.
   void Prepare()
   {
     this->Backend.Fill(this->DeviceResults.Data(), 0, 1);
@@ -258,7 +258,7 @@ private:
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
       if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
       {
-        this->Detect(); // which the kernel left to us
+        this->Detect(); // the kernel left it out
       }
     }
     return iterations;

@@ -11,12 +11,13 @@
 #include "Team.cuh"
 
 /// @file
-/// The phases of an iteration on a worklist of the device that judge edges and count what is bad.
+/// The passes of an iteration that judge edges and count the bad ones (1 to 3 of FlipLoop.h), on a
+/// worklist of the device.
 
 namespace delaunayflip
 {
 
-/// Sets what a judgement says. @returns whether the edge is bad.
+/// Records the state that a judgement gave. @returns whether the edge is bad.
 template <typename Rule>
 __device__ bool NoteState(
   const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
@@ -33,9 +34,9 @@ __device__ bool NoteState(
   return state == EdgeState::Bad;
 }
 
-/// Judges exactly what Detect could not tell and left as candidates. On its own, because it is
-/// large and seldom called: within Detect's loop it would take the registers of all that goes on
-/// there.
+/// Judges exactly the edges that Detect could not decide and left as candidates. A function of its
+/// own, because it is large and seldom called: inlined into Detect's loop it would take the
+/// registers of everything else there.
 template <typename Rule, typename Worklist>
 __device__ __noinline__ void ResolveUncertain(
   const LoopView<Rule>& loop, Worklist worklist, Team team)
@@ -86,7 +87,7 @@ struct DetectionCounts
   }
 };
 
-/// Judges an edge by plain arithmetic; one of which that cannot tell stays a candidate.
+/// Judges an edge by floating-point arithmetic. An edge that this cannot decide stays a candidate.
 template <typename Rule>
 __device__ EdgeState JudgeAndNote(
   const LoopView<Rule>& loop, EdgeId edge, const CornerPair& corners, DetectionCounts& counts)
@@ -101,13 +102,13 @@ __device__ EdgeState JudgeAndNote(
   return state;
 }
 
-/// Takes the edges to judge from a byte: its candidates, which are none any more then, and if asked
-/// what else is bad. What has flipped since the last detection is no longer bad.
+/// Takes the edges to judge from a byte and clears their bits: its candidates and, with takeBad,
+/// the other bad edges. Edges that have flipped since the last detection are no longer bad.
 template <typename Rule>
 __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad,
   bool hasGuard, DetectionCounts& counts)
 {
-  // All are asked for before any is looked at.
+  // All loads are issued before any result is used.
   const EdgeBits& bits = loop.Bits;
   const unsigned marked = byte.Load(bits.Candidates);
   const unsigned fixedOrDeferred = byte.Load(bits.FixedOrDeferred);
@@ -151,7 +152,7 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
   }
 }
 
-/// Blocks and frees what the guard says, of all edges that are bad or were blocked by it.
+/// Asks the guard again about every edge that is bad or blocked by it: blocks it or frees it.
 template <typename Rule, typename Worklist>
 __device__ void GuardBadEdges(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
@@ -184,7 +185,7 @@ __device__ void GuardBadEdges(
   team.Add(IterationSum::AllBlockedByEdge, allBlockedByEdge);
 }
 
-/// Counts what is bad in a range.
+/// Counts the bad and the blocked edges in a range.
 template <typename Rule, typename Worklist>
 __device__ void CountAll(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {

@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// EdgeBits, owned, and what is done to all of them at once.
+/// Owns the EdgeBits, and does what concerns all edges at once.
 class DeviceEdgeBits
 {
 public:
@@ -41,7 +41,7 @@ public:
 
   // Public because device lambdas ask for them.
 
-  /// The states at first as bits; what is behind the last edge is fixed.
+  /// Turns the first states into bits; bits behind the last edge are fixed.
   void LoadStates(const EdgeMesh& mesh)
   {
     const EdgeBits bits = this->Bits;

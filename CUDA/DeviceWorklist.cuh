@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_DEVICEWORKLIST_CUH
 #define DELAUNAYFLIP_DEVICEWORKLIST_CUH
 
+#include "Atomics.h"
 #include "EdgeBits.h"
 #include "EdgeMesh.h"
 #include "Team.cuh"
@@ -10,10 +11,10 @@
 #include <cstdint>
 
 /// @file
-/// The edges of a range that have a bit set. A warp takes units of 256 edges, a byte of bits a
-/// lane, and lists what is set, in order, so that neighbours in the mesh are neighbours in the
-/// warp; then they are worked on: by the warp itself where it has many units, else by all warps of
-/// the block, which have equal work so.
+/// The edges of a range whose bit is set. A warp takes units of 256 edges, one byte of bits per
+/// lane, and lists the edges whose bit is set, in order, so that neighbours in the mesh are
+/// neighbours in the warp. Then it works on the list. Where a warp has few units, all warps of the
+/// block share one list, so that they have equal work.
 
 namespace delaunayflip
 {
@@ -29,7 +30,8 @@ struct EdgeByte
     return AtomicLoad(&reinterpret_cast<const std::uint8_t*>(bits)[this->Index]) & this->Mask;
   }
 
-  /// Clears bits of the range. Others may change the rest of a byte that two ranges share.
+  /// Clears bits of the range. Other threads may change the other bits of a byte that two ranges
+  /// share.
   __device__ void Clear(std::uint32_t* bits, unsigned value, unsigned clear) const
   {
     if (clear == 0)
@@ -48,7 +50,7 @@ struct EdgeByte
   }
 };
 
-/// Which edges, and how they are found.
+/// The units of a range, and how a warp goes through them.
 class EdgeUnits
 {
 public:
@@ -79,7 +81,7 @@ protected:
     return { unit * WarpSize + lane, mask & 0xFF };
   }
 
-  /// Where a warp is in its units or their parts.
+  /// The position of a warp in its units, or in parts of them.
   struct UnitCursor
   {
     unsigned Next, End, Step;
@@ -123,7 +125,7 @@ protected:
     return end;
   }
 
-  /// Calls work for every `step`-th edge. The next one's corners are on their way meanwhile.
+  /// Calls work for every `step`-th edge, while the corners of the next one are being loaded.
   template <typename Work>
   __device__ static void WorkOn(
     const EdgeMeshView& mesh, const EdgeId* found, int size, int step, int thread, const Work& work)
@@ -148,7 +150,7 @@ private:
   int Splits;
 };
 
-/// Every warp works on what it finds.
+/// Every warp works on the edges that it finds.
 class WarpWorklist : public EdgeUnits
 {
 public:
@@ -156,8 +158,8 @@ public:
   static constexpr bool MayGuard = true; ///< Whether flips may have a guard.
 
   /// Calls look(byte) for every lane of every unit, which returns the bits of the edges to work on,
-  /// then work(edge, corners) for these; other units may have been looked at before. All lanes of a
-  /// warp call work at a time, some with NoEdge.
+  /// then work(edge, corners) for these edges; several units may be looked at before. All lanes of
+  /// a warp call work together, some with NoEdge.
   template <typename Look, typename Work>
   __device__ void Run(
     const Team& team, const EdgeMeshView& mesh, const Look& look, const Work& work) const
@@ -182,16 +184,16 @@ public:
     }
   }
 
-  /// Whether any thread says so of those that share a list.
+  /// Whether `own` is true in any of the threads that share a list.
   __device__ static bool IsAny(bool own) { return __any_sync(WholeWarp, own) != 0; }
 
 private:
-  /// A warp works on what it has rather than look at one more unit, which is far away: what all
-  /// warps are at should fit the second-level cache.
+  /// With this many edges a warp starts to work instead of looking at one more unit, which is far
+  /// away: what all warps work on should fit the second-level cache.
   static constexpr int Enough = WarpSize;
 };
 
-/// All warps of a block work on what they find.
+/// All warps of a block work on the edges that they find together.
 class BlockWorklist : public EdgeUnits
 {
 public:
@@ -239,7 +241,7 @@ public:
   __device__ static bool IsAny(bool own) { return __syncthreads_or(own) != 0; }
 
 private:
-  /// So many leave room for a unit of every warp.
+  /// Leaves room for one unit of every warp.
   static constexpr int MostBeforeUnit = LoopWarps * (WarpListSize - UnitSize);
 };
 

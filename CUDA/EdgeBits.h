@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_EDGEBITS_H
 #define DELAUNAYFLIP_EDGEBITS_H
 
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
 

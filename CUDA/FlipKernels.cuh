@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPKERNELS_CUH
 #define DELAUNAYFLIP_FLIPKERNELS_CUH
 
+#include "Atomics.h"
 #include "DetectionPhases.cuh"
 #include "FlipPhases.cuh"
 #include "IterationSums.h"
@@ -15,20 +16,20 @@
 namespace delaunayflip
 {
 
-/// Waits in an iteration at most: four in RunFlips, where there is a guard, and one in
+/// Waits per iteration at most: four in RunFlips, where there is a guard, and one in
 /// RunDetection.
 constexpr int MostWaits = 5;
 
-/// Iterations in a launch of IterateKernel at most: few enough that an observer hears of them and
+/// Iterations per launch of IterateKernel at most: few enough that an observer hears of them and
 /// can stop the run in time.
 constexpr int MostIterations = 128;
 
-/// Blocks in such a launch at most, so that what they tell each other stays in its bits.
+/// Blocks per such launch at most, so that the parts of their news stay within their bits.
 constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * MostWaits);
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
 
-/// Chooses and flips.
+/// Passes 4 to 6.
 template <typename Rule, typename Worklist>
 __device__ void RunFlips(
   const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
@@ -46,11 +47,11 @@ __device__ void RunFlips(
   Confirm(loop, worklist, team);
   team.Wait();
   FlipWinners(loop, worklist, team);
-  // Whether to go on depends on the sums.
+  // The sums decide whether to go on.
   team.Wait(iteration);
 }
 
-/// Judges and guards.
+/// Passes 1 to 3.
 template <typename Rule, typename Worklist>
 __device__ void RunDetection(
   const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
@@ -65,7 +66,7 @@ __device__ void RunDetection(
   team.Wait(iteration);
 }
 
-/// A detection on the whole mesh, counted in Sums[0], and a count of all that is bad, in
+/// A detection on the whole mesh, counted in Sums[0], and a count of all bad and blocked edges, in
 /// Sums[1].
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
@@ -78,12 +79,12 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   team.Wait(&loop.Sums[1]);
 }
 
-/// When a launch of IterateKernel ends.
+/// A launch of IterateKernel ends
 struct IterationLimits
 {
-  int Iterations; ///< After so many,
-  long long Bad; ///< which begin with so many bad edges; when none is left;
-  unsigned long long FreshSlots; ///< or when more slots of the guard table were used first.
+  int Iterations; ///< after this many iterations,
+  long long Bad; ///< the first of which begins with this many bad edges; when none is left;
+  unsigned long long FreshSlots; ///< or when more new slots of the guard table are in use.
 };
 
 __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum sum)
@@ -91,7 +92,7 @@ __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum
   return static_cast<long long>(AtomicLoad(&iteration.Values[static_cast<int>(sum)]));
 }
 
-/// Iterations on the whole mesh, of one thread.
+/// Iterations on the whole mesh, as one thread runs them.
 template <typename Rule>
 class Iterations
 {
@@ -101,7 +102,7 @@ public:
       Limits(limits),
       Members(loop.Teams, gridDim.x, loop.Splits > 0),
       Bad(limits.Bad),
-      // A quarter of the room, for bad edges are not spread evenly. A guard needs no lists.
+      // A quarter of the room, because bad edges are not spread evenly. No lists with a guard.
       MostListed(
         loop.Guard.Active ? 0 : Members.GetNumberOfThreads() / WarpSize * (MostListedByWarp / 4))
   {
@@ -139,7 +140,7 @@ private:
     RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
   }
 
-  /// Whether a detection may follow: not where the guard's table must be made anew first.
+  /// Whether a detection may follow: not when the guard's table must be rebuilt first.
   __device__ bool HasRoom(const IterationSums* iteration)
   {
     if (!this->Loop.Guard.Active)
@@ -151,7 +152,7 @@ private:
       LoadSum(*iteration, IterationSum::LostInserts) == 0;
   }
 
-  /// Lists what is bad where it is little, and where the last detection did.
+  /// Detects. Lists the bad edges where they are few, and where the last detection did.
   __device__ void Detect(IterationSums* iteration)
   {
     const WarpWorklist worklist = this->Loop.GetWorklist();
@@ -168,11 +169,11 @@ private:
     }
     this->Bad = this->Loop.Guard.Active ? LoadSum(*iteration, IterationSum::AllBad)
                                         : this->Limits.Bad + this->Members.GetBadChange();
-    // Where there was no room there will be none until there is far less.
+    // A list that was too short is tried again when there are half as many bad edges.
     this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
   }
 
-  /// Whether a device cannot tell of some edge. Those who could not have warned.
+  /// Whether a device cannot decide some edge. A thread that met one has warned.
   __device__ bool IsUncertain(const IterationSums* iteration) const
   {
     return this->Members.IsWarned() && LoadSum(*iteration, IterationSum::Uncertain) > 0;
@@ -181,15 +182,15 @@ private:
   const LoopView<Rule>& Loop;
   const IterationLimits& Limits;
   Team Members;
-  BadList List; ///< Of this warp. All warps' hold what is bad
-  bool IsListed = false; ///< if so.
+  BadList List; ///< Of this warp. The lists of all warps hold all bad edges
+  bool IsListed = false; ///< while this is true.
   long long Bad; ///< Edges.
-  long long MostListed; ///< Bad edges of which detections make lists.
+  long long MostListed; ///< Up to this many bad edges, detections make lists.
   unsigned long long FreshSlots = 0;
 };
 
-/// Iterations on the whole mesh after a detection; what they count goes to Sums, one each. The
-/// last detection is missing when the guard's table must be made anew before it.
+/// Iterations on the whole mesh after a detection, each counted in an entry of Sums. The last
+/// detection is missing when the guard's table must be rebuilt before it.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)
@@ -202,8 +203,9 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   }
 }
 
-/// Sums within chunks: a team takes a chunk through all of them, while it is in the cache, then
-/// the next. They count in Sums; Sums[iterations] gets what was bad before.
+/// Iterations within chunks: a team takes a chunk through all of them, while the chunk is in the
+/// cache, then the next chunk. They are counted in Sums; Sums[iterations] gets the bad and blocked
+/// edges from before.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int iterations)

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPPHASES_CUH
 #define DELAUNAYFLIP_FLIPPHASES_CUH
 
+#include "Atomics.h"
 #include "DeviceWorklist.cuh"
 #include "EdgeBits.h"
 #include "EdgeMesh.h"
@@ -14,9 +15,9 @@
 #include "Team.cuh"
 
 /// @file
-/// The phases of an iteration on a worklist of the device that choose and flip. Within a phase a
-/// thread works on one edge at a time; the phases' order, which the team's waits keep, is all that
-/// results depend on.
+/// The passes of an iteration that choose and flip (4 to 6 of FlipLoop.h), on a worklist of the
+/// device. Within a pass a thread works on one edge at a time. Results depend only on the order of
+/// the passes, which the team's waits keep.
 
 namespace delaunayflip
 {
@@ -45,10 +46,10 @@ __device__ bool Wins(const LoopView<Rule>& loop, EdgeId edge, const OuterHalfEdg
 /// Chooses among the bad edges and flips the winners, which stay marked as bad until the next
 /// detection, for others to choose by.
 ///
-/// So an edge may be looked at while a neighbour flips. It loses then, as it must, whether its
-/// words and its triangles are read as they were before that flip or as they are after: a triangle
-/// that flips holds the flipped edge, which is bad and comes first, before and after; or it has
-/// lost the edge that is looked at to its partner. What a winner reads nobody changes.
+/// So a thread may examine an edge while a neighbour flips. The edge must lose then, and it does,
+/// whether the thread reads its words and triangles from before that flip or from after it. Before
+/// and after, a flipping triangle contains the flipped edge, which is bad and comes first; or the
+/// triangle has given the examined edge to its partner. No thread changes what a winner reads.
 template <typename Rule, typename Worklist>
 __device__ void ChooseAndFlip(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
@@ -83,7 +84,7 @@ __device__ void ChooseAndFlip(
   team.Add(IterationSum::Flipped, flips);
 }
 
-/// Chooses alone, where winners have claims to make before they flip; sets Winners.
+/// Chooses without flipping, where winners must make claims first; sets Winners.
 template <typename Rule, typename Worklist>
 __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
@@ -124,7 +125,7 @@ __device__ void Claim(const LoopView<Rule>& loop, const Worklist& worklist, cons
     { loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge)); });
 }
 
-/// Winners without their claim stay bad.
+/// Winners that lost their claim stay bad.
 template <typename Rule, typename Worklist>
 __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {

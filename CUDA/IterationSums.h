@@ -6,21 +6,21 @@
 namespace delaunayflip
 {
 
-/// What an iteration on a device counts. What it finds for the next one is said as changes.
+/// What an iteration on a device counts. Bad and blocked edges are counted as changes.
 enum class IterationSum
 {
   Flipped,
   FreshSlots, ///< Slots of the guard table used for the first time.
   LostInserts, ///< New edges that found no room in the guard table.
   Tested,
-  Uncertain, ///< A device cannot tell.
-  WasBad, ///< Of Tested, before and after they were judged.
+  Uncertain, ///< Edges that a device cannot decide.
+  WasBad, ///< Of the tested edges, before they were judged; IsBad: after it.
   IsBad,
   WasBlockedByShape,
   IsBlockedByShape,
-  AllBad, ///< All bad edges, where they were counted: with a guard, and at first.
-  AllBlockedByEdge, ///< All that the guard blocks.
-  AllBlockedByShape, ///< All of EdgeState::BlockedByShape, at first.
+  AllBad, ///< All bad edges, where they are counted: with a guard, and in the first detection.
+  AllBlockedByEdge, ///< All edges that the guard blocks.
+  AllBlockedByShape, ///< All of EdgeState::BlockedByShape, in the first detection.
   Count
 };
 

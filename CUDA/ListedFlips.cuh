@@ -7,10 +7,10 @@
 #include "FlipPhases.cuh"
 
 /// @file
-/// Iterations with few bad edges, in two phases instead of three. A detection lists what is bad
-/// with all that a choice reads but the states of the neighbours, which nobody changes before the
-/// next detection; so winners may flip while others still choose. And it costs fewer loads that
-/// wait for each other, of which such an iteration is made.
+/// Iterations with few bad edges. The detection lists the bad edges with everything that a choice
+/// reads except the states of the neighbours, which do not change before the next detection. So
+/// winners may flip while other threads still choose, and there are fewer dependent loads, which
+/// are most of the time of such an iteration.
 
 namespace delaunayflip
 {
@@ -27,7 +27,7 @@ public:
   __device__ bool HasOverflown() const { return this->Size > MostListedByWarp; }
   __device__ void Clear() { this->Size = 0; }
 
-  /// Takes those of the edges of a warp's lanes that are bad, as long as there is room.
+  /// Adds the bad edges among those of the warp's lanes, as long as there is room.
   __device__ void Add(bool isBad, const BadEdge& edge)
   {
     const unsigned bad = __ballot_sync(WholeWarp, isBad);
@@ -43,8 +43,8 @@ private:
   int Size = 0; ///< The same in all lanes.
 };
 
-/// Detect, which also lists what is bad, and warns where that is not all. Judges bad edges again
-/// that are no candidates, to have them in the list; they do not count as tested.
+/// As Detect; also lists the bad edges, and warns if the list is too short. Bad edges that are no
+/// candidates are judged again so that they are listed; they do not count as tested.
 template <typename Rule>
 __device__ void DetectAndList(
   const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
@@ -73,8 +73,8 @@ __device__ void DetectAndList(
   }
 }
 
-/// Chooses among the bad edges by the lists of all warps, which hold them all, and flips the
-/// winners. These stay marked as bad until the next DetectAndList, for others to choose by.
+/// Chooses among the bad edges, all of which are in the lists of the warps, and flips the winners.
+/// Winners stay marked as bad until the next DetectAndList, because other choices depend on it.
 template <typename Rule>
 __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
 {

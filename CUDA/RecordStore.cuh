@@ -15,16 +15,16 @@
 namespace delaunayflip
 {
 
-// Halves of records are loaded while others store them, so they must be accessed in one piece: as
-// numbers of 128 bits, which PTX has from CUDA 12.3 on. Before, vectors of four words make the same
-// instructions.
+// A half of a record may be loaded while another thread stores it, so each access must be atomic:
+// as a number of 128 bits, which PTX has from CUDA 12.3 on. Before, vectors of four words give the
+// same instructions.
 #if __CUDACC_VER_MAJOR__ > 12 || (__CUDACC_VER_MAJOR__ == 12 && __CUDACC_VER_MINOR__ >= 3)
 #define DELAUNAYFLIP_HAS_B128 1
 #else
 #define DELAUNAYFLIP_HAS_B128 0
 #endif
 
-/// One instruction for all lanes, whatever chose their values.
+/// One instruction for all lanes, in whatever branch their values were chosen.
 __device__ inline void StoreHalf(uint4* address, const uint4& value)
 {
 #if DELAUNAYFLIP_HAS_B128
@@ -71,7 +71,8 @@ __device__ inline uint4 LoadHalf(const uint4* address)
   return value;
 }
 
-/// A record that two neighbouring lanes store together, half of it each: whole sectors at once.
+/// A record that two neighbouring lanes store together, one half each, so that whole sectors are
+/// written at once.
 __device__ inline void StorePaired(
   TriangleRecord* triangles, TriangleId triangle, const TriangleRecord& record)
 {
@@ -121,8 +122,8 @@ struct FlippedRecords
   }
 };
 
-/// A triangle that another thread may be flipping: its half-edges are as they were before, or as
-/// they are after. Its vertices are of use only if it is not.
+/// A triangle that another thread may be flipping. Its half-edges are all from before or all from
+/// after that flip; its vertices are valid only if no thread flips it.
 __device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
 {
   const auto* halves = reinterpret_cast<const uint4*>(triangle);

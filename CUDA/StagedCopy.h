@@ -15,8 +15,9 @@
 namespace delaunayflip
 {
 
-/// Copies between the host's arrays and device memory through page-locked buffers: threads convert
-/// one buffer while others travel, several times as fast as the driver copies from ordinary memory.
+/// Copies between arrays on the host and device memory through page-locked buffers: threads convert
+/// one buffer while others are being copied. Several times as fast as the driver's copies from
+/// ordinary memory.
 class StagedCopy
 {
 public:
@@ -71,7 +72,7 @@ public:
     }
   }
 
-  /// Of about `slices` slices, made of whole parts.
+  /// The size of a slice when there are about `slices` of them, a multiple of the size of a part.
   template <typename T>
   static std::int64_t GetSliceSize(std::int64_t size, std::int64_t slices)
   {
@@ -81,7 +82,7 @@ public:
   }
 
 private:
-  /// Parts on their way while one is converted.
+  /// Parts being copied while one is converted.
   static constexpr std::int64_t Ahead = CudaContext::StagingSlots - 1;
 
   static int SlotOf(std::int64_t part)

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_TEAM_CUH
 #define DELAUNAYFLIP_TEAM_CUH
 
+#include "Atomics.h"
 #include "EdgeFlip.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
@@ -14,8 +15,8 @@ namespace delaunayflip
 constexpr int WarpSize = 32;
 constexpr unsigned WholeWarp = 0xFFFFFFFFu;
 
-/// Threads of a block in the loop's kernels, and blocks on a multiprocessor, which leaves 80
-/// registers a thread.
+/// Threads per block in the loop's kernels, and blocks per multiprocessor, which leaves 80
+/// registers per thread.
 constexpr int LoopThreads = 384;
 constexpr int LoopBlocks = 2;
 
@@ -69,17 +70,18 @@ struct TeamNews
 };
 
 constexpr int LoopWarps = LoopThreads / WarpSize;
-/// Edges that a warp lists before it works on them: more than a full unit of a worklist.
+/// Room for the edges that a warp lists before it works on them: more than a full unit of a
+/// worklist.
 constexpr int WarpListSize = 384;
 
-/// A bad edge, and all that choosing it reads but the states of its neighbours.
+/// A bad edge, with everything that its choice reads except the states of its neighbours.
 struct BadEdge
 {
   EdgeId Edge;
   CornerPair Corners;
   OuterHalfEdges Outer;
 };
-/// Bad edges that a warp lists where there are few.
+/// Room for the bad edges that a warp lists where there are few.
 constexpr int MostListedByWarp = 48;
 
 /// Shared memory of a block.
@@ -89,11 +91,11 @@ struct TeamMemory
   BadEdge Listed[LoopWarps][MostListedByWarp];
   int SizeOfList; ///< Of all lists as one.
   unsigned int Sums[NumberOfIterationSums];
-  unsigned int Expected; ///< Arrivals that the next wait waits for, but for its own.
-  unsigned int Warns; ///< Whether this block warns,
-  int BadChange; ///< and by how much its bad edges have become more, since the last wait.
-  TeamNews News; ///< Of the last wait,
-  bool IsWarned; ///< and whether anyone warned before it.
+  unsigned int Expected; ///< Arrivals up to and including the last wait.
+  unsigned int Warns; ///< Whether this block warns at the next wait,
+  int BadChange; ///< and the change of its number of bad edges since the last one.
+  TeamNews News; ///< From the last wait,
+  bool IsWarned; ///< and whether a thread warned before it.
 };
 
 __device__ inline TeamMemory& GetTeamMemory()
@@ -102,7 +104,8 @@ __device__ inline TeamMemory& GetTeamMemory()
   return memory;
 }
 
-/// What the calling thread, or who waited for it, wrote before is seen by whoever acquires after.
+/// Threads that acquire after this see what the calling thread, and those it waited for, wrote
+/// before.
 __device__ inline void AddRelease(unsigned long long* address, unsigned long long value)
 {
   asm volatile("red.release.gpu.global.add.u64 [%0], %1;"
@@ -127,7 +130,7 @@ class Team
 {
 public:
   /// Blocks [team * size, (team + 1) * size) of the grid are a team.
-  /// @param hasFewEdges so that nothing in the first-level caches is read twice.
+  /// @param hasFewEdges whether there is too little work for the first-level caches to matter.
   __device__ Team(TeamState* states, unsigned size, bool hasFewEdges = false)
     : State(&states[blockIdx.x / size]),
       Size(size),
@@ -151,7 +154,7 @@ public:
 
   __device__ unsigned GetIndex() const { return blockIdx.x / this->Size; }
 
-  /// This warp's list, or all as one.
+  /// The list of this warp, and that of the block, in the same memory.
   __device__ EdgeId* GetList() const { return GetTeamMemory().Lists[threadIdx.x / WarpSize]; }
   __device__ EdgeId* GetListOfBlock() const { return GetTeamMemory().Lists[0]; }
   __device__ int* GetSizeOfList() const { return &GetTeamMemory().SizeOfList; }
@@ -164,7 +167,7 @@ public:
   __device__ unsigned GetNumberOfThreads() const { return this->Size * LoopThreads; }
   __device__ bool IsFirstThread() const { return this->GetThread() == 0; }
 
-  /// Counts what the threads of a warp say. All of them call it.
+  /// Adds the values of the threads of a warp, all of which call it, to a sum.
   __device__ void Add(IterationSum sum, unsigned value) const
   {
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
@@ -181,8 +184,9 @@ public:
     }
   }
 
-  /// Tells all threads behind the next wait. Of two waits that follow each other one only may have
-  /// warnings before it: a block may be at the next wait while others look what was told before.
+  /// Warns all threads of the team, which see it after the next wait. Of two consecutive waits only
+  /// one may have warnings before it: a block may reach the next wait while others still read the
+  /// news of the last.
   __device__ void Warn(bool warning) const
   {
     if (warning)
@@ -190,20 +194,21 @@ public:
       GetTeamMemory().Warns = 1;
     }
   }
-  /// Whether anyone warned before the last wait.
+  /// Whether a thread warned before the last wait.
   __device__ bool IsWarned() const { return GetTeamMemory().IsWarned; }
 
-  /// How many more edges are bad, of those counted before the last wait that had an iteration.
+  /// The change of the number of bad edges since the launch, as counted up to the last wait that
+  /// had an iteration.
   __device__ int GetBadChange() const { return GetTeamMemory().News.GetBadChange(); }
 
-  /// Waits for all threads of the team; what they wrote before is then seen.
+  /// Waits for all threads of the team and sees what they wrote before.
   __device__ void Wait()
   {
     __syncthreads();
     this->WaitForBlocks();
   }
 
-  /// As Wait(), and adds what was counted since the last such call to `iteration`, unless null.
+  /// As Wait(), and adds the sums since the last such call to `iteration`, unless that is null.
   __device__ void Wait(IterationSums* iteration)
   {
     __syncthreads();
@@ -216,7 +221,7 @@ public:
   }
 
 private:
-  /// The first thread's release and acquire cover the block: barriers are before and behind.
+  /// The release and acquire of the first thread cover the block, because barriers surround them.
   __device__ void WaitForBlocks()
   {
     if (threadIdx.x == 0)
@@ -233,15 +238,15 @@ private:
     __syncthreads();
   }
 
-  /// @returns the news of all blocks.
+  /// @returns the sum of all blocks' news.
   __device__ TeamNews Arrive(TeamNews own)
   {
     const unsigned expected = GetTeamMemory().Expected += this->Size;
     unsigned long long* arrivals = &this->State->Arrivals;
     AddRelease(arrivals, own.Value);
     TeamNews news{};
-    // To acquire empties the first-level cache, which another block may be using: then not before
-    // all are there.
+    // An acquire flushes the first-level cache, which another block may be using. So it waits until
+    // all blocks have arrived.
     while (!this->HasFewEdges && !news.HasArrived(expected))
     {
       news.Value = AtomicLoad(arrivals);

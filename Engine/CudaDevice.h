@@ -7,27 +7,28 @@
 #include <cstdint>
 
 /// @file
-/// What is known of the GPU without using it. Part of every build: without the CUDA backend there
-/// is no device.
+/// Questions about the GPU, and its memory. Part of every build: without the CUDA backend there is
+/// no GPU.
 
 namespace delaunayflip
 {
 
-/// Triangles from which on BackendKind::Auto takes a GPU. Once it is warm, an H200 overtakes 16
+/// From this many triangles on BackendKind::Auto uses a GPU. Once in use, an H200 overtakes 16
 /// threads of its host between 2,000 and 4,000 triangles (delaunay-flip-gpu-benchmark --sizes
 /// 1000,2000,10000 --cpu-sizes 1000,2000,10000: 0.7 to 0.7, 0.8 to 1.4, 1.1 to 7.3 ms). Below
-/// 20,000 there are milliseconds to win, and the first use of a GPU costs a process more.
+/// 20,000 triangles only milliseconds can be saved, and the first use of a GPU costs a process
+/// more.
 constexpr std::int64_t SmallestMeshForCuda = 20000;
 
 /// Whether there is a GPU that this build can use. Never throws.
 bool HasCudaDevice();
 
-/// Gives back the memory that the CUDA backend keeps between runs, on the device and the host.
-/// Nothing happens while no run is under way and nothing is kept.
+/// Frees the memory that the CUDA backend keeps between runs, on the device and the host. Runs
+/// under way keep theirs.
 void ReleaseCudaMemory();
 
-/// Most bytes of device memory that a run had in use at a time since the last call, of the runs
-/// that have ended; 0 without the backend, and where the device has no memory pools.
+/// The peak of device memory, in bytes, that any run has used since the last call, of the runs that
+/// have ended. 0 without the backend, and where the device has no memory pools.
 std::size_t TakePeakCudaMemory();
 
 }

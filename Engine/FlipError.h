@@ -8,13 +8,13 @@
 #include <string>
 
 /// @file
-/// The exceptions of the engine. Each message says what was wrong, where, and what to do. Memory
-/// that cannot be had is std::bad_alloc.
+/// The exceptions of the engine. Each message says what was wrong, where, and what to do. Running
+/// out of memory is std::bad_alloc.
 
 namespace delaunayflip
 {
 
-/// Base of all that the engine throws on its own account.
+/// Base class of the engine's own exceptions.
 class FlipError : public std::runtime_error
 {
 public:

@@ -9,33 +9,15 @@ namespace delaunayflip
 
 namespace
 {
-/// Whether the filters' range assumption holds for these points (and none is NaN or infinite).
-template <int Count>
-bool IsInFilterRange(const PlanePoint (&points)[Count])
-{
-  bool inRange = true;
-  for (const PlanePoint& p : points)
-  {
-    constexpr double Half = LargestFilteredDifference / 2;
-    inRange = inRange && std::fabs(p.U) <= Half && std::fabs(p.V) <= Half && std::fabs(p.W) <= Half;
-  }
-  return inRange;
-}
-
-template <int Count>
-bool AreFinite(const PlanePoint (&points)[Count])
-{
-  bool finite = true;
-  for (const PlanePoint& p : points)
-  {
-    finite = finite && std::isfinite(p.U) && std::isfinite(p.V) && std::isfinite(p.W);
-  }
-  return finite;
-}
-
 int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
 {
-  if (IsInFilterRange(points))
+  bool inRange = true, finite = true;
+  for (const PlanePoint& p : points)
+  {
+    inRange = inRange && IsInFilterRange(p) && std::fabs(p.W) <= LargestFilteredCoordinate;
+    finite = finite && IsFinite(p);
+  }
+  if (inRange)
   {
     const auto filter = tilted ? FilteredInCircleTilted : FilteredInCircle;
     const int sign = filter(points[0], points[1], points[2], points[3]);
@@ -44,22 +26,15 @@ int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
       return sign;
     }
   }
-  return AreFinite(points) ? ExactInCircle(points, tilted) : 0;
+  return finite ? ExactInCircle(points, tilted) : 0;
 }
 }
 
 int Orientation(const double a[2], const double b[2], const double c[2])
 {
   const PlanePoint points[3] = { { a[0], a[1], 0.0 }, { b[0], b[1], 0.0 }, { c[0], c[1], 0.0 } };
-  if (IsInFilterRange(points))
-  {
-    const int sign = FilteredOrientation(points[0], points[1], points[2]);
-    if (sign != UncertainSign)
-    {
-      return sign;
-    }
-  }
-  return AreFinite(points) ? ExactOrientation(points[0], points[1], points[2]) : 0;
+  const bool finite = IsFinite(points[0]) && IsFinite(points[1]) && IsFinite(points[2]);
+  return finite ? FindOrientation(points[0], points[1], points[2]) : 0;
 }
 
 int InCircle(const double a[2], const double b[2], const double c[2], const double d[2])

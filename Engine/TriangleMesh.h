@@ -35,7 +35,7 @@ struct PointArray
     return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
   }
 
-  /// Asks for a point's coordinates ahead of their use.
+  /// Prefetches the coordinates of a point.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t point) const
   {
     const std::int64_t i = 3 * point;
@@ -48,7 +48,7 @@ struct PointArray
   std::int64_t Count = 0;
 };
 
-/// Vertex ids of triangles: three a triangle, interleaved, 3 * Count integers of 32 or 64 bits.
+/// Vertex ids of triangles: three per triangle, interleaved, 3 * Count integers of 32 or 64 bits.
 /// `Id32` and `Id64` are const types for an input, non-const for an output.
 template <typename Id32, typename Id64>
 struct BasicTriangleArray
@@ -73,16 +73,13 @@ struct BasicTriangleArray
                        : static_cast<std::int64_t>(this->Ids64[i]);
   }
 
-  /// Asks for a triangle's ids ahead of their use.
+  /// Prefetches the ids of a triangle.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t triangle) const
   {
     const std::int64_t i = 3 * triangle;
     delaunayflip::Prefetch(this->Ids32 ? static_cast<const void*>(this->Ids32 + i)
                                        : static_cast<const void*>(this->Ids64 + i));
   }
-
-  /// All of them are here; a slice (IdSlice) has some.
-  DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t) const { return true; }
 
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
   {
@@ -105,38 +102,6 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// Values [First, Last) of an output of 32-bit numbers, in an array of their own.
-struct OutputSlice
-{
-  std::uint32_t* Values;
-  std::int64_t First, Last;
-
-  /// Sets value i if it is one of the slice.
-  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t i, std::uint32_t value) const
-  {
-    if (i >= this->First && i < this->Last)
-    {
-      this->Values[i - this->First] = value;
-    }
-  }
-};
-
-/// A slice of ids, three a triangle.
-struct IdSlice
-{
-  OutputSlice Ids;
-
-  /// Whether it has an id of the triangle.
-  DELAUNAYFLIP_HOST_DEVICE bool Holds(std::int64_t triangle) const
-  {
-    return 3 * triangle + 2 >= this->Ids.First && 3 * triangle < this->Ids.Last;
-  }
-  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
-  {
-    this->Ids.Set(3 * triangle + slot, static_cast<std::uint32_t>(vertex));
-  }
-};
-
 /// A triangle mesh with what the caller knows of its edges. Any mesh is accepted: non-manifold,
 /// open, of mixed winding, with duplicate, degenerate or unused parts.
 struct TriangleMesh
@@ -148,10 +113,10 @@ struct TriangleMesh
   const std::int64_t* ConstraintEdges = nullptr;
   std::int64_t NumberOfConstraintEdges = 0;
 
-  /// One label a triangle, or null: edges between triangles of different labels stay.
+  /// One label per triangle, or null: edges between triangles of different labels stay.
   const std::int32_t* Regions = nullptr;
 
-  /// One flag a triangle, or null: the edges of triangles with a flag other than 0 stay.
+  /// One flag per triangle, or null: the edges of triangles with a flag other than 0 stay.
   const unsigned char* FrozenTriangles = nullptr;
 };
 

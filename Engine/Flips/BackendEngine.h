@@ -9,6 +9,7 @@
 #include "FlipLoopChoice.h"
 #include "InputChecks.h"
 #include "MeshSurvey.h"
+#include "OutputSlice.h"
 #include "PackedPoints.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
@@ -29,7 +30,7 @@ struct StoreStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const Target& target) const
   {
     const TriangleRecord& triangle = this->Triangles[t];
-    if (target.Holds(triangle.InputTriangle))
+    if (HasTriangle(target, triangle.InputTriangle))
     {
       for (int slot = 0; slot < 3; ++slot)
       {

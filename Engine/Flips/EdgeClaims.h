@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_EDGECLAIMS_H
 #define DELAUNAYFLIP_EDGECLAIMS_H
 
+#include "Atomics.h"
 #include "EdgeTable.h"
 #include "HostDevice.h"
 
@@ -14,9 +15,9 @@ namespace delaunayflip
 /// The claims of an iteration on the edges that flips would make. Two flips that share no triangle
 /// may make the same edge; then the smaller priority holds it.
 ///
-/// A hash table of words (tag of the edge, smallest priority). Edges with the same tag next to each
-/// other, one pair in billions, are taken for one, which costs one of them an iteration. All words
-/// are Empty between iterations: the holder of a claim gives it back.
+/// A hash table of words (tag of the edge, smallest priority). Two neighbouring edges with the same
+/// tag, one pair in billions, count as one edge, which delays one of them by an iteration. All
+/// words are Empty between iterations, because the holder of a claim releases it.
 struct EdgeClaims
 {
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);
@@ -24,7 +25,8 @@ struct EdgeClaims
   std::uint64_t* Words;
   std::uint32_t Size;
 
-  /// Words for a mesh: winners share no triangle, so they are at most a third of the edges.
+  /// The number of words for a mesh: winners share no triangle, so at most a third of the edges
+  /// win.
   static std::int64_t GetSize(std::int64_t edges) { return edges / 2 + 64; }
 
   DELAUNAYFLIP_HOST_DEVICE void Claim(VertexId a, VertexId b, std::uint32_t priority) const
@@ -63,7 +65,7 @@ struct EdgeClaims
     return AtomicLoad(&this->Words[slot]) == word;
   }
 
-  /// Gives back a claim that is held. Others may be given back meanwhile.
+  /// Releases a claim that is held. Others may be released at the same time.
   DELAUNAYFLIP_HOST_DEVICE void Release(VertexId a, VertexId b, std::uint32_t priority) const
   {
     const std::uint64_t word = MakeWord(a, b, priority);
@@ -82,7 +84,7 @@ private:
     const std::uint64_t key = EdgeKey(a, b);
     const std::uint32_t tag =
       Scatter(static_cast<std::uint32_t>(key) + Scatter(static_cast<std::uint32_t>(key >> 32)));
-    // The largest tag would look Empty with the largest priority.
+    // The largest tag with the largest priority would equal Empty.
     return (std::uint64_t(tag & 0x7FFFFFFFu) << 32) | priority;
   }
 

@@ -11,14 +11,14 @@
 #include <cstdint>
 
 /// @file
-/// May this edge stay, may it flip? One rule a geometry. A rule reads the coordinates of a quad and
-/// returns EdgeState::Good, Bad, BlockedByShape, or Uncertain when plain arithmetic cannot tell;
-/// then JudgeExactly can. Nothing here depends on the order in which edges are judged.
+/// The rules that judge edges, one per geometry. A rule reads the coordinates of a quad and returns
+/// EdgeState::Good, Bad, BlockedByShape, or Uncertain when floating-point arithmetic cannot decide;
+/// JudgeExactly can. Judgements do not depend on the order in which edges are judged.
 
 namespace delaunayflip
 {
 
-/// Signs by plain arithmetic: may be UncertainSign.
+/// Signs by floating-point arithmetic; may be UncertainSign.
 struct FilteredSigns
 {
   DELAUNAYFLIP_HOST_DEVICE static int Orientation(
@@ -33,7 +33,7 @@ struct FilteredSigns
   }
 };
 
-/// Signs that are right.
+/// Exact signs.
 struct ExactSigns
 {
   DELAUNAYFLIP_HOST_DEVICE static int Orientation(
@@ -85,13 +85,13 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
 /// lexicographically largest of them.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
 {
-  // Not by a reference to the larger one: a device would have to put the points in memory.
+  // No reference to the larger one: a device would have to put the points into memory.
   const auto isBelow = [&](const PlanePoint& point)
   { return IsLexicographicallyLess(point, apqb[1]) || IsLexicographicallyLess(point, apqb[2]); };
   return isBelow(apqb[0]) && isBelow(apqb[3]);
 }
 
-/// Two coordinates as a device loads them at once.
+/// Two coordinates, which a device loads in one instruction.
 template <typename Real>
 struct alignas(2 * sizeof(Real)) CoordinatePair
 {
@@ -107,7 +107,7 @@ struct PlanarRule
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
   static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
-  const Real* Coordinates; ///< Components numbers a vertex.
+  const Real* Coordinates; ///< Components numbers per vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
   bool Canonical; ///< Ties are decided, not kept.
   bool FiltersApply; ///< Coordinates are in the filters' range.
@@ -155,7 +155,7 @@ private:
     {
       return EdgeState::Uncertain;
     }
-    // Good or bad is a coin toss: a choice between two values, without a branch.
+    // A selection instead of a branch, which would be mispredicted half of the time.
     EdgeState state = inCircle * side > 0 ? EdgeState::Bad : EdgeState::Good;
     if (inCircle == 0 && this->Canonical && strict && side != 0)
     {

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPSTEPS_H
 #define DELAUNAYFLIP_FLIPSTEPS_H
 
+#include "Atomics.h"
 #include "EdgeFlip.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
@@ -116,7 +117,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
   EdgeId edge, const OuterHalfEdges& outer, bool ap, bool qa, bool pb, bool bq)
 {
   const std::uint32_t own = Priority(edge);
-  // All four are compared, for a branch on each would be a coin toss.
+  // All four are compared, because branches would be mispredicted half of the time.
   const int earlier = (int(ap) & int(Priority(EdgeOf(outer.AP)) < own)) |
     (int(qa) & int(Priority(EdgeOf(outer.QA)) < own)) |
     (int(pb) & int(Priority(EdgeOf(outer.PB)) < own)) |

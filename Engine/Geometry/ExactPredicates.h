@@ -7,8 +7,8 @@
 #include "FixedPoint.h"
 
 /// @file
-/// Signs that are always right: fixed-point integers for coordinates below 2^125 in units of the
-/// last bit of any, which those of nearly all quads are; integers of any width for the others.
+/// Exact signs: by fixed-point integers for coordinates below 2^125 in units of their lowest bit,
+/// which holds for nearly all quads; by integers of any width for the others.
 
 namespace delaunayflip
 {
@@ -136,8 +136,8 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointInCircleIn(
   return SignOf(firstTerm + secondTerm + thirdTerm);
 }
 
-/// In 64 bits what fits them, which takes a third of the time, else in 128; UncertainSign where
-/// neither suffices.
+/// Computes in 64 bits where the offsets fit, which takes a third of the time, else in 128;
+/// UncertainSign where neither suffices.
 DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points)[4], bool tilted)
 {
   const int sign =
@@ -168,6 +168,17 @@ DELAUNAYFLIP_HOST_DEVICE inline int ExactInCircle(const PlanePoint (&points)[4],
 #else
   return sign != UncertainSign ? sign : WideInCircle(points, tilted);
 #endif
+}
+
+/// Turn of a, b, c in (u, v), filtered, then exact: for coordinates of any size. UncertainSign only
+/// on a device.
+DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+{
+  const int sign = FilteredOrientation(a, b, c);
+  const bool certain =
+    sign != UncertainSign && IsInFilterRange(a) && IsInFilterRange(b) && IsInFilterRange(c);
+  return certain ? sign : ExactOrientation(a, b, c);
 }
 
 }

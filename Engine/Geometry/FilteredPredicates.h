@@ -4,17 +4,18 @@
 #define DELAUNAYFLIP_FILTEREDPREDICATES_H
 
 #include "HostDevice.h"
+#include "Vector3.h"
 
 #include <cmath>
 
 /// @file
-/// Signs that plain double arithmetic can certify. Error bounds: Shewchuk 1997, Table 2 and Fig.
+/// Signs that double arithmetic can certify. Error bounds: Shewchuk 1997, Table 2 and Fig.
 /// 21, with 1/1000 added for the terms that underflow.
 
 namespace delaunayflip
 {
 
-/// What a filter returns when it cannot tell.
+/// What a filter returns when it cannot decide.
 constexpr int UncertainSign = 2;
 
 /// A point of the plane of decision: u and v span it; W is the coordinate along the dropped axis,
@@ -30,6 +31,21 @@ struct PlanePoint
 constexpr double SmallestCertifiable = 3.0549363634996047e-151; // 2^-500
 constexpr double LargestFilteredDifference = 1.8092513943330656e75; // 2^250
 
+/// Coordinates up to here have differences of that size.
+constexpr double LargestFilteredCoordinate = LargestFilteredDifference / 2;
+
+/// Whether the filters may be asked about the point's u and v.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange(const PlanePoint& point)
+{
+  return std::fabs(point.U) <= LargestFilteredCoordinate &&
+    std::fabs(point.V) <= LargestFilteredCoordinate;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const PlanePoint& point)
+{
+  return IsFinite(point.U) && IsFinite(point.V) && IsFinite(point.W);
+}
+
 /// Relative to the sum of the products' magnitudes: (3 + 16 eps) eps and (10 + 96 eps) eps with
 /// eps = 2^-53. The lift of a tilted plane has one product and two sums more: (12 + 128 eps) eps.
 constexpr double OrientationBound = 3.34e-16;
@@ -42,7 +58,7 @@ DELAUNAYFLIP_HOST_DEVICE inline double GetBound(double error)
   return error + SmallestCertifiable;
 }
 
-/// Without branches: which way a test goes is a coin toss that no processor predicts.
+/// Without branches, which would be mispredicted half of the time.
 DELAUNAYFLIP_HOST_DEVICE inline int CertifiedSign(double determinant, double error)
 {
   const double bound = GetBound(error);
@@ -74,7 +90,7 @@ struct FilteredDeterminant
   }
 };
 
-/// Of FilteredInCircle.
+/// The determinant of FilteredInCircle.
 DELAUNAYFLIP_HOST_DEVICE inline FilteredDeterminant InCircleDeterminant(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {

@@ -5,6 +5,7 @@
 
 #include "HostDevice.h"
 #include "TriangleMesh.h"
+#include "Vector3.h"
 
 #include <cmath>
 #include <cstdint>
@@ -17,33 +18,6 @@ namespace delaunayflip
 
 constexpr double Pi = 3.14159265358979323846;
 constexpr double DegreesToRadians = Pi / 180.0;
-
-struct Vector3
-{
-  double X = 0.0, Y = 0.0, Z = 0.0;
-};
-
-DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator+(const Vector3& a, const Vector3& b)
-{
-  return { a.X + b.X, a.Y + b.Y, a.Z + b.Z };
-}
-
-DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator-(const Vector3& a, const Vector3& b)
-{
-  return { a.X - b.X, a.Y - b.Y, a.Z - b.Z };
-}
-
-DELAUNAYFLIP_HOST_DEVICE inline double Dot(const Vector3& a, const Vector3& b)
-{
-  return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
-}
-
-DELAUNAYFLIP_HOST_DEVICE inline Vector3 Cross(const Vector3& a, const Vector3& b)
-{
-  return { a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X };
-}
-
-DELAUNAYFLIP_HOST_DEVICE inline double Length(const Vector3& a) { return std::sqrt(Dot(a, a)); }
 
 /// Coordinates of a point times a power of two.
 DELAUNAYFLIP_HOST_DEVICE inline Vector3 LoadScaled(
@@ -58,13 +32,6 @@ struct QuadPoints
 {
   Vector3 A, P, Q, B;
 };
-
-/// Normal of triangle a, b, c; its length is twice the area.
-DELAUNAYFLIP_HOST_DEVICE inline Vector3 AreaVector(
-  const Vector3& a, const Vector3& b, const Vector3& c)
-{
-  return Cross(b - a, c - a);
-}
 
 /// Whether the two triangles' normals differ by more than the angle of that cosine. A triangle
 /// without area has no normal: no.

@@ -9,12 +9,12 @@
 #include <cstdint>
 
 /// @file
-/// Dirt in an input, counted by either backend.
+/// Counts of defects of the input, on either backend.
 
 namespace delaunayflip
 {
 
-/// How many, and the three smallest ids, in any order of counting.
+/// A count and the three smallest ids, whatever the order of counting.
 struct IdSample
 {
   static constexpr int Kept = 3;

@@ -66,8 +66,8 @@ inline bool WasBad(EdgeState state)
   return static_cast<int>(state) >> 1 == 3;
 }
 
-/// Next and previous slot of a triangle, out of a table of two-bit entries: a branch on a slot is a
-/// coin toss that costs more than all the rest of reading a quad.
+/// Next and previous slot of a triangle, from a table of two-bit entries: a branch would be
+/// mispredicted half of the time, which costs more than all the rest of reading a quad.
 DELAUNAYFLIP_HOST_DEVICE inline int NextSlot(int slot) { return (0x09 >> (2 * slot)) & 3; }
 DELAUNAYFLIP_HOST_DEVICE inline int PreviousSlot(int slot) { return (0x12 >> (2 * slot)) & 3; }
 

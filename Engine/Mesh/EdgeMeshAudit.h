@@ -60,7 +60,7 @@ struct EdgeMeshInspector
   }
 
 private:
-  /// Start and end of an edge as the triangle of one side runs through it.
+  /// Start and end of an edge in the direction of the triangle on one side.
   struct Direction
   {
     VertexId Start, End, Opposite;

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_EDGEMESHSTEPS_H
 #define DELAUNAYFLIP_EDGEMESHSTEPS_H
 
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
 #include "HostDevice.h"

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_EDGETABLE_H
 
 #include "Array.h"
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
 
@@ -21,7 +22,7 @@ namespace delaunayflip
 /// Vertex pair of an edge, smaller id first.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t EdgeKey(VertexId a, VertexId b)
 {
-  // Two choices between values, for a branch would be a coin toss.
+  // Two selections instead of a branch, which would be mispredicted half of the time.
   const VertexId smaller = a < b ? a : b;
   const VertexId larger = a < b ? b : a;
   return (std::uint64_t(smaller) << 32) | larger;
@@ -37,8 +38,8 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
   return x ^ (x >> 16);
 }
 
-/// The vertices [First, Last) of the engine's order: a table may be for those edges alone whose
-/// smaller vertex is one of them.
+/// The vertices [First, Last) of the engine's order. A table may be restricted to the edges whose
+/// smaller vertex is in such a slice.
 struct VertexSlice
 {
   VertexId First, Last;
@@ -52,22 +53,23 @@ struct VertexSlice
 
 /// Plain pointers to an EdgeTable, for functions of both backends.
 ///
-/// A key is sought first near the place that its smaller vertex has in the order of vertices, so
-/// that neighbours in the mesh share cache lines; when NearProbes slots there are taken (a vertex
-/// of very many edges), at places that the whole pair decides. No vertex degree makes a search
-/// long.
+/// A search for a key begins near the place that its smaller vertex has in the order of vertices,
+/// so that neighbours in the mesh share cache lines. When NearProbes slots there are taken (at a
+/// vertex of very many edges), it continues at places given by a hash of the whole pair. So
+/// searches are short whatever the vertex degrees.
 struct EdgeTableView
 {
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);
   static constexpr std::uint64_t Removed = Empty - 1;
   static constexpr std::uint32_t NoSlot = 0xFFFFFFFFu;
-  static constexpr std::uint32_t NearSlots = 64; ///< Over which the edges of a vertex are spread.
+  static constexpr std::uint32_t NearSlots =
+    64; ///< The edges of a vertex are spread over this many slots.
   static constexpr std::uint32_t NearProbes = 8;
   static constexpr std::uint32_t FarSlots = 1u << 12;
   static constexpr int StrideBits = 24;
 
   std::uint64_t* Keys;
-  std::uint32_t* First; ///< Two words of the user's with every key.
+  std::uint32_t* First; ///< Two words per key, for the user of the table.
   std::uint32_t* Second;
   std::uint32_t Capacity; ///< Below 2^32, so that Stride times a vertex fits 64 bits.
   VertexSlice Slice;
@@ -101,8 +103,7 @@ struct EdgeTableView
       }
       slot = slot + 1 < this->Capacity ? slot + 1 : 0;
     }
-    // Each place on its own: vertices of many edges fill stretches that are thousands of slots
-    // long.
+    // Scattered places: vertices of many edges fill stretches of thousands of slots.
     for (std::uint32_t i = 0; i < FarSlots; ++i)
     {
       scattered = Scatter(scattered + 0x9e3779b9u);
@@ -115,7 +116,7 @@ struct EdgeTableView
     return NoSlot;
   }
 
-  /// Asks for the slot at which a search for `key` begins, and its words.
+  /// Prefetches the slot at which a search for `key` begins, and its words.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
   {
     const VertexId smaller = static_cast<VertexId>(key >> 32);
@@ -148,7 +149,7 @@ struct EdgeTableView
       [&](std::uint32_t candidate)
       {
 #if DELAUNAYFLIP_ON_DEVICE
-        // One way to memory, whether the key is there or not.
+        // One access to memory, whether the key is there or not.
         std::uint64_t seen = Empty;
 #else
         std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
@@ -192,12 +193,13 @@ class EdgeTable
 public:
   EdgeTable() = default;
 
-  /// An empty table with room for `edges` edges, with or without the two words a key.
+  /// An empty table with room for `edges` edges, with or without the two words per key.
   template <typename Backend>
   EdgeTable(std::int64_t edges, const VertexSlice& slice, bool withWords, const Backend& backend)
     : Slice(slice)
   {
-    // Share of slots in use when every expected edge is in: searches stay short, memory small.
+    // Share of slots in use when all expected edges are in: a compromise between short searches and
+    // little memory.
     constexpr double FillFactor = 0.6;
     const std::int64_t wanted =
       static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
@@ -219,14 +221,14 @@ public:
   bool IsEmpty() const { return this->Keys.Size() == 0; }
   std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
 
-  /// Gives back the words' memory; the keys stay.
+  /// Frees the memory of the words; the keys stay.
   void DropWords()
   {
     this->First = Array<std::uint32_t>();
     this->Second = Array<std::uint32_t>();
   }
 
-  /// Forgets all keys; words become NoCorner. Public because device lambdas ask for it.
+  /// Removes all keys; words become NoCorner. Public because device lambdas ask for it.
   template <typename Backend>
   static void Clear(const EdgeTableView& table, bool withWords, const Backend& backend)
   {

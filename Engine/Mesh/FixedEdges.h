@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FIXEDEDGES_H
 #define DELAUNAYFLIP_FIXEDEDGES_H
 
+#include "Atomics.h"
 #include "Defects.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"

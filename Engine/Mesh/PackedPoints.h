@@ -14,7 +14,8 @@
 #include <cstdint>
 
 /// @file
-/// The coordinates that decide, in the engine's order of vertices and in the caller's precision.
+/// The coordinates that rules read, in the engine's order of vertices and in the caller's
+/// precision.
 
 namespace delaunayflip
 {
@@ -48,7 +49,7 @@ struct PackedPointsView
   }
 };
 
-/// Components numbers a vertex: (u, v) in the plane, (u, v, w) in a tilted one, (x, y, z) on
+/// Components numbers per vertex: (u, v) in the plane, (u, v, w) in a tilted one, (x, y, z) on
 /// surfaces.
 struct PackedPoints
 {

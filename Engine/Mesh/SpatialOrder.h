@@ -34,7 +34,7 @@ struct SpatialOrderView
   {
     return this->RankOfVertex ? this->RankOfVertex[vertex] : static_cast<VertexId>(vertex);
   }
-  /// Asks for a vertex's rank ahead of its use.
+  /// Prefetches the rank of a vertex.
   DELAUNAYFLIP_HOST_DEVICE void PrefetchRank(std::int64_t vertex) const
   {
     if (this->RankOfVertex)
@@ -144,10 +144,10 @@ struct TriangleKey
   }
 };
 
-/// Vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in planar
-/// geometry, 128^3 on surfaces), triangles by the rank of their first vertex: the triangles of a
-/// fan are together, so that rounds within chunks do more than by the median rank, 51 instead of 43
-/// of 100 flips of the random bad mesh of 5 M points (Documentation/performance.md).
+/// Sorts the vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in
+/// planar geometry, 128^3 on surfaces) and the triangles by the rank of their first vertex. So the
+/// triangles of a star are together: iterations within chunks then do 51 instead of 43 of 100 flips
+/// of the random bad mesh of 5 M points (Documentation/performance.md).
 template <typename Backend>
 SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
 {

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_STARSURVEY_H
 
 #include "Array.h"
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
 #include "FlipError.h"
@@ -15,28 +16,6 @@
 
 namespace delaunayflip
 {
-
-DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const PlanePoint& point)
-{
-  // A difference with itself is 0 for finite numbers only.
-  return point.U - point.U == 0.0 && point.V - point.V == 0.0;
-}
-
-DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange(const PlanePoint& point)
-{
-  constexpr double Half = LargestFilteredDifference / 2;
-  return std::fabs(point.U) <= Half && std::fabs(point.V) <= Half;
-}
-
-/// Turn of a, b, c. UncertainSign only on a device.
-DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
-  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
-{
-  const int sign = FilteredOrientation(a, b, c);
-  const bool certain =
-    sign != UncertainSign && IsInFilterRange(a) && IsInFilterRange(b) && IsInFilterRange(c);
-  return certain ? sign : ExactOrientation(a, b, c);
-}
 
 /// What is found at vertices.
 struct StarSums
@@ -111,7 +90,7 @@ private:
   /// Whether direction v-p lies in the half plane v > 0, or on its border with u > 0.
   DELAUNAYFLIP_HOST_DEVICE static bool IsUpper(const PlanePoint& v, const PlanePoint& p)
   {
-    // Without branches, which would be coin tosses.
+    // Without branches, which would be mispredicted half of the time.
     return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
   }
 

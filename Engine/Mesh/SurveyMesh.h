@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_SURVEYMESH_H
 #define DELAUNAYFLIP_SURVEYMESH_H
 
+#include "Atomics.h"
 #include "FlipError.h"
 #include "MeshSurvey.h"
 #include "PlaneFinder.h"

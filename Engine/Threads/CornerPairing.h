@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_CORNERPAIRING_H
 
 #include "Array.h"
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
@@ -235,7 +236,7 @@ private:
       std::uint32_t place =
         static_cast<std::uint32_t>((((key * 0x9e3779b97f4a7c15u) >> 32) * capacity) >> 32);
       std::uint64_t seen = keys[place];
-      // While neither is 0, by one branch: whether an edge is new would be a coin toss.
+      // Both tests in one branch: whether an edge is new cannot be predicted.
       while (std::min(seen ^ key, seen ^ Empty) != 0)
       {
         place = (place + 1) & (capacity - 1);

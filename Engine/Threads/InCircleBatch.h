@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_INCIRCLEBATCH_H
 #define DELAUNAYFLIP_INCIRCLEBATCH_H
 
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
 #include "FlipRules.h"
@@ -53,7 +54,7 @@ public:
     }
   }
 
-  /// Takes the i-th of the edges, i = 0, 1 and so on, and judges when there are enough.
+  /// Adds the i-th of the edges, in order from 0, and judges a batch when it is full.
   void Add(const EdgeId* edges, std::int64_t i, const Vertices& vertices, StepCounts& counts)
   {
     const std::int64_t lane = i % Size;
@@ -68,7 +69,7 @@ public:
     }
   }
 
-  /// Judges what is left of `size` edges.
+  /// Judges the edges that are left over, of `size` in all.
   void Finish(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
     this->Judge(edges + size / Size * Size, size % Size, counts);
@@ -85,7 +86,7 @@ private:
 
   void Judge(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
-    // Of the width of the numbers that decide, so that they stay in their lanes.
+    // As wide as the numbers that decide, so that results stay in their lanes.
     std::int64_t states[Size];
     const auto side = static_cast<double>(this->Decision.UniformSide);
     for (int i = 0; i < Size; ++i)

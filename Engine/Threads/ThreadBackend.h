@@ -8,6 +8,7 @@
 #include "EdgeMeshSteps.h"
 #include "FlipEngine.h"
 #include "HostMemory.h"
+#include "OutputSlice.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Atomics.h"
 #include "SectorRates.h"
 
 #include "CudaDevice.h"
