@@ -214,9 +214,9 @@ void ExpectSameRows(const std::vector<IterationRecord>& a, const std::vector<Ite
 
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
-  const auto& [points, triangles, edges, euler, geometry, backend, fallback, iterations, flips,
-    excluded, blocked, badBefore, badAfter, angleBefore, angleAfter, stopReason, buildSeconds,
-    flipSeconds, defects] = b;
+  const auto& [points, triangles, edges, unmatched, euler, geometry, backend, fallback, iterations,
+    flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter, stopReason,
+    buildSeconds, flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
   static_cast<void>(buildSeconds);
@@ -224,6 +224,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.Points, points);
   EXPECT_EQ(a.Triangles, triangles);
   ExpectSameEdges(a.Edges, edges);
+  EXPECT_EQ(a.UnmatchedConstraints, unmatched);
   EXPECT_EQ(a.EulerCharacteristic, euler);
   EXPECT_EQ(a.GeometryUsed, geometry);
   ExpectSameRows(a.Iterations, iterations);
