@@ -158,7 +158,6 @@ __device__ void GuardBadEdges(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
   const EdgeBits& bits = loop.Bits;
-  const GuardStep guard{ { loop.Mesh }, loop.Guard.Edges };
   unsigned allBad = 0, allBlockedByEdge = 0;
   worklist.Run(
     team, loop.Mesh,
@@ -176,7 +175,7 @@ __device__ void GuardBadEdges(
       {
         return;
       }
-      const bool isBad = guard.Decide(guard.Load(edge)) == EdgeState::Bad;
+      const bool isBad = DecideByGuard(loop.Guard.Edges, loop.Mesh.GetQuad(edge)) == EdgeState::Bad;
       EdgeBits::Set(isBad ? bits.Bad : bits.BlockedByEdge, edge);
       allBad += isBad ? 1 : 0;
       allBlockedByEdge += isBad ? 0 : 1;

@@ -88,12 +88,11 @@ __device__ void ChooseAndFlip(
 template <typename Rule, typename Worklist>
 __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  const ChooseStep choose{ loop.Mesh };
   worklist.Run(
     team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Bad); },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      if (edge != NoEdge && Wins(loop, edge, choose.Load(corners)))
+      if (edge != NoEdge && Wins(loop, edge, GetOuterHalfEdges(loop.Mesh, corners.A, corners.B)))
       {
         EdgeBits::Set(loop.Bits.Winners, edge);
       }
@@ -143,7 +142,6 @@ __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, co
 template <typename Rule, typename Worklist>
 __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  const SurgeryStep surgery{ { loop.Mesh }, loop.Guard };
   StepCounts counts;
   worklist.Run(
     team, loop.Mesh,
@@ -171,7 +169,7 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
         ++counts.Flipped;
         if (HasGuard<Worklist>(loop))
         {
-          surgery.TellGuard(edge, quad, counts);
+          TellGuard(loop.Guard, edge, quad, counts);
         }
         MarkOuter(loop, outer);
       }

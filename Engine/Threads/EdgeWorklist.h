@@ -4,10 +4,10 @@
 #define DELAUNAYFLIP_EDGEWORKLIST_H
 
 #include "EdgeMesh.h"
-#include "FlipSteps.h"
 #include "InCircleBatch.h"
 #include "StateWords.h"
 #include "ThreadBackend.h"
+#include "ThreadSteps.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -8,8 +8,8 @@
 #include "EdgeMesh.h"
 #include "EdgeWorklist.h"
 #include "FlipLoop.h"
-#include "FlipSteps.h"
 #include "ThreadBackend.h"
+#include "ThreadSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +46,7 @@ public:
   }
 
 protected:
+  /// Passes 1 to 3.
   StepCounts DetectAll() override
   {
     const EdgeMeshView mesh = this->Mesh.View();
@@ -126,7 +127,7 @@ private:
       this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
     }
     const StepCounts flips = this->Worklist.Run(
-      this->Backend, FlipStep{ { { mesh }, guard }, this->Worklist.GetFlags() }); // pass 6
+      this->Backend, FlipStep{ { mesh }, guard, this->Worklist.GetFlags() }); // pass 6
     if (guard.Active)
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
@@ -139,7 +140,7 @@ private:
   {
     const EdgeMeshView mesh = this->Mesh.View();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
-    const ChooseAndFlipStep flip{ { { { mesh }, EdgeGuardView{} }, worklist.GetFlags() } };
+    const ChooseAndFlipStep flip{ { { mesh }, EdgeGuardView{}, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
     std::vector<IterationCounts> counts(plan.Iterations);
     for (std::int64_t i = 0; i < plan.Iterations; ++i)

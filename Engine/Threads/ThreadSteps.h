@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_THREADSTEPS_H
+#define DELAUNAYFLIP_THREADSTEPS_H
+
+#include "Atomics.h"
+#include "EdgeFlip.h"
+#include "EdgeGuard.h"
+#include "EdgeMesh.h"
+#include "FlipRules.h"
+#include "FlipSteps.h"
+#include "StepCounts.h"
+
+#include <cstdint>
+
+/// @file
+/// The steps that a worklist of threads runs, each for one edge. Steps of passes 1 and 2 say which
+/// states they want; the others take the bad edges and, of these, the winners. All edges of a step
+/// may run at once; each step says what it writes that others may read at the same time. Load(edge)
+/// reads what a step begins with, and Prefetch requests what operator() will read, one level of
+/// indirection ahead.
+
+namespace delaunayflip
+{
+
+/// A flag per segment of 1024 edges, for some segments.
+struct SegmentFlags
+{
+  static constexpr int SegmentBits = 10;
+
+  std::uint8_t* Flags;
+  std::int64_t FirstSegment;
+
+  /// Flags the segment of an edge.
+  void Set(EdgeId edge) const
+  {
+    std::uint8_t* flag = &this->Flags[(edge >> SegmentBits) - this->FirstSegment];
+    if (AtomicLoad(flag) == 0)
+    {
+      AtomicStore(flag, std::uint8_t(1));
+    }
+  }
+};
+
+/// What steps on quads share.
+struct QuadStep
+{
+  EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_ALWAYS_INLINE Quad Load(EdgeId edge) const { return this->Mesh.GetQuad(edge); }
+  void Prefetch(const Quad&) const {}
+};
+
+/// Pass 1: judges candidates by floating-point arithmetic. Writes the edge's own state, which no
+/// other edge's step reads.
+template <typename Rule>
+struct JudgeStep : QuadStep
+{
+  Rule Decision;
+
+  static constexpr StateRange Wanted{ EdgeState::Excluded, EdgeState::Candidate };
+  void Prefetch(const Quad& quad) const
+  {
+    delaunayflip::Prefetch(this->Decision.Address(quad.A));
+    delaunayflip::Prefetch(this->Decision.Address(quad.P));
+    delaunayflip::Prefetch(this->Decision.Address(quad.Q));
+    delaunayflip::Prefetch(this->Decision.Address(quad.B));
+  }
+  void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  {
+    const EdgeState state = this->Decision.Judge(quad);
+    AtomicStore(&this->Mesh.States[edge], state);
+    ++counts.Tested;
+    counts.Uncertain += state == EdgeState::Uncertain ? 1 : 0;
+  }
+};
+
+/// Pass 1: judges exactly the edges that JudgeStep could not decide. Writes the edge's own state.
+template <typename Rule>
+struct ResolveStep : QuadStep
+{
+  Rule Decision;
+
+  static constexpr StateRange Wanted{ EdgeState::Uncertain, EdgeState::Uncertain };
+  void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  {
+    AtomicStore(&this->Mesh.States[edge], this->Decision.JudgeExactly(quad));
+  }
+};
+
+/// Pass 2: blocks bad edges whose flip would make an edge that exists, and frees those whose
+/// obstacle has gone. Reads the guard table, which does not change meanwhile; writes the edge's own
+/// state.
+struct GuardStep : QuadStep
+{
+  EdgeTableView Edges;
+
+  static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
+  void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  {
+    AtomicStore(&this->Mesh.States[edge], DecideByGuard(this->Edges, quad));
+  }
+};
+
+/// Pass 4: chooses an independent set: a bad edge wins when no bad edge of its two triangles has a
+/// smaller priority. Reads the states of neighbours, which do not change meanwhile.
+struct ChooseStep
+{
+  EdgeMeshView Mesh;
+
+  DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(edge);
+    return GetOuterHalfEdges(this->Mesh, corners.A, corners.B);
+  }
+  void Prefetch(const OuterHalfEdges& outer) const
+  {
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.AP)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.QA)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.PB)]);
+    delaunayflip::Prefetch(&this->Mesh.States[EdgeOf(outer.BQ)]);
+  }
+  /// @returns whether the edge wins.
+  bool operator()(EdgeId edge, const OuterHalfEdges& outer) const
+  {
+    // All four loads are issued before any result is used.
+    const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
+    const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
+    // Most edges have no bad neighbour, so a branch pays.
+    const bool alone = (int(ap) | int(qa) | int(pb) | int(bq)) == 0;
+    return alone || IsFirst(edge, outer, ap, qa, pb, bq);
+  }
+
+private:
+  bool IsBad(HalfEdgeId halfEdge) const
+  {
+    return WasBad(AtomicLoad(&this->Mesh.States[EdgeOf(halfEdge)]));
+  }
+};
+
+/// Pass 5: winners claim the edge that they would make (EdgeClaims.h).
+struct ClaimStep : QuadStep
+{
+  EdgeClaims Claims;
+
+  void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  {
+    this->Claims.Claim(quad.A, quad.B, Priority(edge));
+  }
+};
+
+/// Pass 5: winners that do not hold their claim wait, and stay bad.
+struct ConfirmStep : QuadStep
+{
+  EdgeClaims Claims;
+
+  /// @returns whether the edge still wins.
+  bool operator()(EdgeId edge, const Quad& quad) const
+  {
+    return this->Claims.Holds(quad.A, quad.B, Priority(edge));
+  }
+};
+
+/// Pass 6: flips the winners, which share no triangle, and makes their outer edges candidates. Two
+/// flips may mark the same outer edge, both with the same value; an edge that sits out keeps its
+/// state.
+struct FlipStep : QuadStep
+{
+  EdgeGuardView Guard;
+  SegmentFlags Active;
+
+  void Prefetch(const Quad& quad) const
+  {
+    this->PrefetchOuter(GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB));
+  }
+  void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
+  {
+    this->FlipAndMark(edge, quad, counts, EdgeState::Candidate);
+  }
+
+protected:
+  void PrefetchOuter(const OuterHalfEdges& outer) const
+  {
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
+    delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
+    ChooseStep{ this->Mesh }.Prefetch(outer);
+  }
+
+  /// @param excluded what becomes of outer edges that are bad.
+  DELAUNAYFLIP_ALWAYS_INLINE void FlipAndMark(
+    EdgeId edge, const Quad& quad, StepCounts& counts, EdgeState excluded) const
+  {
+    TriangleRecord* triangles = this->Mesh.Triangles;
+    const OuterHalfEdges outer =
+      FlipEdge(this->Mesh, edge, quad, triangles[TriangleOf(quad.CornerA)],
+        triangles[TriangleOf(quad.CornerB)], [](int, TriangleId, const TriangleRecord&) {});
+    ++counts.Flipped;
+    if (this->Guard.Active)
+    {
+      TellGuard(this->Guard, edge, quad, counts);
+    }
+    AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
+    this->Mark(EdgeOf(outer.AP), excluded);
+    this->Mark(EdgeOf(outer.QA), excluded);
+    this->Mark(EdgeOf(outer.PB), excluded);
+    this->Mark(EdgeOf(outer.BQ), excluded);
+  }
+
+private:
+  void Mark(EdgeId edge, EdgeState excluded) const
+  {
+    EdgeState* state = &this->Mesh.States[edge];
+    const EdgeState seen = AtomicLoad(state);
+    if (seen == EdgeState::Fixed || seen == EdgeState::Deferred)
+    {
+      return;
+    }
+    // A store costs less than a branch that cannot be predicted.
+    AtomicStore(state, WasBad(seen) ? excluded : EdgeState::Candidate);
+    this->Active.Set(edge);
+  }
+};
+
+/// Passes 4 and 6 in one, for a single thread: the same flips as by ChooseStep for all edges and
+/// FlipStep after it. A bad edge next to one that has flipped becomes Excluded, which still counts
+/// as bad when its neighbours choose. So choices go by the states before the first flip; and
+/// nothing that the choice of an edge reads changes before it, unless the edge is excluded.
+struct ChooseAndFlipStep : FlipStep
+{
+  DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
+  {
+    return ChooseStep{ this->Mesh }.Load(edge);
+  }
+  void Prefetch(const OuterHalfEdges& outer) const { this->PrefetchOuter(outer); }
+  /// @returns whether the edge wins.
+  bool Choose(EdgeId edge, const OuterHalfEdges& outer) const
+  {
+    return AtomicLoad(&this->Mesh.States[edge]) == EdgeState::Bad &&
+      ChooseStep{ this->Mesh }(edge, outer);
+  }
+  void operator()(EdgeId edge, StepCounts& counts) const
+  {
+    this->FlipAndMark(edge, this->Mesh.GetQuad(edge), counts, EdgeState::Excluded);
+  }
+};
+
+}
+
+#endif
