@@ -111,7 +111,7 @@ void DeviceMemory::Free(void* memory, std::size_t) noexcept
   const cudaError_t error = this->Pool ? cudaFreeAsync(memory, this->Stream) : cudaFree(memory);
   if (error != cudaSuccess)
   {
-    cudaGetLastError(); // nobody is left to be told
+    cudaGetLastError(); // there is no caller left to report to
   }
 }
 

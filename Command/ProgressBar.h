@@ -19,7 +19,7 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `fraction` 0 .. 1. Draws a changed fraction at most ten times a second.
+  /// `fraction` 0 .. 1. Draws a changed fraction at most ten times per second.
   void Show(double fraction, const std::string& text);
 
   /// Draws at once.

@@ -39,7 +39,7 @@ public:
 
   /// Runs at most `iterations` more iterations (-1: until a stop). Ends earlier when converged, at
   /// the limit of the options, or when an observer returns false. The next call goes on from there.
-  /// @returns whether there is more to do and nobody stopped it.
+  /// @returns whether there is more to do and the run was not stopped.
   /// @throws as the constructor, where that was stopped.
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});

@@ -23,7 +23,7 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
 /// of their slot. A normal that pointed against the winding does so again.
 void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output);
 
-/// Adds the cell array vtkDelaunayFlipCount. `counts`: one a triangle of `slots`.
+/// Adds the cell array vtkDelaunayFlipCount. `counts`: one per triangle of `slots`.
 void AddFlipCounts(
   const std::vector<std::int32_t>& counts, const TriangleSlots& slots, vtkPolyData* output);
 

@@ -76,7 +76,7 @@ private:
   /// Where a warm start begins; empty for other runs.
   struct Start
   {
-    std::vector<std::int64_t> Triangles; ///< Vertex ids, three a slot.
+    std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
     std::int64_t Constraints = 0; ///< How many edges of the first mesh they held.
     std::int64_t UnmatchedConstraints = 0;

@@ -99,7 +99,7 @@ std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
   return static_cast<std::int64_t>(crowded.size() - found.size());
 }
 
-/// For ids that nobody has checked.
+/// For ids that have not been checked.
 std::int64_t PlaceMatch::GetPlace(std::int64_t point) const
 {
   const bool isPoint = point >= 0 && point < static_cast<std::int64_t>(this->PlaceOfPoint.size());

@@ -62,7 +62,7 @@ private:
   PointArray Points;
   TriangleSlots Slots;
   ConstraintEdges Constraints;
-  std::vector<std::int32_t> Regions; ///< Empty, or one a triangle.
+  std::vector<std::int32_t> Regions; ///< Empty, or one per triangle.
   std::vector<unsigned char> Frozen; ///< Empty, or one a triangle.
 };
 

@@ -104,7 +104,8 @@ std::vector<std::int32_t> LabelRegions(vtkPolyData* mesh, const std::string& nam
   }
   if (array->GetNumberOfTuples() != mesh->GetNumberOfCells())
   {
-    throw InvalidOptions("RegionArray: \"" + name + "\" has not one tuple a cell.");
+    throw InvalidOptions(
+      "RegionArray: \"" + name + "\" must have as many tuples as the mesh has cells.");
   }
   std::vector<std::int32_t> labels(mesh->GetNumberOfCells());
   vtkDataArray* numbers = vtkArrayDownCast<vtkDataArray>(array);

@@ -29,7 +29,7 @@ public:
   {
   }
 
-  /// One value an iteration.
+  /// One value per iteration.
   template <typename ArrayT, typename Member>
   void AddColumn(const char* name, Member member) const
   {

@@ -14,7 +14,7 @@ struct FlipReport;
 /// of his own. A table, which has nothing else, needs no prefix.
 constexpr const char* FieldPrefix = "DelaunayFlip:";
 
-/// Adds one array for each column of the iterations, with one tuple an iteration. Arrays of equal
+/// Adds one array for each column of the iterations, with one tuple per iteration. Arrays of equal
 /// names are replaced.
 void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldData* data);
 

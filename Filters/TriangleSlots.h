@@ -104,7 +104,7 @@ private:
   vtkIdType FirstStrip;
   TriangleArray Triangles;
 
-  // Empty in place. One entry a triangle (Ids: three):
+  // Empty in place. One entry per triangle (Ids: three):
   std::vector<std::int64_t> Ids;
   std::vector<vtkIdType> Cells;
   std::vector<unsigned char> Frozen;

@@ -22,7 +22,7 @@
  * changed triangles. Where a cell was split, global cell ids become pedigree ids, since they are no
  * longer unique. Output cells are ordered verts, lines, polygons (triangles of strips after those
  * of the polygons), strips; cells of fewer than three points pass as they are. On port 1 a vtkTable
- * with one row an iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
+ * with one row per iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
  * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
  * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
  * NonDelaunayEdges, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,

@@ -303,7 +303,7 @@ void vtkDelaunayFlipLiveView::ShowStatus()
     this->Scene->SetStatus("", false);
     return;
   }
-  // Off screen nobody waits for a key: who calls Step() runs it.
+  // Off screen there are no keys: the caller of Step() drives it.
   const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
   const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
     this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() };

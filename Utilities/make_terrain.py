@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a terrain as surveyors deliver it and as nobody should triangulate it.
+"""Writes a terrain as surveyors deliver it, triangulated badly.
 
 Fractal mountains, sampled at scattered points that are denser where the relief is rougher, with
 coordinates in metres and an offset like that of UTM. The triangles come from plain insertion: every

@@ -47,7 +47,7 @@ public:
       { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
   }
 
-  /// Slots that flips may use for the first time before the table must be made anew.
+  /// Slots that flips may use for the first time before the table must be rebuilt.
   std::int64_t GetFreshSlotsLeft() const
   {
     // Share of slots ever used above which searches for absent edges get long.

@@ -29,7 +29,7 @@ public:
   virtual ~FlipEngine() = default;
 
   /// Makes the engine's device current in the calling thread for as long as the result is kept;
-  /// null where there is no device. Whoever calls another function does this first.
+  /// null where there is no device. Call it before any other function.
   virtual std::unique_ptr<DeviceScope> MakeCurrent() const = 0;
 
   virtual FlipLoop& GetLoop() = 0;

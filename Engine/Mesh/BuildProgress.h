@@ -43,7 +43,7 @@ struct BuildAborted
 class BuildProgress
 {
 public:
-  /// Tells nobody.
+  /// Without an observer.
   BuildProgress() = default;
   explicit BuildProgress(ProgressObserver observer)
     : Observer(std::move(observer))

@@ -182,7 +182,7 @@ struct EdgeMeshView
   }
 };
 
-/// Asks for both triangles of an edge; for the one that is missing, at an address that nobody
+/// Prefetches both triangles of an edge; for a missing one, an address that no thread
 /// reads.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void PrefetchTriangles(
   const EdgeMeshView& mesh, EdgeId edge)

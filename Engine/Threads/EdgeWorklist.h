@@ -17,7 +17,7 @@
 /// The worklist of a range of edges: segments of 1024, a flag for every segment that holds
 /// something to do. A detection looks at flagged segments only and finds its candidates by their
 /// states, in order, each once, so it costs what is active in it. It lists what is bad; the rest of
-/// an iteration goes by these lists, one a task.
+/// an iteration goes by these lists, one per task.
 
 namespace delaunayflip
 {

@@ -103,7 +103,7 @@ def show(flip, most_flips):
 
 
 def animate(flip, iterations):
-    """MaximumIterations runs from 0 to the last, one a frame."""
+    """MaximumIterations runs from 0 to the last, one per frame."""
     scene = simple.GetAnimationScene()
     scene.PlayMode = "Sequence"
     scene.NumberOfFrames = iterations + 1

@@ -10,7 +10,7 @@
  * Image and rectilinear data are planar: terrain becomes a surface by Warp By Scalar first.
  *
  * A dataset with other cells is an error. As a block of a composite dataset it passes unchanged,
- * with one warning an update.
+ * with one warning per update.
  */
 #ifndef vtkPVDelaunayFlip_h
 #define vtkPVDelaunayFlip_h
