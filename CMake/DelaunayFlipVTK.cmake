@@ -23,7 +23,7 @@ if(DELAUNAYFLIP_BUILD_TESTING)
   list(APPEND delaunayflip_vtk FiltersCore FiltersVerdict IOImage RenderingCore RenderingOpenGL2
     TestingRendering)
 endif()
-set(delaunayflip_vtk_optional WrappingPythonCore WrappingTools ${delaunayflip_vtk_drawing})
+set(delaunayflip_vtk_optional ParallelCore WrappingPythonCore WrappingTools ${delaunayflip_vtk_drawing})
 list(REMOVE_ITEM delaunayflip_vtk_optional ${delaunayflip_vtk}) # CMake allows no component in both
 find_package(VTK 9.1 REQUIRED
   COMPONENTS ${delaunayflip_vtk}

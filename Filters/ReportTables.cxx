@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReportTables.h"
 
-#include "FlipReport.h"
+#include "UpdateReport.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -78,9 +78,10 @@ void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldD
   writer.AddColumn<vtkDoubleArray>("Seconds", &IterationRecord::Seconds);
 }
 
-void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data)
+void AddFieldData(const UpdateReport& report, vtkFieldData* data)
 {
-  const ArrayWriter writer(report, prefix, data);
+  // The totals first: ParaView lists no field data when the first array is empty.
+  const ArrayWriter writer(report, FieldPrefix, data);
   writer.AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0);
   writer.AddValue<vtkStringArray>("StopReason", ToString(report.StopReason));
   writer.AddValue<vtkIdTypeArray>("TotalFlips", report.TotalFlips);
@@ -89,8 +90,17 @@ void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data)
   writer.AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold);
   writer.AddValue<vtkIdTypeArray>("ConstraintEdges", report.Edges.Constraint);
   writer.AddValue<vtkIdTypeArray>("UnmatchedConstraintEdges", report.UnmatchedConstraints);
-  writer.AddValue<vtkStringArray>("GeometryUsed", ToString(report.GeometryUsed));
+  writer.AddValue<vtkStringArray>("GeometryUsed", report.GetGeometryName());
   writer.AddValue<vtkStringArray>("Backend", report.Backend);
+  AddIterationColumns(report, FieldPrefix, data);
+}
+
+void RenewFieldData(const UpdateReport& report, vtkFieldData* data)
+{
+  if (data->HasArray((std::string(FieldPrefix) + "Converged").c_str()))
+  {
+    AddFieldData(report, data);
+  }
 }
 
 }

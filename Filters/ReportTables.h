@@ -9,6 +9,7 @@ namespace delaunayflip
 {
 
 struct FlipReport;
+struct UpdateReport;
 
 /// How the names of arrays begin in the field data of a mesh, where the user may have a "Seconds"
 /// of his own. A table, which has nothing else, needs no prefix.
@@ -18,8 +19,12 @@ constexpr const char* FieldPrefix = "DelaunayFlip:";
 /// names are replaced.
 void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldData* data);
 
-/// Adds the arrays of one tuple that sum the run up. Arrays of equal names are replaced.
-void AddTotals(const FlipReport& report, const char* prefix, vtkFieldData* data);
+/// Adds these columns, and arrays of one tuple that sum the run up, to the field data of a mesh.
+/// Arrays of equal names are replaced.
+void AddFieldData(const UpdateReport& report, vtkFieldData* data);
+
+/// Does so where it was done before.
+void RenewFieldData(const UpdateReport& report, vtkFieldData* data);
 
 }
 

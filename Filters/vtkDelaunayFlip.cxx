@@ -4,26 +4,18 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "FlipError.h"
-#include "FlipFailure.h"
 #include "FlipRun.h"
-#include "HostProgram.h"
-#include "ReportTables.h"
-#include "TimedAdvance.h"
-#include "VersionDifferences.h"
+#include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
-#include "vtkDataSetAttributes.h"
-#include "vtkErrorCode.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -44,18 +36,8 @@ static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 2
 vtkStandardNewMacro(vtkDelaunayFlip);
 
 //------------------------------------------------------------------------------
-struct vtkDelaunayFlip::Connection
-{
-  vtkPolyData* Input;
-  vtkPolyData* Constraints; ///< Or null.
-  vtkPolyData* Output;
-  vtkTable* Iterations;
-  bool IsPiece; ///< Of a mesh that several processes share.
-};
-
-//------------------------------------------------------------------------------
 vtkDelaunayFlip::vtkDelaunayFlip()
-  : Report(new FlipReport)
+  : Report(new UpdateReport)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -101,193 +83,46 @@ int vtkDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
-  return this->Superclass::FillInputPortInformation(port, info);
+  this->Superclass::FillInputPortInformation(port, info);
+  // Else the executive would run the filter once a block: nothing would know of all of them.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
 }
 
 int vtkDelaunayFlip::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 1)
-  {
-    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-    return 1;
-  }
-  return this->Superclass::FillOutputPortInformation(port, info);
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkDataObject");
+  return 1;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeBool vtkDelaunayFlip::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // Later requests, and RequestData, see block after block in the place of a composite input.
-  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_TIME()))
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
-    this->HasCompositeInput = vtkCompositeDataSet::GetData(inputVector[0], 0) != nullptr;
-    this->HasWarnedOfComposite = false;
+    return this->RequestDataObject(request, inputVector, outputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
-//------------------------------------------------------------------------------
-int vtkDelaunayFlip::RequestData(
+/// Port 0: composite data of the input's type, or a mesh.
+int vtkDelaunayFlip::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const Connection data{ vtkPolyData::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
-    vtkPolyData::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
-    vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(
-      outputVector->GetInformationObject(0)) > 1 };
-  this->HasExecuted = true;
-  this->SetFailure(Attempt([&]() { this->Flip(data); }));
-  if (this->Failure != FAILURE_NONE)
+  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
+  const std::string type = blocks ? blocks->GetClassName() : "vtkPolyData";
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (!output || type != output->GetClassName())
   {
-    *this->Report = FlipReport();
-    this->MayGoOn = false;
-    data.Output->Initialize();
-    data.Iterations->Initialize();
-    AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
-    vtkErrorMacro(<< this->ErrorMessage);
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(
+      blocks ? static_cast<vtkDataObject*>(blocks->NewInstance()) : vtkPolyData::New());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
-  // Also after an error. Of 0 the representations downstream would not hear the end, without which
-  // ParaView's views wait for them and update them no more.
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlip::SetFailure(const FlipFailure& failure)
-{
-  this->Failure = failure.Kind;
-  this->ErrorMessage = failure.Message;
-  this->StopReasonText = "failed: " + failure.Message;
-  this->SetErrorCode(failure ? vtkErrorCode::UserError + failure.Kind : vtkErrorCode::NoError);
-}
-
-//------------------------------------------------------------------------------
-void vtkDelaunayFlip::Flip(const Connection& data)
-{
-  const bool isLive = this->IsLive(data);
-  std::unique_ptr<FlipRun> last = std::move(this->Run);
-  *this->Report = FlipReport();
-  this->MayGoOn = false;
-  if (!data.Input) // a block of a composite dataset may be anything
-  {
-    throw FlipError("the input is no vtkPolyData; apply Extract Surface (vtkGeometryFilter) first");
-  }
-  if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
-  {
-    this->Report->StopReason = StopReasonKind::Converged;
-    data.Output->ShallowCopy(data.Input);
-    AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
-    return;
-  }
-  if (!isLive)
-  {
-    last.reset(); // before another takes as much memory
-  }
-  std::unique_ptr<FlipRun> run = FlipRun::GoOn(std::move(last),
-    { data.Input, data.Constraints,
-      { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
-      isLive });
-  *this->Report = run->GetReport();
-  const bool mayGoOn = this->Advance(run->GetSession(), isLive);
-  run->Store(data.Output, this->GenerateFlipCount);
-  // Not before: a GPU may fail while its result is fetched.
-  *this->Report = run->GetReport();
-  AddIterationColumns(*this->Report, "", data.Iterations->GetRowData());
-  // The totals first: ParaView lists no field data when the first array is empty.
-  AddTotals(*this->Report, FieldPrefix, data.Output->GetFieldData());
-  AddIterationColumns(*this->Report, FieldPrefix, data.Output->GetFieldData());
-  this->Warn(run->Warning);
-  if (isLive)
-  {
-    this->MayGoOn = mayGoOn || this->Report->StopReason == StopReasonKind::Aborted;
-    this->Run = std::move(run);
-  }
-}
-
-//------------------------------------------------------------------------------
-FlipOptions vtkDelaunayFlip::GetOptions() const
-{
-  FlipOptions options;
-  options.Geometry = static_cast<GeometryKind>(this->Geometry);
-  options.Criterion = static_cast<CriterionKind>(this->Criterion);
-  options.TieRule = static_cast<TieRuleKind>(this->TieRule);
-  options.Backend = static_cast<BackendKind>(this->Backend);
-  options.Tolerance = this->Tolerance;
-  options.FeatureAngle = this->FeatureAngle;
-  options.MaximumIterations = this->MaximumIterations;
-  options.NumberOfThreads = this->NumberOfThreads;
-  options.Device = this->DeviceId;
-  options.TrackQuality = this->TrackQuality;
-  return options;
-}
-
-//------------------------------------------------------------------------------
-/// The iterations of one update.
-/// @returns whether another update could still change the mesh.
-bool vtkDelaunayFlip::Advance(FlipSession& session, bool isLive)
-{
-  const FlipObserver observer = [this](const IterationRecord& record)
-  { return this->Observe(record); };
-  if (isLive && this->IterationsPerUpdate == 0)
-  {
-    constexpr double Seconds = 0.05; // the header says so
-    return AdvanceFor(session, Seconds, observer);
-  }
-  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer);
-}
-
-bool vtkDelaunayFlip::Observe(const IterationRecord& record)
-{
-  this->Report->Iterations.push_back(record);
-  this->Report->TotalFlips += record.Flipped;
-  // How many flips are to come is unknown; the bad edges of this iteration stand for them.
-  const double done = static_cast<double>(this->Report->TotalFlips);
-  const double known = done + static_cast<double>(record.NonDelaunay);
-  const double progress = known > 0.0 ? done / known : 1.0;
-  this->UpdateProgress(std::max(this->GetProgress(), progress));
-  return !IsAbortRequested(this);
-}
-
-//------------------------------------------------------------------------------
-std::string vtkDelaunayFlip::DescribeTrouble() const
-{
-  std::string text = DescribeDefects(this->Report->Defects);
-  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
-  const bool askedForLimit = this->MaximumIterations >= 0;
-  if (this->Report->StopReason == StopReasonKind::IterationLimit && !askedForLimit)
-  {
-    add("stopped by the safety limit of " + std::to_string(this->Report->Iterations.size()) +
-      " iterations with " + std::to_string(this->Report->NonDelaunayAfter) +
-      " edges left that are not Delaunay");
-  }
-  if (!this->Report->Fallback.empty())
-  {
-    add("the GPU could not be used, the CPU did the work: " + this->Report->Fallback);
-  }
-  return text;
-}
-
-/// Live updates warn of the same once.
-void vtkDelaunayFlip::Warn(std::string& last)
-{
-  const std::string text = this->DescribeTrouble();
-  if (!text.empty() && text != last)
-  {
-    vtkWarningMacro(<< text);
-  }
-  last = text;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDelaunayFlip::IsLive(const Connection& data)
-{
-  if (this->LiveUpdate && this->HasCompositeInput && !this->HasWarnedOfComposite)
-  {
-    vtkWarningMacro(<< "LiveUpdate is for a single mesh; composite input is flipped at once.");
-    this->HasWarnedOfComposite = true;
-  }
-  return this->LiveUpdate && !this->HasCompositeInput && !data.IsPiece && !IsBatchProgram();
-}
-
 bool vtkDelaunayFlip::Advance()
 {
   const bool goesOn = this->LiveUpdate && this->MayGoOn;
@@ -334,7 +169,10 @@ vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
   return this->Report->NonDelaunayAfter;
 }
 
-bool vtkDelaunayFlip::GetConverged() const { return this->Report->Converged(); }
+bool vtkDelaunayFlip::GetConverged() const
+{
+  return this->Failure == FAILURE_NONE && this->Report->Converged();
+}
 
 int vtkDelaunayFlip::GetStopReason() const
 {
@@ -352,12 +190,13 @@ const char* vtkDelaunayFlip::GetErrorMessage() const { return this->ErrorMessage
 
 int vtkDelaunayFlip::GetGeometryUsed() const
 {
-  return static_cast<int>(this->Report->GeometryUsed);
+  return this->Report->HasMixedGeometry ? static_cast<int>(GEOMETRY_MIXED)
+                                        : static_cast<int>(this->Report->GeometryUsed);
 }
 
 const char* vtkDelaunayFlip::GetGeometryUsedAsString() const
 {
-  return ToString(this->Report->GeometryUsed);
+  return this->Report->GetGeometryName();
 }
 
 const char* vtkDelaunayFlip::GetBackendUsed() const { return this->Report->Backend.c_str(); }

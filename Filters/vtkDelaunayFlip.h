@@ -49,9 +49,17 @@
  * result is Delaunay in the sense of opposite-angle sums, and an edge whose flip would fold the
  * surface or duplicate an edge stays and is reported as blocked.
  *
+ * Composite input (multiblock, partitioned): every polygonal block is flipped by itself, others
+ * pass with a warning; an error empties the block that it names, and the others are flipped. The
+ * read-back methods and the table, of which there is one, sum up all blocks; the field data of a
+ * block are its own. Composite constraints of the same structure are taken block by block. The same
+ * sums are made over the pieces of a parallel run, where the ranks of the global
+ * vtkMultiProcessController, as in ParaView, update a piece each: all of them must update together.
+ * Rank 0 has the table, and gives the messages.
+ *
  * @warning
- * With composite input the read-back methods speak of the block that was processed last; the field
- * data arrays and the tables are per block.
+ * Edges between the pieces of a parallel run, or between the partitions of a dataset, stay, and the
+ * counts do not know of them. An update that leaves such edges gives a warning.
  *
  * @par References
  * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
@@ -69,20 +77,25 @@
 
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // For meshes of inputs
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
+class vtkCompositeDataSet;
 class vtkTable;
 
 namespace delaunayflip
 {
 class FlipRun;
 class FlipSession;
-struct FlipFailure;
+struct Block;
 struct FlipOptions;
 struct FlipReport;
 struct IterationRecord;
+struct MeshOutcome;
+struct UpdateReport;
+struct UpdateSummary;
 }
 
 class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkPolyDataAlgorithm
@@ -104,7 +117,8 @@ public:
     GEOMETRY_AUTO = 0,
     GEOMETRY_PLANAR = 1,
     GEOMETRY_PLANAR_XY = 2,
-    GEOMETRY_SURFACE = 3
+    GEOMETRY_SURFACE = 3,
+    GEOMETRY_MIXED = 4 ///< Of GetGeometryUsed() only.
   };
   vtkSetClampMacro(Geometry, int, GEOMETRY_AUTO, GEOMETRY_SURFACE);
   vtkGetMacro(Geometry, int);
@@ -283,9 +297,9 @@ public:
    *
    * Another input or option starts again. When only points were moved, under the same cells, the
    * next update starts from the triangles that flips have made, with the edges that were fixed at
-   * the beginning (a warm start); its statistics begin anew. Composite input, input in several
-   * pieces (a parallel run) and input in ParaView's pvbatch are flipped at once, as without
-   * LiveUpdate.
+   * the beginning (a warm start); its statistics begin anew. Composite input and input in several
+   * pieces (a parallel run) are flipped at once, with a warning, and so, silently, is input in
+   * ParaView's pvbatch.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);
@@ -363,9 +377,10 @@ public:
 
   ///@{
   /**
-   * What the last update did. From an observer of ProgressEvent, NumberOfIterations and TotalFlips
-   * are those up to now. Progress is told after every iteration; where iterations run together (up
-   * to 128 on a GPU), when all of them are done, and only then does AbortExecute take effect.
+   * What the last update did: over blocks and pieces NumberOfIterations is the largest, TotalFlips
+   * the sum. From an observer of ProgressEvent, they are those of the current block up to now.
+   * Progress is told after every iteration; where iterations run together (up to 128 on a GPU),
+   * when all of them are done, and only then does AbortExecute take effect.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
@@ -375,14 +390,15 @@ public:
   /**
    * How many edges of the mesh the lines of the first input and the constraints of the second hold,
    * and how many constraint edges match no edge of the mesh. After a warm start, as at the
-   * beginning.
+   * beginning. Sums as TotalFlips: where all blocks share the constraints, an edge is unmatched
+   * once for each block that does not have it.
    */
   vtkIdType GetNumberOfConstraintEdges() const;
   vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
   ///@}
 
   /**
-   * Edges left that are not Delaunay and not fixed, after the last update.
+   * Edges left that are not Delaunay and not fixed, after the last update; a sum as TotalFlips.
    */
   vtkIdType GetNumberOfNonDelaunayEdges() const;
 
@@ -395,7 +411,8 @@ public:
   /**
    * Why the last update ended. NOT_STARTED before any; RUNNING when a live update has made its
    * iterations and more are to come; FAILED after an error, when the outputs are empty and the text
-   * is "failed: " and why. The update after an error needs nothing but what puts it right.
+   * is "failed: " and why. The update after an error needs nothing but what puts it right. Over
+   * blocks and pieces it is the worst of all.
    */
   enum StopReasonType
   {
@@ -413,15 +430,16 @@ public:
   ///@{
   /**
    * The geometry that the last update used, one of GeometryType; GEOMETRY_AUTO before any, after an
-   * error and for a mesh without triangles.
+   * error and for a mesh without triangles; GEOMETRY_MIXED, "mixed", if blocks or pieces differ.
    */
   int GetGeometryUsed() const;
   const char* GetGeometryUsedAsString() const;
   ///@}
 
   /**
-   * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200"; "" before any, after an
-   * error and for a mesh without triangles.
+   * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:
+   * NVIDIA H200" where blocks differ; "" before any, after an error and for a mesh without
+   * triangles.
    */
   const char* GetBackendUsed() const;
 
@@ -466,6 +484,12 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
+  /**
+   * The mesh that an input, or a block of it, is; null if it is none. For subclasses that know more
+   * surfaces than vtkPolyData. The same object as long as the input is the same.
+   */
+  virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
+
   int Geometry = GEOMETRY_AUTO;
   int Criterion = CRITERION_IN_CIRCLE;
   double Tolerance = 1e-9;
@@ -487,24 +511,28 @@ protected:
 private:
   struct Connection;
 
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  delaunayflip::UpdateSummary FlipMesh(
+    vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece);
+  delaunayflip::UpdateSummary FlipBlocks(
+    vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output);
+  vtkSmartPointer<vtkDataObject> FlipBlock(const delaunayflip::Block& block,
+    vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
+  delaunayflip::MeshOutcome TryToFlip(const Connection& data);
   void Flip(const Connection& data);
-  void SetFailure(const delaunayflip::FlipFailure& failure);
+  void Tell(const delaunayflip::UpdateSummary& summary, bool aloud);
   delaunayflip::FlipOptions GetOptions() const;
   bool Advance(delaunayflip::FlipSession& session, bool isLive);
   bool Observe(const delaunayflip::IterationRecord& record);
-  bool IsLive(const Connection& data);
-  std::string DescribeTrouble() const;
-  void Warn(std::string& last);
 
   int Failure = FAILURE_NONE;
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
   bool HasExecuted = false;
-  bool HasCompositeInput = false;
-  bool HasWarnedOfComposite = false;
   bool MayGoOn = true; ///< Whether another live update can change the mesh.
   std::unique_ptr<delaunayflip::FlipRun> Run; ///< Of live updates.
-  std::unique_ptr<delaunayflip::FlipReport> Report;
+  std::unique_ptr<delaunayflip::UpdateReport> Report; ///< Of the mesh under way; then, of all.
 
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
   void operator=(const vtkDelaunayFlip&) = delete;

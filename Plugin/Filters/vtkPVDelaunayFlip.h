@@ -33,20 +33,9 @@ protected:
   ~vtkPVDelaunayFlip() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input) override;
 
 private:
-  vtkPolyData* GetSurface(vtkDataSet* input);
-  int FlipSurface(vtkPolyData* surface, vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-  void PassBlock(vtkDataObject* block, vtkInformationVector* outputVector);
-
-  bool IsBlock = false; ///< Inputs are blocks of a composite dataset.
-  bool HasWarned = false; ///< Of a block, in this update.
-
   // The surface of the last input: a live run goes on only with the same arrays.
   vtkSmartPointer<vtkDataSet> Source;
   vtkMTimeType SourceTime = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The filter as a part of a pipeline: progress, abort, limits, composite data.
+/// The filter as a part of a pipeline: progress, abort, limits.
 
 #include "FilterTestSupport.h"
 
@@ -8,9 +8,6 @@
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
@@ -158,51 +155,4 @@ TEST(VtkDelaunayFlip, FollowsAnotherFilter)
   WatchedFilter filter;
   filter->SetInputConnection(append->GetOutputPort());
   EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
-}
-
-TEST(VtkDelaunayFlip, MultiBlock)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  vtkNew<vtkMultiBlockDataSet> inner;
-  inner->SetBlock(0, MakeLongRun());
-  blocks->SetBlock(0, MakeRhombus());
-  blocks->SetBlock(1, nullptr);
-  blocks->SetBlock(2, inner);
-  WatchedFilter filter;
-  filter->SetInputDataObject(blocks);
-  filter->Update();
-  EXPECT_TRUE(filter.GetErrors().empty());
-
-  auto* meshes = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
-  ASSERT_NE(meshes, nullptr);
-  auto* first = vtkPolyData::SafeDownCast(meshes->GetBlock(0));
-  ASSERT_NE(first, nullptr);
-  EXPECT_TRUE(HasEdge(first, 1, 3));
-  EXPECT_EQ(first->GetFieldData()->GetArray("DelaunayFlip:TotalFlips")->GetComponent(0, 0), 1.0);
-  auto* second =
-    vtkPolyData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(meshes->GetBlock(2))->GetBlock(0));
-  EXPECT_EQ(CountViolations(second), 0);
-
-  auto* tables = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(1));
-  ASSERT_NE(tables, nullptr);
-  auto* table =
-    vtkTable::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(tables->GetBlock(2))->GetBlock(0));
-  ASSERT_NE(table, nullptr);
-  EXPECT_EQ(table->GetNumberOfRows(), 37);
-}
-
-TEST(VtkDelaunayFlip, PartitionedDataSetCollection)
-{
-  vtkNew<vtkPartitionedDataSet> partitions;
-  partitions->SetPartition(0, MakeRhombus());
-  partitions->SetPartition(1, MakeLongRun());
-  vtkNew<vtkPartitionedDataSetCollection> collection;
-  collection->SetPartitionedDataSet(0, partitions);
-  WatchedFilter filter;
-  filter->SetInputDataObject(collection);
-  filter->Update();
-  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
-  ASSERT_NE(output, nullptr);
-  EXPECT_TRUE(HasEdge(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 0)), 1, 3));
-  EXPECT_EQ(CountViolations(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 1))), 0);
 }

@@ -184,7 +184,7 @@ class Blocks(InputTest):
         with Messages() as messages:
             flip = simple.DelaunayFlip(Input=group)
             refresh(flip)
-        self.assertEqual(messages.text.count("pass unchanged"), 1)
+        self.assertEqual(messages.text.count("passed unchanged"), 1)
         self.assertNotIn("ERROR", messages.text)
         leaves = self.get_leaves(fetch(flip))
         self.assertEqual([leaf.GetClassName() for leaf in leaves], [

@@ -9,7 +9,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
-    PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_line, refresh)
+    Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, make_fan, make_line,
+    refresh)
 
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
@@ -50,6 +51,32 @@ class Inputs(PluginTest):
         alone = [self.flip(self.read(make_fan(n))).TotalFlips for n in (20, 30)]
         self.assertEqual(flips, alone)
         self.assertGreater(min(flips), 20)
+
+    def test_sums_of_blocks(self):
+        group = simple.GroupDatasets(
+            Input=[self.read(make_fan(20), "a.vtp"), self.read(make_fan(30), "b.vtp")])
+        flip = self.flip(group)
+        alone = [self.flip(self.read(make_fan(n))) for n in (20, 30)]
+        self.assertEqual(flip.TotalFlips, sum(one.TotalFlips for one in alone))
+        self.assertEqual(flip.NumberOfIterations, max(one.NumberOfIterations for one in alone))
+        table = fetch(flip, 1)
+        self.assertTrue(table.IsA("vtkTable"), table.GetClassName())
+        self.assertEqual(sum(get_rows(table, "Flipped")), flip.TotalFlips)
+        self.assertEqual(table.GetNumberOfRows(), flip.NumberOfIterations)
+
+    def test_a_block_that_fails(self):
+        broken = make_fan(10)
+        broken.SetPolys(make_cells([(0, 1, 77)]))
+        broken.GetCellData().Initialize()
+        group = simple.GroupDatasets(
+            Input=[self.read(make_fan(20), "a.vtp"), self.read(broken, "b.vtp")])
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=group)
+            refresh(flip)
+        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
+        self.assertRegex(flip.StopReason, "^failed: block [0-9]+ .*names point 77")
+        self.assertGreater(flip.TotalFlips, 20)
+        self.assertEqual(fetch(flip).GetNumberOfPoints(), 20)
 
     def test_time_series(self):
         files = [self.save(make_fan(n), f"fan_{i}.vtp") for i, n in enumerate((10, 20, 30))]

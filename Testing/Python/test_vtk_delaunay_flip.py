@@ -341,7 +341,27 @@ class Pipeline(unittest.TestCase):
         output = watched.filter.GetOutputDataObject(0)
         self.assertIn(frozenset((1, 3)), get_edges(output.GetBlock(0)))
         self.assertEqual(count_violations(output.GetBlock(1)), 0)
-        self.assertIsInstance(watched.filter.GetOutputDataObject(1).GetBlock(1), vtkTable)
+        flips = [output.GetBlock(i).GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetValue(0)
+                 for i in range(2)]
+        self.assertEqual(flips[0], 1)
+        self.assertEqual(watched.filter.GetTotalFlips(), sum(flips))
+        table = watched.filter.GetOutputDataObject(1)
+        self.assertIsInstance(table, vtkTable)
+        self.assertEqual(sum(vtk_to_numpy(table.GetRowData().GetArray("Flipped"))), sum(flips))
+
+    def test_a_block_that_fails(self):
+        broken = make_rhombus()
+        broken.SetPolys(make_cells([(0, 1, 44)]))
+        blocks = vtkMultiBlockDataSet()
+        for i, mesh in enumerate((broken, make_rhombus())):
+            blocks.SetBlock(i, mesh)
+        watched = Watched(blocks)
+        watched.filter.Update()
+        output = watched.filter.GetOutputDataObject(0)
+        self.assertEqual(output.GetBlock(0).GetNumberOfCells(), 0)
+        self.assertIn(frozenset((1, 3)), get_edges(output.GetBlock(1)))
+        self.assertEqual(len(watched.errors), 1)
+        self.assertIn("block 1: ", watched.filter.GetErrorMessage())
 
 
 def run_python(program):

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CompositeBlocks.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+namespace
+{
+
+vtkSmartPointer<vtkCompositeDataIterator> Traverse(vtkCompositeDataSet* blocks)
+{
+  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  leaf->InitTraversal();
+  return leaf;
+}
+
+std::string GetName(vtkCompositeDataIterator* leaf)
+{
+  const std::string number = "block " + std::to_string(leaf->GetCurrentFlatIndex());
+  vtkInformation* about = leaf->HasCurrentMetaData() ? leaf->GetCurrentMetaData() : nullptr;
+  const char* name = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
+  return name && *name ? number + " (" + name + ")" : number;
+}
+
+double CountCells(vtkDataObject* data)
+{
+  return data ? static_cast<double>(data->GetNumberOfElements(vtkDataObject::CELL)) : 0.0;
+}
+
+double CountCells(vtkCompositeDataSet* blocks)
+{
+  double cells = 0.0;
+  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    cells += CountCells(leaf->GetCurrentDataObject());
+  }
+  return cells;
+}
+
+unsigned int CountPartitions(vtkPartitionedDataSet* partitions)
+{
+  unsigned int meshes = 0;
+  for (unsigned int i = 0; partitions && i < partitions->GetNumberOfPartitions(); ++i)
+  {
+    meshes += CountCells(partitions->GetPartitionAsDataObject(i)) > 0.0 ? 1 : 0;
+  }
+  return meshes;
+}
+
+}
+
+void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
+  const std::function<vtkSmartPointer<vtkDataObject>(const Block& block)>& transform)
+{
+  output->CopyStructure(input);
+  output->GetFieldData()->ShallowCopy(input->GetFieldData());
+  const double all = std::max(1.0, CountCells(input));
+  double before = 0.0;
+  for (auto leaf = Traverse(input); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    vtkDataObject* data = leaf->GetCurrentDataObject();
+    const double own = CountCells(data);
+    const auto result = transform(
+      { data, leaf->GetCurrentFlatIndex(), GetName(leaf), own > 0.0, before / all, own / all });
+    output->SetDataSet(leaf, result);
+    before += own;
+  }
+}
+
+std::map<unsigned int, vtkPolyData*> ListMeshes(vtkCompositeDataSet* blocks)
+{
+  std::map<unsigned int, vtkPolyData*> meshes;
+  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    if (auto* mesh = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()))
+    {
+      meshes[leaf->GetCurrentFlatIndex()] = mesh;
+    }
+  }
+  return meshes;
+}
+
+bool HasPartitions(vtkCompositeDataSet* blocks)
+{
+  if (CountPartitions(vtkPartitionedDataSet::SafeDownCast(blocks)) > 1)
+  {
+    return true;
+  }
+  auto* tree = vtkDataObjectTree::SafeDownCast(blocks);
+  if (!tree)
+  {
+    return false;
+  }
+  auto node = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  node->VisitOnlyLeavesOff();
+  bool found = false;
+  for (node->InitTraversal(); !node->IsDoneWithTraversal() && !found; node->GoToNextItem())
+  {
+    found = CountPartitions(vtkPartitionedDataSet::SafeDownCast(node->GetCurrentDataObject())) > 1;
+  }
+  return found;
+}
+
+}

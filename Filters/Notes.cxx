@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Notes.h"
+
+#include "FlipReport.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr std::size_t Most = 3; ///< Of places named for a text, and of texts.
+
+std::string Join(const std::vector<std::string>& items, const char* separator)
+{
+  std::string text;
+  const std::size_t count = std::min(items.size(), Most);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    text += (i == 0 ? "" : separator) + items[i];
+  }
+  return items.size() > Most
+    ? text + separator + "and " + std::to_string(items.size() - Most) + " more"
+    : text;
+}
+
+}
+
+std::string Describe(const std::vector<Note>& notes)
+{
+  std::vector<std::string> texts;
+  std::vector<std::vector<std::string>> places;
+  for (const Note& note : notes)
+  {
+    const auto known = std::find(texts.begin(), texts.end(), note.Text);
+    if (known == texts.end())
+    {
+      texts.push_back(note.Text);
+      places.push_back({ note.Where });
+    }
+    else
+    {
+      places[known - texts.begin()].push_back(note.Where);
+    }
+  }
+  for (std::size_t i = 0; i < texts.size(); ++i)
+  {
+    const std::string where = Join(places[i], ", ");
+    texts[i] = where.empty() ? texts[i] : where + ": " + texts[i];
+  }
+  return Join(texts, "; ");
+}
+
+std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit)
+{
+  std::string text = DescribeDefects(report.Defects);
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (report.StopReason == StopReasonKind::IterationLimit && !hasAskedForLimit)
+  {
+    add("stopped by the safety limit of " + std::to_string(report.Iterations.size()) +
+      " iterations with " + std::to_string(report.NonDelaunayAfter) +
+      " edges left that are not Delaunay");
+  }
+  if (!report.Fallback.empty())
+  {
+    add("the GPU could not be used, the CPU did the work: " + report.Fallback);
+  }
+  return text;
+}
+
+}

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What vtkDelaunayFlip does in an update.
+
+#include "vtkDelaunayFlip.h"
+
+#include "CompositeBlocks.h"
+#include "DelaunayFlip.h"
+#include "FlipRun.h"
+#include "HostProgram.h"
+#include "RankSum.h"
+#include "ReportTables.h"
+#include "TimedAdvance.h"
+#include "UpdateSummary.h"
+#include "VersionDifferences.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+using namespace delaunayflip;
+
+//------------------------------------------------------------------------------
+struct vtkDelaunayFlip::Connection
+{
+  vtkPolyData* Input;
+  vtkPolyData* Constraints; ///< Or null.
+  vtkPolyData* Output;
+  bool IsLive;
+};
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlip::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  const Piece piece{ vtkStreamingDemandDrivenPipeline::GetUpdatePiece(outInfo),
+    vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(outInfo) };
+  vtkDataObject* constraints = vtkDataObject::GetData(inputVector[1]);
+  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
+  auto* mesh = vtkPolyData::GetData(outputVector);
+  this->HasExecuted = true;
+  UpdateSummary summary = blocks
+    ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::GetData(outputVector))
+    : this->FlipMesh(vtkDataObject::GetData(inputVector[0]), constraints, mesh, piece.Count > 1);
+  const bool isFirst = JoinRanks(summary, piece);
+  if (this->LiveUpdate && (blocks || piece.Count > 1))
+  {
+    summary.Warnings.push_back(
+      { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+  }
+  this->Tell(summary, isFirst);
+  // The rows sum up all ranks, and ParaView would show those of each rank one below the other.
+  AddIterationColumns(
+    isFirst ? *this->Report : UpdateReport(), "", vtkTable::GetData(outputVector, 1)->GetRowData());
+  if (mesh && piece.Count > 1)
+  {
+    RenewFieldData(*this->Report, mesh->GetFieldData());
+  }
+  // After an error too: 0 would keep what is downstream from executing, and a representation of
+  // ParaView that did not execute ignores all later changes.
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::Tell(const UpdateSummary& summary, bool aloud)
+{
+  *this->Report = summary.Report;
+  this->Failure = summary.Failure;
+  this->ErrorMessage = Describe(summary.Errors);
+  this->StopReasonText = "failed: " + this->ErrorMessage;
+  this->SetErrorCode(
+    this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
+  std::vector<Note> warnings = summary.Warnings;
+  if (summary.HasSeams)
+  {
+    warnings.push_back({ "", "edges between pieces of the mesh stayed as they were" });
+  }
+  if (aloud && this->Failure)
+  {
+    vtkErrorMacro(<< this->ErrorMessage);
+  }
+  if (aloud && !warnings.empty())
+  {
+    vtkWarningMacro(<< Describe(warnings));
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)
+{
+  return vtkPolyData::SafeDownCast(input);
+}
+
+//------------------------------------------------------------------------------
+UpdateSummary vtkDelaunayFlip::FlipMesh(
+  vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece)
+{
+  UpdateSummary summary;
+  MeshOutcome outcome;
+  const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(input);
+  auto* edges = vtkPolyData::SafeDownCast(constraints);
+  if (!mesh)
+  {
+    outcome.Failure = { FAILURE_MESH, "the input is no surface; apply Extract Surface first" };
+  }
+  else if (constraints && !edges)
+  {
+    outcome.Failure = { FAILURE_OPTIONS,
+      "the constraints of a single mesh cannot be a composite dataset" };
+  }
+  else
+  {
+    const bool isLive = this->LiveUpdate && !isPiece && !IsBatchProgram();
+    outcome = this->TryToFlip({ mesh, edges, output, isLive });
+  }
+  summary.AddMesh(outcome, 0, "");
+  return summary;
+}
+
+//------------------------------------------------------------------------------
+UpdateSummary vtkDelaunayFlip::FlipBlocks(
+  vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output)
+{
+  UpdateSummary summary;
+  summary.Report.StopReason = StopReasonKind::Converged; // of no blocks
+  auto* edges = vtkCompositeDataSet::SafeDownCast(constraints);
+  std::map<unsigned int, vtkPolyData*> edgesOfBlocks;
+  if (edges)
+  {
+    edgesOfBlocks = ListMeshes(edges);
+  }
+  TransformBlocks(input, output,
+    [&](const Block& block)
+    {
+      vtkPolyData* own =
+        edges ? edgesOfBlocks[block.Number] : vtkPolyData::SafeDownCast(constraints);
+      return this->FlipBlock(block, own, summary);
+    });
+  this->SetProgressShiftScale(0.0, 1.0);
+  summary.HasSeams = HasPartitions(input);
+  return summary;
+}
+
+/// @returns the block that comes out.
+vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipBlock(
+  const Block& block, vtkPolyData* constraints, UpdateSummary& summary)
+{
+  if (const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(block.Data))
+  {
+    auto flipped = vtkSmartPointer<vtkPolyData>::New();
+    this->SetProgressShiftScale(block.Before, block.Share);
+    summary.AddMesh(
+      this->TryToFlip({ mesh, constraints, flipped, false }), block.Number, block.Name);
+    return flipped;
+  }
+  if (block.HasCells)
+  {
+    summary.Warnings.push_back({ block.Name, "not a surface, passed unchanged" });
+  }
+  auto passed = vtkSmartPointer<vtkDataObject>::Take(block.Data->NewInstance());
+  passed->ShallowCopy(block.Data);
+  return passed;
+}
+
+//------------------------------------------------------------------------------
+MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
+{
+  MeshOutcome outcome;
+  outcome.Failure = Attempt([&]() { this->Flip(data); });
+  if (outcome.Failure)
+  {
+    *this->Report = UpdateReport();
+    this->MayGoOn = false;
+    data.Output->Initialize();
+  }
+  outcome.Report = *this->Report;
+  outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);
+  if (this->Run && outcome.Trouble == std::exchange(this->Run->Warning, outcome.Trouble))
+  {
+    outcome.Trouble.clear(); // live updates warn of the same once
+  }
+  return outcome;
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlip::Flip(const Connection& data)
+{
+  std::unique_ptr<FlipRun> last = std::move(this->Run);
+  *this->Report = UpdateReport();
+  this->MayGoOn = false;
+  if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
+  {
+    this->Report->StopReason = StopReasonKind::Converged;
+    data.Output->ShallowCopy(data.Input);
+    return;
+  }
+  if (!data.IsLive)
+  {
+    last.reset(); // before another takes as much memory
+  }
+  std::unique_ptr<FlipRun> run = FlipRun::GoOn(std::move(last),
+    { data.Input, data.Constraints,
+      { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
+      data.IsLive });
+  *this->Report = UpdateReport(run->GetReport());
+  const bool mayGoOn = this->Advance(run->GetSession(), data.IsLive);
+  run->Store(data.Output, this->GenerateFlipCount);
+  // Not before: a GPU may fail while its result is fetched.
+  *this->Report = UpdateReport(run->GetReport());
+  AddFieldData(*this->Report, data.Output->GetFieldData());
+  if (data.IsLive)
+  {
+    this->MayGoOn = mayGoOn || this->Report->StopReason == StopReasonKind::Aborted;
+    this->Run = std::move(run);
+  }
+}
+
+//------------------------------------------------------------------------------
+FlipOptions vtkDelaunayFlip::GetOptions() const
+{
+  FlipOptions options;
+  options.Geometry = static_cast<GeometryKind>(this->Geometry);
+  options.Criterion = static_cast<CriterionKind>(this->Criterion);
+  options.TieRule = static_cast<TieRuleKind>(this->TieRule);
+  options.Backend = static_cast<BackendKind>(this->Backend);
+  options.Tolerance = this->Tolerance;
+  options.FeatureAngle = this->FeatureAngle;
+  options.MaximumIterations = this->MaximumIterations;
+  options.NumberOfThreads = this->NumberOfThreads;
+  options.Device = this->DeviceId;
+  options.TrackQuality = this->TrackQuality;
+  return options;
+}
+
+//------------------------------------------------------------------------------
+/// The iterations of one update.
+/// @returns whether another update could still change the mesh.
+bool vtkDelaunayFlip::Advance(FlipSession& session, bool isLive)
+{
+  const FlipObserver observer = [this](const IterationRecord& record)
+  { return this->Observe(record); };
+  if (isLive && this->IterationsPerUpdate == 0)
+  {
+    constexpr double Seconds = 0.05; // the header says so
+    return AdvanceFor(session, Seconds, observer);
+  }
+  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer);
+}
+
+bool vtkDelaunayFlip::Observe(const IterationRecord& record)
+{
+  this->Report->Iterations.push_back(record);
+  this->Report->TotalFlips += record.Flipped;
+  // How many flips are to come is unknown; the bad edges of this iteration stand for them.
+  const double done = static_cast<double>(this->Report->TotalFlips);
+  const double known = done + static_cast<double>(record.NonDelaunay);
+  const double progress = known > 0.0 ? done / known : 1.0;
+  // Of all blocks, of which this may be one: it must not go back.
+  if (this->GetProgressShift() + this->GetProgressScale() * progress > this->GetProgress())
+  {
+    this->UpdateProgress(progress);
+  }
+  return !IsAbortRequested(this);
+}

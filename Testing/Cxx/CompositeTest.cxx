@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Composite datasets: each block by itself, and sums that are true of all.
+
+#include "LiveTestSupport.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPoints.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using Blocks = vtkSmartPointer<vtkMultiBlockDataSet>;
+
+vtkSmartPointer<vtkPolyData> MakeWorstCase(int size)
+{
+  return ToPolyData(delaunayflip::MakeWorstCaseMesh(size));
+}
+
+vtkSmartPointer<vtkPolyData> MakeBrokenMesh()
+{
+  auto mesh = MakeRhombus();
+  mesh->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 44 } }));
+  return mesh;
+}
+
+Blocks MakeBlocks(const std::vector<vtkDataObject*>& leaves)
+{
+  auto blocks = Blocks::New();
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    blocks->SetBlock(static_cast<unsigned int>(i), leaves[i]);
+  }
+  return blocks;
+}
+
+class CompositeFilter : public WatchedFilter
+{
+public:
+  explicit CompositeFilter(vtkCompositeDataSet* input) { (*this)->SetInputDataObject(input); }
+
+  vtkPolyData* GetBlock(unsigned int number)
+  {
+    auto* blocks = vtkMultiBlockDataSet::SafeDownCast((*this)->GetOutputDataObject(0));
+    return blocks ? vtkPolyData::SafeDownCast(blocks->GetBlock(number)) : nullptr;
+  }
+
+  void Update() { (*this)->Update(); }
+};
+
+double GetField(vtkPolyData* mesh, const std::string& name, vtkIdType row)
+{
+  vtkDataArray* array = mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
+  return row < array->GetNumberOfTuples() ? array->GetComponent(row, 0) : 0.0;
+}
+
+double GetRow(vtkDelaunayFlip* filter, const char* column, vtkIdType row)
+{
+  return filter->GetIterations()->GetValueByName(row, column).ToDouble();
+}
+
+bool Holds(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+}
+
+TEST(Composite, EveryBlockIsFlipped)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1.0, 2.0, 3.0);
+  grid->SetPoints(points);
+  const vtkIdType vertex = 0;
+  grid->InsertNextCell(VTK_VERTEX, 1, &vertex);
+  vtkNew<vtkPolyData> empty;
+  auto inner = MakeBlocks({ MakeWorstCase(20), nullptr });
+  auto blocks = MakeBlocks({ MakeRhombus(), nullptr, inner, grid, empty });
+  CompositeFilter filter(blocks);
+  filter.Update();
+  EXPECT_TRUE(filter.GetErrors().empty());
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "block 6: not a surface, passed unchanged"));
+  EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
+  EXPECT_EQ(GetField(filter.GetBlock(0), "TotalFlips", 0), 1.0);
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  EXPECT_EQ(output->GetNumberOfBlocks(), 5u);
+  EXPECT_EQ(output->GetBlock(1), nullptr);
+  auto* inside = vtkMultiBlockDataSet::SafeDownCast(output->GetBlock(2));
+  EXPECT_EQ(CountViolations(vtkPolyData::SafeDownCast(inside->GetBlock(0))), 0);
+  EXPECT_EQ(inside->GetBlock(1), nullptr);
+  auto* passed = vtkUnstructuredGrid::SafeDownCast(output->GetBlock(3));
+  ASSERT_NE(passed, nullptr);
+  EXPECT_EQ(passed->GetPoints(), points);
+  EXPECT_EQ(filter.GetBlock(4)->GetNumberOfCells(), 0);
+}
+
+TEST(Composite, ReadBackSumsBlocks)
+{
+  auto blocks = MakeBlocks({ MakeWorstCase(20), nullptr, MakeRhombus(), MakeWorstCase(4) });
+  CompositeFilter filter(blocks);
+  filter.Update();
+  EXPECT_EQ(filter->GetTotalFlips(), 19 * 19 + 1 + 9);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 37);
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
+  EXPECT_EQ(std::string(filter->GetBackendUsed()).find("Threads: "), 0u);
+  EXPECT_EQ(std::string(filter->GetBackendUsed()).find(','), std::string::npos);
+}
+
+TEST(Composite, OneTableSumsBlocks)
+{
+  auto blocks = MakeBlocks({ MakeWorstCase(4), MakeBadPlane(), MakeRhombus() });
+  CompositeFilter filter(blocks);
+  filter->TrackQualityOn();
+  filter.Update();
+  vtkTable* table = filter->GetIterations();
+  ASSERT_NE(table, nullptr);
+  ASSERT_EQ(table->GetNumberOfRows(), filter->GetNumberOfIterations());
+  ASSERT_GT(table->GetNumberOfRows(), 5);
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    EXPECT_EQ(GetRow(filter.Get(), "Iteration", row), row + 1.0);
+    for (const char* column : { "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked" })
+    {
+      double sum = 0.0;
+      for (const unsigned int block : { 0, 1, 2 })
+      {
+        sum += GetField(filter.GetBlock(block), column, row);
+      }
+      EXPECT_EQ(GetRow(filter.Get(), column, row), sum) << column << row;
+    }
+  }
+}
+
+TEST(Composite, TheAngleIsTheSmallestOfAllBlocks)
+{
+  // The rhombus ends after one iteration with a smaller angle than the other mesh then has.
+  auto sharp = MakeRhombus();
+  sharp->GetPoints()->SetPoint(0, -0.001, 0.0, 0.0);
+  sharp->GetPoints()->SetPoint(2, 0.001, 0.0, 0.0);
+  sharp->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 3 } }));
+  auto blocks = MakeBlocks({ MakeWorstCase(4), sharp });
+  CompositeFilter filter(blocks);
+  filter->TrackQualityOn();
+  filter.Update();
+  const double smallest = 2.0 * std::atan(0.001) * 180.0 / std::acos(-1.0);
+  for (vtkIdType row = 0; row < filter->GetIterations()->GetNumberOfRows(); ++row)
+  {
+    EXPECT_NEAR(GetRow(filter.Get(), "MinimumAngle", row), smallest, 1e-9);
+  }
+  filter->TrackQualityOff();
+  filter.Update();
+  EXPECT_FALSE(std::isnan(GetRow(filter.Get(), "MinimumAngle", 0)));
+  EXPECT_TRUE(std::isnan(GetRow(filter.Get(), "MinimumAngle", 2)));
+  EXPECT_NEAR(GetRow(filter.Get(), "MinimumAngle", 4), smallest, 1e-9);
+}
+
+TEST(Composite, GeometriesMayBeMixed)
+{
+  auto blocks = MakeBlocks({ MakeBadPlane(), MakeBadSphere() });
+  CompositeFilter filter(blocks);
+  filter.Update();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_MIXED);
+  EXPECT_STREQ(filter->GetGeometryUsedAsString(), "mixed");
+}
+
+TEST(Composite, TheWorstStopReasonCounts)
+{
+  auto blocks = MakeBlocks({ MakeWorstCase(20), MakeRhombus() });
+  CompositeFilter filter(blocks);
+  filter->SetMaximumIterations(3);
+  filter.Update();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
+  EXPECT_FALSE(filter->GetConverged());
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), CountViolations(filter.GetBlock(0)));
+}
+
+TEST(Composite, ABlockThatFailsLeavesTheOthers)
+{
+  auto blocks = MakeBlocks({ MakeRhombus(), MakeBrokenMesh(), MakeWorstCase(4) });
+  blocks->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "wing");
+  CompositeFilter filter(blocks);
+  for (unsigned int update = 1; update <= 10; ++update)
+  {
+    filter->Modified();
+    filter.Update();
+    EXPECT_EQ(filter.GetErrors().size(), update);
+    EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
+    EXPECT_EQ(CountViolations(filter.GetBlock(2)), 0);
+    ASSERT_NE(filter.GetBlock(1), nullptr);
+    EXPECT_EQ(filter.GetBlock(1)->GetNumberOfPoints(), 0);
+  }
+  const std::string why = filter->GetErrorMessage();
+  EXPECT_EQ(why.find("block 2 (wing): Invalid mesh: cell 1 names point 44"), 0u) << why;
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
+  EXPECT_FALSE(filter->GetConverged());
+  EXPECT_EQ(filter->GetTotalFlips(), 10);
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 5);
+  EXPECT_TRUE(filter.GetExecutiveErrors().empty());
+
+  blocks->SetBlock(1, MakeRhombus());
+  filter.Update();
+  EXPECT_EQ(filter.GetErrors().size(), 10u);
+  EXPECT_TRUE(HasEdge(filter.GetBlock(1), 1, 3));
+  EXPECT_EQ(filter->GetTotalFlips(), 11);
+  EXPECT_STREQ(filter->GetErrorMessage(), "");
+  EXPECT_TRUE(filter->GetConverged());
+}
+
+TEST(Composite, OneErrorNamesTheFirstBlocks)
+{
+  auto broken = MakeBrokenMesh();
+  auto blocks = MakeBlocks({ broken, broken, broken, broken, broken });
+  CompositeFilter filter(blocks);
+  filter.Update();
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  const std::string error = filter.GetErrors()[0];
+  EXPECT_TRUE(Holds(error, "block 1, block 2, block 3, and 2 more: Invalid mesh")) << error;
+}
+
+TEST(Composite, OneWarningNamesTheBlocks)
+{
+  auto mesh = MakeBadPlane();
+  mesh->GetPoints()->SetPoint(40, NAN, 0.0, 0.0);
+  auto blocks = MakeBlocks({ MakeRhombus(), mesh });
+  CompositeFilter filter(blocks);
+  filter.Update();
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "block 2: ")) << filter.GetWarnings()[0];
+}
+
+TEST(Composite, ProgressRisesOverBlocks)
+{
+  auto blocks = MakeBlocks({ MakeWorstCase(20), MakeRhombus(), MakeWorstCase(20) });
+  CompositeFilter filter(blocks);
+  std::vector<double> progress;
+  auto record = [&]() { progress.push_back(filter->GetProgress()); };
+  OnProgress(filter.Get(), record);
+  filter.Update();
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  EXPECT_EQ(progress.back(), 1.0);
+  EXPECT_EQ(std::count(progress.begin(), progress.end(), 1.0), 1);
+  EXPECT_TRUE(std::any_of(
+    progress.begin(), progress.end(), [](double part) { return 0.6 < part && part < 1.0; }));
+  EXPECT_TRUE(std::any_of(
+    progress.begin(), progress.end(), [](double part) { return 0.0 < part && part < 0.4; }));
+}
+
+TEST(Composite, InputMayChangeItsKind)
+{
+  auto blocks = MakeBlocks({ MakeRhombus() });
+  CompositeFilter filter(blocks);
+  for (int i = 0; i < 2; ++i)
+  {
+    filter->SetInputDataObject(blocks);
+    filter.Update();
+    EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
+    filter->SetInputData(MakeRhombus());
+    EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
+  }
+}
+
+TEST(Composite, NothingInItIsNoError)
+{
+  CompositeFilter filter(Blocks::New());
+  filter.Update();
+  EXPECT_TRUE(filter.GetErrors().empty() && filter.GetWarnings().empty());
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfColumns(), 8);
+}
+
+TEST(Composite, ConstraintsForAllOrForEachBlock)
+{
+  vtkNew<vtkPolyData> line;
+  line->SetLines(MakeCells({ { 0, 2 } }));
+  auto blocks = MakeBlocks({ MakeRhombus(), MakeRhombus() });
+  CompositeFilter filter(blocks);
+  filter->SetConstraintsData(line);
+  filter.Update();
+  EXPECT_FALSE(HasEdge(filter.GetBlock(0), 1, 3) || HasEdge(filter.GetBlock(1), 1, 3));
+  filter->SetInputDataObject(1, MakeBlocks({ nullptr, line }));
+  filter.Update();
+  EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
+  EXPECT_FALSE(HasEdge(filter.GetBlock(1), 1, 3));
+}
+
+TEST(Composite, ConstraintsInBlocksForASingleMeshAreAnError)
+{
+  vtkNew<vtkPolyData> line;
+  line->SetLines(MakeCells({ { 0, 2 } }));
+  WatchedFilter filter(MakeRhombus());
+  filter->SetInputDataObject(1, MakeBlocks({ line, line }));
+  EXPECT_EQ(filter.Run()->GetNumberOfCells(), 0);
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetErrors()[0], "constraints"));
+  filter->SetInputDataObject(1, nullptr);
+  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
+}
+
+TEST(Composite, PartitionsWarnOfSeams)
+{
+  vtkNew<vtkPartitionedDataSet> partitions;
+  partitions->SetPartition(0, MakeRhombus());
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartitionedDataSet(0, partitions);
+  CompositeFilter filter(collection);
+  filter.Update();
+  EXPECT_TRUE(filter.GetWarnings().empty()); // one partition has no seams
+  partitions->SetPartition(1, MakeWorstCase(20));
+  collection->Modified();
+  filter.Update();
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "edges between pieces"));
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  EXPECT_TRUE(HasEdge(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 0)), 1, 3));
+  EXPECT_EQ(CountViolations(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 1))), 0);
+  EXPECT_EQ(filter->GetTotalFlips(), 19 * 19 + 1);
+}
+
+TEST(Composite, PiecesWarnOfSeams)
+{
+  WatchedFilter filter(MakeRhombus());
+  filter->UpdatePiece(0, 1, 0);
+  EXPECT_TRUE(filter.GetWarnings().empty());
+  filter->UpdatePiece(0, 2, 0);
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "edges between pieces"));
+}

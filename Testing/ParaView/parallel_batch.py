@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What test_parallel.py runs in pvbatch with two ranks: each rank has meshes of its own.
+
+Prints one line of JSON for each case of which it is told the name: what the filter said.
+"""
+
+import json
+import os
+import sys
+
+from paraview import simple
+
+from PluginTesting import Messages, fetch, refresh
+
+# Runs on every rank; "meshes" is what the rank has: the sizes of its fans, by their blocks.
+SOURCE = """
+import sys
+sys.path.insert(0, {here!r})
+from PluginTesting import make_cells, make_fan
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
+meshes = {meshes!r}[rank]
+
+def make(size):
+    mesh = make_fan(abs(size))
+    if size < 0:
+        mesh.SetPolys(make_cells([(0, 1, 77)]))
+        mesh.GetCellData().Initialize()
+    return mesh
+
+output = self.GetOutput()
+if {composite!r}:
+    output.SetNumberOfBlocks(4)
+    for block, size in meshes.items():
+        output.SetBlock(block, make(size))
+elif meshes:
+    output.ShallowCopy(make(meshes[0]))
+"""
+PIECES = "self.GetOutputInformation(0).Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)"
+
+# By the name of the case: the sizes of the fans of rank 0 and of rank 1; a negative one is broken.
+CASES = {
+    "pieces": ({0: 20}, {0: 30}),
+    "one empty": ({}, {0: 20}),
+    "one fails": ({0: 20}, {0: -20}),
+    "blocks": ({0: 10}, {1: 20, 2: 15, 3: 25}),
+    "shared block": ({0: 10, 1: 12}, {1: 20}),
+    "block fails": ({0: 10}, {1: 20, 2: -15, 3: 25}),
+    "nothing": ({}, {}),
+}
+
+
+def make_source(meshes, composite):
+    kind = "vtkMultiblockDataSet" if composite else "vtkPolyData"
+    source = simple.ProgrammableSource(OutputDataSetType=kind)
+    source.Script = SOURCE.format(
+        here=os.path.dirname(os.path.abspath(__file__)), meshes=meshes, composite=composite)
+    source.ScriptRequestInformation = PIECES
+    return source
+
+
+def get_flipped(table):
+    column = table.GetRowData().GetArray("Flipped")  # none where ParaView joined empty tables
+    return [int(column.GetTuple1(i)) for i in range(column.GetNumberOfTuples())] if column else []
+
+
+def describe(flip, messages):
+    return {
+        "flips": flip.TotalFlips, "iterations": flip.NumberOfIterations,
+        "bad": flip.NumberOfNonDelaunayEdges, "stopped": flip.StopReason,
+        "geometry": flip.GeometryUsed, "flipped": get_flipped(fetch(flip, 1)),
+        "errors": messages.text.count("ERROR"), "warnings": messages.text.count("Warning"),
+        "text": messages.text}
+
+
+def run(case):
+    """Updates the filter, changes an option and updates it again, so that a rank which was left
+    behind would be found."""
+    composite = "block" in case
+    flip = simple.DelaunayFlip(Input=make_source(CASES[case], composite))
+    flip.LiveUpdate = int(case == "pieces")
+    for tie_rule in ("Keep", "Canonical"):
+        flip.TieRule = tie_rule
+        with Messages() as messages:
+            refresh(flip)
+        said = describe(flip, messages)
+    print(json.dumps({case: said}), flush=True)
+
+
+simple.LoadPlugin(os.environ["DELAUNAYFLIP_PLUGIN"], remote=False)
+for name in sys.argv[1:]:
+    run(name)
+print("all is well", flush=True)
