@@ -52,18 +52,6 @@ vtk_module_build(
   MODULES ${delaunayflip_modules}
   HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip"
   INSTALL_EXPORT DelaunayFlip)
-install(FILES Engine/FlipReport.h Engine/FlipOptions.h # of vtkDelaunayFlip::GetReport()
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip")
-
-# find_package(DelaunayFlip) of other projects.
-include(CMakePackageConfigHelpers)
-set(delaunayflip_cmake "${CMAKE_INSTALL_LIBDIR}/cmake/DelaunayFlip")
-configure_package_config_file(CMake/DelaunayFlipConfig.cmake.in
-  "${CMAKE_BINARY_DIR}/DelaunayFlipConfig.cmake" INSTALL_DESTINATION "${delaunayflip_cmake}")
-write_basic_package_version_file("${CMAKE_BINARY_DIR}/DelaunayFlipConfigVersion.cmake"
-  COMPATIBILITY SameMinorVersion)
-install(FILES "${CMAKE_BINARY_DIR}/DelaunayFlipConfig.cmake"
-  "${CMAKE_BINARY_DIR}/DelaunayFlipConfigVersion.cmake" DESTINATION "${delaunayflip_cmake}")
 
 set(DELAUNAYFLIP_PYTHON OFF) # whether the Python package is built
 if(NOT TARGET VTK::WrappingPythonCore OR NOT TARGET VTK::WrapPython)

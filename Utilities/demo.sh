@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing (Debian), builds the command delaunay-flip in build/, gives it a badly
-# triangulated terrain and draws what it made of it. Everything it writes is in demo-output/.
+# Installs what is missing (Debian), builds command, VTK modules and Python package in build/, gives
+# the command a badly triangulated terrain and draws what it made of it. What it writes is in
+# demo-output/.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -19,20 +20,20 @@ step()
 
 # Keeps the options of an existing build. A new one is without tests, whose packages it does not ask
 # for, and with a CUDA compiler for one architecture, a quarter of the work: newer ones run its PTX.
-build_command()
+build_all()
 {
   local options=()
   [ -f "$build/CMakeCache.txt" ] ||
     options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
   cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=$python "${options[@]}" >/dev/null
-  cmake --build "$build" --parallel "${JOBS:-2}" --target delaunay-flip
+  cmake --build "$build" --parallel "${JOBS:-2}"
 }
 
 step "Packages"
 "$root/Utilities/install-packages.sh" demo
 
 step "Build"
-build_command
+build_all
 
 step "A terrain, triangulated without a thought"
 mkdir -p "$output"
@@ -54,4 +55,6 @@ Done. Look at
   $output/report.json        the run in numbers
   $output/iterations.csv     the iterations in numbers
 Try your own: $build/bin/delaunay-flip INPUT OUTPUT
+In Python (PYTHONPATH=$build/lib/python3/dist-packages):
+from delaunayflip import vtkDelaunayFlip
 END

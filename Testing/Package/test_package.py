@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Projects that use an installed build, or this folder as a subproject: they are configured, built
+and run.
+
+DELAUNAYFLIP_BUILD in the environment is the build, DELAUNAYFLIP_CMAKE the program cmake.
+"""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+from readme import ROOT, read, snippets
+
+CMAKE = os.environ["DELAUNAYFLIP_CMAKE"]
+EXAMPLE = f"{ROOT}/Examples/Cxx/FlipArrays.cpp"
+HEAD = "cmake_minimum_required(VERSION 3.22)\nproject(Consumer LANGUAGES CXX)\n"
+NO_VTK = "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON"
+
+
+def list_public_headers():
+    text = re.sub(r"#.*", "", read("Engine/CMakeLists.txt"))
+    return re.search(r"set\(delaunayflip_engine_headers\s+([^)]*)\)", text).group(1).split()
+
+
+class Consumer(unittest.TestCase):
+    """A project in a folder of its own, with an installation beside it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.prefix = self.path("prefix")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def run_cmake(self, *arguments):
+        return subprocess.run([CMAKE, *arguments], capture_output=True, text=True, check=False)
+
+    def succeed(self, *arguments):
+        run = self.run_cmake(*arguments)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def install(self, build):
+        self.succeed("--install", build, "--prefix", self.prefix)
+
+    def configure(self, *options, source=None):
+        return self.run_cmake(
+            "-S", source or self.folder, "-B", self.path("build"), "-G", "Ninja",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", *options)
+
+    def build(self, *options, source=None):
+        run = self.configure(*options, source=source)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.succeed("--build", self.path("build"), "--parallel", "2")
+
+    def read_option(self, name):
+        """An entry of the cache; None if there is none."""
+        with open(self.path("build/CMakeCache.txt"), encoding="utf-8") as file:
+            found = re.search(rf"^{name}:\w+=(.*)$", file.read(), re.MULTILINE)
+        return found and found.group(1)
+
+    def run_program(self, name):
+        return subprocess.run([self.path(f"build/{name}")], cwd=self.folder, capture_output=True,
+                              text=True, check=True).stdout
+
+    def expect_flips(self):
+        self.assertIn("39601 flips", self.run_program("consumer"))
+
+
+class Engine(Consumer):
+    """Consumers of the engine of an installed build."""
+
+    def setUp(self):
+        super().setUp()
+        self.install(os.environ["DELAUNAYFLIP_BUILD"])
+
+    def test_engine(self):
+        self.write("CMakeLists.txt", HEAD + f"""
+find_package(DelaunayFlip 0.1 REQUIRED COMPONENTS Engine)
+add_executable(consumer "{EXAMPLE}")
+target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
+if(TARGET DelaunayFlip::Filters)
+  message(FATAL_ERROR "nobody asked for VTK")
+endif()
+""")
+        self.build(NO_VTK)
+        self.expect_flips()
+        self.assertTrue(self.read_option("TBB_DIR"))
+        self.assertIsNone(self.read_option("VTK_DIR"))
+
+    def test_headers(self):
+        """Each public header is installed and stands alone; no other one of the engine is there."""
+        installed = os.listdir(f"{self.prefix}/include/delaunayflip")
+        headers = list_public_headers()
+        self.assertEqual(sorted(name for name in installed if not name.startswith("vtk")),
+                         sorted(headers))
+        for header in headers:
+            self.write(f"{header}.cpp", f"#include <{header}>\n")
+        sources = " ".join(f"{header}.cpp" for header in headers)
+        self.write("CMakeLists.txt", HEAD + f"""
+find_package(DelaunayFlip REQUIRED COMPONENTS Engine)
+add_library(headers OBJECT {sources})
+target_link_libraries(headers PRIVATE DelaunayFlip::Engine)
+""")
+        self.build()
+
+    def test_a_component_that_is_not_there(self):
+        self.write("CMakeLists.txt", HEAD + "find_package(DelaunayFlip REQUIRED COMPONENTS Wings)\n")
+        run = self.configure()
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("Wings", run.stderr)
+
+
+class Modules(Consumer):
+    """Consumers of the VTK modules of an installed build."""
+
+    def setUp(self):
+        super().setUp()
+        self.install(os.environ["DELAUNAYFLIP_BUILD"])
+
+    def test_snippets_of_the_readme(self):
+        (project,) = [text for text in snippets("cmake") if "project(" in text]
+        (program,) = [text for text in snippets("cpp") if "main()" in text]
+        self.write("CMakeLists.txt", project)
+        self.write("my_program.cpp", program)
+        self.build()
+        os.mkdir(self.path("demo-output"))
+        subprocess.run([f"{self.prefix}/bin/delaunay-flip", self.write_rhombus(),
+                        self.path("demo-output/before.vtp"), "--max-iterations", "0"],
+                       stdout=subprocess.DEVNULL, check=False)
+        self.assertEqual(self.run_program("my_program"), "1 flips\n")
+
+    def write_rhombus(self):
+        self.write("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+        return self.path("rhombus.obj")
+
+    def test_all_components(self):
+        self.write("CMakeLists.txt", HEAD.replace("CXX", "C CXX") + f"""
+find_package(DelaunayFlip REQUIRED)
+add_executable(consumer "{EXAMPLE}")
+target_link_libraries(consumer PRIVATE DelaunayFlip::Engine DelaunayFlip::Filters)
+""")
+        self.build()
+        self.expect_flips()
+
+    def test_examples(self):
+        self.build(source=f"{ROOT}/Examples/Cxx")
+        self.assertIn("39601 flips", self.run_program("FlipArrays"))
+
+
+class Subproject(Consumer):
+    """This folder in another project, which installs the engine with itself."""
+
+    def test_subproject(self):
+        self.write("CMakeLists.txt", HEAD + f"""
+add_subdirectory("{ROOT}" delaunayflip)
+add_executable(consumer "{EXAMPLE}")
+target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
+""")
+        self.build("-DDELAUNAYFLIP_BUILD_VTK=OFF", "-DDELAUNAYFLIP_ENABLE_CUDA=OFF", NO_VTK)
+        self.expect_flips()
+        self.assertEqual(self.read_option("DELAUNAYFLIP_BUILD_TESTING"), "OFF")
+        self.assertIsNone(self.read_option("BUILD_SHARED_LIBS"))
+        self.assertEqual(self.read_option("CMAKE_BUILD_TYPE"), "")
+        self.install(self.path("build"))
+        self.use_what_it_installed()
+
+    def use_what_it_installed(self):
+        os.rename(self.path("build"), self.path("first"))
+        self.write("CMakeLists.txt", HEAD + f"""
+find_package(DelaunayFlip REQUIRED)
+add_executable(consumer "{EXAMPLE}")
+target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
+find_package(DelaunayFlip COMPONENTS Filters)
+if(DelaunayFlip_FOUND)
+  message(FATAL_ERROR "it has no VTK")
+endif()
+""")
+        self.build(NO_VTK)
+        self.expect_flips()
+
+
+if __name__ == "__main__":
+    unittest.main()
