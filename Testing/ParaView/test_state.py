@@ -19,6 +19,10 @@ SETTINGS = {
 }
 
 
+def get_pairs(values):
+    return dict(zip(values[::2], values[1::2]))
+
+
 def run_script(text):
     exec(compile(text, "script", "exec"), {"__name__": "__main__"})
 
@@ -104,6 +108,47 @@ class Session(PluginTest):
         run_script(script)
         # A trace has what was given on creation, not how displays were changed after it.
         self.assertEqual(self.snapshot()[:2], (settings, triangles))
+
+
+class Chart(PluginTest):
+    """A chart of the iterations, with what a script sees of it."""
+
+    def build(self):
+        flip = simple.DelaunayFlip(Input=self.read(make_fan(30)))
+        plot = simple.PlotDelaunayFlips(
+            registrationName="Plot", Input=simple.OutputPort(flip, 1), LogScale=1)
+        view = simple.CreateView("DelaunayFlipChartView")
+        view.LeftAxisLogScale = 1
+        simple.Show(plot, view)
+        simple.Render(view)
+
+    def snapshot(self):
+        plot, view = simple.FindSource("Plot"), simple.GetActiveView()
+        simple.Render(view)
+        display = simple.GetRepresentation(plot, view)
+        return (plot.LogScale, view.LeftAxisLogScale, view.LeftAxisTitle, view.BottomAxisTitle,
+                view.RightAxisTitle, display.UseIndexForXAxis, display.XArrayName,
+                list(display.SeriesVisibility), get_pairs(display.SeriesPlotCorner))
+
+    def test_python_state(self):
+        self.expect_again(lambda: smstate.get_state(), run_script)
+
+    def test_state_file(self):
+        def save():
+            simple.SaveState(self.path("state.pvsm"))
+            return self.path("state.pvsm")
+        self.expect_again(save, simple.LoadState)
+
+    def expect_again(self, save, load):
+        self.build()
+        before = self.snapshot()
+        self.assertEqual(before[:7], (1, 1, "Edges", "Iteration", "Smallest angle (degrees)", 0,
+                                      "Iteration"))
+        self.assertEqual(before[8]["MinimumAngle"], "1")
+        saved = save()
+        simple.ResetSession()
+        load(saved)
+        self.assertEqual(self.snapshot(), before)
 
 
 if __name__ == "__main__":
