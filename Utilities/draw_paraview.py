@@ -39,11 +39,11 @@ def show_mesh(source):
     display.SetScalarBarVisibility(view, False)
 
 
-def look_at_mesh(view):
+def look_at_mesh(view, zoom):
     view.CameraPosition, view.CameraFocalPoint = [0.5, -1.0, 1.9], [0.5, 0.5, 0.0]
     view.CameraViewUp = [0.0, 0.0, 1.0]
     simple.ResetCamera(view)
-    view.GetActiveCamera().Zoom(1.05)
+    view.GetActiveCamera().Zoom(zoom)
     simple.Render(view)
 
 
@@ -83,7 +83,7 @@ def session(client):
     flip = simple.GetActiveSource()
     show_mesh(flip)
     view = simple.GetActiveView()
-    look_at_mesh(view)
+    look_at_mesh(view, 1.5)
     yield idle(0.3)
     Panel(client).click("LiveUpdate")
     client.apply()
@@ -94,7 +94,7 @@ def session(client):
     client.apply()
     yield lambda: flip.StopReason == "converged"
     yield from draw_chart(client, flip)
-    look_at_mesh(view)
+    look_at_mesh(view, 1.05)
     yield idle(0.3)
     client.save_picture("paraview.png")
 
