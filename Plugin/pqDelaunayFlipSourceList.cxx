@@ -57,8 +57,7 @@ QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
 bool HoldsPolygons(pqOutputPort* port)
 {
   vtkPVDataInformation* information = port->getDataInformation();
-  return information && !information->IsCompositeDataSet() &&
-    information->DataSetTypeIsA("vtkPolyData");
+  return information && information->DataSetTypeIsA("vtkPolyData");
 }
 
 }

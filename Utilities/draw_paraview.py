@@ -41,7 +41,7 @@ def show_mesh(source):
 
 def look_at_mesh(view, zoom):
     view.CameraPosition, view.CameraFocalPoint = [0.5, -1.0, 1.9], [0.5, 0.5, 0.0]
-    view.CameraViewUp = [0.0, 0.0, 1.0]
+    view.CameraViewUp, view.CameraViewAngle = [0.0, 0.0, 1.0], 30.0
     simple.ResetCamera(view)
     view.GetActiveCamera().Zoom(zoom)
     simple.Render(view)
