@@ -83,7 +83,7 @@ def step_pauses(client, panel, flip):
 
 
 def choose_constraints(client, panel, flip):
-    edge = {6, 13}  # of the input's fan; flipped unless it is asked for
+    edge = {15, 29}  # of the input's fan; flipped unless it is asked for
     expect(count_edges(flip, edge) == 0, "the edge is there without constraints")
     choices = panel.find("Constraints", QComboBox)
     texts = [choices.itemText(i) for i in range(choices.count())]
@@ -91,6 +91,8 @@ def choose_constraints(client, panel, flip):
     panel.choose("Constraints", "Lines")
     client.apply()
     yield lambda: count_edges(flip, edge) == 2
+    yield lambda: panel.read("NumberOfConstraintEdges") == "1"
+    expect(panel.read("NumberOfUnmatchedConstraintEdges") == "0", "an edge was not found")
     client.save_picture("panel.png")
     panel.choose("Constraints", "(none)")
     client.apply()
@@ -144,7 +146,7 @@ def session(client):
     load_plugin()
     client.window.resize(1500, 1150)
     mesh = simple.XMLPolyDataReader(
-        registrationName="Mesh", FileName=[os.path.join(FOLDER, "mesh.vtp")])
+        registrationName="Mesh", FileName=[os.path.join(FOLDER, "long.vtp")])
     simple.XMLPolyDataReader(
         registrationName="Lines", FileName=[os.path.join(FOLDER, "lines.vtp")])
     flip = yield from start_filter(client, mesh)

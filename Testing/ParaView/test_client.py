@@ -39,7 +39,8 @@ class Client(PluginTest):
     def play(self, name):
         """Runs a script in a client; what it wrote. Its pictures go to DELAUNAYFLIP_PICTURES."""
         self.save(make_fan(14))
-        self.save(make_line(make_fan(14), 6, 13), "lines.vtp")
+        self.save(make_fan(30), "long.vtp")  # 17 iterations
+        self.save(make_line(make_fan(30), 15, 29), "lines.vtp")
         environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
         client = subprocess.run(
