@@ -32,14 +32,14 @@ int vtkPVDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)
 /// The input as vtkPolyData; the same object while the input is unchanged.
 vtkSmartPointer<vtkPolyData> vtkPVDelaunayFlip::GetMesh(vtkDataObject* input)
 {
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
+  {
+    return surface;
+  }
   auto* dataSet = vtkDataSet::SafeDownCast(input);
   if (!dataSet || !HasSurfaceCells(dataSet))
   {
     return nullptr;
-  }
-  if (auto* surface = vtkPolyData::SafeDownCast(input))
-  {
-    return surface;
   }
   if (dataSet != this->Source || input->GetMTime() != this->SourceTime)
   {
