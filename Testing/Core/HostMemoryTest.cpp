@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <thread>
+#include <limits>
+#include <new>
 #include <vector>
 
 #if defined(__linux__)
+#include <cerrno>
 #include <sys/mman.h>
-#include <unistd.h>
 #endif
 
 namespace delaunayflip
@@ -21,88 +22,47 @@ namespace
 
 constexpr std::size_t Megabyte = std::size_t(1) << 20;
 
-Array<std::uint8_t> MakeBlock(std::size_t bytes, std::uint8_t value, HostMemory& memory)
-{
-  Array<std::uint8_t> block(bytes, memory);
-  std::fill_n(block.Data(), bytes, value);
-  return block;
-}
-
-bool Holds(const Array<std::uint8_t>& block, std::uint8_t value)
-{
-  return std::all_of(block.Data(), block.Data() + block.Size(),
-    [value](std::uint8_t byte) { return byte == value; });
-}
-
-TEST(HostMemory, BlocksKeepWhatTheyHoldWhilePagesMove)
+TEST(HostMemory, BlocksAreAlignedAndApart)
 {
   HostMemory memory;
   std::vector<Array<std::uint8_t>> blocks;
-  // Some from the heap, some of pages, and larger ones made of what was freed.
-  std::size_t size = Megabyte - 1;
-  for (int round = 0; round < 60; ++round)
+  // Some from the heap, some of pages.
+  for (const std::size_t bytes : { std::size_t(0), std::size_t(1), Megabyte - 1, Megabyte,
+         Megabyte + 1, 2 * Megabyte, 3 * Megabyte - 1, 5 * Megabyte })
   {
-    blocks.push_back(MakeBlock(size, static_cast<std::uint8_t>(round), memory));
-    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(blocks.back().Data()) % 64, 0u);
-    if (round % 3 == 2)
-    {
-      blocks.erase(blocks.begin() + round % 5);
-    }
-    for (const Array<std::uint8_t>& block : blocks)
-    {
-      ASSERT_TRUE(Holds(block, block[0])) << "round " << round;
-    }
-    size = size * 7 / 3 % (13 * Megabyte) + 1;
+    blocks.emplace_back(bytes, memory);
+    ASSERT_EQ(0u, reinterpret_cast<std::uintptr_t>(blocks.back().Data()) % 64) << bytes;
+    std::fill_n(blocks.back().Data(), bytes, static_cast<std::uint8_t>(blocks.size()));
   }
-}
-
-TEST(HostMemory, ServesThreadsAtOnce)
-{
-  HostMemory memory;
-  std::vector<std::thread> threads;
-  std::vector<int> damaged(4, 0);
-  for (std::size_t i = 0; i < damaged.size(); ++i)
+  for (std::size_t i = 0; i < blocks.size(); ++i)
   {
-    threads.emplace_back(
-      [&, i]
-      {
-        for (std::size_t round = 1; round <= 50; ++round)
-        {
-          const auto value = static_cast<std::uint8_t>(10 * i + round);
-          const Array<std::uint8_t> block = MakeBlock(round * i * 100000, value, memory);
-          damaged[i] += Holds(block, value) ? 0 : 1;
-        }
-      });
+    const Array<std::uint8_t>& block = blocks[i];
+    EXPECT_TRUE(std::all_of(
+      block.Data(), block.Data() + block.Size(), [i](std::uint8_t byte) { return byte == i + 1; }))
+      << i;
   }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
-  EXPECT_EQ(damaged, std::vector<int>(4, 0));
 }
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-/// How many of a block's pages are in memory.
-std::size_t CountResident(Array<std::uint8_t>& block)
-{
-  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  std::vector<unsigned char> resident((block.Size() + page - 1) / page);
-  EXPECT_EQ(mincore(block.Data(), block.Size(), resident.data()), 0);
-  return std::count_if(
-    resident.begin(), resident.end(), [](unsigned char flags) { return (flags & 1) != 0; });
-}
-
-TEST(HostMemory, PagesOfFreedBlocksServeTheNext)
+TEST(HostMemory, TooMuchIsBadAlloc)
 {
   HostMemory memory;
-  const Array<std::uint8_t> other = MakeBlock(4 * Megabyte, 1, memory);
-  MakeBlock(6 * Megabyte, 2, memory);
-  MakeBlock(4 * Megabyte, 3, memory);
-  Array<std::uint8_t> next(10 * Megabyte, memory);
-  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  // The second block took pages of the first.
-  EXPECT_EQ(CountResident(next), 6 * Megabyte / page);
-  EXPECT_TRUE(Holds(other, 1));
+  EXPECT_THROW(memory.Allocate(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
+}
+
+TEST(HostMemory, LargeBlocksGoBackToTheSystem)
+{
+  HostMemory memory;
+  constexpr std::size_t Bytes = 64 * Megabyte;
+  void* block = memory.Allocate(Bytes);
+  unsigned char isResident = 0;
+  static_cast<char*>(block)[0] = 1;
+  EXPECT_EQ(0, mincore(block, 1, &isResident));
+  EXPECT_EQ(1, isResident & 1);
+  memory.Free(block, Bytes);
+  // Not mapped any more.
+  EXPECT_EQ(-1, mincore(block, 1, &isResident));
+  EXPECT_EQ(ENOMEM, errno);
 }
 #endif
 
