@@ -50,7 +50,7 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
       { "planar-xy", GeometryKind::PlanarXY }, { "surface", GeometryKind::Surface } },
     "Where edges are judged: in the points' plane (planar), by x and y with z riding along "
     "(planar-xy, for terrain), in space (surface); auto: planar if all points lie in one plane, "
-    "else surface [auto]");
+    "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
   AddChoice<CriterionKind>(app, "--criterion", flip.Criterion,
     { { "in-circle", CriterionKind::InCircle },
       { "opposite-angles", CriterionKind::OppositeAngles } },

@@ -6,7 +6,6 @@
 #include "Console.h"
 #include "DelaunayFlip.h"
 #include "FormatLosses.h"
-#include "HeightField.h"
 #include "MeshReader.h"
 #include "MeshWriter.h"
 #include "OutputFiles.h"
@@ -138,7 +137,6 @@ public:
     this->Messages.PrintWarnings();
     this->ThrowErrors();
     this->TakeReport();
-    this->NoteHeightField();
   }
 
   void Write()
@@ -213,15 +211,6 @@ private:
       report.Points = this->Input->GetNumberOfPoints();
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
-    }
-  }
-
-  void NoteHeightField() const
-  {
-    if (this->Settings.Flip.Geometry == GeometryKind::Auto &&
-      this->Run.Flip.GeometryUsed == GeometryKind::Surface && IsHeightField(this->Input))
-    {
-      this->Note("a height field; --geometry planar-xy treats it as terrain");
     }
   }
 

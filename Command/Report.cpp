@@ -24,6 +24,7 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["constraint_edges"] = flip.Edges.Constraint;
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["geometry"] = ToString(flip.GeometryUsed);
+  json["geometry_reason"] = flip.GeometryReason;
   json["backend"] = flip.Backend;
   if (!flip.Fallback.empty())
   {
@@ -90,6 +91,13 @@ std::string Degrees(double angle)
   return angle == angle ? text.str() : "none";
 }
 
+/// E.g. "planar: all points lie in one plane; the feature angle has no effect".
+std::string DescribeGeometry(const FlipReport& flip)
+{
+  const std::string name = ToString(flip.GeometryUsed);
+  return flip.GeometryReason.empty() ? name : name + ": " + flip.GeometryReason;
+}
+
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -104,7 +112,8 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
   const FlipReport& flip = run.Flip;
   stream << "mesh            " << Count(flip.Points, "point") << ", "
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
-         << Grouped(flip.Edges.Fixed) << " fixed), " << ToString(flip.GeometryUsed) << '\n'
+         << Grouped(flip.Edges.Fixed) << " fixed)\n"
+         << "geometry        " << DescribeGeometry(flip) << '\n'
          << "violations      " << Grouped(flip.NonDelaunayBefore) << " -> "
          << Grouped(flip.NonDelaunayAfter) << '\n'
          << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "

@@ -304,6 +304,18 @@ private:
     {
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     }
+    this->FindHarm();
+  }
+
+  /// Defects of the input, and at the end what flips have added to them.
+  void FindHarm()
+  {
+    this->Report.Defects = this->Engine->GetInputReport().Defects;
+    const Defect turned = this->IsRunning() ? Defect() : this->Engine->FindTurnedTriangles();
+    if (turned.Count > 0)
+    {
+      this->Report.Defects.push_back(turned);
+    }
   }
 
   TriangleMesh Mesh;

@@ -66,6 +66,10 @@ private:
 /// @throws as FlipSession's constructor.
 std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOptions& options);
 
+/// What GeometryKind::Auto comes to for a mesh; other kinds are what they are.
+/// @throws as FlipSession's constructor.
+GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options);
+
 /// The whole way at once: flips `mesh` and writes the result to `triangles`, which may be the very
 /// array that mesh.Triangles views. Nothing is written when an exception leaves.
 /// @throws as FlipSession's constructor.

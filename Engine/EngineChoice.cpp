@@ -99,6 +99,11 @@ void ChosenEngine::StoreFlipCounts(std::int32_t* counts)
   this->Run([&](const FlipEngine& engine) { engine.StoreFlipCounts(counts); });
 }
 
+Defect ChosenEngine::FindTurnedTriangles()
+{
+  return this->Run([](const FlipEngine& engine) { return engine.FindTurnedTriangles(); });
+}
+
 void ChosenEngine::Audit()
 {
   this->RunOnce([](const FlipEngine& engine) { engine.Audit(); });

@@ -42,6 +42,7 @@ public:
   // As FlipEngine's. The triangles may be those of the input.
   void StoreTriangles(const MutableTriangleArray& triangles);
   void StoreFlipCounts(std::int32_t* counts);
+  Defect FindTurnedTriangles();
   void Audit();
 
 private:

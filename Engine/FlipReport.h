@@ -77,6 +77,8 @@ struct FlipReport
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
+  std::string GeometryReason; ///< Why it was used, for people; also says where
+                              ///< FlipOptions::FeatureAngle has no effect.
   std::string Backend; ///< E.g. "Threads: 8" or "CUDA: NVIDIA H200".
   std::string Fallback; ///< Why the CPU stood in for a GPU that is there; else empty.
 
@@ -96,7 +98,9 @@ struct FlipReport
   double BuildSeconds = 0.0; ///< From the caller's arrays to the edge mesh.
   double FlipSeconds = 0.0; ///< The loop.
 
-  std::vector<Defect> Defects; ///< Empty for a clean mesh.
+  /// Empty for a clean mesh. The last may be triangles that flips in space have turned over in x
+  /// and y, known when a run has stopped.
+  std::vector<Defect> Defects;
 };
 
 /// Called on the calling thread after every iteration; false aborts the run. Where iterations run

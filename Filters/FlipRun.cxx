@@ -180,13 +180,21 @@ std::unique_ptr<FlipRun> FlipRun::StartWarmly(std::unique_ptr<FlipRun> last, con
   Start start = last->GetEnd();
   last.reset();
   std::unique_ptr<FlipRun> run(new FlipRun(request, std::move(start)));
-  if (run->Session.GetReport().GeometryUsed != geometry)
+  if (!run->GoesBy(geometry))
   {
-    // A surface has feature edges that a plane had not.
     run.reset();
     run.reset(new FlipRun(request));
   }
   return run;
+}
+
+/// A surface has feature edges that a plane had not, so a warm start stays in its geometry. Auto
+/// must come to it for the triangles that flips have made, and for those of the input, as it will
+/// without LiveUpdate.
+bool FlipRun::GoesBy(GeometryKind geometry) const
+{
+  return this->Session.GetReport().GeometryUsed == geometry &&
+    FindGeometry(this->Origin->Bridge.GetMesh(), this->Options) == geometry;
 }
 
 FlipRun::Start FlipRun::GetEnd() const

@@ -89,6 +89,7 @@ private:
   static std::unique_ptr<FlipRun> StartWarmly(
     std::unique_ptr<FlipRun> last, const Request& request);
   bool Fits(const Request& request) const;
+  bool GoesBy(GeometryKind geometry) const;
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
   TriangleMesh GetStartMesh() const;
   FlipOptions GetStartOptions() const;

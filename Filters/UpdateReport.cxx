@@ -137,6 +137,7 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
   AddAngles(*this, other);
   AddGeometry(*this, other);
   AddEdges(this->Edges, other.Edges);
+  AddText(this->GeometryReason, other.GeometryReason);
   AddText(this->Backend, other.Backend);
   AddText(this->Fallback, other.Fallback);
   AddDefects(this->Defects, other.Defects);

@@ -199,6 +199,11 @@ const char* vtkDelaunayFlip::GetGeometryUsedAsString() const
   return this->Report->GetGeometryName();
 }
 
+const char* vtkDelaunayFlip::GetGeometryReason() const
+{
+  return this->Report->GeometryReason.c_str();
+}
+
 const char* vtkDelaunayFlip::GetBackendUsed() const { return this->Report->Backend.c_str(); }
 
 const FlipReport& vtkDelaunayFlip::GetReport() const { return *this->Report; }
@@ -227,4 +232,6 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
   os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
+  os << indent << "GeometryUsed: " << this->GetGeometryUsedAsString() << "\n";
+  os << indent << "GeometryReason: " << this->GetGeometryReason() << "\n";
 }

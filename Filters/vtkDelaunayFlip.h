@@ -26,8 +26,8 @@
  * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
  * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
  * NonDelaunayEdges, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
- * GeometryUsed and Backend. In the field data each name begins with "DelaunayFlip:", e.g.
- * "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
+ * GeometryUsed, GeometryReason and Backend. In the field data each name begins with "DelaunayFlip:",
+ * e.g. "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
  * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
@@ -107,10 +107,24 @@ public:
 
   ///@{
   /**
-   * In which space edges are judged. AUTO (default) is PLANAR when all used points lie in one plane
-   * of any orientation, within 1e-6 of the diagonal of their bounding box, else SURFACE. PLANAR is
-   * an error if there is no such plane. PLANAR_XY judges by x and y and lets z ride along
-   * (terrain); AUTO never chooses it. SURFACE judges in space, by opposite-angle sums.
+   * In which space edges are judged. PLANAR judges in the plane of the points, whatever its
+   * orientation, and is an error if there is none. PLANAR_XY judges by x and y and lets z ride
+   * along (terrain). SURFACE judges in space, by opposite-angle sums. AUTO (default) is the first
+   * of these that fits:
+   *
+   * PLANAR when all used points lie in one plane, within 1e-6 of the diagonal of their bounding
+   * box.
+   *
+   * PLANAR_XY when the mesh is a height field over x and y (all triangles but at most one in 1,000
+   * have area there and turn the same way, and around no point they turn more than once) and either
+   * z extends further than x and y, as with degrees and metres, or 95 % of the area slopes below 45
+   * degrees.
+   *
+   * SURFACE else. One warning is given where only a few triangles, less than one in 100, stood
+   * against PLANAR_XY. Ask for PLANAR_XY where terrain is steeper: slivers are.
+   *
+   * GetGeometryReason() says why. Where SURFACE is used on a height field, by choice or not, and
+   * its flips turn triangles over in x and y, a warning counts them.
    */
   enum GeometryType
   {
@@ -435,6 +449,12 @@ public:
   int GetGeometryUsed() const;
   const char* GetGeometryUsedAsString() const;
   ///@}
+
+  /**
+   * Why the last update used that geometry, in plain English, e.g. "all points lie in one plane;
+   * the feature angle has no effect". "" when GetGeometryUsed() is GEOMETRY_AUTO.
+   */
+  const char* GetGeometryReason() const;
 
   /**
    * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:

@@ -14,6 +14,7 @@
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 #include "SurveyMesh.h"
+#include "TurnedTriangles.h"
 
 #include <utility>
 
@@ -77,6 +78,7 @@ public:
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
+    this->Turns = survey.Turns;
     FlipLoopResult made =
       ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh },
         std::move(built.Table), this->Backend);
@@ -105,6 +107,15 @@ public:
     this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const OutputSlice& target)
       { target.Set(records[t].InputTriangle, records[t].Flips / OneFlip); });
+  }
+
+  Defect FindTurnedTriangles() const override
+  {
+    const bool wasHeightField =
+      this->Report.GeometryUsed == GeometryKind::Surface && this->Turns.AreNearlyUniform();
+    return wasHeightField
+      ? delaunayflip::FindTurnedTriangles(this->Mesh, this->Points, this->Turns, this->Backend)
+      : Defect();
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
@@ -149,9 +160,11 @@ private:
     report.UnmatchedConstraints = built.MissingConstraints;
     report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
     report.GeometryUsed = survey.Geometry;
+    report.GeometryReason = survey.GeometryReason;
     report.Backend = this->Backend.GetName();
     this->AddDefect(survey.NonFinitePoints);
     this->AddDefect(survey.RepeatedIds);
+    this->AddDefect(survey.NearlyHeightField);
     this->AddDefect(built.DuplicateTriangles);
     this->AddDefect({ "constraint edges that are not edges of the mesh", built.MissingConstraints,
       {}, DefectIds::Points });
@@ -169,6 +182,7 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
+  TurnCounts Turns;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;
 };

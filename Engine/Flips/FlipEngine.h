@@ -41,6 +41,10 @@ public:
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
 
+  /// On a surface that was a height field over x and y, or nearly: triangles that flips have turned
+  /// over in x and y. Else none.
+  virtual Defect FindTurnedTriangles() const = 0;
+
   /// Throws std::logic_error when the edge mesh is inconsistent: a fault of ours.
   virtual void Audit() const = 0;
 };

@@ -11,6 +11,7 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <string>
 
 /// @file
 /// The first look at an input: are its ids valid, which points are used, in which space do edges
@@ -55,9 +56,29 @@ struct BoundingBox
   double Upper[3] = { 0.0, 0.0, 0.0 };
 };
 
+/// How the finite triangles of a mesh turn when seen along z.
+struct TurnCounts
+{
+  int Side = 0; ///< To which most turn: 1 or -1; 0 where no triangle has area in x and y.
+  std::int64_t Triangles = 0;
+  std::int64_t Others = 0; ///< Turned to the other side.
+  std::int64_t Flat = 0; ///< Without area in x and y.
+
+  /// All but at most one triangle in 1,000 turn to one side.
+  bool AreUniform() const { return this->Side != 0 && 1000 * this->GetStrays() <= this->Triangles; }
+  /// All but less than one in 100.
+  bool AreNearlyUniform() const
+  {
+    return this->Side != 0 && 100 * this->GetStrays() < this->Triangles;
+  }
+  std::int64_t GetStrays() const { return this->Others + this->Flat; }
+};
+
 struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
+  std::string GeometryReason; ///< As FlipReport's.
+  TurnCounts Turns; ///< Of surfaces, and where Auto has looked.
   PlaneProjection Projection; ///< For the planar kinds.
   Array<PointUse> Uses; ///< One a point, in the backend's memory.
   std::int64_t UsedPoints = 0;
@@ -66,6 +87,7 @@ struct MeshSurvey
   double Scale = 1.0; ///< Power of two that brings extreme coordinates near 1; 1 for usual ones.
   Defect NonFinitePoints;
   Defect RepeatedIds;
+  Defect NearlyHeightField; ///< What kept Auto from PlanarXY, where it was little.
 };
 
 /// "x, y and z" of a point is finite; only the first two matter for PlanarXY.

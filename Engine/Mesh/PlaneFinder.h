@@ -4,10 +4,10 @@
 #define DELAUNAYFLIP_PLANEFINDER_H
 
 #include "MeshSurvey.h"
+#include "PlaneScale.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -31,24 +31,6 @@ struct Farthest
       *this = other;
     }
     return *this;
-  }
-};
-
-/// A power of two by repeated scaling, the same on every backend.
-struct PlaneScale
-{
-  double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.
-
-  explicit PlaneScale(int exponent)
-  {
-    this->Factors[0] = std::scalbn(1.0, exponent / 2);
-    this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(double x, double y, double z) const
-  {
-    return { x * this->Factors[0] * this->Factors[1], y * this->Factors[0] * this->Factors[1],
-      z * this->Factors[0] * this->Factors[1] };
   }
 };
 
@@ -91,7 +73,7 @@ public:
   PlaneFinder(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
     : Input(input),
       Uses(survey.Uses.Data()),
-      Scale(FindShift(survey.Box)),
+      Scale(survey.Box),
       Engine(backend)
   {
     const BoundingBox& box = survey.Box;
@@ -157,17 +139,6 @@ public:
   }
 
 private:
-  /// Lengths relative to the largest coordinate neither overflow nor underflow to nothing.
-  static int FindShift(const BoundingBox& box)
-  {
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
-    }
-    return largest > 0.0 ? -std::ilogb(largest) : 0;
-  }
-
   Vector3 Get(std::int64_t i) const
   {
     const PointArray& points = this->Input.Caller.Points;

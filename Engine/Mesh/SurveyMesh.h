@@ -5,8 +5,8 @@
 
 #include "Atomics.h"
 #include "FlipError.h"
+#include "GeometryChoice.h"
 #include "MeshSurvey.h"
-#include "PlaneFinder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,9 +114,10 @@ DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, Geome
     return;
   }
   ++survey.Used;
-  if (!IsFinitePoint(points, i, geometry))
+  const bool isFinite = IsFinitePoint(points, i, geometry);
+  uses[i] = isFinite ? PointUse::Used : PointUse::NotFinite;
+  if (!isFinite)
   {
-    uses[i] = PointUse::NotFinite;
     survey.NonFinite.Note(i);
     return;
   }
@@ -124,33 +125,6 @@ DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, Geome
   {
     survey.Include(axis, points.Get(i, axis), points.Get(i, axis));
   }
-}
-
-template <typename Backend>
-void ResolveGeometry(
-  MeshSurvey& survey, const MeshInput& input, GeometryKind requested, const Backend& backend)
-{
-  survey.Geometry = requested;
-  if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface)
-  {
-    return;
-  }
-  PlaneFinder<Backend> finder(input, survey, backend);
-  const bool planar = finder.Find();
-  if (!planar && requested == GeometryKind::Planar)
-  {
-    throw InvalidOptions("geometry 'planar' was asked for, but the points do not lie in one plane: "
-                         "point " +
-      std::to_string(finder.FarthestOff()) +
-      " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' for "
-      "terrain");
-  }
-  survey.Geometry = planar ? GeometryKind::Planar : GeometryKind::Surface;
-  const int axis = finder.DominantAxis();
-  survey.Projection.AxisU = (axis + 1) % 3;
-  survey.Projection.AxisV = (axis + 2) % 3;
-  survey.Projection.AxisW = axis;
-  survey.Projection.Tilted = planar && survey.Box.Lower[axis] < survey.Box.Upper[axis];
 }
 
 /// Range of the coordinates, and what follows from it.
@@ -186,19 +160,16 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }
 
-/// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
-/// without a plane.
+/// @param geometry tells which coordinates matter.
 template <typename Backend>
-MeshSurvey SurveyMesh(const MeshInput& input, GeometryKind requested, const Backend& backend)
+void SurveyPoints(
+  MeshSurvey& survey, const MeshInput& input, GeometryKind geometry, const Backend& backend)
 {
-  MeshSurvey survey;
-  survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
-  SurveyTriangleIds(survey, input, backend);
   const PointArray array = input.Local.Points;
   PointUse* uses = survey.Uses.Data();
   const PointSurvey points = backend.template Sum<PointSurvey>(array.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
-    { SurveyPoint(array, requested, uses, i, sum); });
+    { SurveyPoint(array, geometry, uses, i, sum); });
   survey.UsedPoints = points.Used;
   survey.NonFinitePoints =
     MakeDefect("points with NaN or infinite coordinates", points.NonFinite, DefectIds::Points);
@@ -207,7 +178,23 @@ MeshSurvey SurveyMesh(const MeshInput& input, GeometryKind requested, const Back
     std::copy_n(points.Lower, 3, survey.Box.Lower);
     std::copy_n(points.Upper, 3, survey.Box.Upper);
   }
-  ResolveGeometry(survey, input, requested, backend);
+}
+
+/// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
+/// without a plane.
+template <typename Backend>
+MeshSurvey SurveyMesh(const MeshInput& input, GeometryKind requested, const Backend& backend)
+{
+  MeshSurvey survey;
+  survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
+  SurveyTriangleIds(survey, input, backend);
+  SurveyPoints(survey, input, requested, backend);
+  GeometryChoice<Backend>(input, survey, backend).Choose(requested);
+  if (survey.Geometry != requested && survey.Geometry == GeometryKind::PlanarXY &&
+    survey.NonFinitePoints.Count > 0)
+  {
+    SurveyPoints(survey, input, survey.Geometry, backend); // z no longer matters
+  }
   ResolveRange(survey);
   return survey;
 }

@@ -53,4 +53,16 @@ std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOpt
   return ListFixedEdges(built.Edges, order.View());
 }
 
+GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  CheckOptions(options);
+  CheckMeshSize(mesh);
+  if (options.Geometry != GeometryKind::Auto)
+  {
+    return options.Geometry;
+  }
+  const ThreadBackend backend(options.NumberOfThreads);
+  return SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, backend).Geometry;
+}
+
 }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real planar meshes and terrain, judged in x and y: the answers are exact, for the Delaunay
+"""Real planar meshes and terrain, asked for or found to be judged in x and y: the answers are exact, for the Delaunay
 triangulation is unique but for co-circular points."""
 
 import csv
@@ -55,6 +55,18 @@ class Planar(RealDataTest):
         report = self.flip("adcirc_alaska.vtk", *XY)
         self.assertEqual((report["non_delaunay_before"], report["non_delaunay_after"]), (5196, 0))
         self.about(report["total_flips"], 5575, "flips")
+
+    def test_auto_knows_degrees_and_metres(self):
+        report = self.flip("adcirc_alaska.vtk")
+        self.assertEqual(report["geometry"], "planar-xy")
+        self.assertIn("z extends further than x and y", report["geometry_reason"])
+        self.assertEqual((report["total_flips"], report["non_delaunay_after"]), (5588, 0))
+
+    def test_auto_knows_terrain_in_utm(self):
+        report = self.flip("turbine_siting_terrain_utm.stl")
+        self.assertEqual(report["geometry"], "planar-xy")
+        self.assertIn("100 % of its area slopes below 45 degrees", report["geometry_reason"])
+        self.assertEqual(report["total_flips"], 0)
 
     def test_bad_terrain(self):
         report = self.flip("tin_bigtujunga_bad_60k.vtk", *XY)

@@ -55,7 +55,7 @@ class Options(CommandTest):
         for geometry in ("planar-xy", "surface"):
             report = self.report(path, "out.vtk", "--geometry", geometry)
             self.assertEqual(report["geometry"], geometry)
-        self.assertEqual(self.report(path, "out.vtk")["geometry"], "surface")
+        self.assertEqual(self.report(path, "out.vtk")["geometry"], "planar-xy")
         flat = write_mesh(bumpy_grid(6, 0), self.path("flat.vtk"))
         self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
 

@@ -22,7 +22,8 @@ from CommandTesting import (
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
     *("constraint_edges", "unmatched_constraint_edges"),
-    *("geometry", "backend", "iterations", "total_flips", "total_excluded", "total_blocked"),
+    *("geometry", "geometry_reason", "backend", "iterations"),
+    *("total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "min_angle_before_deg", "min_angle_after_deg"),
     *("converged", "stop_reason", "seconds"),
 ]
@@ -61,10 +62,22 @@ class Report(CommandTest):
         }
         self.assertEqual({key: report[key] for key in expected}, expected)
 
+    def test_geometry(self):
+        for mesh, geometry, reason in (
+            (bumpy_grid(6, 0), "planar", "all points lie in one plane"),
+            (bumpy_grid(6, 0.1), "planar-xy", "100 % of its area slopes below 45 degrees"),
+            (bumpy_grid(6, 90), "planar-xy", "z extends further than x and y"),
+            (bumpy_grid(20, 20), "surface", "% of its area slopes below 45 degrees"),
+        ):
+            report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
+            self.assertEqual(report["geometry"], geometry)
+            self.assertIn(reason, report["geometry_reason"])
+
     def test_counts_and_angles(self):
         for height in (0, 1):
             mesh = bumpy_grid(12, height)
-            report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
+            path = write_mesh(mesh, self.path("in.vtk"))
+            report = self.report(path, "out.vtk", "--geometry", "surface")
             edges, boundary, non_manifold = edge_counts(triangles_of(mesh))
             self.assertEqual(report["edges"], edges)
             self.assertEqual(report["boundary_edges"], boundary)

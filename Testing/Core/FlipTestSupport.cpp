@@ -214,8 +214,8 @@ void ExpectSameRows(const std::vector<IterationRecord>& a, const std::vector<Ite
 
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
-  const auto& [points, triangles, edges, unmatched, euler, geometry, backend, fallback, iterations,
-    flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter, stopReason,
+  const auto& [points, triangles, edges, unmatched, euler, geometry, reason, backend, fallback,
+    iterations, flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter, stopReason,
     buildSeconds, flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
@@ -227,6 +227,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.UnmatchedConstraints, unmatched);
   EXPECT_EQ(a.EulerCharacteristic, euler);
   EXPECT_EQ(a.GeometryUsed, geometry);
+  EXPECT_EQ(a.GeometryReason, reason);
   ExpectSameRows(a.Iterations, iterations);
   EXPECT_EQ(a.TotalFlips, flips);
   EXPECT_EQ(a.TotalExcluded, excluded);

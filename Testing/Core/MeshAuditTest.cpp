@@ -203,6 +203,7 @@ TEST(NonDelaunayEdges, OfSurfacesObeyFeatureAngleAndTolerance)
   // Both triangles rise towards the bad edge; their normals differ by 2 atan(1/2) = 53 degrees.
   const OwnedMesh<double> roof = MakePair({ -2, 0, 0.5, 0, -1, 0, 2, 0, 0.5, 0, 1, 0 });
   FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
   options.FeatureAngle = 53.0;
   EXPECT_EQ(0, CountNonDelaunayEdges(roof.View(), options));
   options.FeatureAngle = 53.2;

@@ -86,6 +86,7 @@ std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder)
     mesh.Ids.assign(file.Triangles.begin(), file.Triangles.end());
     mesh.ConstraintEdges = file.ConstraintEdges;
     mesh.EndsDelaunay = false;
+    mesh.Geometry = file.IsHeightField ? GeometryKind::Surface : GeometryKind::Auto;
     meshes.push_back(mesh);
     if (file.IsHeightField)
     {

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_GEOMETRYCHOICE_H
+#define DELAUNAYFLIP_GEOMETRYCHOICE_H
+
+#include "Defects.h"
+#include "FlipError.h"
+#include "FlipOptions.h"
+#include "HeightFieldSurvey.h"
+#include "MeshSurvey.h"
+#include "PlaneFinder.h"
+
+#include <cstdint>
+#include <string>
+
+/// @file
+/// In which space the edges of a mesh are judged, and why.
+
+namespace delaunayflip
+{
+
+/// Whether a bounding box is higher than wide: x and y in degrees, say, and z in metres.
+inline bool IsHigherThanWide(const BoundingBox& box)
+{
+  // Half of each number, so that a box as wide as the range of double does not overflow.
+  const auto extent = [&box](int axis) { return 0.5 * box.Upper[axis] - 0.5 * box.Lower[axis]; };
+  return extent(2) > extent(0) && extent(2) > extent(1);
+}
+
+/// Percent of the area that slope below 45 degrees, rounded down; 0 without area.
+inline int GetGentlePercent(const TurnSums& sums)
+{
+  const Integer128 all = sums.All.Get();
+  return all > 0 ? static_cast<int>(100 * sums.Gentle.Get() / all) : 0;
+}
+
+inline TurnCounts CountTurns(const TurnSums& sums)
+{
+  const std::int64_t left = sums.Left.Count;
+  const std::int64_t right = sums.Right.Count;
+  TurnCounts counts;
+  counts.Side = left + right == 0 ? 0 : (left >= right ? 1 : -1);
+  counts.Triangles = left + right + sums.Flat.Count;
+  counts.Others = left >= right ? right : left;
+  counts.Flat = sums.Flat.Count;
+  return counts;
+}
+
+/// "12 of 30000 triangles".
+inline std::string DescribeStrays(const TurnCounts& turns)
+{
+  return std::to_string(turns.GetStrays()) + " of " + std::to_string(turns.Triangles) +
+    " triangles";
+}
+
+/// Sets a survey's geometry, its reason, and what belongs to it.
+template <typename Backend>
+class GeometryChoice
+{
+public:
+  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const Backend& backend)
+    : Input(input),
+      Survey(survey),
+      Engine(backend)
+  {
+  }
+
+  /// @throws InvalidOptions for GeometryKind::Planar without a plane.
+  void Choose(GeometryKind requested)
+  {
+    const HeightFieldSurvey<Backend> heights(this->Input, this->Survey, this->Engine);
+    if (requested == GeometryKind::PlanarXY)
+    {
+      this->Take(requested, AskedFor);
+    }
+    else if (requested == GeometryKind::Surface)
+    {
+      this->Take(requested, AskedFor);
+      this->Survey.Turns = CountTurns(heights.SumTurns());
+    }
+    else if (!this->TakePlane(requested))
+    {
+      this->TakeSpace(heights);
+    }
+  }
+
+private:
+  static constexpr const char* AskedFor = "as asked for";
+  static constexpr int MostlyGentle = 95; ///< Percent of the area.
+
+  void Take(GeometryKind geometry, const std::string& reason)
+  {
+    this->Survey.Geometry = geometry;
+    this->Survey.GeometryReason = reason;
+    if (geometry != GeometryKind::Surface)
+    {
+      this->Survey.GeometryReason += "; the feature angle has no effect";
+    }
+  }
+
+  /// Whether all points lie in one plane.
+  bool TakePlane(GeometryKind requested)
+  {
+    PlaneFinder<Backend> finder(this->Input, this->Survey, this->Engine);
+    if (finder.Find())
+    {
+      const int axis = finder.DominantAxis();
+      PlaneProjection& projection = this->Survey.Projection;
+      projection.AxisU = (axis + 1) % 3;
+      projection.AxisV = (axis + 2) % 3;
+      projection.AxisW = axis;
+      projection.Tilted = this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis];
+      this->Take(GeometryKind::Planar,
+        requested == GeometryKind::Planar ? AskedFor : "all points lie in one plane");
+      return true;
+    }
+    if (requested == GeometryKind::Planar)
+    {
+      throw InvalidOptions(
+        "geometry 'planar' was asked for, but the points do not lie in one plane: point " +
+        std::to_string(finder.FarthestOff()) +
+        " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' "
+        "for terrain");
+    }
+    return false;
+  }
+
+  /// PlanarXY for what can only be terrain, else Surface. To flip terrain as a surface turns
+  /// triangles over in x and y where units are mixed or slopes are steep; to flip steep surfaces by
+  /// their projection ruins them.
+  void TakeSpace(const HeightFieldSurvey<Backend>& heights)
+  {
+    const TurnSums sums = heights.SumTurns();
+    this->Survey.Turns = CountTurns(sums);
+    const bool isHigh = IsHigherThanWide(this->Survey.Box);
+    const int gentle = GetGentlePercent(sums);
+    const bool suits = isHigh || gentle >= MostlyGentle;
+    const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
+    if (!this->Survey.Turns.AreUniform())
+    {
+      this->RefuseStrays(sums, suits);
+    }
+    else if (!suits)
+    {
+      this->Take(GeometryKind::Surface,
+        this->DescribeField() + ", but only " + slopes + "; if it is terrain, ask for planar-xy");
+    }
+    else if (!this->RefuseOverlaps(heights))
+    {
+      this->Take(GeometryKind::PlanarXY,
+        this->DescribeField() + ", and " + (isHigh ? "z extends further than x and y" : slopes));
+    }
+  }
+
+  std::string DescribeField() const
+  {
+    const TurnCounts& turns = this->Survey.Turns;
+    return "a height field over x, y" +
+      (turns.GetStrays() > 0 ? " but for " + DescribeStrays(turns) : std::string());
+  }
+
+  /// @param suits whether the mesh would suit PlanarXY were it a height field.
+  void RefuseStrays(const TurnSums& sums, bool suits)
+  {
+    const TurnCounts& turns = this->Survey.Turns;
+    this->Take(GeometryKind::Surface,
+      turns.Side == 0
+        ? "no triangle has area in x, y"
+        : DescribeStrays(turns) + " turn the other way in x, y or have no area there");
+    if (suits && turns.AreNearlyUniform())
+    {
+      IdSample strays = turns.Side > 0 ? sums.Right : sums.Left;
+      strays += sums.Flat;
+      this->Survey.NearlyHeightField = MakeDefect(
+        "triangles that turn the other way in x, y or have no area there, for which what is "
+        "nearly a height field is flipped as a surface; if it is terrain, ask for planar-xy",
+        strays);
+    }
+  }
+
+  /// Whether stars overlap.
+  bool RefuseOverlaps(const HeightFieldSurvey<Backend>& heights)
+  {
+    const IdSample overlaps = heights.FindOverlaps(this->Survey.Turns.Side);
+    if (overlaps.Count == 0)
+    {
+      return false;
+    }
+    this->Take(GeometryKind::Surface,
+      "triangles overlap in x, y around " + std::to_string(overlaps.Count) +
+        (overlaps.Count == 1 ? " point" : " points"));
+    this->Survey.NearlyHeightField = MakeDefect(
+      "points whose triangles overlap in x, y, for which what is nearly a height field is flipped "
+      "as a surface; if it is terrain, ask for planar-xy",
+      overlaps, DefectIds::Points);
+    return true;
+  }
+
+  const MeshInput& Input;
+  MeshSurvey& Survey;
+  const Backend& Engine;
+};
+
+}
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_TURNEDTRIANGLES_H
+#define DELAUNAYFLIP_TURNEDTRIANGLES_H
+
+#include "Defects.h"
+#include "EdgeMesh.h"
+#include "HeightFieldSurvey.h"
+#include "MeshSurvey.h"
+#include "PackedPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+struct TurnedSums
+{
+  std::int64_t All = 0;
+  IdSample Flipped; ///< Those that flips have made.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
+  {
+    this->All += part.All;
+    this->Flipped += part.Flipped;
+    return *this;
+  }
+};
+
+/// Looks whether a triangle turns to the less common side in x and y.
+struct TurnedStep
+{
+  const TriangleRecord* Triangles;
+  PackedPointsView Points;
+  int Side; ///< To which most triangles turned at first.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Points.Address(vertex));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnedSums& sums) const
+  {
+    const TriangleRecord& triangle = this->Triangles[t];
+    const Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
+    const Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
+    const Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
+    const bool isFinite = Length(AreaVector(a, b, c)) < INFINITY; // not with NaN
+    if (isFinite && FindTurn(a, b, c) == -this->Side)
+    {
+      ++sums.All;
+      if (triangle.Flips >= OneFlip)
+      {
+        sums.Flipped.Note(triangle.InputTriangle);
+      }
+    }
+  }
+};
+
+/// By how many there are more triangles of the less common side than at first.
+/// @param points in space.
+template <typename Backend>
+Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
+  const TurnCounts& before, const Backend& backend)
+{
+  const TurnedSums sums = backend.template Sum<TurnedSums>(
+    mesh.NumberOfTriangles, TurnedStep{ mesh.Triangles.Data(), points.View(), before.Side });
+  Defect defect = MakeDefect("triangles that flips in space have turned over in x, y, where the "
+                             "input was a height field or nearly; if it is terrain, ask for "
+                             "planar-xy",
+    sums.Flipped);
+  defect.Count = std::max<std::int64_t>(0, sums.All - before.Others);
+  defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
+  return defect;
+}
+
+}
+
+#endif

@@ -1,0 +1,472 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipTestSupport.h"
+#include "MeshAudit.h"
+#include "Predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+/// @file
+/// What GeometryKind::Auto comes to, why, and when a run warns of it.
+
+namespace delaunayflip
+{
+namespace
+{
+
+using HeightOf = std::function<double(double, double)>;
+
+/// A lattice of columns x rows squares with heights.
+OwnedMesh<double> MakeHeights(std::int32_t columns, std::int32_t rows, const HeightOf& height)
+{
+  OwnedMesh<double> mesh = MakeGridMesh(columns, rows);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i + 2] = height(mesh.Points[i], mesh.Points[i + 1]);
+  }
+  return mesh;
+}
+
+double Wave(double x, double y) { return 2.0 * std::sin(0.3 * x) + std::cos(0.4 * y); }
+
+/// Adds the points and triangles of another mesh.
+void Append(OwnedMesh<double>& mesh, const OwnedMesh<double>& other)
+{
+  const auto offset = static_cast<std::int32_t>(mesh.NumberOfPoints());
+  mesh.Points.insert(mesh.Points.end(), other.Points.begin(), other.Points.end());
+  for (const std::int32_t id : other.Triangles)
+  {
+    mesh.Triangles.push_back(id + offset);
+  }
+}
+
+/// What the report says before the first flip.
+FlipReport Survey(const OwnedMesh<double>& mesh, GeometryKind geometry = GeometryKind::Auto)
+{
+  FlipOptions options;
+  options.Geometry = geometry;
+  return MakeSession(mesh.View(), options).GetReport();
+}
+
+void ExpectChoice(const OwnedMesh<double>& mesh, GeometryKind geometry, const std::string& reason)
+{
+  const FlipReport report = Survey(mesh);
+  EXPECT_EQ(geometry, report.GeometryUsed);
+  EXPECT_NE(std::string::npos, report.GeometryReason.find(reason)) << report.GeometryReason;
+  EXPECT_EQ(geometry != GeometryKind::Surface,
+    report.GeometryReason.find("the feature angle has no effect") != std::string::npos)
+    << report.GeometryReason;
+  EXPECT_EQ(geometry, FindGeometry(mesh.View(), FlipOptions()));
+}
+
+/// No warning, at the beginning and at the end.
+void ExpectNoDefects(const OwnedMesh<double>& mesh)
+{
+  EXPECT_EQ("", DescribeDefects(Flip(mesh.View()).Report.Defects));
+}
+
+/// Triangles that turn right in x and y.
+std::int64_t CountRight(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
+{
+  std::int64_t right = 0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3)
+  {
+    right += Orientation(&mesh.Points[3 * triangles[t]], &mesh.Points[3 * triangles[t + 1]],
+               &mesh.Points[3 * triangles[t + 2]]) < 0;
+  }
+  return right;
+}
+
+TEST(GeometryChoice, APlaneIsPlanar)
+{
+  ExpectChoice(MakeGridMesh(5, 5), GeometryKind::Planar, "all points lie in one plane");
+}
+
+TEST(GeometryChoice, WhatWasAskedForIsTaken)
+{
+  const OwnedMesh<double> mesh = MakeGridMesh(5, 5);
+  for (GeometryKind geometry :
+    { GeometryKind::Planar, GeometryKind::PlanarXY, GeometryKind::Surface })
+  {
+    const FlipReport report = Survey(mesh, geometry);
+    EXPECT_EQ(geometry, report.GeometryUsed);
+    EXPECT_EQ(0u, report.GeometryReason.find("as asked for")) << report.GeometryReason;
+    FlipOptions options;
+    options.Geometry = geometry;
+    EXPECT_EQ(geometry, FindGeometry(mesh.View(), options));
+  }
+}
+
+/// In metres, far from the origin, of either winding.
+TEST(GeometryChoice, UtmTerrainIsPlanarXY)
+{
+  OwnedMesh<double> mesh = Transform(MakeHeights(60, 40, Wave),
+    { { { 10, 0, 0, 581311 }, { 0, 10, 0, 4785270 }, { 0, 0, 10, 900 } } });
+  for (int winding = 0; winding < 2; ++winding)
+  {
+    ExpectChoice(mesh, GeometryKind::PlanarXY,
+      "a height field over x, y, and 100 % of its area slopes below 45 degrees");
+    ExpectNoDefects(mesh);
+    ReverseTriangles(mesh.Triangles);
+  }
+}
+
+/// However rough: in degrees and metres slopes mean nothing.
+OwnedMesh<double> MakeDegreesAndMetres()
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(5000, 31);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] = 156.0 + 70.0 * mesh.Points[i];
+    mesh.Points[i + 1] = 40.0 + 40.0 * mesh.Points[i + 1];
+    mesh.Points[i + 2] = 100.0 * Wave(mesh.Points[i], mesh.Points[i + 1]);
+  }
+  return mesh;
+}
+
+TEST(GeometryChoice, DegreesAndMetresArePlanarXY)
+{
+  const OwnedMesh<double> mesh = MakeDegreesAndMetres();
+  ExpectChoice(
+    mesh, GeometryKind::PlanarXY, "a height field over x, y, and z extends further than x and y");
+  const FlipResult result = Flip(mesh.View());
+  EXPECT_EQ(0, CountRight(mesh, result.Triangles));
+  EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+  EXPECT_EQ("", DescribeDefects(result.Report.Defects));
+}
+
+/// A hemisphere seen from above, 29 % of which slopes below 45 degrees.
+OwnedMesh<double> MakeDome()
+{
+  constexpr std::int32_t Columns = 90;
+  constexpr std::int32_t Rings = 30;
+  OwnedMesh<double> mesh = { { 0, 0, 1 }, {} };
+  for (std::int32_t ring = 1; ring <= Rings; ++ring)
+  {
+    const double latitude = 1.55 * ring / Rings;
+    for (std::int32_t i = 0; i < Columns; ++i)
+    {
+      const double longitude = 6.283185307179586 * i / Columns;
+      mesh.Points.insert(mesh.Points.end(),
+        { std::sin(latitude) * std::cos(longitude), std::sin(latitude) * std::sin(longitude),
+          std::cos(latitude) });
+      const std::int32_t here = 1 + (ring - 1) * Columns + i;
+      const std::int32_t next = 1 + (ring - 1) * Columns + (i + 1) % Columns;
+      if (ring == 1)
+      {
+        mesh.Triangles.insert(mesh.Triangles.end(), { 0, here, next });
+        continue;
+      }
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { here - Columns, here, next, here - Columns, next, next - Columns });
+    }
+  }
+  return mesh;
+}
+
+TEST(GeometryChoice, ADomeScanIsASurface)
+{
+  const OwnedMesh<double> dome = MakeDome();
+  ExpectChoice(dome, GeometryKind::Surface,
+    "a height field over x, y, but only 29 % of its area slopes below 45 degrees");
+  ExpectNoDefects(dome);
+}
+
+/// A lattice in the plane of two axes, at a place on the third.
+OwnedMesh<double> MakeSide(int axisU, int axisV, double place)
+{
+  OwnedMesh<double> side = MakeGridMesh(4, 4);
+  for (std::size_t i = 0; i < side.Points.size(); i += 3)
+  {
+    const double u = side.Points[i];
+    const double v = side.Points[i + 1];
+    std::fill_n(&side.Points[i], 3, place);
+    side.Points[i + axisU] = u;
+    side.Points[i + axisV] = v;
+  }
+  return side;
+}
+
+TEST(GeometryChoice, ABoxWithoutFloorIsASurface)
+{
+  OwnedMesh<double> box = MakeSide(0, 1, 4.0);
+  for (double place : { 0.0, 4.0 })
+  {
+    Append(box, MakeSide(1, 2, place));
+    Append(box, MakeSide(2, 0, place));
+  }
+  ExpectChoice(box, GeometryKind::Surface,
+    "128 of 160 triangles turn the other way in x, y or have no area there");
+  ExpectNoDefects(box);
+}
+
+TEST(GeometryChoice, AnOpenCylinderIsASurface)
+{
+  OwnedMesh<double> cylinder = MakeGridMesh(60, 30);
+  for (std::size_t i = 0; i < cylinder.Points.size(); i += 3)
+  {
+    const double angle = 0.1 * cylinder.Points[i];
+    cylinder.Points[i] = std::cos(angle);
+    cylinder.Points[i + 2] = cylinder.Points[i + 1];
+    cylinder.Points[i + 1] = std::sin(angle);
+  }
+  ExpectChoice(cylinder, GeometryKind::Surface, "no triangle has area in x, y");
+  ExpectNoDefects(cylinder);
+}
+
+/// A roof. Gentle, it is judged by x and y, where its ridge is an edge like others.
+TEST(GeometryChoice, ACreasedPlateIsPlanarXYWhereItSlopesGently)
+{
+  const auto plate = [](double slope)
+  { return MakeHeights(20, 20, [=](double x, double) { return slope * std::fabs(x - 10.0); }); };
+  ExpectChoice(plate(0.9), GeometryKind::PlanarXY, "100 % of its area slopes below 45 degrees");
+  EXPECT_EQ(0, Survey(plate(0.9)).Edges.Feature);
+  ExpectChoice(plate(1.5), GeometryKind::Surface, "only 0 % of its area slopes below 45 degrees");
+  EXPECT_EQ(20, Survey(plate(1.5)).Edges.Feature);
+}
+
+TEST(GeometryChoice, TwoStackedHorizonsArePlanarXY)
+{
+  OwnedMesh<double> horizons = MakeHeights(30, 30, Wave);
+  Append(horizons, MakeHeights(30, 30, [](double x, double y) { return 5.0 + Wave(y, x); }));
+  ExpectChoice(horizons, GeometryKind::PlanarXY, "a height field over x, y, and ");
+  ExpectNoDefects(horizons);
+}
+
+/// A globe in degrees and metres, whose last column of triangles runs back across the whole map.
+OwnedMesh<double> MakeGlobe(std::int32_t columns, std::int32_t rows)
+{
+  OwnedMesh<double> globe =
+    MakeHeights(columns, rows, [](double x, double y) { return 1000.0 * Wave(x, y); });
+  for (std::size_t i = 0; i < globe.Points.size(); i += 3)
+  {
+    const double longitude = 360.0 * (globe.Points[i] + 0.5) / columns - 180.0;
+    globe.Points[i] = longitude > 180.0 ? longitude - 360.0 : longitude;
+    globe.Points[i + 1] = 120.0 * globe.Points[i + 1] / rows - 60.0;
+  }
+  return globe;
+}
+
+TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
+{
+  const OwnedMesh<double> globe = MakeGlobe(200, 20);
+  ExpectChoice(globe, GeometryKind::Surface,
+    "40 of 8000 triangles turn the other way in x, y or have no area there");
+  const FlipReport report = Survey(globe);
+  ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
+  EXPECT_EQ(40, report.Defects[0].Count);
+  EXPECT_EQ((std::vector<std::int64_t>{ 398, 399, 798 }), report.Defects[0].FirstIds);
+  EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
+  EXPECT_TRUE(Survey(globe, GeometryKind::Surface).Defects.empty());
+}
+
+TEST(GeometryChoice, AThinAntimeridianIsLeftAsItIs)
+{
+  const OwnedMesh<double> globe = MakeGlobe(1000, 8);
+  ExpectChoice(
+    globe, GeometryKind::PlanarXY, "a height field over x, y but for 16 of 16000 triangles");
+  const FlipResult result = Flip(globe.View());
+  EXPECT_EQ(16, CountRight(globe, globe.Triangles));
+  EXPECT_EQ(16, CountRight(globe, result.Triangles));
+}
+
+/// Triangles apart from each other, of which the first ones are turned over.
+OwnedMesh<double> MakeScatter(std::int32_t count, std::int32_t turned)
+{
+  OwnedMesh<double> mesh;
+  for (std::int32_t t = 0; t < count; ++t)
+  {
+    Append(mesh, { { 2.0 * t, 0, 0, 2.0 * t + 1, 0, 0.1, 2.0 * t, 1, 0 }, { 0, 1, 2 } });
+    if (t < turned)
+    {
+      std::swap(mesh.Triangles[3 * t], mesh.Triangles[3 * t + 1]);
+    }
+  }
+  return mesh;
+}
+
+TEST(GeometryChoice, OneTriangleInAThousandMayStray)
+{
+  ExpectChoice(
+    MakeScatter(1000, 1), GeometryKind::PlanarXY, " but for 1 of 1000 triangles, and 100");
+  ExpectChoice(MakeScatter(999, 1), GeometryKind::Surface, "1 of 999 triangles turn");
+  EXPECT_EQ(1u, Survey(MakeScatter(999, 1)).Defects.size());
+  EXPECT_EQ(1u, Survey(MakeScatter(999, 9)).Defects.size());
+  EXPECT_EQ(0u, Survey(MakeScatter(1000, 10)).Defects.size());
+}
+
+/// A floor and a ramp of 4 : 3 whose area is 5.
+TEST(GeometryChoice, NinetyFivePercentMustSlopeGently)
+{
+  const auto plate = [](double length)
+  {
+    return OwnedMesh<double>{ { 0, 0, 0, length, 0, 0, length, 1, 0, 0, 1, 0, length + 3, 0, 4,
+                                length + 3, 1, 4 },
+      { 0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2 } };
+  };
+  ExpectChoice(plate(95.0), GeometryKind::PlanarXY, "95 % of its area slopes below 45 degrees");
+  ExpectChoice(plate(94.5), GeometryKind::Surface, "only 94 % of its area slopes below 45 degrees");
+}
+
+/// A fan around point 0, of some angle, that rises a little.
+OwnedMesh<double> MakeStaircase(int count, double turns, bool closed)
+{
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0 };
+  for (std::int32_t i = 0; i <= count; ++i)
+  {
+    const double angle = 6.283185307179586 * turns * i / count;
+    mesh.Points.insert(mesh.Points.end(), { std::cos(angle), std::sin(angle), i % 2 * 0.001 });
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, closed && i + 1 == count ? 1 : i + 2 });
+  }
+  return mesh;
+}
+
+TEST(GeometryChoice, StarsThatOverlapMakeASurface)
+{
+  const char* const overlap = "triangles overlap in x, y around 1 point";
+  ExpectChoice(MakeStaircase(24, 2.0, true), GeometryKind::Surface, overlap);
+  ExpectChoice(MakeStaircase(24, 3.0, true), GeometryKind::Surface, overlap);
+  ExpectChoice(MakeStaircase(24, 1.01, false), GeometryKind::Surface, overlap);
+  // Four steps of half a turn but for the last digits.
+  ExpectChoice(MakeStaircase(4, 2.0 - 0x1p-36, false), GeometryKind::Surface, overlap);
+  const FlipReport report = Survey(MakeStaircase(24, 1.01, false));
+  ASSERT_EQ(1u, report.Defects.size());
+  EXPECT_EQ(std::vector<std::int64_t>{ 0 }, report.Defects[0].FirstIds);
+  EXPECT_EQ(DefectIds::Points, report.Defects[0].Ids);
+  for (double turns : { 0.3, 0.99, 1.0 })
+  {
+    ExpectChoice(MakeStaircase(24, turns, false), GeometryKind::PlanarXY, "a height field");
+  }
+  ExpectChoice(MakeStaircase(24, 1.0, true), GeometryKind::PlanarXY, "a height field");
+}
+
+/// A point next to an edge of every triangle: angles are 0 and pi in all but the last digits.
+TEST(GeometryChoice, ThinTrianglesDoNotAddUpToMoreThanATurn)
+{
+  OwnedMesh<double> mesh = MakeHeights(40, 40, [](double x, double y) { return 0.1 * Wave(x, y); });
+  const std::vector<std::int32_t> triangles = mesh.Triangles;
+  mesh.Triangles.clear();
+  for (std::size_t t = 0; t < triangles.size(); t += 3)
+  {
+    const auto inserted = static_cast<std::int32_t>(mesh.NumberOfPoints());
+    const std::int32_t* corners = &triangles[t];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double a = mesh.Points[3 * corners[0] + axis];
+      const double b = mesh.Points[3 * corners[1] + axis];
+      const double c = mesh.Points[3 * corners[2] + axis];
+      mesh.Points.push_back(0.5 * (a + b) + 0x1p-40 * (c - a));
+    }
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { corners[slot], corners[(slot + 1) % 3], inserted });
+    }
+  }
+  ExpectChoice(mesh, GeometryKind::PlanarXY, "a height field over x, y, and 100 % of its area");
+}
+
+/// The answer may depend neither on the order of triangles nor on threads or scale.
+TEST(GeometryChoice, IsTheSameWhateverTheOrder)
+{
+  OwnedMesh<double> mesh =
+    MakeHeights(150, 150, [](double x, double y) { return Wave(3 * x, 2 * y); });
+  const std::string expected = Survey(mesh).GeometryReason;
+  EXPECT_NE(std::string::npos, expected.find("but only")) << expected;
+  std::mt19937 random(5);
+  for (int threads = 1; threads < 5; ++threads)
+  {
+    for (std::int64_t t = mesh.NumberOfTriangles() - 1; t > 0; --t)
+    {
+      const std::int64_t other = DrawIndex(random, t + 1);
+      std::swap_ranges(
+        &mesh.Triangles[3 * t], &mesh.Triangles[3 * t] + 3, &mesh.Triangles[3 * other]);
+    }
+    FlipOptions options;
+    options.NumberOfThreads = threads;
+    EXPECT_EQ(expected, MakeSession(mesh.View(), options).GetReport().GeometryReason);
+  }
+  for (double scale : { 0x1p-900, 0x1p-40, 0x1p40, 0x1p900 })
+  {
+    const OwnedMesh<double> scaled = Transform(mesh, ScaleAndMove(scale, 0.0));
+    EXPECT_EQ(expected, Survey(scaled).GeometryReason) << scale;
+  }
+}
+
+/// Where x and y decide, a height that is NaN does no harm.
+TEST(GeometryChoice, HeightsNeedNotBeFinite)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 32);
+  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] = i == 302 ? std::numeric_limits<double>::quiet_NaN() : 1e-6 * (i % 7);
+  }
+  FlipOptions options;
+  const FlipResult result = Flip(mesh.View(), options);
+  EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed) << result.Report.GeometryReason;
+  EXPECT_EQ("", DescribeDefects(result.Report.Defects));
+  options.Geometry = GeometryKind::PlanarXY;
+  EXPECT_EQ(Flip(mesh.View(), options).Triangles, result.Triangles);
+}
+
+/// What a run says of triangles that its flips have turned over in x and y.
+std::int64_t CountTurnedOver(const FlipReport& report)
+{
+  EXPECT_GE(1u, report.Defects.size()) << DescribeDefects(report.Defects);
+  return CountDefect(report, "have turned over");
+}
+
+TEST(GeometryChoice, FlipsInSpaceThatTurnTerrainOverAreCounted)
+{
+  OwnedMesh<double> mesh = MakeDegreesAndMetres();
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  for (int winding = 0; winding < 2; ++winding)
+  {
+    const FlipResult result = Flip(mesh.View(), options);
+    const std::int64_t right = CountRight(mesh, result.Triangles);
+    const std::int64_t turned = winding == 0 ? right : mesh.NumberOfTriangles() - right;
+    EXPECT_LT(20, turned);
+    EXPECT_EQ(turned, CountTurnedOver(result.Report));
+    EXPECT_EQ(3u, result.Report.Defects.back().FirstIds.size());
+    ReverseTriangles(mesh.Triangles);
+  }
+}
+
+/// Once, however the run is cut into pieces, and not before it has stopped.
+TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
+{
+  const OwnedMesh<double> mesh = MakeDegreesAndMetres();
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  const std::int64_t expected = CountTurnedOver(Flip(mesh.View(), options).Report);
+  FlipSession session = MakeSession(mesh.View(), options);
+  session.Advance(-1, [](const IterationRecord&) { return false; });
+  EXPECT_LT(0, CountTurnedOver(session.GetReport())); // an abort is an end, too
+  while (session.Advance(1))
+  {
+    EXPECT_EQ(0, CountTurnedOver(session.GetReport()));
+  }
+  EXPECT_EQ(expected, CountTurnedOver(session.GetReport()));
+  session.Advance();
+  EXPECT_EQ(expected, CountTurnedOver(session.GetReport()));
+}
+
+TEST(GeometryChoice, NobodyWarnsOfClosedSurfaces)
+{
+  const OwnedMesh<double> sphere = MakeBadSphere(60, 30, 33);
+  ExpectChoice(sphere, GeometryKind::Surface, "of 3600 triangles turn the other way");
+  ExpectNoDefects(sphere);
+}
+
+}
+}
