@@ -90,9 +90,11 @@ ExitCode ToExitCode(int failure)
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
 {
   auto* filter = vtkDelaunayFlip::SafeDownCast(caller);
+  const vtkIdType iterations = filter->GetNumberOfIterations();
   static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
-    "iteration " + std::to_string(filter->GetNumberOfIterations()) + ", " +
-      std::to_string(filter->GetTotalFlips()) + " flips");
+    iterations == 0 ? "finding edges"
+                    : "iteration " + std::to_string(iterations) + ", " +
+        std::to_string(filter->GetTotalFlips()) + " flips");
 }
 
 /// The work from reading to the report, a step a function.

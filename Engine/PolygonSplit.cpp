@@ -68,12 +68,14 @@ std::vector<Vector2> Project(const PointArray& points, const std::int64_t* ids, 
 class PolygonCutter
 {
 public:
-  explicit PolygonCutter(std::vector<Vector2> polygon)
+  PolygonCutter(std::vector<Vector2> polygon, const ProgressObserver& progress)
     : Polygon(std::move(polygon)),
-      Count(static_cast<std::int64_t>(this->Polygon.size()))
+      Count(static_cast<std::int64_t>(this->Polygon.size())),
+      Progress(progress)
   {
   }
 
+  /// @returns none when the observer stopped it.
   std::vector<std::array<std::int64_t, 3>> Cut()
   {
     if (this->Count == 4)
@@ -144,6 +146,11 @@ private:
     std::int64_t refused = 0;
     while (left > 3)
     {
+      if (!this->MayGoOn(left))
+      {
+        this->Triangles.clear();
+        return;
+      }
       // A full round without an ear: the polygon crosses itself, or has no area. Any cut will do.
       if (refused < left && !this->IsEar(vertex))
       {
@@ -156,6 +163,20 @@ private:
       refused = 0;
     }
     this->Triangles.push_back({ this->Previous[vertex], vertex, this->Next[vertex] });
+  }
+
+  /// Asks the observer where a look for ears has gone through many vertices since it was last
+  /// asked.
+  bool MayGoOn(std::int64_t left)
+  {
+    constexpr std::int64_t VerticesBetweenCalls = std::int64_t(1) << 20; // some 20 ms
+    this->Visited += left;
+    if (!this->Progress || this->Visited < VerticesBetweenCalls)
+    {
+      return true;
+    }
+    this->Visited = 0;
+    return this->Progress(1.0 - static_cast<double>(left) / static_cast<double>(this->Count));
   }
 
   void LinkVertices()
@@ -217,6 +238,8 @@ private:
   std::vector<std::int64_t> Next;
   std::vector<std::int64_t> Previous;
   std::vector<std::array<std::int64_t, 3>> Triangles;
+  const ProgressObserver& Progress;
+  std::int64_t Visited = 0; ///< Vertices, since the observer was last asked.
 };
 
 /// Exactly: whether the triangle's shadow along some axis has an area.
@@ -240,17 +263,19 @@ bool HasArea(const PointArray& points, const std::int64_t ids[3])
 
 }
 
-void SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
-  std::vector<std::int64_t>& triangles)
+bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
+  std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
-  PolygonCutter cutter(Project(points, ids, count));
-  for (const std::array<std::int64_t, 3>& triangle : cutter.Cut())
+  PolygonCutter cutter(Project(points, ids, count), progress);
+  const std::vector<std::array<std::int64_t, 3>> cut = cutter.Cut();
+  for (const std::array<std::int64_t, 3>& triangle : cut)
   {
     for (std::int64_t position : triangle)
     {
       triangles.push_back(ids[position]);
     }
   }
+  return !cut.empty();
 }
 
 void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3])

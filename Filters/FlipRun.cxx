@@ -35,6 +35,21 @@ void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
   Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
 }
 
+/// Where polygons are split, this share of an update goes to it; where not, none. What is left at
+/// the end goes to the output.
+constexpr double SplitShare = 0.3;
+constexpr double SessionEnd = 0.95;
+
+/// Tells of a part of a whole that begins and ends at some share of it.
+ProgressObserver Scale(const ProgressObserver& progress, double begin, double end)
+{
+  if (!progress)
+  {
+    return {};
+  }
+  return [=](double share) { return progress(begin + (end - begin) * share); };
+}
+
 bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
 {
   return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
@@ -62,12 +77,13 @@ vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
 }
 
 //------------------------------------------------------------------------------
-FlipRun::Snapshot::Snapshot(const Request& request, bool copyPoints)
+FlipRun::Snapshot::Snapshot(
+  const Request& request, bool copyPoints, const ProgressObserver& progress)
   : Mesh(TakeMesh(request.Input, copyPoints)),
     Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
     Time(request.Input->GetMTime()),
-    Bridge(Mesh, request.Constraints, request.Settings)
+    Bridge(Mesh, request.Constraints, request.Settings, progress)
 {
 }
 
@@ -109,18 +125,23 @@ FlipRun::FlipRun(const Request& request)
 FlipRun::FlipRun(const Request& request, Start start)
   : Settings(request.Settings),
     Options(request.Options),
-    Current(std::make_shared<Snapshot>(request, false)),
-    Origin(request.IsLive ? std::make_shared<Snapshot>(request, true) : Current),
+    Current(std::make_shared<Snapshot>(request, false, Scale(request.Progress, 0.0, SplitShare))),
+    Origin(request.IsLive
+        ? std::make_shared<Snapshot>(request, true, Scale(request.Progress, SplitShare, SplitShare))
+        : Current),
     Begin(std::move(start)),
-    Session(this->MakeSession())
+    Session(this->MakeSession(this->IsWarm() ? nullptr : request.Progress)),
+    Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted)
 {
 }
 
-FlipSession FlipRun::MakeSession() const
+/// A warm start is built in any case, for what it starts from is known to this update alone.
+FlipSession FlipRun::MakeSession(const ProgressObserver& progress) const
 {
   try
   {
-    return FlipSession(this->GetStartMesh(), this->GetStartOptions());
+    return FlipSession(
+      this->GetStartMesh(), this->GetStartOptions(), this->ScaleProgress(progress));
   }
   catch (const InvalidMesh&)
   {
@@ -149,6 +170,11 @@ FlipOptions FlipRun::GetStartOptions() const
   return options;
 }
 
+ProgressObserver FlipRun::ScaleProgress(const ProgressObserver& progress) const
+{
+  return Scale(progress, this->Origin->Bridge.HasSplit() ? SplitShare : 0.0, SessionEnd);
+}
+
 //------------------------------------------------------------------------------
 std::unique_ptr<FlipRun> FlipRun::GoOn(std::unique_ptr<FlipRun> last, const Request& request)
 {
@@ -162,6 +188,7 @@ std::unique_ptr<FlipRun> FlipRun::GoOn(std::unique_ptr<FlipRun> last, const Requ
     {
       last->Current = std::make_shared<Snapshot>(request, false);
     }
+    last->Stopped = false;
     return last;
   }
   last.reset(); // its memory may be needed

@@ -32,10 +32,11 @@ public:
     PolyDataBridge::Settings Settings;
     FlipOptions Options;
     bool IsLive; ///< Other updates will follow: points may be moved in place between them.
+    ProgressObserver Progress; ///< Of the update; must not refer to what is gone after it.
   };
 
   /// Begins at the triangles of the input.
-  /// @throws as PolyDataBridge's and FlipSession's constructors.
+  /// @throws as PolyDataBridge's and FlipSession's constructors; SplitAborted.
   explicit FlipRun(const Request& request);
   FlipRun(const FlipRun&) = delete;
   FlipRun& operator=(const FlipRun&) = delete;
@@ -46,6 +47,12 @@ public:
   static std::unique_ptr<FlipRun> GoOn(std::unique_ptr<FlipRun> last, const Request& request);
 
   FlipSession& GetSession() { return this->Session; }
+
+  /// Whether this update's observer has stopped the run before its first iteration.
+  bool IsStopped() const { return this->Stopped; }
+
+  /// For what the session tells of an update: the share of the update.
+  ProgressObserver ScaleProgress(const ProgressObserver& progress) const;
 
   /// What has happened so far, with defects that name the input's cells.
   FlipReport GetReport() const;
@@ -63,7 +70,7 @@ private:
   /// An input as it was, and the bridge to it.
   struct Snapshot
   {
-    Snapshot(const Request& request, bool copyPoints);
+    Snapshot(const Request& request, bool copyPoints, const ProgressObserver& progress = {});
 
     vtkSmartPointer<vtkPolyData> Mesh;
     Stamps Edges; ///< Of all but points that decides which edges there are and which are fixed.
@@ -93,7 +100,7 @@ private:
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
   TriangleMesh GetStartMesh() const;
   FlipOptions GetStartOptions() const;
-  FlipSession MakeSession() const;
+  FlipSession MakeSession(const ProgressObserver& progress) const;
   Start GetEnd() const;
   void AddUnmatchedConstraints(FlipReport& report) const;
 
@@ -103,6 +110,7 @@ private:
   Snapshots Origin; ///< The session views its arrays, and those of Begin.
   Start Begin;
   FlipSession Session;
+  bool Stopped;
 };
 
 }

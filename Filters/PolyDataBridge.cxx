@@ -16,11 +16,11 @@
 
 namespace delaunayflip
 {
-PolyDataBridge::PolyDataBridge(
-  vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings)
+PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
+  const Settings& settings, const ProgressObserver& progress)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
-    Slots(mesh, Points, settings.Triangulate),
+    Slots(mesh, Points, settings.Triangulate, progress),
     Constraints(FindConstraintEdges(
       { settings.LinesAsConstraints ? mesh : nullptr, constraints, Points, Slots.GetTriangles() }))
 {

@@ -32,8 +32,13 @@ public:
   };
 
   /// @param constraints may be null.
-  /// @throws InvalidMesh, InvalidOptions.
-  PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings);
+  /// @param progress hears how much of the splitting of polygons is done, where there are any.
+  /// @throws InvalidMesh, InvalidOptions, SplitAborted.
+  PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings,
+    const ProgressObserver& progress = {});
+
+  /// Whether polygons had to be split or copied, which takes time.
+  bool HasSplit() const { return !this->Slots.AreInPlace(); }
 
   /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }

@@ -11,7 +11,8 @@
 namespace delaunayflip
 {
 
-bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer)
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
+  const ProgressObserver& progress)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -23,7 +24,7 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   do
   {
     const double before = elapsed;
-    mayGoOn = session.Advance(static_cast<std::int64_t>(iterations), observer);
+    mayGoOn = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
     elapsed = getElapsed();
     // Several at a time cost less, on a GPU above all, but one may take longer than those before.
     const double fitting = (seconds - elapsed) * iterations / (elapsed - before);

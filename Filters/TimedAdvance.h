@@ -11,7 +11,8 @@ namespace delaunayflip
 class FlipSession;
 
 /// FlipSession::Advance with as many iterations as fit a time, at least one.
-bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer);
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
+  const ProgressObserver& progress = {});
 
 }
 

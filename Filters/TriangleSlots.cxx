@@ -4,6 +4,7 @@
 
 #include "PointIds.h"
 #include "PolygonSplit.h"
+#include "SplitProgress.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
@@ -62,7 +63,8 @@ bool HoldsTriangles(vtkCellArray* cells)
 
 }
 
-TriangleSlots::TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate)
+TriangleSlots::TriangleSlots(
+  vtkPolyData* mesh, const PointArray& points, bool triangulate, const ProgressObserver& progress)
   : Triangulate(triangulate),
     FirstPolygon(mesh->GetNumberOfVerts() + mesh->GetNumberOfLines()),
     FirstStrip(FirstPolygon + mesh->GetNumberOfPolys())
@@ -74,8 +76,11 @@ TriangleSlots::TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool t
   }
   PointIdCheck{ "cell", this->FirstPolygon, points.Count }.RequireValid(mesh->GetPolys());
   PointIdCheck{ "cell", this->FirstStrip, points.Count }.RequireValid(mesh->GetStrips());
-  this->ReadPolygons(mesh->GetPolys(), points);
-  this->ReadStrips(mesh->GetStrips(), points);
+  SplitProgress split(progress,
+    mesh->GetPolys()->GetNumberOfConnectivityIds() +
+      mesh->GetStrips()->GetNumberOfConnectivityIds());
+  this->ReadPolygons(mesh->GetPolys(), points, split);
+  this->ReadStrips(mesh->GetStrips(), points, split);
   this->Triangles = TriangleArray(static_cast<const std::int64_t*>(this->Ids.data()),
     static_cast<std::int64_t>(this->Cells.size()));
 }
@@ -125,7 +130,8 @@ void TriangleSlots::RequireValidIds(vtkIdType numberOfPoints) const
   }
 }
 
-void TriangleSlots::ReadPolygons(vtkCellArray* polygons, const PointArray& points)
+void TriangleSlots::ReadPolygons(
+  vtkCellArray* polygons, const PointArray& points, SplitProgress& progress)
 {
   const PointIdCheck check{ "cell", this->FirstPolygon, points.Count };
   vtkNew<vtkIdList> ids;
@@ -133,13 +139,16 @@ void TriangleSlots::ReadPolygons(vtkCellArray* polygons, const PointArray& point
   {
     polygons->GetCellAtId(polygon, ids);
     check.RequireInRange(polygon, ids);
-    this->ReadPolygon(this->FirstPolygon + polygon, ids, points);
+    this->ReadPolygon(this->FirstPolygon + polygon, ids, points, progress);
+    progress.EndCell();
   }
 }
 
-void TriangleSlots::ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray& points)
+void TriangleSlots::ReadPolygon(
+  vtkIdType cell, vtkIdList* ids, const PointArray& points, SplitProgress& progress)
 {
   const vtkIdType size = ids->GetNumberOfIds();
+  const ProgressObserver& observer = progress.BeginCell(size);
   const bool stays = size < 3 || (size > 3 && !this->Triangulate);
   if (stays)
   {
@@ -153,12 +162,16 @@ void TriangleSlots::ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray
   else if (size > 3)
   {
     const std::vector<std::int64_t> corners(ids->begin(), ids->end());
-    SplitPolygon(points, corners.data(), size, this->Ids);
+    if (!SplitPolygon(points, corners.data(), size, this->Ids, observer))
+    {
+      throw SplitAborted();
+    }
     this->AddTriangles(cell, size - 2, stays);
   }
 }
 
-void TriangleSlots::ReadStrips(vtkCellArray* strips, const PointArray& points)
+void TriangleSlots::ReadStrips(
+  vtkCellArray* strips, const PointArray& points, SplitProgress& progress)
 {
   const PointIdCheck check{ "cell", this->FirstStrip, points.Count };
   vtkNew<vtkIdList> ids;
@@ -168,6 +181,7 @@ void TriangleSlots::ReadStrips(vtkCellArray* strips, const PointArray& points)
     check.RequireInRange(strip, ids);
     const vtkIdType size = ids->GetNumberOfIds();
     const bool stays = size < 3 || !this->Triangulate;
+    progress.BeginCell(size);
     if (stays)
     {
       this->Strips.push_back(this->FirstStrip + strip);
@@ -177,6 +191,7 @@ void TriangleSlots::ReadStrips(vtkCellArray* strips, const PointArray& points)
       this->AddStripTriangles(ids);
       this->AddTriangles(this->FirstStrip + strip, size - 2, stays);
     }
+    progress.EndCell();
   }
 }
 

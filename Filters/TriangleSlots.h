@@ -3,6 +3,7 @@
 #ifndef TriangleSlots_h
 #define TriangleSlots_h
 
+#include "FlipReport.h"
 #include "TriangleMesh.h"
 
 #include "vtkType.h"
@@ -17,6 +18,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
+class SplitProgress;
+
 /// The triangles of a vtkPolyData: which cell each comes from, and which output cell it becomes.
 ///
 /// Polygons that are triangles all are viewed in place. All else is copied: polygons and strips as
@@ -30,7 +33,10 @@ public:
   /// @throws InvalidMesh when offsets and connectivity contradict each other, or when a polygon
   /// that is copied, or a strip, names a point outside `points`. Those viewed in place are not
   /// checked: the engine does that, much faster.
-  TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate);
+  /// @param progress hears how much of what has to be copied is.
+  /// @throws SplitAborted.
+  TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate,
+    const ProgressObserver& progress = {});
   TriangleSlots(const TriangleSlots&) = delete;
   TriangleSlots& operator=(const TriangleSlots&) = delete;
 
@@ -91,9 +97,10 @@ private:
   };
 
   bool ViewPolygons(vtkCellArray* polygons);
-  void ReadPolygons(vtkCellArray* polygons, const PointArray& points);
-  void ReadPolygon(vtkIdType cell, vtkIdList* ids, const PointArray& points);
-  void ReadStrips(vtkCellArray* strips, const PointArray& points);
+  void ReadPolygons(vtkCellArray* polygons, const PointArray& points, SplitProgress& progress);
+  void ReadPolygon(
+    vtkIdType cell, vtkIdList* ids, const PointArray& points, SplitProgress& progress);
+  void ReadStrips(vtkCellArray* strips, const PointArray& points, SplitProgress& progress);
   void AddStripTriangles(vtkIdList* ids);
   void AddTriangles(vtkIdType cell, vtkIdType count, bool stays);
 

@@ -88,7 +88,6 @@ class vtkTable;
 namespace delaunayflip
 {
 class FlipRun;
-class FlipSession;
 struct Block;
 struct FlipOptions;
 struct FlipReport;
@@ -96,6 +95,7 @@ struct IterationRecord;
 struct MeshOutcome;
 struct UpdateReport;
 struct UpdateSummary;
+enum class StopReasonKind;
 }
 
 class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkPolyDataAlgorithm
@@ -393,8 +393,10 @@ public:
   /**
    * What the last update did: over blocks and pieces NumberOfIterations is the largest, TotalFlips
    * the sum. From an observer of ProgressEvent, they are those of the current block up to now.
-   * Progress is told after every iteration; where iterations run together (up to 128 on a GPU),
-   * when all of them are done, and only then does AbortExecute take effect.
+   * Progress is an estimate of the share of the time that has passed, from the split of polygons
+   * and the search for edges on; AbortExecute is looked at whenever it is told, every 0.1 s or more
+   * often for a million triangles. Aborted before the first iteration, the output holds the
+   * triangles of the input, or its polygons where those were still being split.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
@@ -543,8 +545,12 @@ private:
   void Flip(const Connection& data);
   void Tell(const delaunayflip::UpdateSummary& summary, bool aloud);
   delaunayflip::FlipOptions GetOptions() const;
-  bool Advance(delaunayflip::FlipSession& session, bool isLive);
+  void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);
+  std::unique_ptr<delaunayflip::FlipRun> GoOn(
+    std::unique_ptr<delaunayflip::FlipRun> last, const Connection& data);
+  bool Advance(delaunayflip::FlipRun& run, bool isLive);
   bool Observe(const delaunayflip::IterationRecord& record);
+  bool ObserveProgress(double fraction);
 
   int Failure = FAILURE_NONE;
   std::string ErrorMessage;

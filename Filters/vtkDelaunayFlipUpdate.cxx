@@ -10,6 +10,7 @@
 #include "HostProgram.h"
 #include "RankSum.h"
 #include "ReportTables.h"
+#include "SplitProgress.h"
 #include "TimedAdvance.h"
 #include "UpdateSummary.h"
 #include "VersionDifferences.h"
@@ -201,20 +202,22 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   this->MayGoOn = false;
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
   {
-    this->Report->StopReason = StopReasonKind::Converged;
-    data.Output->ShallowCopy(data.Input);
+    this->PassInput(data, StopReasonKind::Converged);
     return;
   }
   if (!data.IsLive)
   {
     last.reset(); // before another takes as much memory
   }
-  std::unique_ptr<FlipRun> run = FlipRun::GoOn(std::move(last),
-    { data.Input, data.Constraints,
-      { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
-      data.IsLive });
+  std::unique_ptr<FlipRun> run = this->GoOn(std::move(last), data);
+  if (!run)
+  {
+    this->PassInput(data, StopReasonKind::Aborted);
+    this->MayGoOn = data.IsLive;
+    return;
+  }
   *this->Report = UpdateReport(run->GetReport());
-  const bool mayGoOn = this->Advance(run->GetSession(), data.IsLive);
+  const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
   run->Store(data.Output, this->GenerateFlipCount);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
@@ -223,6 +226,30 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   {
     this->MayGoOn = mayGoOn || this->Report->StopReason == StopReasonKind::Aborted;
     this->Run = std::move(run);
+  }
+}
+
+/// The output is the input as it is.
+void vtkDelaunayFlip::PassInput(const Connection& data, StopReasonKind reason)
+{
+  this->Report->StopReason = reason;
+  data.Output->ShallowCopy(data.Input);
+}
+
+/// @returns null when it was stopped while polygons were split.
+std::unique_ptr<FlipRun> vtkDelaunayFlip::GoOn(
+  std::unique_ptr<FlipRun> last, const Connection& data)
+{
+  try
+  {
+    return FlipRun::GoOn(std::move(last),
+      { data.Input, data.Constraints,
+        { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
+        data.IsLive, [this](double fraction) { return this->ObserveProgress(fraction); } });
+  }
+  catch (const SplitAborted&)
+  {
+    return nullptr;
   }
 }
 
@@ -246,30 +273,35 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
 //------------------------------------------------------------------------------
 /// The iterations of one update.
 /// @returns whether another update could still change the mesh.
-bool vtkDelaunayFlip::Advance(FlipSession& session, bool isLive)
+bool vtkDelaunayFlip::Advance(FlipRun& run, bool isLive)
 {
+  FlipSession& session = run.GetSession();
   const FlipObserver observer = [this](const IterationRecord& record)
   { return this->Observe(record); };
+  const delaunayflip::ProgressObserver progress =
+    run.ScaleProgress([this](double fraction) { return this->ObserveProgress(fraction); });
   if (isLive && this->IterationsPerUpdate == 0)
   {
     constexpr double Seconds = 0.05; // the header says so
-    return AdvanceFor(session, Seconds, observer);
+    return AdvanceFor(session, Seconds, observer, progress);
   }
-  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer);
+  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, progress);
 }
 
 bool vtkDelaunayFlip::Observe(const IterationRecord& record)
 {
   this->Report->Iterations.push_back(record);
   this->Report->TotalFlips += record.Flipped;
-  // How many flips are to come is unknown; the bad edges of this iteration stand for them.
-  const double done = static_cast<double>(this->Report->TotalFlips);
-  const double known = done + static_cast<double>(record.NonDelaunay);
-  const double progress = known > 0.0 ? done / known : 1.0;
-  // Of all blocks, of which this may be one: it must not go back.
-  if (this->GetProgressShift() + this->GetProgressScale() * progress > this->GetProgress())
-  {
-    this->UpdateProgress(progress);
-  }
+  return true;
+}
+
+bool vtkDelaunayFlip::ObserveProgress(double fraction)
+{
+  // Of all blocks, of which this may be one.
+  const double share = this->GetProgressShift() + this->GetProgressScale() * fraction;
+  const bool goesBack = share < this->GetProgress() && this->GetProgressScale() > 0.0;
+  this->UpdateProgress(goesBack
+      ? (this->GetProgress() - this->GetProgressShift()) / this->GetProgressScale()
+      : fraction);
   return !IsAbortRequested(this);
 }

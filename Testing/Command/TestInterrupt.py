@@ -37,13 +37,13 @@ class Interrupt(CommandTest):
         os.close(far_end)
         return process, terminal
 
-    def stop(self, number):
-        """The exit code and last words of a command that gets the signal among its iterations."""
+    def stop(self, number, when=b"iteration"):
+        """The exit code and last words of a command that gets the signal when it says a word."""
         process, terminal = self.start(
             self.mesh, "out.vtk", "--report", "report", "--statistics", "table"
         )
-        text = read_terminal(terminal, until=b"iteration")
-        self.assertIn(b"iteration", text)
+        text = read_terminal(terminal, until=when)
+        self.assertIn(when, text)
         process.send_signal(number)
         code = process.wait(timeout=60)
         return code, text + read_terminal(terminal)
@@ -55,6 +55,13 @@ class Interrupt(CommandTest):
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
         with open(self.path("out.vtk"), encoding="utf-8") as file:
             self.assertEqual(file.read(), "precious")
+
+    def test_interrupt_before_the_first_iteration(self):
+        self.mesh = write_mesh(bumpy_grid(500, 0), self.path("slow.vtk"))
+        code, text = self.stop(signal.SIGINT, b"finding edges")
+        self.assertEqual(code, 130)
+        self.assertNotIn(b"iteration", text)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
 
     def test_termination(self):
         code, _ = self.stop(signal.SIGTERM)

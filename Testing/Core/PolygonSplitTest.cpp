@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace delaunayflip
 {
@@ -203,6 +204,43 @@ TEST(SplitPolygon, UsesTheGivenIdsAndAppends)
   Ids triangles = { 7 };
   SplitPolygon(PointArray(points.data(), 6), ids.data(), 4, triangles);
   EXPECT_EQ((Ids{ 7, 1, 2, 4, 1, 4, 5 }), triangles);
+}
+
+/// Ears of a large polygon take long: its observer hears of them, and can stop it.
+TEST(SplitPolygon, TellsOfLargePolygons)
+{
+  constexpr int Spikes = 3000;
+  Polygon comb;
+  for (int i = 0; i < Spikes; ++i)
+  {
+    comb.push_back({ 2.0 * i, 0.0 });
+    comb.push_back({ 2.0 * i + 1.0, 5.0 });
+  }
+  comb.push_back({ 2.0 * Spikes, 9.0 });
+  comb.push_back({ -1.0, 9.0 });
+  const std::vector<double> points = Embed(comb);
+  const PointArray view(points.data(), static_cast<std::int64_t>(comb.size()));
+  Ids ids(comb.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  std::vector<double> told;
+  const auto keep = [&told](double share)
+  {
+    told.push_back(share);
+    return true;
+  };
+  Ids triangles;
+  EXPECT_TRUE(SplitPolygon(view, ids.data(), view.Count, triangles, keep));
+  EXPECT_EQ(Split(points), triangles);
+  ASSERT_LT(3u, told.size());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GE(1.0, told.back());
+
+  Ids stopped = { 7 };
+  int calls = 0;
+  const auto stop = [&calls](double) { return ++calls < 2; };
+  EXPECT_FALSE(SplitPolygon(view, ids.data(), view.Count, stopped, stop));
+  EXPECT_EQ(2, calls);
+  EXPECT_EQ(Ids{ 7 }, stopped);
 }
 
 Point3 Normal(const std::vector<double>& points)

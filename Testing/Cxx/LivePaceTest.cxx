@@ -75,7 +75,7 @@ TEST(LivePace, AnAbortEndsIt)
 {
   LiveFilter filter(MakeBadPlane());
   filter->SetIterationsPerUpdate(0);
-  auto stop = [&filter]() { filter->SetAbortExecute(1); };
+  auto stop = [&filter]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 0); };
   OnProgress(filter.Get(), stop);
   filter.Run();
   EXPECT_EQ(filter->GetNumberOfIterations(), 1);

@@ -169,7 +169,7 @@ class Outputs(PluginTest):
 
 
 class Progress(PluginTest):
-    """The progress bar and its abort button act on the filter's object."""
+    """What observers of the filter's object see; the client's progress bar is one of them."""
 
     def setUp(self):
         super().setUp()
@@ -184,12 +184,23 @@ class Progress(PluginTest):
         self.assertGreater(len(seen), 5)
         self.assertEqual(seen, sorted(seen))
 
-    def test_abort(self):
-        self.object.AddObserver("ProgressEvent", lambda *_: self.object.SetAbortExecute(1))
+    def abort_at(self, iterations):
+        def stop(*_):
+            self.object.SetAbortExecute(self.object.GetNumberOfIterations() == iterations)
+
+        self.object.AddObserver("ProgressEvent", stop)
         refresh(self.filter)
         self.assertEqual(self.filter.StopReason, "aborted")
+        self.assertEqual(self.object.GetNumberOfIterations(), iterations)
+        return get_triangles(fetch(self.filter))
+
+    def test_abort(self):
+        self.assertEqual(len(self.abort_at(1)), 38)
         self.assertGreater(self.filter.NumberOfNonDelaunayEdges, 0)
-        self.assertEqual(len(get_triangles(fetch(self.filter))), 38)
+
+    def test_abort_before_the_first_iteration(self):
+        before = get_triangles(fetch(self.filter.Input))
+        self.assertEqual(self.abort_at(0), before)
 
 
 if __name__ == "__main__":

@@ -292,6 +292,22 @@ class Pipeline(unittest.TestCase):
         self.assertEqual(watched.filter.GetNumberOfIterations(), 2)
         self.assertEqual(count_violations(mesh), watched.filter.GetNumberOfNonDelaunayEdges())
 
+    def test_abort_before_the_first_iteration(self):
+        mesh = make_bad_mesh()
+        watched = Watched(mesh)
+        told = []
+
+        def stop(flip, _event):
+            told.append(flip.GetProgress())
+            flip.SetAbortExecute(flip.GetProgress() > 0.1)
+
+        watched.filter.AddObserver("ProgressEvent", stop)
+        output = watched.run()
+        self.assertEqual(watched.filter.GetStopReasonAsString(), "aborted")
+        self.assertEqual(watched.filter.GetNumberOfIterations(), 0)
+        self.assertLess(told[-1], 0.5)
+        self.assertEqual(get_edges(output), get_edges(mesh))
+
     def test_live_update(self):
         mesh = make_bad_mesh()
         at_once = Watched(mesh).run()
