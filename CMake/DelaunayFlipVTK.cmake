@@ -20,7 +20,7 @@ endif()
 set(delaunayflip_vtk CommonCore CommonDataModel CommonExecutionModel CommonMisc
   IOGeometry IOLegacy IOPLY IOXML vtksys)
 if(DELAUNAYFLIP_BUILD_TESTING)
-  list(APPEND delaunayflip_vtk FiltersCore FiltersVerdict IOImage RenderingCore RenderingOpenGL2
+  list(APPEND delaunayflip_vtk FiltersCore FiltersSources FiltersVerdict IOImage RenderingCore RenderingOpenGL2
     TestingRendering)
 endif()
 set(delaunayflip_vtk_optional ParallelCore WrappingPythonCore WrappingTools ${delaunayflip_vtk_drawing})

@@ -61,9 +61,11 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
       "Surfaces: an edge sharper than this many degrees stays; 180: none does [30]")
     ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
   app
-    .add_option(
-      "--tolerance", flip.Tolerance, "Radians above pi that an opposite-angle sum may reach [1e-9]")
-    ->check(Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
+    .add_option("--tolerance", flip.Tolerance,
+      "Radians above pi that an opposite-angle sum may reach; -1: for each edge what the precision "
+      "of its points can do to the sum [-1]")
+    ->check(Within(-1.0, -1.0, "automatic (-1)") |
+      Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
   AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
     { { "keep", TieRuleKind::Keep }, { "canonical", TieRuleKind::Canonical } },
     "Edges whose four points lie on one circle: keep them, or make the result independent of the "

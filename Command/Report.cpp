@@ -25,6 +25,7 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["geometry"] = ToString(flip.GeometryUsed);
   json["geometry_reason"] = flip.GeometryReason;
+  json["tolerance"] = flip.Tolerance;
   json["backend"] = flip.Backend;
   if (!flip.Fallback.empty())
   {

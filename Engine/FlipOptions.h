@@ -57,8 +57,11 @@ struct FlipOptions
   TieRuleKind TieRule = TieRuleKind::Keep;
   BackendKind Backend = BackendKind::Auto;
 
-  /// The paper's epsilon, in radians, >= 0 and < 1; used by OppositeAngles only.
-  double Tolerance = 1e-9;
+  /// The paper's epsilon: by how many radians an opposite-angle sum must exceed pi, >= 0 and < 1.
+  /// -1: automatic. Each edge has its own then: what a unit in the last place of the coordinates of
+  /// its four points, as float or double, can do to its sum. So a surface that is Delaunay within
+  /// the precision of its points comes back bit-identical. Used by OppositeAngles only.
+  double Tolerance = -1.0;
 
   /// Surfaces: an edge whose two triangles' normals differ by more than this many degrees
   /// (0 .. 180) in the input stays; 180 fixes none.

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipReport.h"
 
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
 namespace delaunayflip
 {
 
@@ -37,6 +41,21 @@ const char* ToString(GeometryKind geometry)
       return "surface";
   }
   return "unknown";
+}
+
+std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
+{
+  if (used != GeometryKind::Surface && options.Criterion == CriterionKind::InCircle)
+  {
+    return "none";
+  }
+  if (options.Tolerance < 0.0)
+  {
+    return "automatic";
+  }
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<double>::digits10) << options.Tolerance;
+  return text.str();
 }
 
 std::string DescribeDefects(const std::vector<Defect>& defects)

@@ -79,6 +79,8 @@ struct FlipReport
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
   std::string GeometryReason; ///< Why it was used, for people; also says where
                               ///< FlipOptions::FeatureAngle has no effect.
+  std::string Tolerance; ///< "automatic", the value asked for (e.g. "1e-09"), or "none" where the
+                         ///< in-circle predicate decides.
   std::string Backend; ///< E.g. "Threads: 8" or "CUDA: NVIDIA H200".
   std::string Fallback; ///< Why the CPU stood in for a GPU that is there; else empty.
 
@@ -120,6 +122,9 @@ const char* ToString(StopReasonKind reason);
 
 /// "auto", "planar", "planar-xy" or "surface".
 const char* ToString(GeometryKind geometry);
+
+/// FlipReport::Tolerance of a run with these options in that geometry.
+std::string DescribeTolerance(const FlipOptions& options, GeometryKind used);
 
 /// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
 /// none.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
 
+#include "AuditAngles.h"
 #include "Predicates.h"
 #include "ScaledOffsets.h"
 #include "SurveyMesh.h"
@@ -20,7 +21,11 @@ namespace delaunayflip
 namespace
 {
 
-using Vector3 = std::array<double, 3>;
+using audit::Angle;
+using audit::Cross;
+using audit::Length;
+using audit::Subtract;
+using audit::Vector;
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
 
 /// One side of a triangle.
@@ -88,26 +93,12 @@ std::int64_t CountUsedPoints(const TriangleArray& triangles)
   return std::unique(ids.begin(), ids.end()) - ids.begin();
 }
 
-Vector3 Subtract(const Vector3& a, const Vector3& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double Dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector3 Cross(const Vector3& a, const Vector3& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double Length(const Vector3& a) { return std::hypot(a[0], a[1], a[2]); }
-
 /// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
 template <std::size_t Count>
-std::array<Vector3, Count> GetScaledPoints(
+std::array<Vector, Count> GetScaledPoints(
   const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
 {
-  std::array<Vector3, Count> offsets{};
+  std::array<Vector, Count> offsets{};
   const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
   LoadScaledOffsets(points, ids.data(), Count, axes, offsets);
   return offsets;
@@ -119,34 +110,6 @@ bool AreFinite(
 {
   return std::all_of(
     ids.begin(), ids.end(), [&](std::int64_t id) { return IsFinitePoint(points, id, geometry); });
-}
-
-/// Cosine and sine, times any positive number, of the angle at `apex` towards `p` and `q`.
-struct Angle
-{
-  Angle(const Vector3& apex, const Vector3& p, const Vector3& q)
-  {
-    const Vector3 first = Subtract(p, apex);
-    const Vector3 second = Subtract(q, apex);
-    this->Cosine = Dot(first, second);
-    this->Sine = Length(Cross(first, second));
-  }
-
-  double Cosine;
-  double Sine;
-};
-
-/// Whether the angles sum to more than pi + tolerance. The sum lies in [0, 2 pi].
-bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
-{
-  if (a.Cosine >= 0.0 && b.Cosine >= 0.0)
-  {
-    return false;
-  }
-  const double sine = a.Sine * b.Cosine + a.Cosine * b.Sine;
-  const double cosine = a.Cosine * b.Cosine - a.Sine * b.Sine;
-  const bool isAboveThreeHalvesPi = a.Cosine < 0.0 && b.Cosine < 0.0 && cosine > 0.0;
-  return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
 }
 
 /// Says of single edges whether they violate the criterion.
@@ -219,7 +182,7 @@ private:
   }
 
   /// A point's u, v and w; w is 0 unless it belongs to the lift.
-  Vector3 Project(std::int64_t point) const
+  Vector Project(std::int64_t point) const
   {
     const PlanePoint projected = this->Projection.Project(this->Mesh.Points, point);
     return { projected.U, projected.V, projected.W };
@@ -232,10 +195,10 @@ private:
 
   int JudgeInCircle(const std::array<std::int64_t, 4>& quad) const
   {
-    const Vector3 a = this->Project(quad[0]);
-    const Vector3 p = this->Project(quad[1]);
-    const Vector3 q = this->Project(quad[2]);
-    const Vector3 b = this->Project(quad[3]);
+    const Vector a = this->Project(quad[0]);
+    const Vector p = this->Project(quad[1]);
+    const Vector q = this->Project(quad[2]);
+    const Vector b = this->Project(quad[3]);
     return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
                                    : InCircle(a.data(), p.data(), q.data(), b.data());
   }
@@ -243,7 +206,29 @@ private:
   bool HasLargeAngles(const std::array<std::int64_t, 4>& quad) const
   {
     const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
-    return IsSumAbovePi(Angle(x[0], x[1], x[2]), Angle(x[3], x[1], x[2]), this->Options.Tolerance);
+    const double tolerance = this->GetTolerance(quad);
+    return tolerance < Pi &&
+      audit::IsSumAbovePi(Angle(x[0], x[1], x[2]), Angle(x[3], x[1], x[2]), tolerance);
+  }
+
+  double GetTolerance(const std::array<std::int64_t, 4>& quad) const
+  {
+    if (this->Options.Tolerance >= 0.0)
+    {
+      return this->Options.Tolerance;
+    }
+    std::array<Vector, 4> apqb{};
+    const int axes = this->Geometry == GeometryKind::PlanarXY ? 2 : 3;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int axis = 0; axis < axes; ++axis)
+      {
+        apqb[i][axis] = this->Mesh.Points.Get(quad[i], axis);
+      }
+    }
+    return audit::FindTolerance(apqb,
+      this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
+                               : std::numeric_limits<double>::epsilon());
   }
 
   /// Whether the normals differ by more than the feature angle; never next to an empty triangle.
@@ -254,9 +239,10 @@ private:
       return false;
     }
     const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
-    const Vector3 n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
-    const Vector3 m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
-    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
+    const Vector n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
+    const Vector m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
+    return audit::Dot(n, m) <
+      std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
   }
 
   const TriangleMesh& Mesh;
@@ -267,13 +253,13 @@ private:
 };
 
 /// Radians; 0 for a triangle without area.
-double SmallestAngle(const std::array<Vector3, 3>& corners)
+double SmallestAngle(const std::array<Vector, 3>& corners)
 {
   double smallest = Pi;
   for (int i = 0; i < 3; ++i)
   {
     const Angle angle(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-    smallest = std::min(smallest, std::atan2(angle.Sine, angle.Cosine));
+    smallest = std::min(smallest, angle.Radians());
   }
   return smallest;
 }

@@ -129,7 +129,7 @@ void Visit(Archive& archive, UpdateReport& report)
   archive(report.Points, report.Triangles, report.EulerCharacteristic);
   archive(report.UnmatchedConstraints);
   Visit(archive, report.Edges);
-  archive(report.GeometryUsed, report.HasMixedGeometry, report.GeometryReason);
+  archive(report.GeometryUsed, report.HasMixedGeometry, report.GeometryReason, report.Tolerance);
   archive(report.Backend, report.Fallback);
   archive(report.Iterations, report.TotalFlips, report.TotalExcluded, report.TotalBlocked);
   archive(report.NonDelaunayBefore, report.NonDelaunayAfter);

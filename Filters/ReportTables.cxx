@@ -92,6 +92,7 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   writer.AddValue<vtkIdTypeArray>("UnmatchedConstraintEdges", report.UnmatchedConstraints);
   writer.AddValue<vtkStringArray>("GeometryUsed", report.GetGeometryName());
   writer.AddValue<vtkStringArray>("GeometryReason", report.GeometryReason);
+  writer.AddValue<vtkStringArray>("Tolerance", report.Tolerance);
   writer.AddValue<vtkStringArray>("Backend", report.Backend);
   AddIterationColumns(report, FieldPrefix, data);
 }

@@ -138,6 +138,7 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
   AddGeometry(*this, other);
   AddEdges(this->Edges, other.Edges);
   AddText(this->GeometryReason, other.GeometryReason);
+  AddText(this->Tolerance, other.Tolerance);
   AddText(this->Backend, other.Backend);
   AddText(this->Fallback, other.Fallback);
   AddDefects(this->Defects, other.Defects);

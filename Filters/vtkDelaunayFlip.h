@@ -26,8 +26,9 @@
  * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
  * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
  * NonDelaunayEdges, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
- * GeometryUsed, GeometryReason and Backend. In the field data each name begins with "DelaunayFlip:",
- * e.g. "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
+ * GeometryUsed, GeometryReason, Tolerance ("automatic", the value, or "none" where the in-circle
+ * predicate decides) and Backend. In the field data each name begins with "DelaunayFlip:", e.g.
+ * "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
  * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
@@ -161,8 +162,12 @@ public:
 
   ///@{
   /**
-   * By how many radians an opposite-angle sum must exceed pi. At least 0 and below 1, else the
-   * update fails; default 1e-9. Without effect on the in-circle criterion, which is exact.
+   * By how many radians an opposite-angle sum must exceed pi. At least 0 and below 1, or -1
+   * (default), else the update fails. -1 is automatic: each edge has its own tolerance, as large as
+   * the change of its sum that a unit in the last place of its points' coordinates (float or
+   * double) may cause. It grows with the distance from the origin and with short edges. A surface
+   * that is Delaunay within the precision of its points comes back bit-identical then. Without
+   * effect on the in-circle criterion, which is exact.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -514,7 +519,7 @@ protected:
 
   int Geometry = GEOMETRY_AUTO;
   int Criterion = CRITERION_IN_CIRCLE;
-  double Tolerance = 1e-9;
+  double Tolerance = -1.0;
   int TieRule = TIE_RULE_KEEP;
   double FeatureAngle = 30.0;
   std::string RegionArray;

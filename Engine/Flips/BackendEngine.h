@@ -79,6 +79,7 @@ public:
     this->Mesh = std::move(built.Edges);
     this->StartReport(mesh, survey, built);
     this->Turns = survey.Turns;
+    this->Report.Tolerance = DescribeTolerance(options, survey.Geometry);
     FlipLoopResult made =
       ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh },
         std::move(built.Table), this->Backend);

@@ -75,9 +75,11 @@ std::unique_ptr<FlipLoop> MakeLoop(const FlipLoopInput& input, const Rule& rule,
   return std::unique_ptr<FlipLoop>(new Loop(input.Mesh, rule, scale, std::move(guard), backend));
 }
 
-inline AngleTolerance GetTolerance(const FlipOptions& options)
+inline AngleTolerance GetTolerance(const FlipLoopInput& input)
 {
-  return { std::sin(options.Tolerance), std::cos(options.Tolerance) };
+  const double fixed = input.Options.Tolerance;
+  return fixed < 0.0 ? AngleTolerance{ 0.0, 1.0, input.Survey.Precision }
+                     : AngleTolerance{ std::sin(fixed), std::cos(fixed), 0.0 };
 }
 
 template <typename Real, int Components>
@@ -97,8 +99,8 @@ std::unique_ptr<FlipLoop> MakePlanarLoop(
   const double scale = input.Survey.Scale;
   if (input.Options.Criterion == CriterionKind::OppositeAngles)
   {
-    return MakeLoop(input, PlanarAngleRule{ { doubles, GetTolerance(input.Options) } }, 1.0,
-      std::move(guard), backend);
+    return MakeLoop(
+      input, PlanarAngleRule{ { doubles, GetTolerance(input) } }, 1.0, std::move(guard), backend);
   }
   if (input.Survey.Projection.Tilted)
   {
@@ -119,7 +121,7 @@ template <typename Backend>
 std::unique_ptr<FlipLoop> MakeSurfaceLoop(
   const FlipLoopInput& input, EdgeGuard guard, const Backend& backend)
 {
-  const AngleTolerance tolerance = GetTolerance(input.Options);
+  const AngleTolerance tolerance = GetTolerance(input);
   const PackedPoints& points = input.Points;
   return points.IsFloat()
     ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance } }, 1.0,

@@ -6,6 +6,7 @@
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
 #include "HostDevice.h"
+#include "OppositeAngles.h"
 #include "SurfaceAngles.h"
 
 #include <cstdint>
@@ -187,6 +188,23 @@ struct AnglePoints
   {
     return { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q), this->Get(quad.B) };
   }
+
+  /// @param points of the quad.
+  DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, const QuadPoints& points) const
+  {
+    const AngleSum sum(points);
+    return sum.ExceedsPi(this->Tolerance) &&
+      !(this->Tolerance.Precision > 0.0 && this->IsNoise(quad, sum.GetExcess()));
+  }
+
+private:
+  /// Loads the points again: as a function of its own it takes no registers from the test of all
+  /// the edges that do not need it.
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool IsNoise(
+    const Quad& quad, double excess) const
+  {
+    return delaunayflip::IsNoise(this->Get(quad), this->Tolerance.Precision, excess);
+  }
 };
 
 /// In the plane by the paper's opposite-angle sum; coordinates are u, v, w, and convexity in (u, v)
@@ -198,7 +216,7 @@ struct PlanarAngleRule : AnglePoints<double>
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    return ExceedsPi(this->Get(quad), this->Tolerance) ? EdgeState::Uncertain : EdgeState::Good;
+    return this->ExceedsPi(quad, this->Get(quad)) ? EdgeState::Uncertain : EdgeState::Good;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -223,7 +241,7 @@ struct SurfaceRule : AnglePoints<Real>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
     const QuadPoints points = this->Get(quad);
-    if (!ExceedsPi(points, this->Tolerance))
+    if (!this->ExceedsPi(quad, points))
     {
       return EdgeState::Good;
     }

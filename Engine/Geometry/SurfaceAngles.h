@@ -43,33 +43,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsSharp(const QuadPoints& quad, double cosi
   return lengths > 0.0 && Dot(upper, lower) < cosine * lengths;
 }
 
-/// Sine and cosine of the tolerance of the opposite-angle test.
-struct AngleTolerance
-{
-  double Sine = 0.0;
-  double Cosine = 1.0;
-};
-
-/// Whether the angles at a and b, opposite the edge p-q, sum to more than pi + tolerance (the
-/// paper's eq. 5). With sine and cosine of the sum, both times the same positive factor, the sum
-/// lies beyond when sin(sum - tolerance) < 0. That holds between pi/2 and 3/2 pi, where the cosine
-/// is not positive; elsewhere the sum is small or, when both angles are obtuse, large.
-DELAUNAYFLIP_HOST_DEVICE inline bool ExceedsPi(
-  const QuadPoints& quad, const AngleTolerance& tolerance)
-{
-  const Vector3 ap = quad.P - quad.A, aq = quad.Q - quad.A;
-  const Vector3 bp = quad.P - quad.B, bq = quad.Q - quad.B;
-  const double cosA = Dot(ap, aq), sinA = Length(Cross(ap, aq));
-  const double cosB = Dot(bp, bq), sinB = Length(Cross(bp, bq));
-  const double sine = sinA * cosB + cosA * sinB;
-  const double cosine = cosA * cosB - sinA * sinB;
-  if (cosine > 0.0)
-  {
-    return cosA < 0.0 && cosB < 0.0;
-  }
-  return sine * tolerance.Cosine - cosine * tolerance.Sine < 0.0;
-}
-
 /// Whether flipping p-q to a-b would fold the surface over: a new normal does not point to the side
 /// of the quad's vector area, which the flip does not change.
 DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOver(const QuadPoints& quad)

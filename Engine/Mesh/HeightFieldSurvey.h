@@ -11,8 +11,8 @@
 #include "MeshSurvey.h"
 #include "PlaneScale.h"
 #include "SurfaceAngles.h"
-#include "Vector3.h"
 #include "TriangleMesh.h"
+#include "Vector3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,9 +20,10 @@ constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
 
 void CheckOptions(const FlipOptions& options)
 {
-  if (!(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
+  const bool isAutomatic = options.Tolerance == -1.0;
+  if (!isAutomatic && !(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
   {
-    throw InvalidOptions("the tolerance must be at least 0 and below 1 radian");
+    throw InvalidOptions("the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
   }
   if (!(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0))
   {

@@ -8,6 +8,7 @@
 #include "FilteredPredicates.h"
 #include "FlipOptions.h"
 #include "HostDevice.h"
+#include "OppositeAngles.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -85,6 +86,7 @@ struct MeshSurvey
   BoundingBox Box; ///< Of the used, finite points.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
   double Scale = 1.0; ///< Power of two that brings extreme coordinates near 1; 1 for usual ones.
+  double Precision = DoublePrecision; ///< Of the caller's coordinates, by their type.
   Defect NonFinitePoints;
   Defect RepeatedIds;
   Defect NearlyHeightField; ///< What kept Auto from PlanarXY, where it was little.

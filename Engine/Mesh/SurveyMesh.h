@@ -170,6 +170,7 @@ void SurveyPoints(
   const PointSurvey points = backend.template Sum<PointSurvey>(array.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
     { SurveyPoint(array, geometry, uses, i, sum); });
+  survey.Precision = input.Caller.Points.Floats ? FloatPrecision : DoublePrecision;
   survey.UsedPoints = points.Used;
   survey.NonFinitePoints =
     MakeDefect("points with NaN or infinite coordinates", points.NonFinite, DefectIds::Points);

@@ -50,7 +50,7 @@ class WrongUsage(CommandTest):
     def test_ranges(self):
         for option, values in {
             "--feature-angle": ["-1", "180.5", "nan", "x"],
-            "--tolerance": ["-1e-9", "1", "nan", "inf"],
+            "--tolerance": ["-1e-9", "-2", "1", "nan", "inf"],
             "--threads": ["-1", "1.5", "99999999"],
             "--device": ["-2", "0.5", "x", "nan", "9999999999", "gpu0"],
             "--max-iterations": ["-2", "1e30", "x"],

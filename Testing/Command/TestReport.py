@@ -22,7 +22,7 @@ from CommandTesting import (
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
     *("constraint_edges", "unmatched_constraint_edges"),
-    *("geometry", "geometry_reason", "backend", "iterations"),
+    *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "min_angle_before_deg", "min_angle_after_deg"),
     *("converged", "stop_reason", "seconds"),
@@ -57,7 +57,7 @@ class Report(CommandTest):
         expected = {
             **{"points": 8, "triangles": 6, "edges": 13, "boundary_edges": 8, "fixed_edges": 8},
             **{"non_manifold_edges": 0, "geometry": "planar", "iterations": 5, "total_flips": 9},
-            **{"total_blocked": 0, "non_delaunay_before": 1, "non_delaunay_after": 0},
+            **{"total_blocked": 0, "tolerance": "none", "non_delaunay_before": 1, "non_delaunay_after": 0},
             **{"converged": True, "stop_reason": "converged"},
         }
         self.assertEqual({key: report[key] for key in expected}, expected)

@@ -99,6 +99,11 @@ FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options)
     options, [&](const FlipOptions& chosen) { return FlipOnce(mesh, chosen); });
 }
 
+OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh)
+{
+  return { { mesh.Points.begin(), mesh.Points.end() }, mesh.Triangles };
+}
+
 TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles)
 {
   return TriangleArray(triangles.data(), static_cast<std::int64_t>(triangles.size()) / 3);
@@ -214,9 +219,9 @@ void ExpectSameRows(const std::vector<IterationRecord>& a, const std::vector<Ite
 
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
-  const auto& [points, triangles, edges, unmatched, euler, geometry, reason, backend, fallback,
-    iterations, flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter, stopReason,
-    buildSeconds, flipSeconds, defects] = b;
+  const auto& [points, triangles, edges, unmatched, euler, geometry, reason, tolerance, backend,
+    fallback, iterations, flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter,
+    stopReason, buildSeconds, flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
   static_cast<void>(buildSeconds);
@@ -228,6 +233,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.EulerCharacteristic, euler);
   EXPECT_EQ(a.GeometryUsed, geometry);
   EXPECT_EQ(a.GeometryReason, reason);
+  EXPECT_EQ(a.Tolerance, tolerance);
   ExpectSameRows(a.Iterations, iterations);
   EXPECT_EQ(a.TotalFlips, flips);
   EXPECT_EQ(a.TotalExcluded, excluded);

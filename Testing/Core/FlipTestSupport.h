@@ -113,6 +113,9 @@ inline AffineMap ScaleAndMove(double scale, double offset)
   return { { { scale, 0, 0, offset }, { 0, scale, 0, offset }, { 0, 0, scale, 0 } } };
 }
 
+/// The mesh with its coordinates rounded to float.
+OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh);
+
 }
 
 #endif

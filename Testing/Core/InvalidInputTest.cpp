@@ -87,7 +87,7 @@ TEST(InvalidOptions, AreRefused)
   const OwnedMesh<double> grid = MakeGridMesh(3, 3);
   const TriangleMesh mesh = grid.View();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (double tolerance : { -1e-9, 1.0, nan })
+  for (double tolerance : { -1e-9, -2.0, 1.0, nan })
   {
     ExpectRefused<InvalidOptions>(mesh, [&](FlipOptions& o) { o.Tolerance = tolerance; });
   }

@@ -283,7 +283,7 @@ TEST(VtkDelaunayFlip, ContradictingOptionsAreErrors)
   EXPECT_FALSE(GetError(canonical).empty());
 
   WatchedFilter tolerance(MakeRhombus());
-  tolerance->SetTolerance(-1.0);
+  tolerance->SetTolerance(1.0);
   EXPECT_FALSE(GetError(tolerance).empty());
 
   auto bent = MakeRhombus();

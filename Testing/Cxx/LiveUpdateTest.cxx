@@ -215,7 +215,7 @@ TEST(LiveUpdate, AnErrorEndsIt)
   auto mesh = MakeBadPlane();
   LiveFilter filter(mesh);
   filter.Run();
-  filter->SetTolerance(-1.0);
+  filter->SetTolerance(1.0);
   filter.Run();
   EXPECT_EQ(filter.GetErrors().empty(), false);
   EXPECT_FALSE(filter->Advance());

@@ -122,6 +122,12 @@ TEST(VtkDelaunayFlip, SafetyLimitWarns)
   EXPECT_NE(filter.GetWarnings()[0].find("stopped by the safety limit of 1018 iterations"),
     std::string::npos)
     << filter.GetWarnings()[0];
+
+  // The automatic tolerance lets no edge flip for rounding alone.
+  WatchedFilter automatic(vtkPolyData::SafeDownCast(filter->GetInput()));
+  automatic->SetGeometryToSurface();
+  RunCleanly(automatic);
+  EXPECT_TRUE(automatic->GetConverged());
 }
 
 TEST(VtkDelaunayFlip, NoIterationsNoFlips)

@@ -24,7 +24,7 @@ const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped",
   "Blocked", "MinimumAngle", "Seconds" };
 
 const char* const Totals[] = { "Converged", "StopReason", "TotalFlips", "NonDelaunayEdges",
-  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "Backend" };
+  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "Tolerance", "Backend" };
 
 /// Adds field data.
 void AddText(vtkPolyData* mesh, const std::string& name)
@@ -115,7 +115,21 @@ TEST(VtkDelaunayFlip, TotalsAreFieldData)
   EXPECT_EQ(GetTotal(output, "NonManifoldEdges"), 0.0);
   EXPECT_EQ(GetText(output, "StopReason"), "converged");
   EXPECT_EQ(GetText(output, "GeometryUsed"), "planar");
+  EXPECT_EQ(GetText(output, "Tolerance"), "none"); // in-circle
   EXPECT_EQ(GetText(output, "Backend"), filter->GetReport().Backend);
+}
+
+TEST(VtkDelaunayFlip, FieldDataTellTheTolerance)
+{
+  WatchedFilter filter(MakeWorstCase());
+  filter->SetCriterionToOppositeAngles();
+  EXPECT_EQ(filter->GetTolerance(), -1.0);
+  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "automatic");
+  filter->SetTolerance(1e-9);
+  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
+  filter->SetCriterionToInCircle();
+  filter->SetGeometryToSurface();
+  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
 }
 
 TEST(VtkDelaunayFlip, FieldDataOfTheInputPass)

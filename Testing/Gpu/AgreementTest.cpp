@@ -184,5 +184,27 @@ TEST_F(FloatAgreementTest, TheGpuGivesTheCpusBits)
   ExpectSameResult(expected, Flip(mesh.View(), surface));
 }
 
+// On ties, near and far from the origin, each edge's own tolerance decides; that of floats holds
+// where a plane packs them as doubles, too.
+TEST_F(FloatAgreementTest, TolerancesAgree)
+{
+  for (double offset : { 0.0, 1000.0, 1e6 })
+  {
+    const OwnedMesh<float> mesh =
+      RoundToFloat(Transform(MakeLatLongSphere(400, 200), ScaleAndMove(100.0, offset)));
+    const OwnedMesh<float> plane =
+      RoundToFloat(Transform(MakeRandomBadMeshDouble(30000, 23), ScaleAndMove(100.0, offset)));
+    for (double tolerance : { -1.0, 0.0, 1e-9 })
+    {
+      FlipOptions options = MakeOptions(BackendKind::CUDA);
+      options.Tolerance = tolerance;
+      options.MaximumIterations = 200; // of a tolerance of 0
+      ExpectGpuAgrees(mesh.View(), options);
+      options.Criterion = CriterionKind::OppositeAngles;
+      ExpectGpuAgrees(plane.View(), options);
+    }
+  }
+}
+
 }
 }

@@ -67,6 +67,12 @@ TEST_F(SmallMeshTest, Surfaces)
   }
 }
 
+TEST_F(SmallMeshTest, SurfaceOfFloats)
+{
+  const OwnedMesh<float> sphere = RoundToFloat(MakeBadSphere(30, 15, 66));
+  ExpectGpuAgrees(sphere.View(), WithGeometry(GeometryKind::Auto));
+}
+
 TEST_F(SmallMeshTest, ChainAndTies)
 {
   const OwnedMesh<double> chain = MakeWorstCaseMesh(20);

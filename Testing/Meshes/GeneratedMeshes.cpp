@@ -80,6 +80,41 @@ void AddQuad(OwnedMesh<double>& mesh, const Quad& quad, bool otherDiagonal)
 
 bool DrawBit(std::mt19937& random) { return (random() >> 31) != 0; }
 
+/// Vertices are moved along their circles by shift() of the distance between two; quads are cut
+/// along one diagonal or, if cut(), the other.
+template <typename Shift, typename Cut>
+OwnedMesh<double> MakeSphere(
+  std::int32_t columns, std::int32_t rows, const Shift& shift, const Cut& cut)
+{
+  OwnedMesh<double> mesh;
+  for (std::int32_t r = 0; r < rows; ++r)
+  {
+    const CirclePoint meridian(0.5 * (r + 1) / (rows + 1));
+    for (std::int32_t c = 0; c < columns; ++c)
+    {
+      const CirclePoint parallel((c + shift()) / columns);
+      AddPoint(
+        mesh, meridian.Sine * parallel.Cosine, meridian.Sine * parallel.Sine, meridian.Cosine);
+    }
+  }
+  const std::int32_t north = rows * columns;
+  const std::int32_t south = north + 1;
+  AddPoint(mesh, 0.0, 0.0, 1.0);
+  AddPoint(mesh, 0.0, 0.0, -1.0);
+  const std::int32_t lastRing = (rows - 1) * columns;
+  for (std::int32_t c = 0; c < columns; ++c)
+  {
+    const std::int32_t next = (c + 1) % columns;
+    AddTriangle(mesh, north, c, next);
+    for (std::int32_t ring = 0; ring < lastRing; ring += columns)
+    {
+      AddQuad(mesh, { ring + c, ring + columns + c, ring + columns + next, ring + next }, cut());
+    }
+    AddTriangle(mesh, south, lastRing + next, lastRing + c);
+  }
+  return mesh;
+}
+
 }
 
 OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size)
@@ -129,34 +164,14 @@ OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows)
 OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  OwnedMesh<double> mesh;
-  for (std::int32_t r = 0; r < rows; ++r)
-  {
-    const CirclePoint meridian(0.5 * (r + 1) / (rows + 1));
-    for (std::int32_t c = 0; c < columns; ++c)
-    {
-      const CirclePoint parallel((c + 0.9 * DrawUnit(random)) / columns);
-      AddPoint(
-        mesh, meridian.Sine * parallel.Cosine, meridian.Sine * parallel.Sine, meridian.Cosine);
-    }
-  }
-  const std::int32_t north = rows * columns;
-  const std::int32_t south = north + 1;
-  AddPoint(mesh, 0.0, 0.0, 1.0);
-  AddPoint(mesh, 0.0, 0.0, -1.0);
-  const std::int32_t lastRing = (rows - 1) * columns;
-  for (std::int32_t c = 0; c < columns; ++c)
-  {
-    const std::int32_t next = (c + 1) % columns;
-    AddTriangle(mesh, north, c, next);
-    for (std::int32_t ring = 0; ring < lastRing; ring += columns)
-    {
-      AddQuad(mesh, { ring + c, ring + columns + c, ring + columns + next, ring + next },
-        DrawBit(random));
-    }
-    AddTriangle(mesh, south, lastRing + next, lastRing + c);
-  }
-  return mesh;
+  return MakeSphere(
+    columns, rows, [&]() { return 0.9 * DrawUnit(random); }, [&]() { return DrawBit(random); });
+}
+
+OwnedMesh<double> MakeLatLongSphere(std::int32_t columns, std::int32_t rows)
+{
+  return MakeSphere(
+    columns, rows, []() { return 0.0; }, []() { return false; });
 }
 
 OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed)

@@ -64,6 +64,10 @@ OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows);
 /// `rows` circles of `columns` points between two poles; `columns` >= 3, `rows` >= 1.
 OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
+/// The latitude-longitude sphere of radius 1 itself, as VTK's sphere source makes it: every quad is
+/// a trapezoid with its corners on one circle, but for the rounding of their coordinates.
+OwnedMesh<double> MakeLatLongSphere(std::int32_t columns, std::int32_t rows);
+
 /// A Moebius strip of `columns` x `rows` quads, vertices moved along the strip at random and quads
 /// cut at random: one side, one boundary, `rows` wrongly wound edges at the seam. `columns` >= 3,
 /// `rows` >= 1.
