@@ -3,6 +3,8 @@
 #ifndef DELAUNAYFLIP_CUDADEVICE_H
 #define DELAUNAYFLIP_CUDADEVICE_H
 
+#include "EngineExport.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -21,15 +23,15 @@ namespace delaunayflip
 constexpr std::int64_t SmallestMeshForCuda = 20000;
 
 /// Whether there is a GPU that this build can use. Never throws.
-bool HasCudaDevice();
+DELAUNAYFLIP_EXPORT bool HasCudaDevice();
 
 /// Frees the memory that the CUDA backend keeps between runs, on the device and the host. Runs
 /// under way keep theirs.
-void ReleaseCudaMemory();
+DELAUNAYFLIP_EXPORT void ReleaseCudaMemory();
 
 /// The peak of device memory, in bytes, that any run has used since the last call, of the runs that
 /// have ended. 0 without the backend, and where the device has no memory pools.
-std::size_t TakePeakCudaMemory();
+DELAUNAYFLIP_EXPORT std::size_t TakePeakCudaMemory();
 
 }
 

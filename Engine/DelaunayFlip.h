@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_DELAUNAYFLIP_H
 #define DELAUNAYFLIP_DELAUNAYFLIP_H
 
+#include "EngineExport.h"
 #include "FlipError.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
@@ -24,7 +25,7 @@ namespace delaunayflip
 /// the constructor, unless a progress observer stopped it.
 ///
 /// Same mesh and options, same result, bit for bit, for any number of threads and any backend.
-class FlipSession
+class DELAUNAYFLIP_EXPORT FlipSession
 {
 public:
   /// Builds the edge mesh and tests all edges. When `progress` returns false meanwhile, the
@@ -64,7 +65,8 @@ private:
 /// Given as constraint edges, with a feature angle of 180, to a run over the same triangles, or
 /// what flips made of them, they stay the edges that never flip when points have moved.
 /// @throws as FlipSession's constructor.
-std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOptions& options);
+DELAUNAYFLIP_EXPORT std::vector<std::int64_t> FindFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options);
 
 /// What GeometryKind::Auto comes to for a mesh; other kinds are what they are.
 /// @throws as FlipSession's constructor.
@@ -73,7 +75,7 @@ GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options);
 /// The whole way at once: flips `mesh` and writes the result to `triangles`, which may be the very
 /// array that mesh.Triangles views. Nothing is written when an exception leaves.
 /// @throws as FlipSession's constructor.
-FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
+DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},
   const ProgressObserver& progress = {});
 

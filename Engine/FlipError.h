@@ -3,6 +3,8 @@
 #ifndef DELAUNAYFLIP_FLIPERROR_H
 #define DELAUNAYFLIP_FLIPERROR_H
 
+#include "EngineExport.h"
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -15,21 +17,21 @@ namespace delaunayflip
 {
 
 /// Base class of the engine's own exceptions.
-class FlipError : public std::runtime_error
+class DELAUNAYFLIP_EXPORT FlipError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
 /// Options that contradict each other or the mesh, or are out of range.
-class InvalidOptions : public FlipError
+class DELAUNAYFLIP_EXPORT InvalidOptions : public FlipError
 {
 public:
   using FlipError::FlipError;
 };
 
 /// A triangle or constraint edge names a point that does not exist. Nothing was dereferenced.
-class InvalidMesh : public FlipError
+class DELAUNAYFLIP_EXPORT InvalidMesh : public FlipError
 {
 public:
   InvalidMesh(const std::string& message, std::int64_t cell, std::int64_t point)
@@ -44,21 +46,21 @@ public:
 };
 
 /// More triangles than 32-bit half-edges can number; thrown before anything is allocated.
-class MeshTooLarge : public FlipError
+class DELAUNAYFLIP_EXPORT MeshTooLarge : public FlipError
 {
 public:
   using FlipError::FlipError;
 };
 
 /// The backend asked for cannot run here.
-class BackendUnavailable : public FlipError
+class DELAUNAYFLIP_EXPORT BackendUnavailable : public FlipError
 {
 public:
   using FlipError::FlipError;
 };
 
 /// The coordinates need exact arithmetic that only the CPU has; the other backend takes over.
-class BeyondDevice : public BackendUnavailable
+class DELAUNAYFLIP_EXPORT BeyondDevice : public BackendUnavailable
 {
 public:
   BeyondDevice()

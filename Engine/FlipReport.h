@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_FLIPREPORT_H
 #define DELAUNAYFLIP_FLIPREPORT_H
 
+#include "EngineExport.h"
 #include "FlipOptions.h"
 
 #include <cstdint>
@@ -118,17 +119,17 @@ using FlipObserver = std::function<bool(const IterationRecord&)>;
 using ProgressObserver = std::function<bool(double)>;
 
 /// "converged", "iteration limit", "aborted", "running" or "not started".
-const char* ToString(StopReasonKind reason);
+DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 
 /// "auto", "planar", "planar-xy" or "surface".
-const char* ToString(GeometryKind geometry);
+DELAUNAYFLIP_EXPORT const char* ToString(GeometryKind geometry);
 
 /// FlipReport::Tolerance of a run with these options in that geometry.
 std::string DescribeTolerance(const FlipOptions& options, GeometryKind used);
 
 /// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
 /// none.
-std::string DescribeDefects(const std::vector<Defect>& defects);
+DELAUNAYFLIP_EXPORT std::string DescribeDefects(const std::vector<Defect>& defects);
 
 }
 

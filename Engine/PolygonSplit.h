@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_POLYGONSPLIT_H
 #define DELAUNAYFLIP_POLYGONSPLIT_H
 
+#include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
 
@@ -21,14 +22,15 @@ namespace delaunayflip
 /// when it is convex, else its ears are clipped. Works in the plane of the polygon's area vector. A
 /// polygon that crosses itself or has no area still gives count - 2 triangles (a fan).
 /// @param ids the polygon's vertex ids, valid indices into `points`.
-/// @param progress of this polygon; asked where ears take long, for their time grows with the
-/// square of `count`.
-/// @returns false when `progress` did; nothing is appended then.
-bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
-  std::vector<std::int64_t>& triangles, const ProgressObserver& progress = {});
+/// @param progress of this polygon; called where clipping ears takes long, because its time grows
+/// with the square of `count`.
+/// @returns false when `progress` returned false; nothing is appended then.
+DELAUNAYFLIP_EXPORT bool SplitPolygon(const PointArray& points, const std::int64_t* ids,
+  std::int64_t count, std::vector<std::int64_t>& triangles, const ProgressObserver& progress = {});
 
 /// Unit normal of a triangle by the right-hand rule; 0, 0, 0 for one without area.
-void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3]);
+DELAUNAYFLIP_EXPORT void TriangleNormal(
+  const PointArray& points, const std::int64_t ids[3], double normal[3]);
 
 }
 

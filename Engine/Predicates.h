@@ -3,6 +3,8 @@
 #ifndef DELAUNAYFLIP_PREDICATES_H
 #define DELAUNAYFLIP_PREDICATES_H
 
+#include "EngineExport.h"
+
 /// @file
 /// Exact signs of orientation and in-circle determinants, for any finite double coordinates: a
 /// floating-point filter with a proven error bound (Shewchuk 1997), fixed-point integers of at most
@@ -13,17 +15,19 @@ namespace delaunayflip
 {
 
 /// Turn of the path a, b, c in the plane: +1 left (counter-clockwise), -1 right, 0 collinear.
-int Orientation(const double a[2], const double b[2], const double c[2]);
+DELAUNAYFLIP_EXPORT int Orientation(const double a[2], const double b[2], const double c[2]);
 
 /// Sign of the in-circle determinant: +1 when `d` lies inside the circle through the
 /// counter-clockwise triangle a, b, c, -1 outside, 0 on it; the opposite for clockwise a, b, c.
-int InCircle(const double a[2], const double b[2], const double c[2], const double d[2]);
+DELAUNAYFLIP_EXPORT int InCircle(
+  const double a[2], const double b[2], const double c[2], const double d[2]);
 
 /// In-circle in a tilted plane: points are (u, v, w), u and v span the plane's projection along its
 /// dominant axis w, and the lift is the squared length u^2 + v^2 + w^2. On exactly coplanar points
 /// this is the in-circle test times the sign of the projected triangle; on nearly coplanar ones it
 /// is the test of a fixed lifted set, so that flips by it still end.
-int InCircleTilted(const double a[3], const double b[3], const double c[3], const double d[3]);
+DELAUNAYFLIP_EXPORT int InCircleTilted(
+  const double a[3], const double b[3], const double c[3], const double d[3]);
 
 }
 
