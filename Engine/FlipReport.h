@@ -125,7 +125,7 @@ DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 DELAUNAYFLIP_EXPORT const char* ToString(GeometryKind geometry);
 
 /// FlipReport::Tolerance of a run with these options in that geometry.
-std::string DescribeTolerance(const FlipOptions& options, GeometryKind used);
+DELAUNAYFLIP_EXPORT std::string DescribeTolerance(const FlipOptions& options, GeometryKind used);
 
 /// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
 /// none.
