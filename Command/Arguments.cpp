@@ -95,6 +95,9 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     .add_option("--threads", arguments.Flip.NumberOfThreads,
       "Number of CPU threads; 0: all. The result does not depend on it [0]")
     ->check(Within(0.0, 65536.0, "a number of threads (0 to 65536)"));
+  app.add_flag("--quality", arguments.Quality,
+    "Add cell arrays of the smallest angle of each triangle, in degrees, before and after (.vtk "
+    "and .vtp)");
   app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
   app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)");
   app.add_flag("--quiet", arguments.Quiet,
@@ -119,6 +122,13 @@ void CheckTogether(Arguments& arguments)
 {
   arguments.InputFormat = FormatOf(arguments.Input);
   arguments.OutputFormat = FormatOf(arguments.Output);
+  const bool holdsCellData =
+    arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
+  if (arguments.Quality && !holdsCellData)
+  {
+    throw CommandError(
+      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk or .vtp file");
+  }
   CheckDistinct(arguments.Input, arguments.Statistics);
   CheckDistinct(arguments.Input, arguments.Report);
   CheckDistinct(arguments.Output, arguments.Statistics);

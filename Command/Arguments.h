@@ -23,6 +23,7 @@ struct Arguments
   MeshFormat OutputFormat = MeshFormat::VTK;
   FlipOptions Flip;
   bool IgnoreLines = false;
+  bool Quality = false; ///< Cell arrays of angles.
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.
   bool Quiet = false;

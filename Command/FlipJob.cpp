@@ -71,6 +71,7 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetNumberOfThreads(flip.NumberOfThreads);
   filter->SetDeviceId(flip.Device);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
+  filter->SetGenerateQuality(arguments.Quality);
 }
 
 /// The exit code for what the filter calls a failure.

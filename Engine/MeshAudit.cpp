@@ -7,6 +7,7 @@
 #include "ScaledOffsets.h"
 #include "SurveyMesh.h"
 #include "ThreadBackend.h"
+#include "TriangleAngles.h"
 
 #include <algorithm>
 #include <array>
@@ -252,18 +253,6 @@ private:
   std::vector<VertexPair> Constraints;
 };
 
-/// Radians; 0 for a triangle without area.
-double SmallestAngle(const std::array<Vector, 3>& corners)
-{
-  double smallest = Pi;
-  for (int i = 0; i < 3; ++i)
-  {
-    const Angle angle(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-    smallest = std::min(smallest, angle.Radians());
-  }
-  return smallest;
-}
-
 }
 
 EdgeCounts CountEdges(const TriangleArray& triangles)
@@ -318,17 +307,14 @@ std::int64_t CountNonDelaunayEdges(const TriangleMesh& mesh, const FlipOptions& 
 
 double MinimumAngle(const TriangleMesh& mesh, GeometryKind geometry)
 {
+  std::vector<double> angles(mesh.Triangles.Count);
+  FindSmallestAngles(mesh, geometry, 1, angles.data());
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  for (const double angle : angles)
   {
-    const std::array<std::int64_t, 3> ids = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
-      mesh.Triangles.Get(t, 2) };
-    if (AreFinite(mesh.Points, ids, geometry))
-    {
-      smallest = std::min(smallest, SmallestAngle(GetScaledPoints(mesh.Points, ids, geometry)));
-    }
+    smallest = angle < smallest ? angle : smallest;
   }
-  return std::isfinite(smallest) ? smallest * 180.0 / Pi : std::numeric_limits<double>::quiet_NaN();
+  return std::isfinite(smallest) ? smallest : std::numeric_limits<double>::quiet_NaN();
 }
 
 }

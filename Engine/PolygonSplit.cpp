@@ -19,12 +19,12 @@ using Vector2 = std::array<double, 2>;
 using Vector3 = std::array<double, 3>;
 
 /// Twice the area of the polygon's shadow along each axis (Newell), up to a positive factor.
-Vector3 AreaVector(const PointArray& points, const std::int64_t* ids, std::int64_t count)
+/// @param offsets of the vertices, from the first of them.
+template <typename Offsets>
+Vector3 AreaVector(const Offsets& offsets)
 {
-  std::vector<Vector3> offsets(static_cast<std::size_t>(count));
-  LoadScaledOffsets(points, ids, count, 3, offsets);
   Vector3 area = { 0.0, 0.0, 0.0 };
-  for (std::int64_t i = 1; i + 1 < count; ++i)
+  for (std::size_t i = 1; i + 1 < offsets.size(); ++i)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -34,6 +34,13 @@ Vector3 AreaVector(const PointArray& points, const std::int64_t* ids, std::int64
     }
   }
   return area;
+}
+
+Vector3 AreaVector(const PointArray& points, const std::int64_t* ids, std::int64_t count)
+{
+  std::vector<Vector3> offsets(static_cast<std::size_t>(count));
+  LoadScaledOffsets(points, ids, count, 3, offsets);
+  return AreaVector(offsets);
 }
 
 int DominantAxis(const Vector3& vector)
@@ -243,9 +250,10 @@ private:
 };
 
 /// Exactly: whether the triangle's shadow along some axis has an area.
-bool HasArea(const PointArray& points, const std::int64_t ids[3])
+/// @param first the axis to look along first: where it decides, no other costs exact arithmetic.
+bool HasArea(const PointArray& points, const std::int64_t ids[3], int first)
 {
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = first; axis < first + 3; ++axis)
   {
     double corners[3][2];
     for (int i = 0; i < 3; ++i)
@@ -280,21 +288,23 @@ bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_
 
 void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3])
 {
-  Vector3 area = AreaVector(points, ids, 3);
+  std::array<Vector3, 3> offsets;
+  LoadScaledOffsets(points, ids, 3, 3, offsets);
+  Vector3 area = AreaVector(offsets);
+  const int axis = DominantAxis(area);
   // Twice: the first length of a needle's area vector may be so small that it has lost its bits.
   for (int pass = 0; pass < 2; ++pass)
   {
-    const double length =
-      pass == 0 ? std::abs(area[DominantAxis(area)]) : std::hypot(area[0], area[1], area[2]);
-    for (int axis = 0; axis < 3; ++axis)
+    const double length = pass == 0 ? std::abs(area[axis]) : std::hypot(area[0], area[1], area[2]);
+    for (int i = 0; i < 3; ++i)
     {
-      area[axis] = length > 0.0 ? area[axis] / length : 0.0;
+      area[i] = length > 0.0 ? area[i] / length : 0.0;
     }
   }
-  const bool isValid = std::isfinite(area[0] + area[1] + area[2]) && HasArea(points, ids);
-  for (int axis = 0; axis < 3; ++axis)
+  const bool isValid = std::isfinite(area[0] + area[1] + area[2]) && HasArea(points, ids, axis);
+  for (int i = 0; i < 3; ++i)
   {
-    normal[axis] = isValid ? area[axis] : 0.0;
+    normal[i] = isValid ? area[i] : 0.0;
   }
 }
 

@@ -8,11 +8,14 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSMPThreadLocalObject.h"
+#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -61,15 +64,37 @@ void ReadOldTriangle(const TriangleArray& triangles, vtkIdType triangle, std::in
   }
 }
 
-/// The normal of triangle `ids`, on the side of the winding where `normal` was for `oldIds`.
-void RenewNormal(const PointArray& points, const std::int64_t oldIds[3], const std::int64_t ids[3],
-  double normal[3])
+/// A polygon of the output and its point ids.
+struct OutputPolygon
 {
-  double oldNormal[3];
+  vtkIdType Polygon;
+  vtkIdList* Ids;
+};
+
+/// Computes the normal of a triangle, where flips have changed it, on the side of the winding where
+/// the normal of the triangle before was.
+void RenewNormal(const PointArray& points, const TriangleSlots& slots, const OutputPolygon& cell,
+  vtkDataArray* normals)
+{
+  const vtkIdType triangle = slots.GetTriangle(cell.Polygon);
+  if (triangle == TriangleSlots::None)
+  {
+    return;
+  }
+  std::int64_t oldIds[3];
+  ReadOldTriangle(slots.GetTriangles(), triangle, oldIds);
+  const std::int64_t ids[3] = { cell.Ids->GetId(0), cell.Ids->GetId(1), cell.Ids->GetId(2) };
+  if (std::equal(ids, ids + 3, oldIds))
+  {
+    return;
+  }
+  double oldNormal[3], normal[3];
   TriangleNormal(points, oldIds, oldNormal);
+  normals->GetTuple(slots.GetFirstPolygon() + cell.Polygon, normal);
   const double side = vtkMath::Dot(oldNormal, normal) < 0.0 ? -1.0 : 1.0;
   TriangleNormal(points, ids, normal);
   vtkMath::MultiplyScalar(normal, side);
+  normals->SetTuple(slots.GetFirstPolygon() + cell.Polygon, normal);
 }
 
 }
@@ -106,45 +131,42 @@ void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyD
   }
   auto normals = vtkSmartPointer<vtkDataArray>::Take(shared->NewInstance());
   normals->DeepCopy(shared);
-  vtkNew<vtkIdList> cell;
-  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
-  {
-    const vtkIdType triangle = slots.GetTriangle(polygon);
-    if (triangle == TriangleSlots::None)
+  vtkSMPThreadLocalObject<vtkIdList> cells;
+  vtkSMPTools::For(0, slots.GetNumberOfPolygons(),
+    [&](vtkIdType begin, vtkIdType end)
     {
-      continue;
-    }
-    std::int64_t oldIds[3];
-    ReadOldTriangle(slots.GetTriangles(), triangle, oldIds);
-    output->GetPolys()->GetCellAtId(polygon, cell);
-    const std::int64_t ids[3] = { cell->GetId(0), cell->GetId(1), cell->GetId(2) };
-    if (!std::equal(ids, ids + 3, oldIds))
-    {
-      double normal[3];
-      normals->GetTuple(slots.GetFirstPolygon() + polygon, normal);
-      RenewNormal(points, oldIds, ids, normal);
-      normals->SetTuple(slots.GetFirstPolygon() + polygon, normal);
-    }
-  }
+      vtkIdList* cell = cells.Local();
+      for (vtkIdType polygon = begin; polygon < end; ++polygon)
+      {
+        output->GetPolys()->GetCellAtId(polygon, cell);
+        RenewNormal(points, slots, { polygon, cell }, normals);
+      }
+    });
   output->GetCellData()->SetNormals(normals);
 }
 
-void AddFlipCounts(
-  const std::vector<std::int32_t>& counts, const TriangleSlots& slots, vtkPolyData* output)
+template <typename ArrayT>
+void AddTriangleArray(
+  const TriangleArrayValues<ArrayT>& source, const TriangleSlots& slots, vtkPolyData* output)
 {
-  vtkNew<vtkIntArray> array;
-  array->SetName("vtkDelaunayFlipCount");
+  vtkNew<ArrayT> array;
+  array->SetName(source.Name);
   array->SetNumberOfValues(output->GetNumberOfCells());
-  array->FillValue(0);
+  array->FillValue(source.Elsewhere);
   for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
   {
     const vtkIdType triangle = slots.GetTriangle(polygon);
     if (triangle != TriangleSlots::None)
     {
-      array->SetValue(slots.GetFirstPolygon() + polygon, counts[triangle]);
+      array->SetValue(slots.GetFirstPolygon() + polygon, source.Values[triangle]);
     }
   }
   output->GetCellData()->AddArray(array);
 }
+
+template void AddTriangleArray(
+  const TriangleArrayValues<vtkIntArray>&, const TriangleSlots&, vtkPolyData*);
+template void AddTriangleArray(
+  const TriangleArrayValues<vtkDoubleArray>&, const TriangleSlots&, vtkPolyData*);
 
 }

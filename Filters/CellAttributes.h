@@ -23,9 +23,21 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
 /// of their slot. A normal that pointed against the winding does so again.
 void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output);
 
-/// Adds the cell array vtkDelaunayFlipCount. `counts`: one per triangle of `slots`.
-void AddFlipCounts(
-  const std::vector<std::int32_t>& counts, const TriangleSlots& slots, vtkPolyData* output);
+/// A cell array to be.
+template <typename ArrayT>
+struct TriangleArrayValues
+{
+  using Value = typename ArrayT::ValueType;
+
+  const char* Name;
+  std::vector<Value> Values; ///< One per triangle of the slots.
+  Value Elsewhere; ///< For cells that are no triangles.
+};
+
+/// Adds a cell array to the output. ArrayT: vtkIntArray or vtkDoubleArray.
+template <typename ArrayT>
+void AddTriangleArray(
+  const TriangleArrayValues<ArrayT>& source, const TriangleSlots& slots, vtkPolyData* output);
 
 }
 

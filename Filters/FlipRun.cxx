@@ -265,12 +265,16 @@ void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
   }
 }
 
-void FlipRun::Store(vtkPolyData* output, bool withFlipCounts) const
+void FlipRun::Store(vtkPolyData* output, const Extras& extras) const
 {
   this->Current->Bridge.Store(this->Session, output);
-  if (withFlipCounts)
+  if (extras.FlipCounts)
   {
     this->Current->Bridge.StoreFlipCounts(this->Session, output);
+  }
+  if (extras.Angles)
+  {
+    this->Current->Bridge.StoreAngles(this->Session, this->Options.NumberOfThreads, output);
   }
 }
 

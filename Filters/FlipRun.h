@@ -57,8 +57,15 @@ public:
   /// What has happened so far, with defects that name the input's cells.
   FlipReport GetReport() const;
 
+  /// Cell arrays on request.
+  struct Extras
+  {
+    bool FlipCounts;
+    bool Angles;
+  };
+
   /// Writes the mesh as it is now.
-  void Store(vtkPolyData* output, bool withFlipCounts) const;
+  void Store(vtkPolyData* output, const Extras& extras) const;
 
   /// What the last warning said.
   std::string Warning;

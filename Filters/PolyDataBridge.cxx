@@ -7,12 +7,18 @@
 #include "OutputCells.h"
 #include "PointViews.h"
 #include "RegionLabels.h"
+#include "TriangleAngles.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
+
+#include <limits>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -102,9 +108,29 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
 {
-  std::vector<std::int32_t> counts(this->Slots.GetTriangles().Count);
+  std::vector<int> counts(this->Slots.GetTriangles().Count);
   session.StoreFlipCounts(counts.data());
-  AddFlipCounts(counts, this->Slots, output);
+  AddTriangleArray<vtkIntArray>(
+    { "vtkDelaunayFlipCount", std::move(counts), 0 }, this->Slots, output);
+}
+
+void PolyDataBridge::StoreAngles(const FlipSession& session, int threads, vtkPolyData* output) const
+{
+  const GeometryKind geometry = session.GetReport().GeometryUsed;
+  TriangleMesh mesh = this->GetMesh();
+  const auto add = [&](const char* name)
+  {
+    std::vector<double> angles(mesh.Triangles.Count);
+    FindSmallestAngles(mesh, geometry, threads, angles.data());
+    constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+    AddTriangleArray<vtkDoubleArray>({ name, std::move(angles), NaN }, this->Slots, output);
+  };
+  add("vtkDelaunayFlipAngleBefore");
+  std::vector<std::int64_t> ids(3 * mesh.Triangles.Count);
+  session.StoreTriangles(MutableTriangleArray(ids.data(), mesh.Triangles.Count));
+  mesh.Triangles =
+    TriangleArray(static_cast<const std::int64_t*>(ids.data()), mesh.Triangles.Count);
+  add("vtkDelaunayFlipAngleAfter");
 }
 
 }

@@ -55,6 +55,9 @@ public:
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
 
+  /// Adds vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter to the cells of such an output.
+  void StoreAngles(const FlipSession& session, int threads, vtkPolyData* output) const;
+
   /// Turns triangle numbers into ids of the mesh's cells, for warnings.
   void NumberCells(std::vector<Defect>& defects) const;
 

@@ -226,6 +226,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "TrackQuality: " << this->TrackQuality << "\n";
   os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
+  os << indent << "GenerateQuality: " << this->GenerateQuality << "\n";
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "Paused: " << this->Paused << "\n";

@@ -305,6 +305,19 @@ public:
 
   ///@{
   /**
+   * Add the cell arrays vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter (double): the
+   * smallest angle of each triangle in degrees, 0 to 60, in space or, with PLANAR_XY, in the
+   * projection. Before is that of the triangle which the input, its polygons split, had in the same
+   * place. 0 where a triangle has no area; NaN where a coordinate is NaN or infinite, and for cells
+   * that are no triangles. Default off.
+   */
+  vtkSetMacro(GenerateQuality, bool);
+  vtkGetMacro(GenerateQuality, bool);
+  vtkBooleanMacro(GenerateQuality, bool);
+  ///@}
+
+  ///@{
+  /**
    * Let the mesh be seen while it improves: every update makes IterationsPerUpdate more iterations
    * and gives the mesh, and what is told of it, as they are then. Default off. The filter keeps the
    * state from one update to the next, in memory of the host or of a GPU, until it is turned off.
@@ -531,6 +544,7 @@ protected:
   vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;
   bool GenerateFlipCount = false;
+  bool GenerateQuality = false;
   bool LiveUpdate = false;
   vtkIdType IterationsPerUpdate = 1;
   bool Paused = false;

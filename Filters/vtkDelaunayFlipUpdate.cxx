@@ -218,7 +218,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   }
   *this->Report = UpdateReport(run->GetReport());
   const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
-  run->Store(data.Output, this->GenerateFlipCount);
+  run->Store(data.Output, { this->GenerateFlipCount, this->GenerateQuality });
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
   AddFieldData(*this->Report, data.Output->GetFieldData());

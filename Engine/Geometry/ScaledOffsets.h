@@ -41,7 +41,9 @@ void LoadScaledOffsets(
       largest = std::max(largest, std::fabs(offset));
     });
   const int exponent = largest > 0.0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  forEach([&](double& offset, double, double) { offset = std::scalbn(offset, -exponent); });
+  const double scale = std::scalbn(1.0, -exponent); // infinite where all offsets are subnormal
+  forEach([&](double& offset, double, double)
+    { offset = std::isfinite(scale) ? scale * offset : std::scalbn(offset, -exponent); });
 }
 
 }

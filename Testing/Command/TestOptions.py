@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """That the options reach the filter: each test has a mesh on which its option decides."""
 
+import math
 import unittest
 
 from CommandTesting import CommandTest, bumpy_grid, make_mesh, triangle_set, read_mesh, write_mesh
@@ -20,6 +21,23 @@ class Options(CommandTest):
         mesh = make_mesh(KITE, KITE_CELLS, [(2, 0)])
         self.assertEqual(self.flips(mesh), 0)
         self.assertEqual(self.flips(mesh, "--ignore-lines"), 1)
+
+    def test_quality(self):
+        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
+        for name in ("out.vtk", "out.vtp"):
+            self.succeed(path, name)
+            self.assertEqual(self.angles(name), [])
+            self.succeed(path, name, "--quality")
+            before, after = self.angles(name)
+            self.assertAlmostEqual(before, math.degrees(math.atan(1 / 2)))
+            self.assertAlmostEqual(after, 2 * math.degrees(math.atan(1 / 2)))
+        self.fail_with(2, path, "out.ply", "--quality", naming=["--quality", ".vtp"])
+
+    def angles(self, name):
+        """The smallest values of what --quality adds."""
+        data = read_mesh(self.path(name)).GetCellData()
+        arrays = [data.GetArray("vtkDelaunayFlipAngle" + when) for when in ("Before", "After")]
+        return [array.GetRange()[0] for array in arrays if array]
 
     def test_feature_angle(self):
         """A roof of 90 degrees whose ridge is the long diagonal."""

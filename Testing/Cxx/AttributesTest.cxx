@@ -4,11 +4,15 @@
 
 #include "FilterTestSupport.h"
 
+#include "FlipReport.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkStringArray.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +52,22 @@ vtkSmartPointer<vtkPolyData> MakeFoldedRhombus()
   return MakeMesh({ { -3, 0, 0 }, { 0, -1, 0.1 }, { 3, 0, 0 }, { 0, 1, 0.1 }, { 10, 0, 0 },
                     { 11, 0, 0 }, { 10, 1, 0 } },
     { { 0, 1, 2 }, { 0, 2, 3 }, { 4, 5, 6 } });
+}
+
+constexpr double Degrees = 180.0 / 3.14159265358979323846;
+
+void ExpectAngles(vtkPolyData* mesh, const char* name, const std::vector<double>& expected)
+{
+  auto* angles = vtkDoubleArray::SafeDownCast(mesh->GetCellData()->GetArray(name));
+  ASSERT_NE(angles, nullptr) << name;
+  ASSERT_EQ(angles->GetNumberOfTuples(), static_cast<vtkIdType>(expected.size()));
+  for (std::size_t cell = 0; cell < expected.size(); ++cell)
+  {
+    const double angle = angles->GetValue(static_cast<vtkIdType>(cell));
+    const bool areBothNaN = std::isnan(angle) && std::isnan(expected[cell]);
+    EXPECT_TRUE(areBothNaN || std::fabs(angle - expected[cell]) < 1e-12)
+      << name << " of " << cell << ": " << angle << " is not " << expected[cell];
+  }
 }
 
 }
@@ -154,6 +174,50 @@ TEST(VtkDelaunayFlip, FlipCountsPerTriangle)
   auto output = RunCleanly(filter);
   EXPECT_EQ(
     GetNumbers(output->GetCellData(), "vtkDelaunayFlipCount"), std::vector<int>({ 0, 0, 1, 1 }));
+}
+
+TEST(VtkDelaunayFlip, AnglesPerTriangle)
+{
+  // Angles of half the rhombus, and of a triangle of 1-3 and an end: sides 2, sqrt 10, sqrt 10.
+  const double before = std::atan(1.0 / 3.0) * Degrees, after = 2.0 * before;
+  auto mesh = MakeMixedRhombus();
+  WatchedFilter filter(mesh);
+  vtkCellData* data = RunCleanly(filter)->GetCellData();
+  EXPECT_EQ(data->GetArray("vtkDelaunayFlipAngleBefore"), nullptr);
+  EXPECT_EQ(data->GetArray("vtkDelaunayFlipAngleAfter"), nullptr);
+  filter->GenerateQualityOn();
+  auto output = RunCleanly(filter);
+  ExpectAngles(output, "vtkDelaunayFlipAngleBefore", { NAN, NAN, before, before });
+  ExpectAngles(output, "vtkDelaunayFlipAngleAfter", { NAN, NAN, after, after });
+}
+
+TEST(VtkDelaunayFlip, AnglesOfSplitAndOtherCells)
+{
+  // The rhombus as a quad, a quad that stays, a degenerate triangle, and one with a NaN.
+  const Points points = { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 9, 0, 0 },
+    { 10, 0, 0 }, { 11, 0, 0 }, { NAN, 1, 0 } };
+  const double before = std::atan(1.0 / 3.0) * Degrees, after = 2.0 * before;
+  WatchedFilter filter(MakeMesh(points, { { 0, 1, 2, 3 }, { 4, 5, 6 }, { 5, 6, 7 }, { 4, 5 } }));
+  filter->GenerateQualityOn();
+  filter->SetGeometryToPlanarXY();
+  ExpectAngles(filter.Run(), "vtkDelaunayFlipAngleBefore", { before, before, 0, NAN, NAN });
+  ExpectAngles(filter.Run(), "vtkDelaunayFlipAngleAfter", { after, after, 0, NAN, NAN });
+  filter->TriangulateOff();
+  ExpectAngles(filter.Run(), "vtkDelaunayFlipAngleAfter", { NAN, 0, NAN, NAN });
+}
+
+TEST(VtkDelaunayFlip, AnglesOfTerrainAreThoseOfItsProjection)
+{
+  auto mesh = MakeRhombus();
+  mesh->GetPoints()->SetPoint(1, 0, -1, 50);
+  WatchedFilter filter(mesh);
+  filter->SetGeometryToPlanarXY();
+  filter->GenerateQualityOn();
+  const double angle = std::atan(1.0 / 3.0) * Degrees;
+  auto output = RunCleanly(filter);
+  ExpectAngles(output, "vtkDelaunayFlipAngleBefore", { angle, angle });
+  vtkDataArray* after = output->GetCellData()->GetArray("vtkDelaunayFlipAngleAfter");
+  EXPECT_DOUBLE_EQ(filter->GetReport().MinimumAngleAfter, after->GetRange()[0]);
 }
 
 TEST(VtkDelaunayFlip, GlobalIdsStayWhereNoCellIsSplit)

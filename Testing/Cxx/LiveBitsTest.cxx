@@ -83,6 +83,7 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
 {
   WatchedFilter once(mesh);
   once->GenerateFlipCountOn();
+  once->GenerateQualityOn();
   set(once.Get());
   once.Run();
   EXPECT_TRUE(once.GetErrors().empty());
@@ -92,6 +93,7 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
   {
     LiveFilter live(mesh);
     live->GenerateFlipCountOn();
+    live->GenerateQualityOn();
     live->SetIterationsPerUpdate(step);
     set(live.Get());
     const int updates = live.RunToTheEnd();

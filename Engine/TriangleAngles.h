@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_TRIANGLEANGLES_H
+#define DELAUNAYFLIP_TRIANGLEANGLES_H
+
+#include "EngineExport.h"
+#include "FlipOptions.h"
+#include "TriangleMesh.h"
+
+/// @file
+/// How good single triangles are.
+
+namespace delaunayflip
+{
+
+/// Writes the smallest angle of every triangle in degrees, 0 to 60: mesh.Triangles.Count numbers.
+/// It is 0 for a triangle without area, and NaN for one with a coordinate that is NaN or infinite.
+/// @param mesh points and triangles; ids must be those of points.
+/// @param geometry PlanarXY measures in the projection, all others in space.
+/// @param threads threads to use; 0: as many as the machine has. The result does not depend on it.
+DELAUNAYFLIP_EXPORT void FindSmallestAngles(
+  const TriangleMesh& mesh, GeometryKind geometry, int threads, double* degrees);
+
+}
+
+#endif
