@@ -94,7 +94,7 @@ std::string DescribeState(const LiveStatus& status)
   }
 }
 
-/// The filter's counts are of no mesh after a failure, and of one block where there are several.
+/// The counts of the filter, which sums up blocks, are of no mesh after a failure.
 std::string DescribeMesh(const LiveStatus& status)
 {
   const std::string state = DescribeState(status);
@@ -109,7 +109,7 @@ std::string DescribeMesh(const LiveStatus& status)
   }
   if (IsComposite(status.Filter->GetOutputDataObject(0)))
   {
-    return "all blocks in one step, " + state + "\n" + triangles;
+    return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
   }
   return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
     DescribeCounts(status.Filter);

@@ -230,7 +230,8 @@ TEST(LiveView, CompositeInputTakesOneStep)
   EXPECT_TRUE(view->GetConverged());
   EXPECT_EQ(view->GetFrameNumber(), 1);
   EXPECT_EQ(view.GetNumberOfTriangles(), MakeBadPlane()->GetNumberOfCells() + 2);
-  EXPECT_EQ(view.GetStatus().find("all blocks in one step, converged"), 0u);
+  EXPECT_EQ(view.GetStatus().find("all blocks in one step, converged\n"), 0u);
+  EXPECT_NE(view.GetStatus().find(" flips, 0 bad edges left\n"), std::string::npos);
   EXPECT_TRUE(view.Filter.GetWarnings().empty());
 }
 
