@@ -80,7 +80,10 @@ class Panel:
 
     def find(self, name, kind):
         widgets = [widget.findChild(kind) or widget for widget in self.find_all(name)]
-        return next(widget for widget in widgets if isinstance(widget, kind))
+        found = [widget for widget in widgets if isinstance(widget, kind)]
+        if not found:
+            raise LookupError(f"no {kind.__name__} {name}")
+        return found[0]
 
     def is_shown(self, name):
         return any(widget.isVisible() for widget in self.find_all(name))
@@ -151,15 +154,19 @@ class _Player:
         self.timer.stop()  # what follows may take events itself
         try:
             if self.condition():
-                self.wait_for(next(self.session))
+                self.go_on()
             elif time.monotonic() > self.deadline:
                 raise TimeoutError(f"nothing happened for {PATIENCE} s")
             self.timer.start(TICK)
-        except StopIteration:
-            self.end(0)
         except BaseException:
             traceback.print_exc()
             self.end(1)
+
+    def go_on(self):
+        condition = next(self.session, None)
+        if condition is None:
+            self.end(0)
+        self.wait_for(condition)
 
     def end(self, status):
         print("all is well" if status == 0 else "FAILED", flush=True)

@@ -13,7 +13,8 @@ from paraview import servermanager, simple
 from PyQt5.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton
 
 RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges", "StopReason",
-           "GeometryUsed", "BackendUsed"]
+           "NumberOfConstraintEdges", "NumberOfUnmatchedConstraintEdges", "GeometryUsed",
+           "BackendUsed"]
 QUIET = 1.5  # seconds: many times the interval of polls
 
 

@@ -106,7 +106,8 @@ class Proxy(PluginTest):
         self.assertEqual(set(basic), {
             "Geometry", "FeatureAngle", "RegionArray", "MaximumIterations", "LiveUpdate",
             "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
-            "TotalFlips", "NumberOfNonDelaunayEdges", "StopReason", "GeometryUsed", "BackendUsed"})
+            "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfConstraintEdges",
+            "NumberOfUnmatchedConstraintEdges", "StopReason", "GeometryUsed", "BackendUsed"})
 
     def test_iterations_can_be_animated(self):
         self.assertEqual(self.property("MaximumIterations").GetAnimateable(), 1)
