@@ -16,11 +16,11 @@ from PyQt5.QtWidgets import QDockWidget
 
 def arrange(client):
     """A window in which the Properties panel has room for all of the filter."""
-    client.window.resize(1500, 900)
+    client.window.resize(1500, 1000)
     docks = {dock.windowTitle(): dock for dock in client.window.findChildren(QDockWidget)}
     panel = [docks["Properties"], docks["Pipeline Browser"]]
     client.window.resizeDocks(panel, [430, 430], Qt.Horizontal)
-    client.window.resizeDocks(panel, [720, 130], Qt.Vertical)
+    client.window.resizeDocks(panel, [820, 130], Qt.Vertical)
 
 
 def show_mesh(source):

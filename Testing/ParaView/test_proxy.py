@@ -107,7 +107,8 @@ class Proxy(PluginTest):
             "Geometry", "FeatureAngle", "RegionArray", "MaximumIterations", "LiveUpdate",
             "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
             "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfConstraintEdges",
-            "NumberOfUnmatchedConstraintEdges", "StopReason", "GeometryUsed", "BackendUsed"})
+            "NumberOfUnmatchedConstraintEdges", "StopReason", "GeometryUsed", "GeometryReason",
+            "BackendUsed"})
 
     def test_iterations_can_be_animated(self):
         self.assertEqual(self.property("MaximumIterations").GetAnimateable(), 1)
