@@ -264,6 +264,8 @@ TEST(Composite, ProgressRisesOverBlocks)
     progress.begin(), progress.end(), [](double part) { return 0.6 < part && part < 1.0; }));
   EXPECT_TRUE(std::any_of(
     progress.begin(), progress.end(), [](double part) { return 0.0 < part && part < 0.4; }));
+  EXPECT_EQ(filter->GetProgressShift(), 0.0);
+  EXPECT_EQ(filter->GetProgressScale(), 1.0);
 }
 
 TEST(Composite, InputMayChangeItsKind)
