@@ -70,7 +70,7 @@ DELAUNAYFLIP_EXPORT std::vector<std::int64_t> FindFixedEdges(
 
 /// What GeometryKind::Auto comes to for a mesh; other kinds are what they are.
 /// @throws as FlipSession's constructor.
-GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options);
+DELAUNAYFLIP_EXPORT GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options);
 
 /// The whole way at once: flips `mesh` and writes the result to `triangles`, which may be the very
 /// array that mesh.Triangles views. Nothing is written when an exception leaves.

@@ -337,7 +337,9 @@ TEST(GeometryChoice, StarsThatOverlapMakeASurface)
   ExpectChoice(MakeStaircase(24, 3.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 1.01, false), GeometryKind::Surface, overlap);
   // Four steps of half a turn but for the last digits.
-  ExpectChoice(MakeStaircase(4, 2.0 - 0x1p-36, false), GeometryKind::Surface, overlap);
+  OwnedMesh<double> thin = MakeStaircase(4, 2.0 - 0x1p-36, false);
+  Append(thin, MakeStaircase(8, 1.0, true));
+  ExpectChoice(thin, GeometryKind::Surface, overlap);
   const FlipReport report = Survey(MakeStaircase(24, 1.01, false));
   ASSERT_EQ(1u, report.Defects.size());
   EXPECT_EQ(std::vector<std::int64_t>{ 0 }, report.Defects[0].FirstIds);

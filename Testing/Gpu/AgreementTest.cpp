@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 /// @file
 /// The GPU's mesh is the CPU's, bit for bit, and so are its statistics.
 
@@ -53,6 +55,30 @@ OwnedMesh<double> MakeFoldedPlane()
   for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
   {
     mesh.Points[i] = 0.0;
+  }
+  return mesh;
+}
+
+/// Hills on which Auto judges by x and y where they are gentle, in space where they are steep, and
+/// in space with a warning where a few triangles are turned over.
+OwnedMesh<double> MakeHills(double height)
+{
+  OwnedMesh<double> mesh = MakeGridMesh(300, 200);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] += 0.3 * static_cast<double>(i % 11) / 11.0;
+    mesh.Points[i + 2] = height * static_cast<double>(i * i % 101) / 101.0;
+  }
+  return mesh;
+}
+OwnedMesh<double> MakeGentleHills() { return MakeHills(0.5); }
+OwnedMesh<double> MakeSteepHills() { return MakeHills(5.0); }
+OwnedMesh<double> MakeNearlyHills()
+{
+  OwnedMesh<double> mesh = MakeHills(0.5);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3 * 300)
+  {
+    std::swap(mesh.Triangles[t], mesh.Triangles[t + 1]);
   }
   return mesh;
 }
@@ -156,6 +182,9 @@ INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
     AgreementCase{ "Sphere", MakeSphere, GeometryKind::Auto },
     AgreementCase{ "SphereWithFeatures", MakeSphere, GeometryKind::Auto, CriterionKind::InCircle,
       TieRuleKind::Keep, 30.0 },
+    AgreementCase{ "GentleHills", MakeGentleHills, GeometryKind::Auto },
+    AgreementCase{ "SteepHills", MakeSteepHills, GeometryKind::Auto },
+    AgreementCase{ "NearlyHills", MakeNearlyHills, GeometryKind::Auto },
     AgreementCase{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
     AgreementCase{ "DirtySphere", MakeDirtySphere, GeometryKind::Auto }),
   [](const auto& test) { return std::string(test.param.Name); });
