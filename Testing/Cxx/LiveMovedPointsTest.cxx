@@ -109,6 +109,32 @@ TEST(LiveUpdate, PlaneThatBecomesASurfaceStartsAgain)
   EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
 }
 
+TEST(LiveUpdate, SteepHillsThatBecomeGentleStartAgain)
+{
+  // In space flips turn triangles over in x and y; by x and y the input must do, not what they
+  // made.
+  const auto scale = [](vtkPolyData* mesh, double height)
+  {
+    for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+    {
+      double x[3];
+      mesh->GetPoint(point, x);
+      mesh->GetPoints()->SetPoint(point, x[0], x[1], height * static_cast<double>(point % 7) / 7.0);
+    }
+    mesh->GetPoints()->Modified();
+  };
+  auto mesh = MakeBadPlane();
+  scale(mesh, 0.5);
+  LiveFilter filter(mesh);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_SURFACE);
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  scale(mesh, 1e-5);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR_XY);
+  EXPECT_EQ(FlipAtOnceXY(mesh), filter.GetTriangles());
+}
+
 TEST(LiveUpdate, QuadsStartWarmly)
 {
   auto mesh =

@@ -24,7 +24,7 @@ const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped",
   "Blocked", "MinimumAngle", "Seconds" };
 
 const char* const Totals[] = { "Converged", "StopReason", "TotalFlips", "NonDelaunayEdges",
-  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "Tolerance", "Backend" };
+  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "GeometryReason", "Tolerance", "Backend" };
 
 /// Adds field data.
 void AddText(vtkPolyData* mesh, const std::string& name)
@@ -115,6 +115,8 @@ TEST(VtkDelaunayFlip, TotalsAreFieldData)
   EXPECT_EQ(GetTotal(output, "NonManifoldEdges"), 0.0);
   EXPECT_EQ(GetText(output, "StopReason"), "converged");
   EXPECT_EQ(GetText(output, "GeometryUsed"), "planar");
+  EXPECT_EQ(GetText(output, "GeometryReason"),
+    "all points lie in one plane; the feature angle has no effect");
   EXPECT_EQ(GetText(output, "Tolerance"), "none"); // in-circle
   EXPECT_EQ(GetText(output, "Backend"), filter->GetReport().Backend);
 }
@@ -182,6 +184,7 @@ TEST(VtkDelaunayFlip, ReadBack)
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
   EXPECT_FALSE(filter->GetConverged());
   EXPECT_STREQ(filter->GetBackendUsed(), "");
+  EXPECT_STREQ(filter->GetGeometryReason(), "");
   RunCleanly(filter);
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
   EXPECT_EQ(filter->GetTotalFlips(), 9);
@@ -191,6 +194,7 @@ TEST(VtkDelaunayFlip, ReadBack)
   EXPECT_STREQ(filter->GetStopReasonAsString(), "converged");
   EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
   EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
+  EXPECT_EQ(std::string(filter->GetGeometryReason()).rfind("all points lie in one plane", 0), 0u);
   EXPECT_EQ(std::string(filter->GetBackendUsed()).rfind("Threads: ", 0), 0u);
   EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
 }
