@@ -166,6 +166,14 @@ private:
   }
 };
 
+/// For small functions that are called seldom: on the CPU they would take registers from the loop
+/// around them. A device has enough, and would have to put the arguments of a call into memory.
+#if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
+#define DELAUNAYFLIP_NO_INLINE_ON_HOST __attribute__((noinline))
+#else
+#define DELAUNAYFLIP_NO_INLINE_ON_HOST
+#endif
+
 /// Three coordinates of every vertex, and the tolerance of the opposite-angle test on them.
 template <typename Real>
 struct AnglePoints
@@ -200,7 +208,7 @@ struct AnglePoints
 private:
   /// Loads the points again: as a function of its own it takes no registers from the test of all
   /// the edges that do not need it.
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool IsNoise(
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
     const Quad& quad, double excess) const
   {
     return delaunayflip::IsNoise(this->Get(quad), this->Tolerance.Precision, excess);
