@@ -124,7 +124,8 @@ std::string GetName(const KnownAnswer& known)
 {
   std::string name = known.Mesh;
   std::replace(name.begin(), name.end(), '-', '_');
-  return name + (known.Geometry == XY ? "_xy" : "");
+  return name +
+    (known.Geometry == XY ? "_xy" : (known.Geometry == GeometryKind::Surface ? "_surface" : ""));
 }
 
 void PrintTo(const KnownAnswer& known, std::ostream* stream) { *stream << GetName(known); }

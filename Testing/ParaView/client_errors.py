@@ -35,8 +35,10 @@ def succeed(client, panel, flip):
 
 def session(client):
     load_plugin()
-    sphere = simple.Sphere(ThetaResolution=30, PhiResolution=20)
-    flip = yield from start_filter(client, sphere)
+    sphere = simple.Sphere(ThetaResolution=60, PhiResolution=40)
+    ellipsoid = simple.Calculator(
+        Input=sphere, CoordinateResults=1, Function="coordsX*iHat+coordsY*jHat+3*coordsZ*kHat")
+    flip = yield from start_filter(client, ellipsoid)
     panel = Panel(client)
     for number in range(1, 11):
         yield from fail(client, panel, flip, 100 * number)
