@@ -9,6 +9,7 @@ import unittest
 from CommandTesting import (
     CommandTest,
     bumpy_grid,
+    make_mesh,
     read_mesh,
     triangles_of,
     worst_case,
@@ -21,6 +22,9 @@ class WrongUsage(CommandTest):
         super().setUp()
         self.planar = write_mesh(bumpy_grid(4, 0), self.path("planar.vtk"))
         self.surface = write_mesh(bumpy_grid(4, 1), self.path("surface.vtk"))
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        cells = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
+        self.tetrahedron = write_mesh(make_mesh(points, cells), self.path("tetrahedron.vtk"))
 
     def tearDown(self):
         self.assertFalse(os.path.exists(self.path("out.vtk")))
@@ -62,7 +66,7 @@ class WrongUsage(CommandTest):
         canonical = ("--tie-rule", "canonical")
         self.refuse("anonical", *canonical, "--geometry", "surface")
         self.refuse("anonical", *canonical, "--criterion", "opposite-angles")
-        self.refuse("anonical", *canonical, mesh=self.surface)
+        self.refuse("anonical", *canonical, mesh=self.tetrahedron)
         self.refuse("lane", "--geometry", "planar", mesh=self.surface)
 
     def test_one_name_for_two_files(self):

@@ -10,7 +10,14 @@ import subprocess
 import time
 import unittest
 
-from CommandTesting import CommandTest, bumpy_grid, command_line, worst_case, write_mesh
+from CommandTesting import (
+    CommandTest,
+    bumpy_grid,
+    command_line,
+    make_array,
+    worst_case,
+    write_mesh,
+)
 
 
 class Interrupt(CommandTest):
@@ -104,7 +111,9 @@ class Terminal(CommandTest):
         self.assertEqual(self.succeed(mesh, "out.vtk").stderr, "")
 
     def test_quiet(self):
-        mesh = write_mesh(bumpy_grid(10, 1), self.path("mesh.vtk"))
+        grid = bumpy_grid(10, 1)
+        grid.GetPointData().AddArray(make_array("Age", range(100)))  # which .stl cannot hold
+        mesh = write_mesh(grid, self.path("mesh.vtk"))
         self.assertEqual(self.errors_on_terminal(mesh, "out.stl", "--quiet"), b"")
         result = self.succeed(mesh, "out.stl", "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))

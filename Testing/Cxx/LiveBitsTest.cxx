@@ -176,6 +176,8 @@ struct Kind
   void (*Set)(vtkDelaunayFlip*);
 };
 
+void PrintTo(const Kind& kind, std::ostream* stream) { *stream << kind.Name; }
+
 const Kind Kinds[] = { { "Plane", MakeBadPlane, SetNothing },
   { "Terrain", MakeTerrain, SetTerrain }, { "Divided", MakeDividedTerrain, Divide },
   { "Surface", MakeBadSphere, SetNothing } };

@@ -96,6 +96,7 @@ class Inputs(PluginTest):
         flip = self.flip(source)
         self.assertNotIn(kept, get_edges(fetch(flip)))
         flip.Constraints = self.read(make_line(make_fan(20), 10, 19), "line.vtp")
+        refresh(flip)
         self.assertIn(kept, get_edges(fetch(flip)))
         self.assertEqual(flip.NumberOfConstraintEdges, 1)
         self.assertEqual(flip.NumberOfUnmatchedConstraintEdges, 0)

@@ -47,7 +47,7 @@ class SameBits(PluginTest):
 
     def test_surface(self):
         sphere = simple.Sphere(ThetaResolution=300, PhiResolution=60)
-        self.expect_same(self.save_source(sphere))
+        self.expect_same(self.save_source(sphere), ["--tolerance", "1e-9"], Tolerance=1e-9)
 
     def test_terrain(self):
         grid = simple.Plane(XResolution=120, YResolution=90)
