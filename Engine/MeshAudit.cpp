@@ -3,9 +3,9 @@
 #include "MeshAudit.h"
 
 #include "AuditAngles.h"
+#include "MeshSurveyBuilder.h"
 #include "Predicates.h"
 #include "ScaledOffsets.h"
-#include "SurveyMesh.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
 
@@ -122,7 +122,7 @@ public:
       Options(options)
   {
     const ThreadBackend backend(1);
-    const MeshSurvey survey = SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, backend);
+    const MeshSurvey survey = BuildMeshSurvey(MeshInput{ mesh, mesh }, options.Geometry, backend);
     this->Geometry = survey.Geometry;
     this->Projection = survey.Projection;
     for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)

@@ -9,11 +9,11 @@
 #include "FlipLoopChoice.h"
 #include "InputChecks.h"
 #include "MeshSurvey.h"
+#include "MeshSurveyBuilder.h"
 #include "OutputSlice.h"
 #include "PackedPoints.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
-#include "SurveyMesh.h"
 #include "TurnedTriangles.h"
 
 #include <utility>
@@ -54,7 +54,7 @@ public:
   {
     LocalMesh local = this->Backend.Localize(mesh);
     const MeshInput input{ mesh, local.View() };
-    MeshSurvey survey = SurveyMesh(input, options.Geometry, this->Backend);
+    MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);

@@ -16,7 +16,7 @@
 
 /// @file
 /// The first look at an input: are its ids valid, which points are used, in which space do edges
-/// live. SurveyMesh.h makes it.
+/// live. MeshSurveyBuilder.h makes it.
 
 namespace delaunayflip
 {
@@ -96,11 +96,8 @@ struct MeshSurvey
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(
   const PointArray& points, std::int64_t point, GeometryKind geometry)
 {
-  // A difference with itself is 0 for finite numbers only.
-  const double x = points.Get(point, 0);
-  const double y = points.Get(point, 1);
   const double z = geometry == GeometryKind::PlanarXY ? 0.0 : points.Get(point, 2);
-  return x - x == 0.0 && y - y == 0.0 && z - z == 0.0;
+  return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1)) && IsFinite(z);
 }
 
 }

@@ -46,7 +46,7 @@ std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOpt
   CheckMeshSize(mesh);
   const ThreadBackend backend(options.NumberOfThreads);
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = SurveyMesh(input, options.Geometry, backend);
+  const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
@@ -62,7 +62,7 @@ GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)
     return options.Geometry;
   }
   const ThreadBackend backend(options.NumberOfThreads);
-  return SurveyMesh(MeshInput{ mesh, mesh }, options.Geometry, backend).Geometry;
+  return BuildMeshSurvey(MeshInput{ mesh, mesh }, options.Geometry, backend).Geometry;
 }
 
 }

@@ -4,8 +4,8 @@
 #include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "GeneratedMeshes.h"
+#include "MeshSurveyBuilder.h"
 #include "SpatialOrder.h"
-#include "SurveyMesh.h"
 #include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ Built Build(const TriangleMesh& mesh, const ThreadBackend& backend,
 {
   Built built;
   const MeshInput input{ mesh, mesh };
-  built.Survey = SurveyMesh(input, geometry, backend);
+  built.Survey = BuildMeshSurvey(input, geometry, backend);
   built.Order = OrderMesh(input, built.Survey, backend);
   const EdgeMeshInput edges{ input, built.Survey, built.Order, 180.0 };
   built.Result = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
@@ -162,7 +162,7 @@ std::vector<std::uint32_t> PairInSlices(
   const TriangleMesh& mesh, std::int64_t slices, EdgeCounts& counts, const ThreadBackend& backend)
 {
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = SurveyMesh(input, GeometryKind::Auto, backend);
+  const MeshSurvey survey = BuildMeshSurvey(input, GeometryKind::Auto, backend);
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const EdgeMeshInput edges{ input, survey, order, 180.0 };
   EdgeMeshResult result;

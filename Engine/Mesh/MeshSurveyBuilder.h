@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_SURVEYMESH_H
-#define DELAUNAYFLIP_SURVEYMESH_H
+#ifndef DELAUNAYFLIP_MESHSURVEYBUILDER_H
+#define DELAUNAYFLIP_MESHSURVEYBUILDER_H
 
 #include "Atomics.h"
 #include "FlipError.h"
@@ -184,7 +184,7 @@ void SurveyPoints(
 /// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
 /// without a plane.
 template <typename Backend>
-MeshSurvey SurveyMesh(const MeshInput& input, GeometryKind requested, const Backend& backend)
+MeshSurvey BuildMeshSurvey(const MeshInput& input, GeometryKind requested, const Backend& backend)
 {
   MeshSurvey survey;
   survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
