@@ -233,7 +233,7 @@ void PrintMemory(const MemoryTable& table)
               "end - VmRSS before):\n");
   for (const auto& [key, bytes] : table)
   {
-    std::printf("%10lld  %-18s %10.1f bytes a point\n", static_cast<long long>(key.first),
+    std::printf("%10lld  %-18s %10.1f bytes per point\n", static_cast<long long>(key.first),
       EngineName(key.second).c_str(), bytes);
   }
 }
