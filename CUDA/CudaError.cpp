@@ -24,7 +24,7 @@ std::string Advise(cudaError_t error)
     case cudaErrorMemoryAllocation:
       return "; the mesh is too large for what is free on the GPU";
     case cudaErrorNoDevice:
-      return "; is a GPU of NVIDIA in this machine?";
+      return "; does this machine have an NVIDIA GPU?";
     case cudaErrorInvalidDevice:
       return "; CUDA numbers the GPUs of a machine from 0";
     case cudaErrorInsufficientDriver:
