@@ -30,7 +30,7 @@ void AddChoice(CLI::App& app, const std::string& name, Kind& value,
     ->check(CLI::IsMember(choices));
 }
 
-/// Unlike CLI::Range it refuses NaN.
+/// Unlike CLI::Range, refuses NaN.
 CLI::Validator Within(double low, double high, const std::string& range)
 {
   const auto check = [low, high, range](std::string& text)
@@ -48,8 +48,8 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
   AddChoice<GeometryKind>(app, "--geometry", flip.Geometry,
     { { "auto", GeometryKind::Auto }, { "planar", GeometryKind::Planar },
       { "planar-xy", GeometryKind::PlanarXY }, { "surface", GeometryKind::Surface } },
-    "Where edges are judged: in the points' plane (planar), by x and y with z riding along "
-    "(planar-xy, for terrain), in space (surface); auto: planar if all points lie in one plane, "
+    "Where edges are judged: in the plane of the points (planar), by x and y alone "
+    "(planar-xy, for terrain) or in space (surface). auto: planar if all points lie in one plane, "
     "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
   AddChoice<CriterionKind>(app, "--criterion", flip.Criterion,
     { { "in-circle", CriterionKind::InCircle },
@@ -58,12 +58,12 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
     "[in-circle]");
   app
     .add_option("--feature-angle", flip.FeatureAngle,
-      "Surfaces: an edge sharper than this many degrees stays; 180: none does [30]")
+      "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]")
     ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
   app
     .add_option("--tolerance", flip.Tolerance,
-      "Radians above pi that an opposite-angle sum may reach; -1: for each edge what the precision "
-      "of its points can do to the sum [-1]")
+      "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as "
+      "much as the rounding of its points can explain [-1]")
     ->check(Within(-1.0, -1.0, "automatic (-1)") |
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
   AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
@@ -113,11 +113,11 @@ void CheckDistinct(const std::string& first, const std::string& second)
 {
   if (!first.empty() && !second.empty() && Resolved(first) == Resolved(second))
   {
-    throw CommandError(ExitCode::WrongUsage, second + ": named for two files of different kind");
+    throw CommandError(ExitCode::WrongUsage, second + ": the same file is given for two purposes");
   }
 }
 
-/// What one option alone cannot tell.
+/// Checks that involve more than one option.
 void CheckTogether(Arguments& arguments)
 {
   arguments.InputFormat = FormatOf(arguments.Input);
@@ -146,8 +146,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
   app.footer(
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
-    "writable; 4 iteration limit reached (output written); 5 the backend asked for is not\n"
-    "available; 130 interrupted. Without success no file is changed.");
+    "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
+    "available; 130 interrupted. After a failure no file has been changed.");
   app.add_option("INPUT", arguments.Input, "The mesh to read")->required();
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments.Flip);

@@ -35,7 +35,7 @@ bool IsIgnored(int signal)
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/// What a user or the system ends a program with; what is already ignored (nohup) stays ignored.
+/// The signals by which a user or the system ends a program, without those ignored (nohup).
 sigset_t EndingSignals()
 {
   sigset_t signals;
@@ -63,10 +63,10 @@ ChildProcess::ChildProcess()
     throw CommandError(ExitCode::BadFile, std::string("no memory: ") + std::strerror(errno));
   }
   this->Shared = new (memory) SharedPhase;
-  // A full disk, a file size limit or a closed pipe shall be an error code, not a death.
+  // A closed pipe or a file size limit must give an error code instead of killing the process.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
-  // Else the system might reap the child itself and its end be lost.
+  // If SIGCHLD were ignored, the system would reap the child itself and its status would be lost.
   signal(SIGCHLD, SIG_DFL);
   sigaddset(&this->Watched, SIGCHLD);
   sigprocmask(SIG_BLOCK, &this->Watched, &this->Before);
@@ -95,13 +95,13 @@ ChildOutcome ChildProcess::Run(const ChildWork& work)
 
 void ChildProcess::Work(const ChildWork& work)
 {
-  // A terminal's interrupt reaches both processes; the parent alone decides.
+  // Ctrl-C in a terminal reaches both processes; only the parent acts on it.
   for (const int ending : { SIGINT, SIGTERM, SIGHUP })
   {
     signal(ending, SIG_IGN);
   }
   sigprocmask(SIG_SETMASK, &this->Before, nullptr);
-  // A reader that dies of a corrupt file shall not leave a core file in the user's folder.
+  // A reader that crashes on a corrupt file must not leave a core file in the user's folder.
   const rlimit none = {};
   setrlimit(RLIMIT_CORE, &none);
 #ifdef __linux__

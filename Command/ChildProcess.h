@@ -7,12 +7,12 @@
 #include <functional>
 
 /// @file
-/// Work in a forked process, so that a crash in it can be reported and cleaned up after.
+/// Runs work in a forked process, so that a crash there can be reported and cleaned up.
 
 namespace delaunayflip
 {
 
-/// What the work is busy with, for the message about its death.
+/// What the child is doing, for the message if it crashes.
 enum class Phase
 {
   Reading,
@@ -21,8 +21,8 @@ enum class Phase
   Over
 };
 
-/// What runs in the child: it is given the function to report its phases through, and returns the
-/// exit code.
+/// What runs in the child. It reports its phases through the function that it is given, and returns
+/// the exit code.
 using ChildWork = std::function<int(const std::function<void(Phase)>&)>;
 
 /// How the child ended.
@@ -30,13 +30,13 @@ struct ChildOutcome
 {
   int ExitCode = 0; ///< What the work returned, if it was not killed.
   int DiedOf = 0; ///< The signal that killed the child, or 0.
-  int InterruptedBy = 0; ///< The signal to this process that made it stop the child, or 0.
+  int InterruptedBy = 0; ///< The signal that made this process kill the child, or 0.
   Phase LastPhase = Phase::Reading;
 };
 
 /// Watches one child. From its construction to its destruction SIGINT, SIGTERM and SIGHUP do not
-/// end this process but wait for Run: they kill the child, and so the caller can always clean up.
-/// To be made before any thread.
+/// end this process but wait for Run, where they kill the child, so the caller can always clean up.
+/// Must be constructed before any thread is started.
 class ChildProcess
 {
 public:
@@ -46,7 +46,7 @@ public:
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   /// Runs `work` in the child until it ends.
-  /// @throws CommandError when there can be no child.
+  /// @throws CommandError when the child cannot be started.
   ChildOutcome Run(const ChildWork& work);
 
 private:

@@ -18,8 +18,8 @@ enum class ExitCode
   Done = 0,
   WrongUsage = 2,
   BadFile = 3, ///< Input unreadable or invalid, or an output not writable.
-  IterationLimit = 4, ///< The output is written; violations may be left.
-  NoBackend = 5, ///< The backend asked for cannot run here.
+  IterationLimit = 4, ///< The output is written; bad edges may be left.
+  NoBackend = 5, ///< The requested backend cannot run here.
   Interrupted = 130 ///< 128 + SIGINT; other signals that end it give 128 + their number.
 };
 

@@ -20,8 +20,8 @@ namespace delaunayflip
 namespace
 {
 
-/// VTK's text without its first line (the source file), the object's address and the line breaks,
-/// and without the bytes of a corrupt file that it may quote.
+/// Reduces a message of VTK to one line: drops the source file, the object's address, line breaks,
+/// and the bytes of a corrupt file that it may quote.
 std::string InOneLine(const char* text)
 {
   static const std::regex head("^[^\n]*(ERROR|Warning): In [^\n]*\n");
@@ -57,7 +57,7 @@ public:
 
 vtkStandardNewMacro(CollectingWindow);
 
-/// Each line once.
+/// Joins the lines, repeated ones only once.
 std::string Joined(const std::vector<std::string>& lines)
 {
   std::string joined;
@@ -82,7 +82,7 @@ CollectingWindow* Window()
   return CollectingWindow::SafeDownCast(vtkOutputWindow::GetInstance());
 }
 
-/// On a terminal the line may hold a progress bar.
+/// On a terminal, first erases the progress bar that may be there.
 void PrintLine(const std::string& line)
 {
   std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << line << std::endl;

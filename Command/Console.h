@@ -7,7 +7,7 @@
 #include <vector>
 
 /// @file
-/// One-line messages on stderr, VTK's own among them.
+/// One-line messages on stderr, VTK's included.
 
 namespace delaunayflip
 {
@@ -16,7 +16,7 @@ void PrintError(const std::string& message);
 void PrintWarning(const std::string& message);
 void PrintNote(const std::string& message);
 
-/// From its construction on, collects what VTK has to say in this process instead of printing it.
+/// From its construction on, collects VTK's messages in this process instead of printing them.
 class VTKMessages
 {
 public:
@@ -25,15 +25,15 @@ public:
   /// Prints the warnings since the last call, one line each.
   void PrintWarnings();
 
-  /// The errors since the last call joined, or an empty string.
+  /// The errors since the last call, joined, or an empty string.
   std::string TakeErrors();
 
-  /// The errors and warnings since the last call joined, or an empty string. A warning that the
-  /// file is of a newer version than VTK knows is left for PrintWarnings.
+  /// The errors and warnings since the last call, joined, or an empty string. A warning that the
+  /// file has a newer version than VTK knows is left to PrintWarnings.
   std::string TakeComplaints();
 };
 
-/// Sends stderr to nowhere while it lives: a dying reader says what helps no one.
+/// Discards stderr during its lifetime: what a crashing reader prints helps nobody.
 class MutedStandardError
 {
 public:

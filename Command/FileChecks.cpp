@@ -31,7 +31,7 @@ std::int64_t SizeOf(const std::string& path)
 
 void CheckStl(const std::string& path)
 {
-  // The same question decides in vtkSTLReader.
+  // vtkSTLReader decides by the same test.
   if (vtksys::SystemTools::DetectFileType(path.c_str()) == vtksys::SystemTools::FileTypeText)
   {
     return;
@@ -60,7 +60,7 @@ void CheckStl(const std::string& path)
 namespace
 {
 
-/// Takes one line of the header into account: what element its properties belong to, and counts.
+/// Evaluates one line of the header: an element and its count, or a property of that element.
 void ReadPlyLine(std::istream& words, std::string& element, PlyHeader& header)
 {
   std::string keyword;
@@ -110,7 +110,7 @@ PlyHeader CheckPly(const std::string& path)
   {
     Fail(path, "its header has no end (truncated or corrupt)");
   }
-  // Every vertex and face takes a byte at least; VTK would believe any number and ask for memory.
+  // Every vertex and face takes at least a byte. VTK would trust any count and allocate for it.
   const std::int64_t body = SizeOf(path) - static_cast<std::int64_t>(file.tellg());
   if (header.Vertices < 0 || header.Faces < 0 || header.Vertices > body || header.Faces > body)
   {
@@ -125,7 +125,7 @@ PlyHeader CheckPly(const std::string& path)
 namespace
 {
 
-/// A pass over a .obj: counts what is defined, then judges the faces, lines and points.
+/// Reads a .obj twice: counts what it defines, then checks its faces, lines and points.
 class ObjScanner
 {
 public:
@@ -209,7 +209,7 @@ private:
     {
       if (!(words >> coordinate))
       {
-        this->FailHere("a vertex of fewer than three coordinates");
+        this->FailHere("a vertex with fewer than three coordinates");
       }
     }
   }
@@ -247,7 +247,7 @@ private:
     }
   }
 
-  /// 1 is the first, -1 the last so far.
+  /// Index 1 is the first element, -1 the last one before this line.
   void JudgeIndex(const std::string& text, std::int64_t total, std::int64_t seen)
   {
     std::istringstream number(text);

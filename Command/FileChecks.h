@@ -8,17 +8,17 @@
 #include <vector>
 
 /// @file
-/// What VTK's readers do not look at: whether a file is as long as its header says, and whether its
-/// indices exist. Every function throws CommandError (BadFile) that names the file and the reason.
+/// What VTK's readers do not check: whether a file is as long as its header says, and whether its
+/// indices exist. Every function throws a CommandError (BadFile) with the file and the reason.
 
 namespace delaunayflip
 {
 
-/// A binary .stl must have 84 + 50 n bytes, n from its header. Text files pass: VTK parses those
-/// strictly.
+/// Checks that a binary .stl has 84 + 50 n bytes, where n is from its header. Text files pass,
+/// because VTK parses them strictly.
 void CheckStl(const std::string& path);
 
-/// What the header of a .ply promises.
+/// What the header of a .ply says.
 struct PlyHeader
 {
   std::int64_t Vertices = 0;
@@ -26,7 +26,7 @@ struct PlyHeader
   bool DoublePoints = false;
 };
 
-/// Reads the header of a .ply; its counts must be possible in a file of that length.
+/// Reads the header of a .ply, and checks that its counts are possible in a file of this length.
 PlyHeader CheckPly(const std::string& path);
 
 /// What a .obj consists of.
@@ -38,7 +38,7 @@ struct ObjSummary
   std::int64_t Groups = 0;
 };
 
-/// Every index in a .obj must name something that the file has, and every face have three corners.
+/// Checks that every index in a .obj exists in it, and that every face has at least three corners.
 ObjSummary CheckObj(const std::string& path);
 
 }

@@ -36,7 +36,7 @@ double SecondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Finds out what options alone, or this machine, make impossible, before a large file is read.
+/// Finds contradicting options and a missing backend before a large file is read.
 void TryOptions(const FlipOptions& options)
 {
   const double points[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
@@ -74,7 +74,7 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetGenerateQuality(arguments.Quality);
 }
 
-/// The exit code for what the filter calls a failure.
+/// The exit code for a vtkDelaunayFlip::FailureType.
 ExitCode ToExitCode(int failure)
 {
   switch (failure)
@@ -98,7 +98,7 @@ void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
         std::to_string(filter->GetTotalFlips()) + " flips");
 }
 
-/// The work from reading to the report, a step a function.
+/// The work from reading to the report, one function per step.
 class FlipJob
 {
 public:
@@ -123,7 +123,7 @@ public:
     }
     if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
     {
-      this->Note(this->Settings.Input + ": no triangles in it");
+      this->Note(this->Settings.Input + ": contains no triangles");
     }
   }
 
@@ -148,7 +148,7 @@ public:
     this->Bar.Start("writing " + this->Settings.Output);
     vtkNew<vtkPolyData> mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
-    // The same mesh gives the same file, whenever and wherever; the report has these two.
+    // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
     this->WriteOutput(mesh);
@@ -157,7 +157,7 @@ public:
     const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
     if (!losses.empty())
     {
-      this->Note(this->Settings.Output + ": this file format does not hold: " + losses);
+      this->Note(this->Settings.Output + ": this file format cannot store: " + losses);
     }
   }
 
@@ -210,7 +210,7 @@ private:
     report = this->Filter->GetReport();
     if (report.Triangles == 0)
     {
-      // The filter had nothing to look at.
+      // The filter had nothing to do.
       report.Points = this->Input->GetNumberOfPoints();
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;

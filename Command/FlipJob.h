@@ -13,10 +13,10 @@ namespace delaunayflip
 struct Arguments;
 struct OutputFiles;
 
-/// Reads the input, flips, and fills the temporaries of `files`. Prints the summary, notes and
-/// warnings. Runs in the child process; tells through `enter` which phase begins.
+/// Reads the input, flips, and fills the temporary files of `files`. Prints the summary, notes and
+/// warnings. Runs in the child process; calls `enter` at the beginning of each phase.
 /// @returns Done or IterationLimit.
-/// @throws CommandError and whatever a lack of memory throws.
+/// @throws CommandError; std::bad_alloc when memory runs out.
 int RunFlipJob(
   const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter);
 

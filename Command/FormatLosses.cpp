@@ -34,7 +34,7 @@ bool HoldsPointArray(vtkPointData* data, vtkAbstractArray* array, MeshFormat for
   }
 }
 
-/// The names of the arrays of `data`, in parentheses, that `isHeld` is false for.
+/// `what` and, in parentheses, the names of the arrays of `data` for which `isHeld` is false.
 template <typename Predicate>
 std::string LostArrays(const std::string& what, vtkFieldData* data, const Predicate& isHeld)
 {
@@ -59,7 +59,7 @@ bool NeedsDoubles(vtkPoints* points)
     for (int axis = 0; axis < 3; ++axis)
     {
       const double value = coordinates[axis];
-      // A NaN differs from itself, and float has one too.
+      // A NaN, which differs from itself, is no loss: float has NaN too.
       if (value == value && static_cast<double>(static_cast<float>(value)) != value)
       {
         return true;

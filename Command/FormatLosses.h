@@ -12,7 +12,7 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// What of `mesh` a file of the format does not hold, as a list in words; empty if nothing.
+/// Lists in words what of `mesh` a file of this format cannot store; empty if it stores all.
 std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format);
 
 }

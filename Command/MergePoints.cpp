@@ -38,7 +38,7 @@ struct BitsHash
   }
 };
 
-/// Coordinates as bits, so that NaN has a place too; both zeros are one.
+/// Coordinates as bits, so that a NaN equals itself; -0 becomes 0.
 Bits CoordinateBits(const double point[3])
 {
   Bits bits;

@@ -10,9 +10,9 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Joins points of equal coordinates, with the point data of the first of them, in the order of
-/// first appearance. Cells keep their number and order: a triangle that collapses stays as one.
-/// @returns how many points were left out.
+/// Merges points with equal coordinates. The first of them stays, with its point data; the order of
+/// the points stays too. Cells keep their number and order; a triangle that collapses stays a cell.
+/// @returns how many points were removed.
 vtkIdType MergeCoincidentPoints(vtkPolyData* mesh);
 
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 /// @file
-/// The file formats, told apart by their extensions.
+/// The file formats, recognised by their extensions.
 
 namespace delaunayflip
 {
@@ -20,8 +20,8 @@ enum class MeshFormat
   OBJ
 };
 
-/// The format of `path` by its extension, in upper or lower case.
-/// @throws CommandError (WrongUsage) that names the known extensions.
+/// The format of `path`, from its extension in upper or lower case.
+/// @throws CommandError (WrongUsage) that lists the known extensions.
 MeshFormat FormatOf(const std::string& path);
 
 }

@@ -42,7 +42,7 @@ namespace
   Fail(path,
     "holds " + type +
       ", not a surface mesh (PolyData); ParaView's Extract Surface (vtkDataSetSurfaceFilter) "
-      "makes one of it");
+      "extracts one");
 }
 
 void CheckReadable(const std::string& path)
@@ -57,7 +57,7 @@ void CheckReadable(const std::string& path)
   }
 }
 
-/// Whatever the reader complained of means that something of the file is missing.
+/// Any complaint of the reader is an error: it means that part of the file was not read.
 vtkSmartPointer<vtkPolyData> Update(
   vtkAlgorithm* reader, const std::string& path, VTKMessages& messages)
 {
@@ -69,7 +69,7 @@ vtkSmartPointer<vtkPolyData> Update(
   auto* mesh = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!complaints.empty() || !mesh)
   {
-    Fail(path, "cannot be read: " + (complaints.empty() ? "no mesh in it" : complaints));
+    Fail(path, "cannot be read: " + (complaints.empty() ? "it contains no mesh" : complaints));
   }
   if (!mesh->GetPoints())
   {
@@ -79,13 +79,13 @@ vtkSmartPointer<vtkPolyData> Update(
   return mesh;
 }
 
-/// The word after DATASET in the head of a .vtk if it names another type of data; else empty.
+/// The word after DATASET in the header of a .vtk if it names another type of data; else empty.
 std::string OtherLegacyType(const std::string& path)
 {
   static const std::set<std::string> others = { "unstructured_grid", "structured_grid",
     "structured_points", "rectilinear_grid", "table", "graph", "directed_graph", "undirected_graph",
     "tree", "molecule", "hypertreegrid", "multiblock", "hierarchical_box", "overlapping_amr" };
-  constexpr int headLines = 10; // four by the format, and blank ones
+  constexpr int headLines = 10; // four in the format, and blank ones
   std::ifstream file(path, std::ios::binary);
   std::string line;
   for (int number = 0; number < headLines && std::getline(file, line); ++number)
@@ -175,7 +175,7 @@ MeshFile ReadObj(const std::string& path, VTKMessages& messages)
   const auto mesh = Update(reader, path, messages);
   if (summary.Groups == 0)
   {
-    mesh->GetCellData()->RemoveArray("GroupIds"); // vtkOBJReader makes it in any case
+    mesh->GetCellData()->RemoveArray("GroupIds"); // vtkOBJReader always adds it
   }
   return { mesh, {}, summary.TextureCoordinates + summary.Normals > 0 };
 }
@@ -208,7 +208,7 @@ MeshFile ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
   if (merged > 0 && format == MeshFormat::OBJ)
   {
     file.Notes.push_back(path + ": merged " + std::to_string(merged) +
-      " points that lie on others (texture coordinates and normals repeat them)");
+      " points that coincide (the file repeats them for texture coordinates and normals)");
   }
   return file;
 }

@@ -17,21 +17,21 @@ namespace delaunayflip
 
 class VTKMessages;
 
-/// A surface mesh as its file has it.
+/// A surface mesh that was read from a file.
 struct MeshFile
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   std::vector<std::string> Notes; ///< What reading changed, one line each.
-  bool RepeatsPoints = false; ///< The format had to repeat points.
+  bool RepeatsPoints = false; ///< Whether the format repeats points.
 };
 
-/// Reads a surface mesh, with one point a place where the format repeats points for every triangle
-/// (.stl) or for every texture coordinate and normal (.obj). May die on a corrupt file, as VTK's
-/// readers do: to be called in a child process.
-/// @throws CommandError (BadFile) that names the file and the reason.
+/// Reads a surface mesh. Merges coincident points where the format repeats points, for every
+/// triangle (.stl) or for every texture coordinate and normal (.obj). Call this in a child process:
+/// VTK's readers may crash on a corrupt file.
+/// @throws CommandError (BadFile) with the file and the reason.
 MeshFile ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages);
 
-/// The same with the points as VTK's reader gives them.
+/// The same, with the points as VTK's reader returns them.
 MeshFile ReadUnmerged(const std::string& path, MeshFormat format, VTKMessages& messages);
 
 }

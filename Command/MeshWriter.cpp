@@ -55,7 +55,7 @@ void WritePly(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
   vtkNew<vtkPLYWriter> writer;
   writer->SetFileTypeToBinary();
-  writer->SetArrayName("RGB"); // as vtkPLYReader names colors
+  writer->SetArrayName("RGB"); // as vtkPLYReader names colours
   Run(writer.Get(), mesh, path, messages);
 }
 
@@ -90,12 +90,12 @@ void WriteUnchecked(
   }
 }
 
-/// Whether the last line is there: a text cut short in it may still be readable, and wrong.
+/// Whether the last line is complete: text that is cut short there may be readable, but wrong.
 bool IsEnded(const std::string& path, MeshFormat format)
 {
   if (format == MeshFormat::PLY || format == MeshFormat::STL)
   {
-    return true; // their binary form has a length that the reader knows
+    return true; // the reader checks the length of their binary form
   }
   const std::string ending = format == MeshFormat::VTP ? "</VTKFile>\n" : "\n";
   std::ifstream file(path, std::ios::binary);
@@ -127,11 +127,11 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
     {
       return;
     }
-    difference = "something is missing when it is read back";
+    difference = "the file is incomplete when read back";
   }
   catch (const CommandError& error)
   {
-    // The user has never heard of the temporary.
+    // Do not name the temporary file, which the user does not know.
     difference = error.what();
     const std::size_t name = difference.find(path + ": ");
     difference.erase(0, name == 0 ? path.size() + 2 : 0);

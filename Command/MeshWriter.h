@@ -14,9 +14,9 @@ namespace delaunayflip
 
 class VTKMessages;
 
-/// Writes `mesh` to `path`, binary where the format can be, and reads the file back to see that it
-/// is whole: the writers of some formats do not notice a full disk. May die on that, as VTK's
-/// readers do: to be called in a child process.
+/// Writes `mesh` to `path`, in binary where the format allows it. Then reads the file back to check
+/// that it is complete, because the writers of some formats do not notice a full disk. Call this in
+/// a child process: VTK's readers may crash on an incomplete file.
 /// @throws CommandError (BadFile) with the reason.
 void WriteMesh(
   vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages);

@@ -11,8 +11,8 @@
 namespace delaunayflip
 {
 
-/// What a run writes: taken before it begins, so that a folder without write permission is known
-/// before the work, and given their names after it.
+/// The files that a run writes. They are created before the work begins, so that a missing write
+/// permission is noticed early, and get their final names after it.
 struct OutputFiles
 {
   /// @throws CommandError (BadFile).

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
   throw CommandError(ExitCode::BadFile, target + ": cannot be written: " + reason);
 }
 
-/// The extension in lower case: vtkPLYWriter adds one to a name without ".ply".
+/// The extension in lower case: vtkPLYWriter appends ".ply" to any name that lacks it.
 std::string ExtensionOf(const fs::path& path)
 {
   std::string extension = path.extension().string();
@@ -35,7 +35,7 @@ std::string ExtensionOf(const fs::path& path)
   return extension;
 }
 
-/// A free name in the folder of `path`, already taken by an empty file.
+/// Creates an empty file with an unused name in the folder of `path`.
 std::string MakeTemporary(const fs::path& path, const std::string& target)
 {
   const std::string stem = ".delaunay-flip-" + std::to_string(getpid()) + "-";
@@ -68,7 +68,7 @@ PendingFile::PendingFile(const std::string& target)
   }
   if (fs::exists(resolved) && !fs::is_regular_file(resolved))
   {
-    Fail(target, "it exists and is not a plain file");
+    Fail(target, "it exists and is not a regular file");
   }
   if (fs::exists(resolved) && access(resolved.c_str(), W_OK) != 0)
   {

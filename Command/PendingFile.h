@@ -6,17 +6,18 @@
 #include <string>
 
 /// @file
-/// Files that appear under their name only when they are whole.
+/// Files that get their names only when they are complete.
 
 namespace delaunayflip
 {
 
-/// An empty temporary file beside `target`, which it replaces when told; else it goes away.
+/// An empty temporary file beside `target`. Commit() replaces the target by it; without that, the
+/// destructor removes it.
 class PendingFile
 {
 public:
-  /// @throws CommandError (BadFile) when no file can be made there, or `target` is something else
-  /// than a plain file.
+  /// @throws CommandError (BadFile) when no file can be created there, or `target` exists and is
+  /// not a regular file.
   explicit PendingFile(const std::string& target);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
@@ -25,13 +26,13 @@ public:
   const std::string& GetTarget() const { return this->Target; }
   const std::string& GetTemporary() const { return this->Temporary; }
 
-  /// Gives the temporary the name, and the permissions, of the target.
+  /// Gives the temporary file the name and the permissions of the target.
   /// @throws CommandError (BadFile).
   void Commit();
 
 private:
   std::string Target;
-  std::string Resolved; ///< The target behind symbolic links.
+  std::string Resolved; ///< The target, symbolic links followed.
   std::string Temporary;
 };
 

@@ -9,23 +9,23 @@
 namespace delaunayflip
 {
 
-/// One line on stderr that tells how far the work is. Only on a terminal: a log stays free of it.
+/// One line on stderr that shows progress. Drawn only on a terminal, never into a log.
 class ProgressBar
 {
 public:
-  /// `wanted` false: never draws.
+  /// If `wanted` is false, nothing is ever drawn.
   explicit ProgressBar(bool wanted);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `fraction` 0 .. 1. Draws a changed fraction at most ten times per second.
+  /// Shows `fraction`, 0 to 1, and `text`. Draws at most ten times per second.
   void Show(double fraction, const std::string& text);
 
-  /// Draws at once.
+  /// Shows a fraction of 0 at once.
   void Start(const std::string& text);
 
-  /// Wipes the line.
+  /// Erases the line.
   void Clear();
 
 private:

@@ -60,7 +60,7 @@ void WriteCsv(const FlipReport& flip, std::ostream& stream)
     }
     else
     {
-      stream << "nan"; // without the sign that a stream may put
+      stream << "nan"; // a stream may print it with a sign
     }
     stream << ',' << record.Seconds << '\n';
   }
@@ -115,7 +115,7 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
          << Grouped(flip.Edges.Fixed) << " fixed)\n"
          << "geometry        " << DescribeGeometry(flip) << '\n'
-         << "violations      " << Grouped(flip.NonDelaunayBefore) << " -> "
+         << "bad edges       " << Grouped(flip.NonDelaunayBefore) << " -> "
          << Grouped(flip.NonDelaunayAfter) << '\n'
          << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
          << Degrees(flip.MinimumAngleAfter) << " degrees\n"

@@ -8,12 +8,12 @@
 #include <ostream>
 
 /// @file
-/// A run in words and numbers.
+/// What is reported about a run.
 
 namespace delaunayflip
 {
 
-/// What the engine did, with the times of what it knows nothing of.
+/// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
   FlipReport Flip;
@@ -27,7 +27,7 @@ void WriteJson(const RunReport& run, std::ostream& stream);
 /// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
 void WriteCsv(const FlipReport& flip, std::ostream& stream);
 
-/// A few lines for people.
+/// A summary in a few lines of text.
 void WriteSummary(const RunReport& run, std::ostream& stream);
 
 }

@@ -12,7 +12,7 @@
 #include <new>
 
 /// @file
-/// delaunay-flip: this process names and removes files and watches; a child does the work.
+/// delaunay-flip: this process creates, renames and removes the files; a child does the work.
 
 using namespace delaunayflip;
 
@@ -42,20 +42,20 @@ int Guarded(const std::function<int()>& work)
   return static_cast<int>(ExitCode::BadFile);
 }
 
-/// Why the child may have died of a signal.
+/// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(const Arguments& arguments, const ChildOutcome& outcome)
 {
   const std::string death = std::string(" (") + strsignal(outcome.DiedOf) + ")";
   switch (outcome.LastPhase)
   {
     case Phase::Reading:
-      return arguments.Input + ": cannot be read: VTK's reader died" + death +
+      return arguments.Input + ": cannot be read: VTK's reader crashed" + death +
         "; the file is probably truncated or corrupt";
     case Phase::Flipping:
-      return arguments.Input + ": the work on it died" + death +
+      return arguments.Input + ": flipping it crashed" + death +
         "; was there enough memory? Nothing was written";
     default:
-      return arguments.Output + ": cannot be written: the writing or checking died" + death +
+      return arguments.Output + ": cannot be written: writing or checking it crashed" + death +
         "; is the disk full?";
   }
 }

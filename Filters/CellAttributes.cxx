@@ -26,7 +26,7 @@ namespace delaunayflip
 namespace
 {
 
-/// For every cell of the output, the cell of the mesh that it comes from.
+/// Lists, for every cell of the output, the cell of the mesh from which it was made.
 void ListSources(const TriangleSlots& slots, vtkIdList* sources)
 {
   const vtkIdType before = slots.GetFirstPolygon();
@@ -41,7 +41,7 @@ void ListSources(const TriangleSlots& slots, vtkIdList* sources)
   std::copy(strips.begin(), strips.end(), sources->begin() + before + polygons);
 }
 
-/// Ids that name a cell twice are global no more.
+/// Turns global ids into pedigree ids: when cells are divided, several share an id.
 void DemoteGlobalIds(vtkCellData* data)
 {
   vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
@@ -71,8 +71,8 @@ struct OutputPolygon
   vtkIdList* Ids;
 };
 
-/// Computes the normal of a triangle, where flips have changed it, on the side of the winding where
-/// the normal of the triangle before was.
+/// Recomputes the normal of a triangle that flips have changed. If the old normal pointed against
+/// the winding of the old triangle, so does the new one.
 void RenewNormal(const PointArray& points, const TriangleSlots& slots, const OutputPolygon& cell,
   vtkDataArray* normals)
 {

@@ -14,16 +14,16 @@ namespace delaunayflip
 class TriangleSlots;
 struct PointArray;
 
-/// Gives every cell of `output` the cell data of the cell of `mesh` that it comes from. Shares the
-/// arrays where no cell changed its place. Where cells were divided, global ids become pedigree
-/// ids, or a plain array beside pedigree ids that the mesh has already.
+/// Gives every cell of `output` the cell data of the cell of `mesh` from which it was made. Shares
+/// the arrays if all cells kept their positions. Where cells were divided, global ids become
+/// pedigree ids, or a plain array if the mesh has pedigree ids already.
 void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output);
 
-/// Computes the active cell normals of `output` anew for the triangles whose points are not those
-/// of their slot. A normal that pointed against the winding does so again.
+/// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
+/// normal that pointed against the winding of the old triangle points against that of the new one.
 void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output);
 
-/// A cell array to be.
+/// A cell array to be added.
 template <typename ArrayT>
 struct TriangleArrayValues
 {
@@ -31,7 +31,7 @@ struct TriangleArrayValues
 
   const char* Name;
   std::vector<Value> Values; ///< One per triangle of the slots.
-  Value Elsewhere; ///< For cells that are no triangles.
+  Value Elsewhere; ///< The value for cells that are not triangles.
 };
 
 /// Adds a cell array to the output. ArrayT: vtkIntArray or vtkDoubleArray.

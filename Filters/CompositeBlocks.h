@@ -21,22 +21,22 @@ struct Block
 {
   vtkDataObject* Data; ///< Never null.
   unsigned int Number; ///< VTK's flat index.
-  std::string Name; ///< How notes call it: "block 3 (wing)".
+  std::string Name; ///< Its name in messages: "block 3 (wing)".
   bool HasCells;
-  double Before; ///< The share of the whole dataset's cells that lies before it, 0 to 1,
-  double Share; ///< and its own.
+  double Before; ///< The share of the dataset's cells in the leaves before it, 0 to 1.
+  double Share; ///< The share of the dataset's cells in it, 0 to 1.
 };
 
-/// Makes `output` a composite dataset with the structure of `input`, and with what `transform`
-/// makes of each leaf. Empty leaves stay empty.
+/// Gives `output` the structure of `input`, and for each leaf the result of `transform`. Empty
+/// leaves stay empty.
 void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   const std::function<vtkSmartPointer<vtkDataObject>(const Block& block)>& transform);
 
-/// The polygonal leaves by their numbers.
+/// The polygonal leaves, by their flat indices.
 std::map<unsigned int, vtkPolyData*> ListMeshes(vtkCompositeDataSet* blocks);
 
-/// Whether some dataset of `blocks` is divided into partitions, as different from blocks that are
-/// meshes of their own.
+/// Whether some dataset in `blocks` is divided into partitions. (Blocks, by contrast, are meshes of
+/// their own.)
 bool HasPartitions(vtkCompositeDataSet* blocks);
 
 }

@@ -39,10 +39,11 @@ void AddPaths(
   }
 }
 
-/// Along lines and polygons of the second input, in ids of `numberOfPoints` points.
+/// Adds the edges along lines and polygons of the second input, whose ids must be below
+/// `numberOfPoints`.
 void AddOtherPaths(vtkPolyData* others, vtkIdType numberOfPoints, std::vector<PointPair>& pairs)
 {
-  PointIdCheck check{ "constraint, cell", others->GetNumberOfVerts(), numberOfPoints };
+  PointIdCheck check{ "constraint cell", others->GetNumberOfVerts(), numberOfPoints };
   AddPaths(others->GetLines(), false, check, pairs);
   check.FirstCell += others->GetNumberOfLines();
   AddPaths(others->GetPolys(), true, check, pairs);
@@ -83,7 +84,7 @@ ConstraintEdges FindConstraintEdges(const ConstraintSource& source)
   ConstraintEdges edges;
   if (source.Lines)
   {
-    const PointIdCheck check{ "line, cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
+    const PointIdCheck check{ "line cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
     AddPaths(source.Lines->GetLines(), false, check, edges.Pairs);
   }
   if (source.Others)

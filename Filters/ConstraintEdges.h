@@ -19,28 +19,28 @@ using PointPair = std::array<std::int64_t, 2>;
 /// Edges that must stay.
 struct ConstraintEdges
 {
-  std::vector<PointPair> Pairs; ///< The smaller id first, ascending, none twice.
-  std::int64_t Unmatched = 0; ///< More of the second input: there the mesh has no edge.
+  std::vector<PointPair> Pairs; ///< Sorted and unique, the smaller id of each pair first.
+  std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
 };
 
 struct ConstraintSource
 {
-  vtkPolyData* Lines; ///< The mesh, if edges along its lines stay, else null.
-  vtkPolyData* Others; ///< Whose lines and polygons are edges that stay, or null.
+  vtkPolyData* Lines; ///< The mesh, if the edges along its lines are constraints, else null.
+  vtkPolyData* Others; ///< The second input, whose lines and polygons are constraints, or null.
   PointArray Points; ///< Of the mesh.
   TriangleArray Triangles;
 };
 
-/// The edges along the lines of the mesh and along the lines and polygons of the others. These go
-/// by the point ids of the mesh where they have no points or the very ones of the mesh, else by the
-/// places of their points.
-/// @throws InvalidMesh when a cell names a point that is none.
+/// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The
+/// ids of the others are those of the mesh if the others have no points or the same points as the
+/// mesh; otherwise edges are matched by the coordinates of their points.
+/// @throws InvalidMesh when a cell names a point that does not exist.
 ConstraintEdges FindConstraintEdges(const ConstraintSource& source);
 
-/// Adds a pair, unless both are the same.
+/// Adds the pair of `a` and `b`, unless they are equal.
 void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs);
 
-/// Puts pairs in order, and each of them once.
+/// Sorts pairs and removes repeated ones.
 void SortPairs(std::vector<PointPair>& pairs);
 
 }

@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// What was at fault when a mesh could not be flipped, and why.
+/// Why a mesh could not be flipped.
 struct FlipFailure
 {
   int Kind = 0; ///< One of vtkDelaunayFlip::FailureType; 0 is none.
@@ -18,7 +18,7 @@ struct FlipFailure
   explicit operator bool() const { return this->Kind != 0; }
 };
 
-/// Runs `work`, and turns what it throws into a failure.
+/// Runs `work`, and turns an exception into a failure.
 FlipFailure Attempt(const std::function<void()>& work);
 
 }

@@ -35,12 +35,12 @@ void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
   Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
 }
 
-/// Where polygons are split, this share of an update goes to it; where not, none. What is left at
-/// the end goes to the output.
+/// How the progress of an update is divided: up to SplitShare polygons are split, if there are any;
+/// up to SessionEnd the session works; the rest is for the output.
 constexpr double SplitShare = 0.3;
 constexpr double SessionEnd = 0.95;
 
-/// Tells of a part of a whole that begins and ends at some share of it.
+/// An observer of a part of the work that begins and ends at these shares of the whole.
 ProgressObserver Scale(const ProgressObserver& progress, double begin, double end)
 {
   if (!progress)
@@ -56,7 +56,7 @@ bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b
     a.RegionArray == b.RegionArray;
 }
 
-/// The input, with points of its own if they are to be copied.
+/// The input, with a copy of its points on request.
 vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
 {
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
@@ -87,7 +87,7 @@ FlipRun::Snapshot::Snapshot(
 {
 }
 
-/// Region labels and ghosts matter, other attributes do not.
+/// Of the attributes only region labels and ghosts matter.
 FlipRun::Stamps FlipRun::StampEdges(const Request& request)
 {
   Stamps stamps{ static_cast<vtkMTimeType>(request.Input->GetNumberOfPoints()) };
@@ -135,7 +135,8 @@ FlipRun::FlipRun(const Request& request, Start start)
 {
 }
 
-/// A warm start is built in any case, for what it starts from is known to this update alone.
+/// A warm start is built even if the observer asks to stop, because only this update knows its
+/// start.
 FlipSession FlipRun::MakeSession(const ProgressObserver& progress) const
 {
   try
@@ -162,7 +163,7 @@ TriangleMesh FlipRun::GetStartMesh() const
   return mesh;
 }
 
-/// The feature edges of a warm start are among its fixed edges.
+/// A warm start finds no feature edges of its own: its fixed edges include them.
 FlipOptions FlipRun::GetStartOptions() const
 {
   FlipOptions options = this->Options;
@@ -215,9 +216,9 @@ std::unique_ptr<FlipRun> FlipRun::StartWarmly(std::unique_ptr<FlipRun> last, con
   return run;
 }
 
-/// A surface has feature edges that a plane had not, so a warm start stays in its geometry. Auto
-/// must come to it for the triangles that flips have made, and for those of the input, as it will
-/// without LiveUpdate.
+/// A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
+/// So Auto must choose this geometry both for the triangles that flips have made and, as it does
+/// without LiveUpdate, for those of the input.
 bool FlipRun::GoesBy(GeometryKind geometry) const
 {
   return this->Session.GetReport().GeometryUsed == geometry &&
@@ -260,7 +261,7 @@ void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
   report.UnmatchedConstraints += count;
   if (count > 0)
   {
-    report.Defects.push_back({ "constraint edges of the second input where the mesh has no edge",
+    report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
       count, {}, DefectIds::Points });
   }
 }

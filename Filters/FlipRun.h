@@ -19,8 +19,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// A mesh on its way from an input to an output: the whole way at once or, in a live update, some
-/// iterations at a time, with an output after each.
+/// Flips the mesh of an input: all at once or, in a live update, a few iterations at a time, with
+/// an output after each step.
 class FlipRun
 {
 public:
@@ -31,8 +31,8 @@ public:
     vtkPolyData* Constraints; ///< Or null.
     PolyDataBridge::Settings Settings;
     FlipOptions Options;
-    bool IsLive; ///< Other updates will follow: points may be moved in place between them.
-    ProgressObserver Progress; ///< Of the update; must not refer to what is gone after it.
+    bool IsLive; ///< More updates will follow, and points may be moved in place between them.
+    ProgressObserver Progress; ///< Used during this update only.
   };
 
   /// Begins at the triangles of the input.
@@ -41,23 +41,24 @@ public:
   FlipRun(const FlipRun&) = delete;
   FlipRun& operator=(const FlipRun&) = delete;
 
-  /// The run to go on with. `last` itself (or null) when it was asked for the same, attributes
-  /// aside. When only points have been moved since, a warm start: a run that begins at the
-  /// triangles of `last`, with the fixed edges that it had. Else a run that begins anew.
+  /// The run for this request. It is `last` itself if the request is the same, apart from
+  /// attributes. If only points have been moved since, it is a warm start: a run that begins with
+  /// the triangles of `last` and the edges that were fixed in it. Otherwise, or if `last` is null,
+  /// it is a new run.
   static std::unique_ptr<FlipRun> GoOn(std::unique_ptr<FlipRun> last, const Request& request);
 
   FlipSession& GetSession() { return this->Session; }
 
-  /// Whether this update's observer has stopped the run before its first iteration.
+  /// Whether the observer of this update stopped the run before its first iteration.
   bool IsStopped() const { return this->Stopped; }
 
-  /// For what the session tells of an update: the share of the update.
+  /// Converts the session's progress to that of the whole update.
   ProgressObserver ScaleProgress(const ProgressObserver& progress) const;
 
-  /// What has happened so far, with defects that name the input's cells.
+  /// What has happened so far. Its defects name cells of the input.
   FlipReport GetReport() const;
 
-  /// Cell arrays on request.
+  /// Optional cell arrays.
   struct Extras
   {
     bool FlipCounts;
@@ -71,16 +72,16 @@ public:
   std::string Warning;
 
 private:
-  /// Modification times: no two objects ever have the same.
+  /// Modification times. No two objects ever have the same one.
   using Stamps = std::vector<vtkMTimeType>;
 
-  /// An input as it was, and the bridge to it.
+  /// An input as it was at some update, and the bridge to it.
   struct Snapshot
   {
     Snapshot(const Request& request, bool copyPoints, const ProgressObserver& progress = {});
 
     vtkSmartPointer<vtkPolyData> Mesh;
-    Stamps Edges; ///< Of all but points that decides which edges there are and which are fixed.
+    Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
     Stamps Points;
     vtkMTimeType Time;
     PolyDataBridge Bridge;
@@ -92,7 +93,7 @@ private:
   {
     std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
-    std::int64_t Constraints = 0; ///< How many edges of the first mesh they held.
+    std::int64_t Constraints = 0; ///< How many edges of the first mesh were constraints.
     std::int64_t UnmatchedConstraints = 0;
   };
 
@@ -113,8 +114,8 @@ private:
 
   PolyDataBridge::Settings Settings;
   FlipOptions Options;
-  Snapshots Current; ///< What passes to the output is its.
-  Snapshots Origin; ///< The session views its arrays, and those of Begin.
+  Snapshots Current; ///< The attributes for the output are taken from it.
+  Snapshots Origin; ///< The session has views of its arrays, and of those of Begin.
   Start Begin;
   FlipSession Session;
   bool Stopped;

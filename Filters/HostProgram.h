@@ -6,8 +6,8 @@
 namespace delaunayflip
 {
 
-/// Whether the filter runs in ParaView's pvbatch, where no one watches the mesh improve: its
-/// scripts and state files want the end.
+/// Whether the filter runs in ParaView's pvbatch, where nobody watches the mesh improve, and
+/// scripts and state files expect the final mesh.
 bool IsBatchProgram();
 
 }

@@ -11,7 +11,7 @@ namespace delaunayflip
 namespace
 {
 
-constexpr std::size_t Most = 3; ///< Of places named for a text, and of texts.
+constexpr std::size_t Most = 3; // places named per text, and texts
 
 std::string Join(const std::vector<std::string>& items, const char* separator)
 {

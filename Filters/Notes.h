@@ -11,17 +11,17 @@ namespace delaunayflip
 
 struct FlipReport;
 
-/// Something to tell of a mesh.
+/// A message about a mesh.
 struct Note
 {
-  std::string Where; ///< E.g. "block 3 (wing)"; empty where there is one mesh only.
+  std::string Where; ///< E.g. "block 3 (wing)"; empty if there is only one mesh.
   std::string Text;
 };
 
-/// All notes in one text: each text once, with the first places it is true of.
+/// Joins notes to one text. Each text appears once, with the first places to which it applies.
 std::string Describe(const std::vector<Note>& notes);
 
-/// What a user should be warned of; empty if nothing. Not of a limit that was asked for.
+/// What to warn the user of, or empty. Reaching a requested iteration limit is not worth a warning.
 std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit);
 
 }

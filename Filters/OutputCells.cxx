@@ -32,8 +32,8 @@ bool Uses64BitIds(vtkPolyData* mesh)
   return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
 }
 
-/// Lets Linux back new memory by pages of 2 MiB, which it otherwise hands out, and clears, 4 KiB at
-/// a time: an update of 5 M points on a GPU takes 56 ms instead of 63. Only a hint.
+/// Hints to Linux to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated
+/// and cleared on first use: an update of 5 M points on a GPU takes 56 ms instead of 63.
 template <typename ArrayT>
 void AskForHugePages(ArrayT* array)
 {
@@ -51,7 +51,7 @@ void AskForHugePages(ArrayT* array)
 #endif
 }
 
-/// Offsets of triangles: those of `cells` where they are that, else new ones.
+/// Offsets of triangles: those of `cells`, if it is not null and stores them as ArrayT; else new.
 template <typename ArrayT>
 vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count, vtkCellArray* cells)
 {
@@ -68,9 +68,9 @@ vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count, vtkCellArray* cells)
   return offsets;
 }
 
-/// Triangle cells whose connectivity the session writes itself. Id: what the engine calls the
-/// value type of ArrayT.
-/// @param source triangles whose offsets will do, or null.
+/// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
+/// values of ArrayT.
+/// @param source triangles whose offsets can be shared, or null.
 template <typename ArrayT, typename Id>
 vtkSmartPointer<vtkCellArray> BuildTriangles(
   const FlipSession& session, vtkIdType count, vtkCellArray* source)
@@ -86,7 +86,7 @@ vtkSmartPointer<vtkCellArray> BuildTriangles(
   return cells;
 }
 
-/// Triangles of the session between polygons that stay.
+/// Triangles of the session, and between them the polygons that stay as they are.
 vtkSmartPointer<vtkCellArray> BuildMixedPolygons(
   const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh)
 {

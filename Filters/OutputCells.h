@@ -14,12 +14,12 @@ namespace delaunayflip
 class FlipSession;
 class TriangleSlots;
 
-/// The polygons of the output, in ids as wide as those of the mesh's polygons (of its strips where
-/// it has no polygons).
+/// The polygons of the output. Their ids are stored as wide as those of the mesh's polygons, or of
+/// its strips if it has no polygons.
 vtkSmartPointer<vtkCellArray> BuildPolygons(
   const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh);
 
-/// The strips of the output: those of the mesh that stay.
+/// The strips of the output: those of the mesh that were not split.
 vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh);
 
 }

@@ -77,8 +77,8 @@ void PlaceMatch::AddEdges(const TriangleArray& triangles, ConstraintEdges& edges
   edges.Unmatched += this->AddEdgesAt(crowded, triangles, edges.Pairs);
 }
 
-/// Adds the edges of the mesh between pairs of places.
-/// @returns between how many of the pairs there is none.
+/// Adds the edges of the mesh between pairs of places where several points lie.
+/// @returns how many of the pairs have no edge.
 std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
   const TriangleArray& triangles, std::vector<PointPair>& edges) const
 {
@@ -99,7 +99,7 @@ std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
   return static_cast<std::int64_t>(crowded.size() - found.size());
 }
 
-/// For ids that have not been checked.
+/// Accepts ids out of range, which the engine reports later.
 std::int64_t PlaceMatch::GetPlace(std::int64_t point) const
 {
   const bool isPoint = point >= 0 && point < static_cast<std::int64_t>(this->PlaceOfPoint.size());

@@ -12,19 +12,19 @@
 namespace delaunayflip
 {
 
-/// Finds, for edges between points of another dataset, the edges of a mesh at the same place.
+/// Finds, for edges between points of another dataset, the edges of a mesh at the same places.
 ///
-/// Coordinates are compared in the lesser of the two precisions: float constraints match the double
-/// mesh from which they were made. Where several points of the mesh lie at one place, the pairs
-/// that are edges of the mesh are meant.
+/// Coordinates are compared in the lower of the two precisions: float constraints match the double
+/// mesh from which they were made. Where several points of the mesh lie at one place, all pairs of
+/// them that are edges of the mesh match.
 class PlaceMatch
 {
 public:
-  /// @param pairs ids of `others`.
+  /// @param pairs point ids of `others`.
   PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs, const PointArray& mesh);
 
-  /// Adds pairs of the mesh's points. A pair at a place where the mesh has no edge may be among
-  /// them; pairs at places where it has no points are counted as unmatched.
+  /// Adds pairs of the mesh's points. Some of them may not be edges of the mesh. Pairs with an end
+  /// where the mesh has no point are counted as unmatched.
   void AddEdges(const TriangleArray& triangles, ConstraintEdges& edges) const;
 
 private:
@@ -35,8 +35,8 @@ private:
   std::int64_t GetPlace(std::int64_t point) const;
 
   PointPlaces Places;
-  std::vector<PointPair> Wanted; ///< Pairs of places, ascending, none twice.
-  std::vector<std::int64_t> PlaceOfPoint; ///< Of the mesh, or None.
+  std::vector<PointPair> Wanted; ///< Pairs of places, sorted and unique.
+  std::vector<std::int64_t> PlaceOfPoint; ///< For every point of the mesh its place, or None.
   std::vector<std::int64_t> PointsAtPlace; ///< How many points of the mesh lie there.
   std::vector<std::int64_t> PointOfPlace; ///< The first of them.
 };

@@ -18,7 +18,7 @@ void PointIdCheck::RequireValid(vtkCellArray* cells) const
   {
     std::ostringstream message;
     message << "The offsets and the connectivity of the cell array of " << this->What << " "
-            << this->FirstCell << " and following contradict each other.";
+            << this->FirstCell << " and the following ones contradict each other.";
     throw InvalidMesh(message.str(), this->FirstCell, -1);
   }
 }

@@ -11,17 +11,17 @@ class vtkIdList;
 namespace delaunayflip
 {
 
-/// Guards one cell array of a vtkPolyData before anything follows its ids.
+/// Checks one cell array of a vtkPolyData before any of its ids is used.
 struct PointIdCheck
 {
-  const char* What; ///< How errors call a cell, e.g. "cell".
+  const char* What; ///< What messages call a cell, e.g. "cell".
   vtkIdType FirstCell; ///< The cell id, in the vtkPolyData, of the array's first cell.
   vtkIdType NumberOfPoints;
 
   /// @throws InvalidMesh when offsets and connectivity of `cells` contradict each other.
   void RequireValid(vtkCellArray* cells) const;
 
-  /// @throws InvalidMesh when `id`, named by cell `cell` of the array, is no point.
+  /// @throws InvalidMesh when `id`, named by cell `cell` of the array, is not a point.
   void RequireInRange(vtkIdType cell, vtkIdType id) const
   {
     if (id < 0 || id >= this->NumberOfPoints)

@@ -11,7 +11,7 @@ namespace delaunayflip
 
 std::size_t PointPlaces::Hash::operator()(const Bits& bits) const
 {
-  // Coordinates on a lattice differ in few, high bits: multiply, and fold those down.
+  // Coordinates on a lattice differ only in a few high bits: multiply, then fold those down.
   std::uint64_t hash = 0;
   for (const std::uint64_t word : bits)
   {

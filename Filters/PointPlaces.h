@@ -13,24 +13,24 @@
 namespace delaunayflip
 {
 
-/// Numbers the places of points, by their bits: coordinates are the same or they are not, except
-/// that -0 is 0.
+/// Numbers the distinct places of points. Coordinates are compared bit by bit, except that -0
+/// equals 0.
 class PointPlaces
 {
 public:
   static constexpr std::int64_t None = -1;
 
-  /// @param asFloats compare what coordinates become when they are rounded to float.
+  /// @param asFloats whether coordinates are rounded to float before they are compared.
   explicit PointPlaces(bool asFloats)
     : AsFloats(asFloats)
   {
   }
 
-  /// The number of the place of a point: 0, 1, ... in the order of first calls. A point with a
-  /// coordinate that is NaN or infinite has a place that nobody finds.
+  /// The number of a point's place: 0, 1, ... in the order of first calls. A point with a
+  /// coordinate that is NaN or infinite gets a place that Find never returns.
   std::int64_t Add(const PointArray& points, std::int64_t point);
 
-  /// The number of a point's place, None if none was added there. Any thread may ask.
+  /// The number of a point's place, or None if no point was added there. Thread-safe.
   std::int64_t Find(const PointArray& points, std::int64_t point) const;
 
   std::int64_t GetNumberOfPlaces() const { return this->NumberOfPlaces; }
@@ -47,7 +47,7 @@ private:
 
   bool AsFloats;
   std::int64_t NumberOfPlaces = 0;
-  std::unordered_map<Bits, std::int64_t, Hash> Numbers; ///< Looked up, never walked through.
+  std::unordered_map<Bits, std::int64_t, Hash> Numbers; ///< Never iterated over: its order varies.
 };
 
 }

@@ -12,10 +12,10 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// The points in place where they lie as the engine wants them, else a copy in `storage`.
+/// A view of the points if the engine can read their layout, else of a copy in `storage`.
 PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
 
-/// Whether both are as many and have the same bits.
+/// Whether both have the same number of points and the same bits.
 bool HaveSameBits(const PointArray& points, const PointArray& others);
 
 }

@@ -19,8 +19,8 @@ namespace delaunayflip
 
 class FlipSession;
 
-/// Both directions between vtkPolyData and the engine: translates, computes nothing. The mesh must
-/// outlive the bridge.
+/// Translates between vtkPolyData and the engine, in both directions; computes nothing. The mesh
+/// must outlive the bridge.
 class PolyDataBridge
 {
 public:
@@ -32,24 +32,25 @@ public:
   };
 
   /// @param constraints may be null.
-  /// @param progress hears how much of the splitting of polygons is done, where there are any.
+  /// @param progress is told the share of polygons that are split, if there are any.
   /// @throws InvalidMesh, InvalidOptions, SplitAborted.
   PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings,
     const ProgressObserver& progress = {});
 
-  /// Whether polygons had to be split or copied, which takes time.
+  /// Whether polygons had to be split or copied.
   bool HasSplit() const { return !this->Slots.AreInPlace(); }
 
-  /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
+  /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
 
-  /// Edges of the second input where the mesh has none. More may be among GetMesh()'s.
+  /// How many edges of the second input have an end where the mesh has no point. GetMesh() may hold
+  /// more edges that are unmatched.
   std::int64_t GetNumberOfUnmatchedConstraints() const { return this->Constraints.Unmatched; }
 
-  /// Views of the mesh or of this bridge, none of them of an output.
+  /// Views of arrays of the mesh or of this bridge, never of an output.
   TriangleMesh GetMesh() const;
 
-  /// Writes the session's triangles and all that passes of the mesh.
+  /// Writes the session's triangles, and whatever passes from the mesh.
   void Store(const FlipSession& session, vtkPolyData* output) const;
 
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
@@ -58,7 +59,7 @@ public:
   /// Adds vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter to the cells of such an output.
   void StoreAngles(const FlipSession& session, int threads, vtkPolyData* output) const;
 
-  /// Turns triangle numbers into ids of the mesh's cells, for warnings.
+  /// Replaces triangle ids by cell ids of the mesh, for warnings.
   void NumberCells(std::vector<Defect>& defects) const;
 
 private:
@@ -66,12 +67,12 @@ private:
   void LabelTriangles(const std::string& array);
 
   vtkPolyData* Mesh;
-  std::vector<double> Coordinates; ///< Of points that cannot be viewed in place.
+  std::vector<double> Coordinates; ///< A copy of points that cannot be viewed in place.
   PointArray Points;
   TriangleSlots Slots;
   ConstraintEdges Constraints;
   std::vector<std::int32_t> Regions; ///< Empty, or one per triangle.
-  std::vector<unsigned char> Frozen; ///< Empty, or one a triangle.
+  std::vector<unsigned char> Frozen; ///< Empty, or one per triangle.
 };
 
 }

@@ -16,7 +16,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Writes what Visit shows it.
+/// The archive that writes every value it is given.
 class Packer
 {
 public:
@@ -47,7 +47,7 @@ private:
   }
 };
 
-/// Reads it again, in the same order.
+/// The archive that reads them again, in the same order.
 class Unpacker
 {
 public:
@@ -159,7 +159,7 @@ UpdateSummary Unpack(const vtkMultiProcessStream& stream)
   return summary;
 }
 
-/// The one whose processes update a piece each, or null.
+/// The global controller, if each of its processes updates one piece; else null.
 vtkMultiProcessController* FindController(const Piece& piece)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
@@ -169,7 +169,7 @@ vtkMultiProcessController* FindController(const Piece& piece)
   return isShared ? controller : nullptr;
 }
 
-/// Makes each rank's summary that of all.
+/// Replaces each rank's summary by the sum over all ranks.
 void SumOverRanks(UpdateSummary& summary, vtkMultiProcessController* controller)
 {
   std::vector<vtkMultiProcessStream> streams;

@@ -8,18 +8,18 @@ namespace delaunayflip
 
 struct UpdateSummary;
 
-/// The piece of its input that an update was asked for.
+/// The piece that an update was requested for.
 struct Piece
 {
   int Number;
   int Count;
 };
 
-/// Makes the summary that of all pieces, where the processes of this program update one each, in
-/// the order of their ranks, as those of ParaView do and those of programs with a global
-/// vtkMultiProcessController. Every rank must come here once an update, whatever became of its
-/// meshes. Elsewhere it only notes that a piece has seams.
-/// @returns whether this process is the one that tells the user.
+/// Sums `summary` up over all pieces if each process of this program updates one piece, in the
+/// order of ranks. This is so in ParaView and in programs that set a global
+/// vtkMultiProcessController. Every rank must call this once per update, even if its meshes failed.
+/// In other programs, this only notes that a piece has seams.
+/// @returns whether this process gives the messages.
 bool JoinRanks(UpdateSummary& summary, const Piece& piece);
 
 }

@@ -19,7 +19,7 @@ namespace delaunayflip
 namespace
 {
 
-/// An order for all numbers: NaN counts as one value, before the others.
+/// The lexicographic order of tuples. All NaN are equal and come first.
 struct TupleLess
 {
   template <typename Value>
@@ -46,7 +46,7 @@ struct TupleLess
   }
 };
 
-/// Numbers the distinct tuples that it is shown.
+/// Numbers distinct tuples, in the order of appearance.
 template <typename Value>
 class Labeler
 {

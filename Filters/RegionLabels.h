@@ -12,10 +12,9 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// One label per cell: cells with equal tuples in the cell array `name` (numbers or strings, any
-/// number of components) have equal labels, numbered from 0 in the order of appearance.
-/// @throws InvalidOptions when there is no such array, or the number of its tuples is not that of
-/// the cells.
+/// One label per cell. Cells with equal tuples in the cell array `name` (numbers or strings, any
+/// number of components) get the same label. Labels count from 0 in the order of appearance.
+/// @throws InvalidOptions when there is no such array, or when it does not have one tuple per cell.
 std::vector<std::int32_t> LabelRegions(vtkPolyData* mesh, const std::string& name);
 
 }

@@ -11,19 +11,19 @@ namespace delaunayflip
 struct FlipReport;
 struct UpdateReport;
 
-/// How the names of arrays begin in the field data of a mesh, where the user may have a "Seconds"
-/// of his own. A table, which has nothing else, needs no prefix.
+/// The prefix of array names in the field data of a mesh, where the user may have an array
+/// "Seconds" already. A table has no other columns and needs no prefix.
 constexpr const char* FieldPrefix = "DelaunayFlip:";
 
-/// Adds one array for each column of the iterations, with one tuple per iteration. Arrays of equal
-/// names are replaced.
+/// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
+/// the same names.
 void AddIterationColumns(const FlipReport& report, const char* prefix, vtkFieldData* data);
 
-/// Adds these columns, and arrays of one tuple that sum the run up, to the field data of a mesh.
-/// Arrays of equal names are replaced.
+/// Adds these columns, and one-tuple arrays that sum up the run, to the field data of a mesh.
+/// Replaces arrays with the same names.
 void AddFieldData(const UpdateReport& report, vtkFieldData* data);
 
-/// Does so where it was done before.
+/// Updates what AddFieldData has added to the field data of a mesh, if it has.
 void RenewFieldData(const UpdateReport& report, vtkFieldData* data);
 
 }

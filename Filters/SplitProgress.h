@@ -13,16 +13,17 @@
 namespace delaunayflip
 {
 
-/// Thrown when an observer wants to stop while polygons are split.
+/// Thrown when an observer asks to stop while polygons are being split.
 struct SplitAborted
 {
 };
 
-/// Tells an observer how many of the points of some cells have been gone through.
+/// Tells an observer the progress of a pass over cells, measured in their points.
 class SplitProgress
 {
 public:
-  /// @param observer may be empty. @param points of all cells, each as often as cells name it.
+  /// @param observer may be empty.
+  /// @param points the sum of the sizes of all cells.
   SplitProgress(ProgressObserver observer, vtkIdType points)
     : Observer(std::move(observer)),
       Points(static_cast<double>(std::max<vtkIdType>(points, 1))),
@@ -33,7 +34,7 @@ public:
   SplitProgress(const SplitProgress&) = delete;
   SplitProgress& operator=(const SplitProgress&) = delete;
 
-  /// A cell of `size` points comes next. @returns an observer for the time that it takes.
+  /// Begins a cell of `size` points. @returns an observer of the work on this cell.
   const ProgressObserver& BeginCell(vtkIdType size)
   {
     this->CellSize = static_cast<double>(size);
@@ -43,7 +44,7 @@ public:
   /// @throws SplitAborted.
   void EndCell()
   {
-    constexpr vtkIdType PointsBetweenCalls = 16384; // some milliseconds
+    constexpr vtkIdType PointsBetweenCalls = 16384; // a few milliseconds
     const vtkIdType before = this->Done / PointsBetweenCalls;
     this->Done += static_cast<vtkIdType>(this->CellSize);
     if (this->Done / PointsBetweenCalls != before && !this->Tell(static_cast<double>(this->Done)))

@@ -26,7 +26,8 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
     const double before = elapsed;
     mayGoOn = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
     elapsed = getElapsed();
-    // Several at a time cost less, on a GPU above all, but one may take longer than those before.
+    // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
+    // take longer than those before, so batches grow slowly.
     const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
     iterations = std::min(fitting, 2.0 * iterations);
   } while (mayGoOn && iterations >= 1.0);

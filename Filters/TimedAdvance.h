@@ -10,7 +10,7 @@ namespace delaunayflip
 
 class FlipSession;
 
-/// FlipSession::Advance with as many iterations as fit a time, at least one.
+/// Calls FlipSession::Advance for as many iterations as fit into `seconds`, at least one.
 bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
   const ProgressObserver& progress = {});
 

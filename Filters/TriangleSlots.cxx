@@ -21,7 +21,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Whether offsets are 0, 3, 6, ...; all threads share the look.
+/// Whether offsets are 0, 3, 6, ...; checked by all threads.
 template <typename ArrayT>
 bool AreTriangleOffsets(ArrayT* offsets)
 {
@@ -110,7 +110,8 @@ bool TriangleSlots::ViewPolygons(vtkCellArray* polygons)
   }
   if (auto* ids64 = vtkArrayDownCast<Array64>(connectivity))
   {
-    // vtkTypeInt64 and std::int64_t are two names of one representation, long long and long.
+    // vtkTypeInt64 (long long) and std::int64_t (long) are distinct types of the same
+    // representation.
     this->Triangles =
       TriangleArray(reinterpret_cast<const std::int64_t*>(ids64->GetPointer(0)), count);
     return true;
@@ -199,7 +200,7 @@ void TriangleSlots::AddStripTriangles(vtkIdList* ids)
 {
   for (vtkIdType i = 0; i + 2 < ids->GetNumberOfIds(); ++i)
   {
-    // Every other triangle of a strip runs the other way round.
+    // Every other triangle of a strip is wound the other way.
     const vtkIdType odd = i % 2;
     this->Ids.insert(
       this->Ids.end(), { ids->GetId(i + odd), ids->GetId(i + 1 - odd), ids->GetId(i + 2) });

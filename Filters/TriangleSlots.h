@@ -20,39 +20,40 @@ namespace delaunayflip
 
 class SplitProgress;
 
-/// The triangles of a vtkPolyData: which cell each comes from, and which output cell it becomes.
+/// The triangles of a vtkPolyData: from which cell each is made, and which output cell it becomes.
 ///
-/// Polygons that are triangles all are viewed in place. All else is copied: polygons and strips as
-/// the triangles that they split into. A split cell either gives way to its triangles or, with
-/// `triangulate` off, stays, and its triangles are frozen and never come out.
+/// If all polygons are triangles, they are viewed in place. Otherwise polygons and strips are
+/// copied as the triangles into which they split. The output has these triangles in place of the
+/// cell; with `triangulate` off it has the cell itself, and the triangles are frozen and not part
+/// of the output.
 class TriangleSlots
 {
 public:
   static constexpr vtkIdType None = -1;
 
   /// @throws InvalidMesh when offsets and connectivity contradict each other, or when a polygon
-  /// that is copied, or a strip, names a point outside `points`. Those viewed in place are not
-  /// checked: the engine does that, much faster.
-  /// @param progress hears how much of what has to be copied is.
+  /// that is copied, or a strip, names a point outside `points`. Polygons viewed in place are
+  /// checked by the engine, which is much faster.
+  /// @param progress is told the share of cells that are copied.
   /// @throws SplitAborted.
   TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate,
     const ProgressObserver& progress = {});
   TriangleSlots(const TriangleSlots&) = delete;
   TriangleSlots& operator=(const TriangleSlots&) = delete;
 
-  /// @throws InvalidMesh that names the cell when a triangle names a point that is none.
+  /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds(vtkIdType numberOfPoints) const;
 
-  /// The triangles for the engine; a view of this object or of the mesh.
+  /// The triangles for the engine: a view of an array of this object or of the mesh.
   const TriangleArray& GetTriangles() const { return this->Triangles; }
 
-  /// Whether the output's cells are, one to one, those of the mesh.
+  /// Whether the cells of the output correspond one to one to those of the mesh.
   bool AreInPlace() const { return this->InPlace; }
 
-  /// Whether a cell gives way to more than one.
+  /// Whether some cell is replaced by more than one.
   bool DivideCells() const { return this->CellsAreDivided; }
 
-  /// The cell of the mesh that `triangle` comes from.
+  /// The cell of the mesh from which `triangle` is made.
   vtkIdType GetCell(vtkIdType triangle) const
   {
     return this->InPlace ? this->FirstPolygon + triangle : this->Cells[triangle];
@@ -67,26 +68,26 @@ public:
       this->InPlace ? this->Triangles.Count : static_cast<vtkIdType>(this->Polygons.size()));
   }
 
-  /// The triangle that output polygon `polygon` is, or None for one that stays as it is.
+  /// The triangle of output polygon `polygon`, or None if that is a cell that stays as it is.
   vtkIdType GetTriangle(vtkIdType polygon) const
   {
     return this->InPlace ? polygon : this->Polygons[polygon].Triangle;
   }
 
-  /// The cell of the mesh that output polygon `polygon` comes from.
+  /// The cell of the mesh from which output polygon `polygon` is made.
   vtkIdType GetCellOfPolygon(vtkIdType polygon) const
   {
     return this->InPlace ? this->FirstPolygon + polygon : this->Polygons[polygon].Cell;
   }
 
-  /// Cells of the mesh that are the strips of the output.
+  /// The cells of the mesh that become the strips of the output.
   const std::vector<vtkIdType>& GetStrips() const { return this->Strips; }
 
-  /// The cell of the mesh that is its first polygon, and its first strip.
+  /// The cell ids of the mesh's first polygon and first strip.
   vtkIdType GetFirstPolygon() const { return this->FirstPolygon; }
   vtkIdType GetFirstStrip() const { return this->FirstStrip; }
 
-  /// Whether output polygon i is triangle i, for all of either.
+  /// Whether output polygon i is triangle i for every i, and there are no others.
   bool ArePolygonsTriangles() const;
 
 private:
@@ -111,11 +112,11 @@ private:
   vtkIdType FirstStrip;
   TriangleArray Triangles;
 
-  // Empty in place. One entry per triangle (Ids: three):
+  // Empty if viewed in place, else with one entry per triangle (Ids: three):
   std::vector<std::int64_t> Ids;
   std::vector<vtkIdType> Cells;
   std::vector<unsigned char> Frozen;
-  // One entry an output cell:
+  // One entry per output cell:
   std::vector<OutputPolygon> Polygons;
   std::vector<vtkIdType> Strips;
 };

@@ -35,7 +35,8 @@ int GetSeverity(StopReasonKind reason)
   return 0;
 }
 
-/// Of meshes the one that has not yet, or no longer, an iteration of this number keeps its angle.
+/// The smallest angle of a mesh after iteration `row`. A mesh that made fewer iterations keeps its
+/// last angle.
 double GetMinimumAngle(const FlipReport& report, std::size_t row)
 {
   if (report.Triangles == 0)
@@ -46,7 +47,7 @@ double GetMinimumAngle(const FlipReport& report, std::size_t row)
                                         : report.MinimumAngleAfter;
 }
 
-/// Unknown where one of the two is.
+/// The smaller of two numbers; NaN, which stands for unknown, if either is.
 double GetSmaller(double a, double b)
 {
   return std::isnan(a) || std::isnan(b) ? a + b : std::min(a, b);
@@ -109,7 +110,7 @@ void AddGeometry(UpdateReport& sum, const UpdateReport& more)
     (more.GeometryUsed != GeometryKind::Auto && more.GeometryUsed != sum.GeometryUsed);
 }
 
-/// Adds a text to a list in words, unless it holds it already.
+/// Appends a text to a comma-separated list, unless the list contains it already.
 void AddText(std::string& list, const std::string& text)
 {
   if (list.find(text) == std::string::npos)

@@ -10,8 +10,8 @@
 namespace delaunayflip
 {
 
-/// What an update did to a mesh or, in sum, to several: the blocks of a composite dataset, the
-/// pieces of several processes.
+/// What an update did to a mesh, or the sum over several meshes: the blocks of a composite dataset
+/// or the pieces of several processes.
 struct UpdateReport : FlipReport
 {
   UpdateReport() = default;
@@ -20,16 +20,16 @@ struct UpdateReport : FlipReport
   {
   }
 
-  /// Whether the seconds of two reports passed one after the other or at the same time.
+  /// Whether two meshes were flipped one after the other or at the same time.
   enum class Timing
   {
     InTurn,
     AtOnce
   };
 
-  /// Adds what was done to another mesh: counts are summed, those of iterations row by row; the
-  /// stop reason is the worse one; angles are the smaller ones. Ids of defects, which only have a
-  /// meaning in one mesh, are dropped.
+  /// Adds the report of another mesh. Counts are summed, those of iterations row by row; the stop
+  /// reason is the worse of the two, and angles are the smaller ones. Ids of defects are dropped:
+  /// they mean nothing outside their mesh.
   void Add(const UpdateReport& other, Timing timing);
 
   /// GeometryUsed in words, or "mixed".

@@ -14,29 +14,29 @@
 namespace delaunayflip
 {
 
-/// What became of one mesh.
+/// The outcome of an update for one mesh.
 struct MeshOutcome
 {
   UpdateReport Report;
   FlipFailure Failure;
-  std::string Trouble; ///< What to warn of, or empty.
+  std::string Trouble; ///< The text of a warning, or empty.
 };
 
-/// What one update did to all of its meshes, and what is to be told.
+/// What one update did to all of its meshes, and the messages about it.
 struct UpdateSummary
 {
-  UpdateReport Report; ///< Of the meshes without a failure.
+  UpdateReport Report; ///< The sum over the meshes without a failure.
   int Failure = 0; ///< The kind of the first one; 0: none.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
   std::vector<std::int64_t> Blocks; ///< Numbers of the meshes that have triangles.
-  bool HasSeams = false; ///< Whether a mesh lies in pieces, between which no edge can flip.
+  bool HasSeams = false; ///< Whether some mesh is divided into pieces, whose seams never flip.
 
-  /// Adds a mesh: a block of this number, with `where` as notes call it, or, 0 and "", the only
-  /// one.
+  /// Adds a mesh: the block with this number, which notes call `where`; or 0 and "" if it is the
+  /// only mesh.
   void AddMesh(const MeshOutcome& mesh, std::int64_t block, const std::string& where);
 
-  /// Adds what another process did at the same time. A block that both have lies in pieces.
+  /// Adds what another process did at the same time. A block that both have is divided into pieces.
   void AddRank(const UpdateSummary& other, int rank);
 };
 

@@ -7,13 +7,13 @@
 #include "vtkVersionMacros.h"
 
 /// @file
-/// All that differs between the versions of VTK.
+/// Everything that depends on the version of VTK.
 
 namespace delaunayflip
 {
 
-/// Whether `filter` is to stop: asked itself or, from VTK 9.3 on, through a filter upstream. A
-/// filter that was asked itself keeps its output, which the executive would otherwise empty.
+/// Whether `filter` was asked to abort, directly or, from VTK 9.3 on, through a filter upstream.
+/// After a direct request the filter keeps its output, which the executive would otherwise empty.
 inline bool IsAbortRequested(vtkAlgorithm* filter)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)

@@ -21,7 +21,7 @@
 
 using namespace delaunayflip;
 
-// The enumerations of the engine and of the class are the same numbers.
+// The enumerators of the engine and of this class have the same values.
 static_assert(static_cast<int>(GeometryKind::Surface) == vtkDelaunayFlip::GEOMETRY_SURFACE, "");
 static_assert(
   static_cast<int>(CriterionKind::OppositeAngles) == vtkDelaunayFlip::CRITERION_OPPOSITE_ANGLES,
@@ -61,7 +61,7 @@ void vtkDelaunayFlip::ReleaseDeviceMemory()
   }
   catch (...)
   {
-    // The destructor comes here. What could not be given back stays for the next run.
+    // The destructor calls this, so nothing may be thrown. Memory not released serves the next run.
   }
 }
 
@@ -84,7 +84,7 @@ int vtkDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   this->Superclass::FillInputPortInformation(port, info);
-  // Else the executive would run the filter once a block: nothing would know of all of them.
+  // Otherwise the executive would run the filter once per block, and no sums could be made.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }

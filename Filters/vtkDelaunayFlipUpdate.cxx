@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What vtkDelaunayFlip does in an update.
+/// The part of vtkDelaunayFlip that runs in an update.
 
 #include "vtkDelaunayFlip.h"
 
@@ -61,14 +61,14 @@ int vtkDelaunayFlip::RequestData(
       { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
   }
   this->Tell(summary, isFirst);
-  // The rows sum up all ranks, and ParaView would show those of each rank one below the other.
+  // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
   AddIterationColumns(
     isFirst ? *this->Report : UpdateReport(), "", vtkTable::GetData(outputVector, 1)->GetRowData());
   if (mesh && piece.Count > 1)
   {
     RenewFieldData(*this->Report, mesh->GetFieldData());
   }
-  // After an error too: 0 would keep what is downstream from executing, and a representation of
+  // Even after an error: 0 would keep filters downstream from executing, and a representation of
   // ParaView that did not execute ignores all later changes.
   return 1;
 }
@@ -113,7 +113,7 @@ UpdateSummary vtkDelaunayFlip::FlipMesh(
   auto* edges = vtkPolyData::SafeDownCast(constraints);
   if (!mesh)
   {
-    outcome.Failure = { FAILURE_MESH, "the input is no surface; apply Extract Surface first" };
+    outcome.Failure = { FAILURE_MESH, "the input is not a surface; apply Extract Surface first" };
   }
   else if (constraints && !edges)
   {
@@ -134,7 +134,7 @@ UpdateSummary vtkDelaunayFlip::FlipBlocks(
   vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output)
 {
   UpdateSummary summary;
-  summary.Report.StopReason = StopReasonKind::Converged; // of no blocks
+  summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
   auto* edges = vtkCompositeDataSet::SafeDownCast(constraints);
   std::map<unsigned int, vtkPolyData*> edgesOfBlocks;
   if (edges)
@@ -153,7 +153,7 @@ UpdateSummary vtkDelaunayFlip::FlipBlocks(
   return summary;
 }
 
-/// @returns the block that comes out.
+/// @returns the block of the output.
 vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipBlock(
   const Block& block, vtkPolyData* constraints, UpdateSummary& summary)
 {
@@ -189,7 +189,7 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
   outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);
   if (this->Run && outcome.Trouble == std::exchange(this->Run->Warning, outcome.Trouble))
   {
-    outcome.Trouble.clear(); // live updates warn of the same once
+    outcome.Trouble.clear(); // live updates give each warning once
   }
   return outcome;
 }
@@ -207,7 +207,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   }
   if (!data.IsLive)
   {
-    last.reset(); // before another takes as much memory
+    last.reset(); // before another run needs as much memory
   }
   std::unique_ptr<FlipRun> run = this->GoOn(std::move(last), data);
   if (!run)
@@ -219,7 +219,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   *this->Report = UpdateReport(run->GetReport());
   const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
   run->Store(data.Output, { this->GenerateFlipCount, this->GenerateQuality });
-  // Not before: a GPU may fail while its result is fetched.
+  // Only now: a GPU may still fail while its result is copied.
   *this->Report = UpdateReport(run->GetReport());
   AddFieldData(*this->Report, data.Output->GetFieldData());
   if (data.IsLive)
@@ -229,14 +229,14 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   }
 }
 
-/// The output is the input as it is.
+/// Passes the input to the output unchanged.
 void vtkDelaunayFlip::PassInput(const Connection& data, StopReasonKind reason)
 {
   this->Report->StopReason = reason;
   data.Output->ShallowCopy(data.Input);
 }
 
-/// @returns null when it was stopped while polygons were split.
+/// @returns null if the update was aborted while polygons were being split.
 std::unique_ptr<FlipRun> vtkDelaunayFlip::GoOn(
   std::unique_ptr<FlipRun> last, const Connection& data)
 {
@@ -282,7 +282,7 @@ bool vtkDelaunayFlip::Advance(FlipRun& run, bool isLive)
     run.ScaleProgress([this](double fraction) { return this->ObserveProgress(fraction); });
   if (isLive && this->IterationsPerUpdate == 0)
   {
-    constexpr double Seconds = 0.05; // the header says so
+    constexpr double Seconds = 0.05; // as documented in the header
     return AdvanceFor(session, Seconds, observer, progress);
   }
   return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, progress);
@@ -297,7 +297,7 @@ bool vtkDelaunayFlip::Observe(const IterationRecord& record)
 
 bool vtkDelaunayFlip::ObserveProgress(double fraction)
 {
-  // Of all blocks, of which this may be one.
+  // The share of the whole update, of which this block may be a part.
   const double share = this->GetProgressShift() + this->GetProgressScale() * fraction;
   const bool goesBack = share < this->GetProgress() && this->GetProgressScale() > 0.0;
   this->UpdateProgress(goesBack

@@ -9,10 +9,10 @@
     flip.Update()
     mesh = flip.GetOutput()
 
-delaunayflip.vtkDelaunayFlipLiveView, where it was built, shows the filter at work in a window. It
-is loaded when it is first asked for, with VTK's OpenGL; the filter alone needs neither.
+delaunayflip.vtkDelaunayFlipLiveView, if it was built, shows the filter at work in a window. It is
+loaded at its first use, together with VTK's OpenGL modules. The filter alone needs neither.
 """
-# The classes that vtkDelaunayFlip derives from and returns must be known before it is.
+# Base classes and return types of vtkDelaunayFlip must be loaded before it.
 import vtkmodules.vtkCommonCore
 import vtkmodules.vtkCommonDataModel
 import vtkmodules.vtkCommonExecutionModel
@@ -23,10 +23,10 @@ __all__ = ["vtkDelaunayFlip"]
 
 
 def __getattr__(name):
-    """The live view, when it is first asked for."""
+    """Loads the live view at its first use."""
     if name != "vtkDelaunayFlipLiveView":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    # These register what draws, and what moves the camera, with the classes that use it.
+    # These modules register the rendering backend and the interactor styles.
     import vtkmodules.vtkInteractionStyle
     import vtkmodules.vtkRenderingFreeType
     import vtkmodules.vtkRenderingOpenGL2

@@ -175,7 +175,7 @@ class OtherData(BadFileTest):
         write_mesh(make_mesh([(0, 0, 0), (1, 0, 0)], []), self.path("points.vtk"))
         for extension in (".vtk", ".vtp", ".ply", ".obj"):
             result = self.succeed("points.vtk", "out" + extension)
-            self.assertIn("note: points.vtk: no triangles", result.stderr)
+            self.assertIn("note: points.vtk: contains no triangles", result.stderr)
             self.assertEqual(read_mesh(self.path("out" + extension)).GetNumberOfPoints(), 2)
 
 

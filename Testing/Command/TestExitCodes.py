@@ -91,7 +91,7 @@ class BadFile(CommandTest):
     def test_output_not_writable(self):
         self.fail_with(3, self.mesh, "none/out.vtk", naming=["none/out.vtk", "No such file"])
         os.mkdir(self.path("folder.vtk"))
-        self.fail_with(3, self.mesh, "folder.vtk", naming=["folder.vtk", "plain file"])
+        self.fail_with(3, self.mesh, "folder.vtk", naming=["folder.vtk", "regular file"])
 
     def test_nothing_is_written_when_one_file_cannot_be(self):
         self.fail_with(3, self.mesh, "out.vtk", "--report", "none/r", naming=["none/r"])

@@ -31,7 +31,7 @@ class Summary(CommandTest):
         for words in (
             "8 points, 6 triangles, 13 edges (8 fixed)\n",
             "geometry        planar: all points lie in one plane; the feature angle has no effect\n",
-            "violations      1 -> 0",
+            "bad edges       1 -> 0",
             "9 in 5 iterations, converged",
             "wrote           out.vtk",
         ):

@@ -231,7 +231,7 @@ TEST(ConstraintPlaces, LinesOfTheMeshAndOthersTogether)
   WatchedFilter filter(mesh);
   EXPECT_EQ(Constrain(filter, lines), Counts(2, 2));
   for (const char* text : { "1 constraint edges that are not edges of the mesh",
-         "1 constraint edges of the second input where the mesh has no edge" })
+         "1 constraint edges of the second input that the mesh does not have" })
   {
     EXPECT_NE(filter.GetWarnings()[0].find(text), std::string::npos) << filter.GetWarnings()[0];
   }
