@@ -17,9 +17,10 @@ enum class GeometryKind
 {
   /// Planar when all used points lie in one plane (within 1e-6 of the bounding box's diagonal).
   /// Else PlanarXY when the mesh is a height field over x and y, and either z extends further than
-  /// both of them (mixed units) or 95 % of the area in space slopes below 45 degrees. A height
-  /// field: all triangles but at most one in 1,000 have area in x and y and turn the same way, and
-  /// around no point they turn more than once. Else Surface. FlipReport::GeometryReason says why.
+  /// both of them (mixed units) or 95 % of the area in space slopes below 45 degrees: the
+  /// planes of triangles or, of slivers, their edges. A height field: all triangles but at most one
+  /// in 1,000 have area in x and y and turn the same way, and around no point they turn more than
+  /// once. Else Surface. FlipReport::GeometryReason says why.
   Auto,
   Planar, ///< In the plane of the points, whatever its orientation; an error if there is none.
   PlanarXY, ///< By x and y; z rides along (terrain).

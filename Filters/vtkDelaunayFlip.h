@@ -119,10 +119,11 @@ public:
    * PLANAR_XY when the mesh is a height field over x and y (all triangles but at most one in 1,000
    * have area there and turn the same way, and around no point they turn more than once) and either
    * z extends further than x and y, as with degrees and metres, or 95 % of the area slopes below 45
-   * degrees.
+   * degrees. The slope of a sliver is that of its steepest edge: planes of slivers are steep in the
+   * gentlest terrain.
    *
    * SURFACE else. One warning is given where only a few triangles, less than one in 100, stood
-   * against PLANAR_XY. Ask for PLANAR_XY where terrain is steeper: slivers are.
+   * against PLANAR_XY. Ask for PLANAR_XY where terrain is steeper.
    *
    * GetGeometryReason() says why. Where SURFACE is used on a height field, by choice or not, and
    * its flips turn triangles over in x and y, a warning counts them.

@@ -38,6 +38,29 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b,
   return sign == UncertainSign ? 0 : sign;
 }
 
+/// Whether a triangle slopes below 45 degrees: its plane or, of a sliver, its three edges. A sliver
+/// is less than a fifth as high as its longest edge is long.
+///
+/// An edge joins two points of the terrain, so its slope is one that the terrain has. The plane of
+/// a sliver may be steep in the gentlest terrain.
+/// @param normal of length twice the area.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const Vector3& normal)
+{
+  constexpr double Fifth = 0.2;
+  const double squaredArea = Dot(normal, normal);
+  bool isSliver = false;
+  bool areEdgesGentle = true;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const Vector3 edge = corners[(slot + 1) % 3] - corners[slot];
+    const double square = Dot(edge, edge);
+    isSliver = isSliver || squaredArea < Fifth * Fifth * square * square;
+    areEdgesGentle = areEdgesGentle && edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
+  }
+  const bool isPlaneGentle = normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y;
+  return isPlaneGentle || (isSliver && areEdgesGentle);
+}
+
 /// A sum of areas in units of 2^-60, in two words so that a billion of them fit.
 struct AreaSum
 {
@@ -126,15 +149,14 @@ struct TurnStep
     {
       return;
     }
-    const Vector3 a = this->Triangles.GetCorner(t, 0);
-    const Vector3 b = this->Triangles.GetCorner(t, 1);
-    const Vector3 c = this->Triangles.GetCorner(t, 2);
-    const int turn = FindTurn(a, b, c);
+    const Vector3 corners[3] = { this->Triangles.GetCorner(t, 0), this->Triangles.GetCorner(t, 1),
+      this->Triangles.GetCorner(t, 2) };
+    const int turn = FindTurn(corners[0], corners[1], corners[2]);
     (turn == 0 ? sums.Flat : (turn > 0 ? sums.Left : sums.Right)).Note(t);
-    const Vector3 normal = AreaVector(a, b, c);
+    const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
     const double area = Length(normal) * this->Factor * this->Factor;
     sums.All.Add(area);
-    if (normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y)
+    if (IsGentle(corners, normal))
     {
       sums.Gentle.Add(area);
     }

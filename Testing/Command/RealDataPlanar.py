@@ -68,6 +68,12 @@ class Planar(RealDataTest):
         self.assertIn("100 % of its area slopes below 45 degrees", report["geometry_reason"])
         self.assertEqual(report["total_flips"], 0)
 
+    def test_auto_knows_terrain_full_of_slivers(self):
+        report = self.flip("tin_bigtujunga_bad_60k.vtk")
+        self.assertEqual(report["geometry"], "planar-xy")
+        self.assertIn("99 % of its area slopes below 45 degrees", report["geometry_reason"])
+        self.assertEqual(report["non_delaunay_after"], 0)
+
     def test_bad_terrain(self):
         report = self.flip("tin_bigtujunga_bad_60k.vtk", *XY)
         self.assertEqual((report["non_delaunay_before"], report["non_delaunay_after"]), (34770, 0))

@@ -3,6 +3,7 @@
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
 #include "Predicates.h"
+#include "SurfaceAngles.h"
 
 #include <gtest/gtest.h>
 
@@ -175,6 +176,82 @@ TEST(GeometryChoice, ADomeScanIsASurface)
   ExpectChoice(dome, GeometryKind::Surface,
     "a height field over x, y, but only 29 % of its area slopes below 45 degrees");
   ExpectNoDefects(dome);
+}
+
+/// Random points in a square around the origin, badly triangulated: slivers, with heights.
+OwnedMesh<double> MakeSlivers(const HeightOf& height)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(5000, 34);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] = 2.0 * mesh.Points[i] - 1.0;
+    mesh.Points[i + 1] = 2.0 * mesh.Points[i + 1] - 1.0;
+    mesh.Points[i + 2] = height(mesh.Points[i], mesh.Points[i + 1]);
+  }
+  return mesh;
+}
+
+/// Part of the area of triangles whose planes slope below 45 degrees.
+double FindGentleShare(const OwnedMesh<double>& mesh)
+{
+  double all = 0.0;
+  double gentle = 0.0;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+  {
+    const auto corner = [&](int slot)
+    {
+      const double* p = &mesh.Points[3 * mesh.Triangles[t + slot]];
+      return Vector3{ p[0], p[1], p[2] };
+    };
+    const Vector3 normal = AreaVector(corner(0), corner(1), corner(2));
+    all += Length(normal);
+    gentle += normal.Z > std::hypot(normal.X, normal.Y) ? Length(normal) : 0.0;
+  }
+  return gentle / all;
+}
+
+/// The planes of slivers are steep where no edge is.
+TEST(GeometryChoice, GentleTerrainMayBeFullOfSlivers)
+{
+  const OwnedMesh<double> hills =
+    MakeSlivers([](double x, double y) { return 0.1 * std::sin(8.0 * x) * std::cos(6.0 * y); });
+  EXPECT_GT(0.1, FindGentleShare(hills));
+  ExpectChoice(hills, GeometryKind::PlanarXY, "97 % of its area slopes below 45 degrees");
+  const FlipResult result = Flip(hills.View());
+  EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+  EXPECT_EQ(0, CountRight(hills, result.Triangles));
+}
+
+struct SteepScan
+{
+  HeightOf Height;
+  const char* Share; ///< What counts as gentle: level parts, and slivers that run across the slope.
+};
+
+/// A dome, a box with tapered sides, and a roof of 53 degrees.
+TEST(GeometryChoice, SteepScansFullOfSliversAreSurfaces)
+{
+  const SteepScan scans[] = {
+    { [](double x, double y) { return std::sqrt(2.01 - x * x - y * y); }, "but only 34 %" },
+    { [](double x, double y)
+      { return std::clamp(20.0 * (0.6 - std::max(std::fabs(x), std::fabs(y))), 0.0, 0.8); },
+      "but only 15 %" },
+    { [](double x, double) { return 1.35 * std::fabs(x); }, "but only 6 %" },
+  };
+  for (const SteepScan& scan : scans)
+  {
+    ExpectChoice(MakeSlivers(scan.Height), GeometryKind::Surface, scan.Share);
+  }
+}
+
+/// Only slivers are judged by their edges: none of these slopes by more than 40 degrees, and the
+/// planes of the triangles by 60.
+TEST(GeometryChoice, WellShapedTrianglesAreJudgedByTheirPlanes)
+{
+  const double height = std::sqrt(3.0);
+  const OwnedMesh<double> roof = { { -2, 0, 0, 2, 0, 0, 0, -1, -height, 0, 1, -height },
+    { 0, 2, 1, 0, 1, 3 } };
+  ExpectChoice(roof, GeometryKind::Surface, "but only 0 % of its area slopes below 45 degrees");
 }
 
 /// A lattice in the plane of two axes, at a place on the third.
