@@ -22,8 +22,7 @@ namespace delaunayflip
 /// when it is convex, else its ears are clipped. Works in the plane of the polygon's area vector. A
 /// polygon that crosses itself or has no area still gives count - 2 triangles (a fan).
 /// @param ids the polygon's vertex ids, valid indices into `points`.
-/// @param progress of this polygon; called where clipping ears takes long, because its time grows
-/// with the square of `count`.
+/// @param progress of this polygon; called about every millisecond while ears are clipped.
 /// @returns false when `progress` returned false; nothing is appended then.
 DELAUNAYFLIP_EXPORT bool SplitPolygon(const PointArray& points, const std::int64_t* ids,
   std::int64_t count, std::vector<std::int64_t>& triangles, const ProgressObserver& progress = {});
