@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FileMutation.h"
+#include "FileSeeds.h"
+#include "FuzzTarget.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <stdexcept>
+
+/// @file
+/// The command as a target for fuzzers: mutated files of the five formats. The program forks for
+/// every file and calls the command's own main, so that VTK is loaded once.
+///
+/// Whatever the file holds, the command must end by itself with an exit code that its help names,
+/// say on one line or more what is wrong and with which file, leave the input and an earlier output
+/// as they are, and leave no other file behind. Where it succeeds, it must be able to read what it
+/// wrote.
+
+/// Command/main.cpp's main.
+int RunCommand(int argc, char** argv);
+
+namespace
+{
+
+using namespace delaunayflip;
+namespace fs = std::filesystem;
+
+constexpr const char* Formats[] = { "vtk", "vtp", "ply", "stl", "obj" };
+constexpr rlim_t MostMemory = rlim_t(4) << 30; // of addresses; files are of a few kB
+constexpr unsigned MostSeconds = 20;
+constexpr const char* EarlierOutput = "what was here before";
+
+[[noreturn]] void Fail(const std::string& what) { throw std::runtime_error(what); }
+
+std::string ReadFile(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+void WriteFile(const fs::path& path, const std::string& bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A folder that goes with the program, and the seed files.
+struct Workshop
+{
+  Workshop()
+  {
+    std::string name = (fs::temp_directory_path() / "delaunay-flip-fuzz-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+    {
+      Fail("no folder for temporary files");
+    }
+    this->Folder = name;
+    this->Owner = getpid();
+    this->Seeds = MakeSeedFiles(name);
+  }
+  ~Workshop()
+  {
+    if (getpid() == this->Owner)
+    {
+      std::error_code ignored;
+      fs::remove_all(this->Folder, ignored);
+    }
+  }
+
+  fs::path Folder;
+  int Owner;
+  std::vector<SeedFile> Seeds;
+};
+
+const Workshop& GetWorkshop()
+{
+  static const Workshop workshop;
+  return workshop;
+}
+
+/// A case: a file, and what the command is to do with it.
+struct FileCase
+{
+  std::string Input, Output; ///< Names in the folder of the case.
+  std::string Bytes;
+  bool HasEarlierOutput = false;
+};
+
+FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
+{
+  const std::vector<SeedFile>& seeds = GetWorkshop().Seeds;
+  ByteSource source(bytes, size);
+  // Every format as often as the others, however many seeds it has.
+  const char* format = Formats[source.Draw(5)];
+  std::vector<const SeedFile*> candidates;
+  for (const SeedFile& seed : seeds)
+  {
+    if (seed.Extension == format)
+    {
+      candidates.push_back(&seed);
+    }
+  }
+  const auto draw = [&] { return source.Draw(static_cast<std::uint32_t>(candidates.size())); };
+  FileCase drawn;
+  drawn.Input = std::string("in.") + format;
+  drawn.Output = std::string("out.") + Formats[source.Draw(5)];
+  drawn.HasEarlierOutput = source.Once(4);
+  const std::string& seed = candidates[draw()]->Bytes;
+  drawn.Bytes = MutateFile(seed, candidates[draw()]->Bytes, source);
+  return drawn;
+}
+
+/// In the child: the command as a shell runs it, its output in a file.
+[[noreturn]] void RunInChild(const fs::path& folder, const std::string& in, const std::string& out)
+{
+  const int text = open((folder / "text").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+  dup2(text, STDOUT_FILENO);
+  dup2(text, STDERR_FILENO);
+  const rlimit memory = { MostMemory, MostMemory };
+  setrlimit(RLIMIT_AS, &memory);
+  alarm(MostSeconds); // of the watching process; its child goes with it
+  std::string words[] = { "delaunay-flip", (folder / in).string(), (folder / out).string(),
+    "--threads", "1" };
+  char* argv[] = { words[0].data(), words[1].data(), words[2].data(), words[3].data(),
+    words[4].data(), nullptr };
+  const int code = RunCommand(5, argv);
+  std::cout.flush();
+  _exit(code);
+}
+
+/// @returns the exit code.
+int Run(const fs::path& folder, const std::string& in, const std::string& out)
+{
+  std::cout.flush();
+  const int child = fork();
+  if (child == 0)
+  {
+    for (const int caught : { SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
+    {
+      signal(caught, SIG_DFL);
+    }
+    RunInChild(folder, in, out);
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) != child)
+  {
+    Fail("no child process");
+  }
+  if (WIFSIGNALED(status))
+  {
+    const bool isHang = WTERMSIG(status) == SIGALRM;
+    Fail(isHang ? "hangs" : std::string("died of ") + strsignal(WTERMSIG(status)));
+  }
+  return WEXITSTATUS(status);
+}
+
+void ExpectNoOtherFiles(const fs::path& folder, const FileCase& drawn)
+{
+  for (const auto& entry : fs::directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name != drawn.Input && name != drawn.Output && name != "text")
+    {
+      Fail("leaves " + name);
+    }
+  }
+}
+
+/// A failure changes nothing and says which file it is about.
+void ExpectFailure(const fs::path& folder, const FileCase& drawn, const std::string& text)
+{
+  const bool exists = fs::exists(folder / drawn.Output);
+  if (exists != drawn.HasEarlierOutput)
+  {
+    Fail(exists ? "leaves an output" : "removes the earlier output");
+  }
+  if (exists && ReadFile(folder / drawn.Output) != EarlierOutput)
+  {
+    Fail("changes the earlier output");
+  }
+  if (text.find(drawn.Input) == std::string::npos && text.find(drawn.Output) == std::string::npos)
+  {
+    Fail("names no file: " + text);
+  }
+}
+
+void ExpectSuccess(const fs::path& folder, const FileCase& drawn)
+{
+  if (!fs::exists(folder / drawn.Output) || ReadFile(folder / drawn.Output) == EarlierOutput)
+  {
+    Fail("writes nothing and says that all is well");
+  }
+  const int code = Run(folder, drawn.Output, "again.vtk");
+  if (code != 0)
+  {
+    Fail("cannot read what it wrote: " + ReadFile(folder / "text"));
+  }
+}
+
+void JudgeFileCase(const fs::path& folder, const FileCase& drawn)
+{
+  WriteFile(folder / drawn.Input, drawn.Bytes);
+  if (drawn.HasEarlierOutput)
+  {
+    WriteFile(folder / drawn.Output, EarlierOutput);
+  }
+  const int code = Run(folder, drawn.Input, drawn.Output);
+  const std::string text = ReadFile(folder / "text");
+  ExpectNoOtherFiles(folder, drawn);
+  if (ReadFile(folder / drawn.Input) != drawn.Bytes)
+  {
+    Fail("changes the input");
+  }
+  if (code != 0 && code != 3 && code != 4)
+  {
+    Fail("exit code " + std::to_string(code) + ": " + text);
+  }
+  if (code == 3)
+  {
+    ExpectFailure(folder, drawn, text);
+  }
+  else
+  {
+    ExpectSuccess(folder, drawn);
+  }
+}
+
+}
+
+void SetUpTarget(int* /*argc*/, char** /*argv*/) { GetWorkshop(); }
+
+void RunTarget(const std::uint8_t* bytes, std::size_t size)
+{
+  const fs::path folder = GetWorkshop().Folder / "case";
+  fs::create_directory(folder);
+  try
+  {
+    JudgeFileCase(folder, MakeFileCase(bytes, size));
+  }
+  catch (...)
+  {
+    fs::remove_all(folder);
+    throw;
+  }
+  fs::remove_all(folder);
+}
+
+void PrintTarget(const std::uint8_t* bytes, std::size_t size)
+{
+  const FileCase drawn = MakeFileCase(bytes, size);
+  WriteFile(drawn.Input, drawn.Bytes);
+  std::cout << "wrote " << drawn.Input << "; its output is " << drawn.Output << std::endl;
+}
