@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellAttributes.h"
 
+#include "MalformedArrays.h"
 #include "PolygonSplit.h"
 #include "TriangleSlots.h"
 
@@ -113,9 +114,10 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
   targets->SetNumberOfIds(sources->GetNumberOfIds());
   std::iota(targets->begin(), targets->end(), 0);
 
+  const vtkSmartPointer<vtkCellData> whole = TakeWholeArrays(mesh);
   data->CopyAllOn();
-  data->CopyAllocate(mesh->GetCellData(), sources->GetNumberOfIds());
-  data->CopyData(mesh->GetCellData(), sources, targets);
+  data->CopyAllocate(whole, sources->GetNumberOfIds());
+  data->CopyData(whole, sources, targets);
   if (slots.DivideCells())
   {
     DemoteGlobalIds(data);
@@ -125,11 +127,14 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
 void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output)
 {
   vtkDataArray* shared = output->GetCellData()->GetNormals();
-  if (!shared)
+  if (!shared || shared->GetNumberOfComponents() != 3 ||
+    shared->GetNumberOfTuples() < output->GetNumberOfCells())
   {
     return;
   }
-  auto normals = vtkSmartPointer<vtkDataArray>::Take(shared->NewInstance());
+  // Not its NewInstance, which cannot be written where values are computed.
+  auto normals =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
   vtkSMPThreadLocalObject<vtkIdList> cells;
   vtkSMPTools::For(0, slots.GetNumberOfPolygons(),

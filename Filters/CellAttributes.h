@@ -15,12 +15,14 @@ class TriangleSlots;
 struct PointArray;
 
 /// Gives every cell of `output` the cell data of the cell of `mesh` from which it was made. Shares
-/// the arrays if all cells kept their positions. Where cells were divided, global ids become
-/// pedigree ids, or a plain array if the mesh has pedigree ids already.
+/// the arrays if all cells kept their positions; otherwise leaves out those with too few tuples.
+/// Where cells were divided, global ids become pedigree ids, or a plain array if the mesh has
+/// pedigree ids already.
 void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output);
 
 /// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
 /// normal that pointed against the winding of the old triangle points against that of the new one.
+/// Normals with too few tuples stay as they are.
 void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output);
 
 /// A cell array to be added.

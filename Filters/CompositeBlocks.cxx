@@ -66,22 +66,25 @@ void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
 {
   output->CopyStructure(input);
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
-  const double all = std::max(1.0, CountCells(input));
+  const auto blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
+  blocks->ShallowCopy(input);
+  const bool holdsMeshes = vtkDataObjectTree::SafeDownCast(input) != nullptr;
+  const double all = std::max(1.0, CountCells(blocks));
   double before = 0.0;
-  for (auto leaf = Traverse(input); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
     vtkDataObject* data = leaf->GetCurrentDataObject();
     const double own = CountCells(data);
-    const auto result = transform(
-      { data, leaf->GetCurrentFlatIndex(), GetName(leaf), own > 0.0, before / all, own / all });
+    const auto result = transform({ data, leaf->GetCurrentFlatIndex(), GetName(leaf), own > 0.0,
+      holdsMeshes, before / all, own / all });
     output->SetDataSet(leaf, result);
     before += own;
   }
 }
 
-std::map<unsigned int, vtkPolyData*> ListMeshes(vtkCompositeDataSet* blocks)
+std::map<unsigned int, vtkSmartPointer<vtkPolyData>> ListMeshes(vtkCompositeDataSet* blocks)
 {
-  std::map<unsigned int, vtkPolyData*> meshes;
+  std::map<unsigned int, vtkSmartPointer<vtkPolyData>> meshes;
   for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
     if (auto* mesh = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()))

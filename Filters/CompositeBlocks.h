@@ -23,17 +23,18 @@ struct Block
   unsigned int Number; ///< VTK's flat index.
   std::string Name; ///< Its name in messages: "block 3 (wing)".
   bool HasCells;
+  bool MayBeMesh; ///< Whether the dataset can hold a mesh in its place. AMR cannot.
   double Before; ///< The share of the dataset's cells in the leaves before it, 0 to 1.
   double Share; ///< The share of the dataset's cells in it, 0 to 1.
 };
 
 /// Gives `output` the structure of `input`, and for each leaf the result of `transform`. Empty
-/// leaves stay empty.
+/// leaves stay empty. `transform` may change `input`.
 void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   const std::function<vtkSmartPointer<vtkDataObject>(const Block& block)>& transform);
 
 /// The polygonal leaves, by their flat indices.
-std::map<unsigned int, vtkPolyData*> ListMeshes(vtkCompositeDataSet* blocks);
+std::map<unsigned int, vtkSmartPointer<vtkPolyData>> ListMeshes(vtkCompositeDataSet* blocks);
 
 /// Whether some dataset in `blocks` is divided into partitions. (Blocks, by contrast, are meshes of
 /// their own.)

@@ -7,6 +7,7 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 namespace delaunayflip
 {
@@ -30,6 +31,10 @@ FlipFailure Attempt(const std::function<void()>& work)
   {
     return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
   }
+  catch (const std::invalid_argument& error) // of a subclass of the filter
+  {
+    return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
+  }
   catch (const std::bad_alloc&)
   {
     return { vtkDelaunayFlip::FAILURE_OTHER, "not enough memory" };
@@ -37,6 +42,10 @@ FlipFailure Attempt(const std::function<void()>& work)
   catch (const std::exception& error)
   {
     return { vtkDelaunayFlip::FAILURE_OTHER, error.what() };
+  }
+  catch (...)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, "an exception of unknown type" };
   }
 }
 

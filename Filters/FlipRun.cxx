@@ -22,17 +22,29 @@ void Stamp(vtkObject* object, std::vector<vtkMTimeType>& stamps)
   stamps.push_back(object ? object->GetMTime() : 0);
 }
 
+/// Cells grow in place without being marked as modified: how many values, and where.
+void StampPlace(vtkDataArray* array, std::vector<vtkMTimeType>& stamps)
+{
+  Stamp(array, stamps);
+  const void* place = array->HasStandardMemoryLayout() ? array->GetVoidPointer(0) : nullptr;
+  stamps.push_back(static_cast<vtkMTimeType>(array->GetNumberOfValues()));
+  stamps.push_back(static_cast<vtkMTimeType>(reinterpret_cast<std::uintptr_t>(place)));
+}
+
 void Stamp(vtkCellArray* cells, std::vector<vtkMTimeType>& stamps)
 {
   Stamp(static_cast<vtkObject*>(cells), stamps);
-  Stamp(cells->GetOffsetsArray(), stamps);
-  Stamp(cells->GetConnectivityArray(), stamps);
+  StampPlace(cells->GetOffsetsArray(), stamps);
+  StampPlace(cells->GetConnectivityArray(), stamps);
 }
 
 void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
 {
   Stamp(mesh->GetPoints(), stamps);
-  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
+  if (mesh->GetPoints())
+  {
+    StampPlace(mesh->GetPoints()->GetData(), stamps);
+  }
 }
 
 /// How the progress of an update is divided: up to SplitShare polygons are split, if there are any;
@@ -56,16 +68,23 @@ bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b
     a.RegionArray == b.RegionArray;
 }
 
-/// The input, with a copy of its points on request.
-vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
+vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* input)
 {
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->ShallowCopy(input);
+  return mesh;
+}
+
+/// The input, with a copy of its points on request.
+vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
+{
+  const vtkSmartPointer<vtkPolyData> mesh = ShareMesh(input);
   if (copyPoints && input->GetPoints())
   {
     vtkPoints* points = input->GetPoints();
     // Not vtkPoints::DeepCopy, which rounds to the precision of the copy.
-    auto data = vtkSmartPointer<vtkDataArray>::Take(points->GetData()->NewInstance());
+    auto data =
+      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(points->GetDataType()));
     data->DeepCopy(points->GetData());
     vtkNew<vtkPoints> copy;
     copy->SetData(data);
@@ -80,11 +99,21 @@ vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
 FlipRun::Snapshot::Snapshot(
   const Request& request, bool copyPoints, const ProgressObserver& progress)
   : Mesh(TakeMesh(request.Input, copyPoints)),
+    Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
     Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
     Time(request.Input->GetMTime()),
-    Bridge(Mesh, request.Constraints, request.Settings, progress)
+    Bridge(Mesh, Constraints, request.Settings, progress)
 {
+}
+
+/// For a second snapshot: observers may have emptied the inputs since this one.
+FlipRun::Request FlipRun::Snapshot::Repeat(const Request& request) const
+{
+  Request same = request;
+  same.Input = this->Mesh;
+  same.Constraints = this->Constraints;
+  return same;
 }
 
 /// Of the attributes only region labels and ghosts matter.
@@ -126,9 +155,9 @@ FlipRun::FlipRun(const Request& request, Start start)
   : Settings(request.Settings),
     Options(request.Options),
     Current(std::make_shared<Snapshot>(request, false, Scale(request.Progress, 0.0, SplitShare))),
-    Origin(request.IsLive
-        ? std::make_shared<Snapshot>(request, true, Scale(request.Progress, SplitShare, SplitShare))
-        : Current),
+    Origin(request.IsLive ? std::make_shared<Snapshot>(Current->Repeat(request), true,
+                              Scale(request.Progress, SplitShare, SplitShare))
+                          : Current),
     Begin(std::move(start)),
     Session(this->MakeSession(this->IsWarm() ? nullptr : request.Progress)),
     Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted)
@@ -252,6 +281,7 @@ FlipReport FlipRun::GetReport() const
     this->AddUnmatchedConstraints(report);
   }
   this->Current->Bridge.NumberCells(report.Defects);
+  this->Current->Bridge.AddDefects(report.Defects);
   return report;
 }
 

@@ -72,7 +72,7 @@ public:
   std::string Warning;
 
 private:
-  /// Modification times. No two objects ever have the same one.
+  /// Modification times, of which no two objects ever have the same one, and places of arrays.
   using Stamps = std::vector<vtkMTimeType>;
 
   /// An input as it was at some update, and the bridge to it.
@@ -80,7 +80,10 @@ private:
   {
     Snapshot(const Request& request, bool copyPoints, const ProgressObserver& progress = {});
 
+    Request Repeat(const Request& request) const;
+
     vtkSmartPointer<vtkPolyData> Mesh;
+    vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
     Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
     Stamps Points;
     vtkMTimeType Time;

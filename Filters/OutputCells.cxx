@@ -10,6 +10,7 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
@@ -51,31 +52,32 @@ void AskForHugePages(ArrayT* array)
 #endif
 }
 
-/// Offsets of triangles: those of `cells`, if it is not null and stores them as ArrayT; else new.
+/// Offsets of triangles. Not shared with the input, whose cells may grow in place later: the output
+/// would then have more offsets than connectivity.
 template <typename ArrayT>
-vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count, vtkCellArray* cells)
+vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count)
 {
-  if (auto* same = cells ? vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray()) : nullptr)
-  {
-    return same;
-  }
+  using Value = typename ArrayT::ValueType;
   auto offsets = vtkSmartPointer<ArrayT>::New();
   offsets->SetNumberOfValues(count + 1);
-  for (vtkIdType i = 0; i <= count; ++i)
-  {
-    offsets->SetValue(i, static_cast<typename ArrayT::ValueType>(3 * i));
-  }
+  Value* values = offsets->GetPointer(0);
+  vtkSMPTools::For(0, count + 1,
+    [values](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        values[i] = static_cast<Value>(3 * i);
+      }
+    });
   return offsets;
 }
 
 /// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
 /// values of ArrayT.
-/// @param source triangles whose offsets can be shared, or null.
 template <typename ArrayT, typename Id>
-vtkSmartPointer<vtkCellArray> BuildTriangles(
-  const FlipSession& session, vtkIdType count, vtkCellArray* source)
+vtkSmartPointer<vtkCellArray> BuildTriangles(const FlipSession& session, vtkIdType count)
 {
-  const vtkSmartPointer<ArrayT> offsets = MakeOffsets<ArrayT>(count, source);
+  const vtkSmartPointer<ArrayT> offsets = MakeOffsets<ArrayT>(count);
   vtkNew<ArrayT> connectivity;
   connectivity->SetNumberOfValues(3 * count);
   AskForHugePages(connectivity.Get());
@@ -126,12 +128,11 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
   }
   // Splitting may need more connectivity than 32-bit offsets can number.
   const vtkIdType count = slots.GetTriangles().Count;
-  vtkCellArray* source = slots.AreInPlace() ? mesh->GetPolys() : nullptr;
   if (Uses64BitIds(mesh) || 3 * count > std::numeric_limits<std::int32_t>::max())
   {
-    return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count, source);
+    return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count);
   }
-  return BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count, source);
+  return BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
 }
 
 vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh)

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointViews.h"
 
+#include "FlipError.h"
+
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <cstring>
+#include <string>
 
 namespace delaunayflip
 {
@@ -30,6 +33,12 @@ PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
     return {};
   }
   vtkDataArray* data = mesh->GetPoints()->GetData();
+  if (data->GetNumberOfComponents() != 3)
+  {
+    throw InvalidMesh(
+      "Points must have 3 coordinates, not " + std::to_string(data->GetNumberOfComponents()) + ".",
+      -1, -1);
+  }
   if (auto* floats = vtkArrayDownCast<vtkAOSDataArrayTemplate<float>>(data))
   {
     return { static_cast<const float*>(floats->GetPointer(0)), count };

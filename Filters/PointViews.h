@@ -13,6 +13,7 @@ namespace delaunayflip
 {
 
 /// A view of the points if the engine can read their layout, else of a copy in `storage`.
+/// @throws InvalidMesh if points do not have three coordinates.
 PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
 
 /// Whether both have the same number of points and the same bits.

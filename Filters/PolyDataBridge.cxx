@@ -4,6 +4,7 @@
 
 #include "CellAttributes.h"
 #include "DelaunayFlip.h"
+#include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "PointViews.h"
 #include "RegionLabels.h"
@@ -104,6 +105,11 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
       }
     }
   }
+}
+
+void PolyDataBridge::AddDefects(std::vector<Defect>& defects) const
+{
+  AddMalformedArrays(this->Mesh, this->Slots.AreInPlace(), defects);
 }
 
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const

@@ -62,6 +62,9 @@ public:
   /// Replaces triangle ids by cell ids of the mesh, for warnings.
   void NumberCells(std::vector<Defect>& defects) const;
 
+  /// Adds what is wrong with the arrays of the mesh.
+  void AddDefects(std::vector<Defect>& defects) const;
+
 private:
   void FreezeGhosts();
   void LabelTriangles(const std::string& array);

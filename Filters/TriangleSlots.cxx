@@ -69,13 +69,15 @@ TriangleSlots::TriangleSlots(
     FirstPolygon(mesh->GetNumberOfVerts() + mesh->GetNumberOfLines()),
     FirstStrip(FirstPolygon + mesh->GetNumberOfPolys())
 {
+  PointIdCheck{ "cell", 0, points.Count }.RequireValid(mesh->GetVerts());
+  PointIdCheck{ "cell", mesh->GetNumberOfVerts(), points.Count }.RequireValid(mesh->GetLines());
+  PointIdCheck{ "cell", this->FirstStrip, points.Count }.RequireValid(mesh->GetStrips());
   this->InPlace = mesh->GetNumberOfStrips() == 0 && this->ViewPolygons(mesh->GetPolys());
   if (this->InPlace)
   {
     return;
   }
   PointIdCheck{ "cell", this->FirstPolygon, points.Count }.RequireValid(mesh->GetPolys());
-  PointIdCheck{ "cell", this->FirstStrip, points.Count }.RequireValid(mesh->GetStrips());
   SplitProgress split(progress,
     mesh->GetPolys()->GetNumberOfConnectivityIds() +
       mesh->GetStrips()->GetNumberOfConnectivityIds());

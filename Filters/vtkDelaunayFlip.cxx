@@ -103,6 +103,11 @@ vtkTypeBool vtkDelaunayFlip::ProcessRequest(
   {
     return this->RequestDataObject(request, inputVector, outputVector);
   }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) && this->IsAtWork)
+  {
+    vtkErrorMacro("An observer asked for an update within an update.");
+    return 0;
+  }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 

@@ -527,7 +527,8 @@ protected:
 
   /**
    * The mesh that an input, or a block of it, is; null if it is none. For subclasses that know more
-   * surfaces than vtkPolyData. The same object as long as the input is the same.
+   * surfaces than vtkPolyData. The same object as long as the input is the same. May throw
+   * std::invalid_argument where the input contradicts itself: the update fails, with its text.
    */
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
@@ -576,6 +577,7 @@ private:
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
   bool HasExecuted = false;
+  bool IsAtWork = false; ///< Within an update.
   bool MayGoOn = true; ///< Whether another live update can change the mesh.
   std::unique_ptr<delaunayflip::FlipRun> Run; ///< Of live updates.
   std::unique_ptr<delaunayflip::UpdateReport> Report; ///< Of the mesh under way; then, of all.

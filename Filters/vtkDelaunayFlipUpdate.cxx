@@ -40,6 +40,28 @@ struct vtkDelaunayFlip::Connection
   bool IsLive;
 };
 
+namespace
+{
+
+/// Sets a flag while it lives.
+class FlagScope
+{
+public:
+  explicit FlagScope(bool& flag)
+    : Flag(flag)
+  {
+    this->Flag = true;
+  }
+  ~FlagScope() { this->Flag = false; }
+  FlagScope(const FlagScope&) = delete;
+  FlagScope& operator=(const FlagScope&) = delete;
+
+private:
+  bool& Flag;
+};
+
+}
+
 //------------------------------------------------------------------------------
 int vtkDelaunayFlip::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -47,13 +69,18 @@ int vtkDelaunayFlip::RequestData(
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   const Piece piece{ vtkStreamingDemandDrivenPipeline::GetUpdatePiece(outInfo),
     vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(outInfo) };
-  vtkDataObject* constraints = vtkDataObject::GetData(inputVector[1]);
-  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
-  auto* mesh = vtkPolyData::GetData(outputVector);
+  // Observers may take them from the filter while it works.
+  const vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  const vtkSmartPointer<vtkDataObject> constraints = vtkDataObject::GetData(inputVector[1]);
+  const vtkSmartPointer<vtkDataObject> output = vtkDataObject::GetData(outputVector);
+  const vtkSmartPointer<vtkTable> table = vtkTable::GetData(outputVector, 1);
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
+  auto* mesh = vtkPolyData::SafeDownCast(output);
+  const FlagScope atWork(this->IsAtWork);
   this->HasExecuted = true;
   UpdateSummary summary = blocks
-    ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::GetData(outputVector))
-    : this->FlipMesh(vtkDataObject::GetData(inputVector[0]), constraints, mesh, piece.Count > 1);
+    ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
+    : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
   const bool isFirst = JoinRanks(summary, piece);
   if (this->LiveUpdate && (blocks || piece.Count > 1))
   {
@@ -62,8 +89,7 @@ int vtkDelaunayFlip::RequestData(
   }
   this->Tell(summary, isFirst);
   // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
-  AddIterationColumns(
-    isFirst ? *this->Report : UpdateReport(), "", vtkTable::GetData(outputVector, 1)->GetRowData());
+  AddIterationColumns(isFirst ? *this->Report : UpdateReport(), "", table->GetRowData());
   if (mesh && piece.Count > 1)
   {
     RenewFieldData(*this->Report, mesh->GetFieldData());
@@ -109,18 +135,19 @@ UpdateSummary vtkDelaunayFlip::FlipMesh(
 {
   UpdateSummary summary;
   MeshOutcome outcome;
-  const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(input);
+  vtkSmartPointer<vtkPolyData> mesh;
+  outcome.Failure = Attempt([&]() { mesh = this->GetMesh(input); });
   auto* edges = vtkPolyData::SafeDownCast(constraints);
-  if (!mesh)
+  if (!mesh && !outcome.Failure)
   {
     outcome.Failure = { FAILURE_MESH, "the input is not a surface; apply Extract Surface first" };
   }
-  else if (constraints && !edges)
+  else if (mesh && constraints && !edges)
   {
     outcome.Failure = { FAILURE_OPTIONS,
       "the constraints of a single mesh cannot be a composite dataset" };
   }
-  else
+  else if (mesh)
   {
     const bool isLive = this->LiveUpdate && !isPiece && !IsBatchProgram();
     outcome = this->TryToFlip({ mesh, edges, output, isLive });
@@ -136,7 +163,7 @@ UpdateSummary vtkDelaunayFlip::FlipBlocks(
   UpdateSummary summary;
   summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
   auto* edges = vtkCompositeDataSet::SafeDownCast(constraints);
-  std::map<unsigned int, vtkPolyData*> edgesOfBlocks;
+  std::map<unsigned int, vtkSmartPointer<vtkPolyData>> edgesOfBlocks;
   if (edges)
   {
     edgesOfBlocks = ListMeshes(edges);
@@ -145,7 +172,7 @@ UpdateSummary vtkDelaunayFlip::FlipBlocks(
     [&](const Block& block)
     {
       vtkPolyData* own =
-        edges ? edgesOfBlocks[block.Number] : vtkPolyData::SafeDownCast(constraints);
+        edges ? edgesOfBlocks[block.Number].Get() : vtkPolyData::SafeDownCast(constraints);
       return this->FlipBlock(block, own, summary);
     });
   this->SetProgressShiftScale(0.0, 1.0);
@@ -157,12 +184,19 @@ UpdateSummary vtkDelaunayFlip::FlipBlocks(
 vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipBlock(
   const Block& block, vtkPolyData* constraints, UpdateSummary& summary)
 {
-  if (const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(block.Data))
+  MeshOutcome outcome;
+  vtkSmartPointer<vtkPolyData> mesh;
+  outcome.Failure =
+    Attempt([&]() { mesh = block.MayBeMesh ? this->GetMesh(block.Data) : nullptr; });
+  if (mesh || outcome.Failure)
   {
     auto flipped = vtkSmartPointer<vtkPolyData>::New();
     this->SetProgressShiftScale(block.Before, block.Share);
-    summary.AddMesh(
-      this->TryToFlip({ mesh, constraints, flipped, false }), block.Number, block.Name);
+    if (mesh)
+    {
+      outcome = this->TryToFlip({ mesh, constraints, flipped, false });
+    }
+    summary.AddMesh(outcome, block.Number, block.Name);
     return flipped;
   }
   if (block.HasCells)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceCells.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -13,11 +14,15 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -85,6 +90,30 @@ vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)
   return points;
 }
 
+/// Before anything follows the offsets of a grid.
+void RequireWholeCells(vtkUnstructuredGrid* grid)
+{
+  vtkCellArray* cells = grid->GetCells();
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  if (cells &&
+    (!cells->IsValid() || !types || types->GetNumberOfValues() < cells->GetNumberOfCells()))
+  {
+    throw std::invalid_argument(
+      "The offsets, the connectivity and the types of the cells contradict each other.");
+  }
+}
+
+/// A pixel counts its points not around the quad, as all other cells, but row by row.
+void TurnPixel(vtkIdType cell, vtkIdList* ids)
+{
+  if (ids->GetNumberOfIds() != 4)
+  {
+    throw std::invalid_argument("Cell " + std::to_string(cell) + " is a pixel, but has " +
+      std::to_string(ids->GetNumberOfIds()) + " points, not 4.");
+  }
+  std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
+}
+
 /// The cells of an unstructured grid of polygons alone are those of the result, as they are.
 bool ShareCells(vtkDataSet* input, vtkPolyData* output)
 {
@@ -119,12 +148,52 @@ void SortCells(vtkDataSet* input, CellsByKind& cells)
       continue;
     }
     input->GetCellPoints(i, ids);
-    if (type == VTK_PIXEL) // not around the quad, as all others, but row by row
+    if (type == VTK_PIXEL)
     {
-      std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
+      TurnPixel(i, ids);
     }
     cells[kind].Array->InsertNextCell(ids);
     cells[kind].Sources->InsertNextId(i);
+  }
+}
+
+/// Takes the arrays that have no tuple for some cell out of `data`.
+std::vector<vtkSmartPointer<vtkAbstractArray>> TakeShortArrays(vtkIdType cells, vtkCellData* data)
+{
+  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() < cells)
+    {
+      arrays.emplace_back(array);
+      data->RemoveArray(i);
+    }
+  }
+  return arrays;
+}
+
+/// Arrays that are too short to be copied come out empty: the filter warns of them.
+void CopyCellData(vtkDataSet* input, const CellsByKind& cells, vtkCellData* output)
+{
+  vtkNew<vtkCellData> source;
+  source->ShallowCopy(input->GetCellData());
+  const auto shortArrays = TakeShortArrays(input->GetNumberOfCells(), source);
+  output->CopyAllOn();
+  output->CopyAllocate(source, input->GetNumberOfCells());
+  vtkIdType next = 0;
+  for (const Cells& some : cells)
+  {
+    for (vtkIdType i = 0; i < some.Sources->GetNumberOfIds(); ++i)
+    {
+      output->CopyData(source, some.Sources->GetId(i), next++);
+    }
+  }
+  for (const auto& array : shortArrays)
+  {
+    const auto empty = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+    empty->SetName(array->GetName());
+    output->AddArray(empty);
   }
 }
 
@@ -136,23 +205,17 @@ void CopyCells(vtkDataSet* input, vtkPolyData* output)
   output->SetLines(cells[Lines].Array);
   output->SetPolys(cells[Polys].Array);
   output->SetStrips(cells[Strips].Array);
-  vtkCellData* data = output->GetCellData();
-  data->CopyAllOn();
-  data->CopyAllocate(input->GetCellData(), input->GetNumberOfCells());
-  vtkIdType next = 0;
-  for (const Cells& some : cells)
-  {
-    for (vtkIdType i = 0; i < some.Sources->GetNumberOfIds(); ++i)
-    {
-      data->CopyData(input->GetCellData(), some.Sources->GetId(i), next++);
-    }
-  }
+  CopyCellData(input, cells, output->GetCellData());
 }
 
 }
 
 bool HasSurfaceCells(vtkDataSet* input)
 {
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    RequireWholeCells(grid);
+  }
   for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
   {
     if (GetKind(input->GetCellType(i)) == NoSurface)

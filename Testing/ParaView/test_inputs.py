@@ -3,10 +3,12 @@
 """Inputs that are surfaces but no vtkPolyData, and those that are none."""
 
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray
+from vtkmodules.vtkCommonCore import (
+    vtkBitArray, vtkDoubleArray, vtkIdTypeArray, vtkStringArray, vtkTypeInt64Array,
+    vtkUnsignedCharArray, vtkVariantArray)
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE, VTK_TRIANGLE_STRIP,
-    VTK_VERTEX, vtkRectilinearGrid, vtkUnstructuredGrid)
+    VTK_VERTEX, vtkCellArray, vtkMultiBlockDataSet, vtkRectilinearGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter, vtkXMLUnstructuredGridWriter
 
 from PluginTesting import (
@@ -173,6 +175,7 @@ class Grids(InputTest):
 class Blocks(InputTest):
     def get_leaves(self, output):
         iterator = output.NewIterator()
+        iterator.InitTraversal()
         leaves = []
         while not iterator.IsDoneWithTraversal():
             leaves.append(iterator.GetCurrentDataObject())
@@ -195,6 +198,69 @@ class Blocks(InputTest):
         self.assertEqual(leaves[3].GetNumberOfCells(), 2 * 7 * 5)
         alone = fetch(self.flip(self.read(make_fan(20))))
         self.assertEqual(get_triangles(leaves[1]), get_triangles(alone))
+
+    def test_amr_holds_no_meshes(self):
+        amr = simple.AMRGaussianPulseSource(Dimension=2)
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=amr)
+            refresh(flip)
+        self.assertEqual(messages.text.count("passed unchanged"), 1)
+        inputs, outputs = (self.get_leaves(source.GetClientSideObject().GetOutputDataObject(0))
+                           for source in (amr, flip))
+        self.assertGreater(len(inputs), 0)
+        self.assertEqual([leaf.GetNumberOfCells() for leaf in outputs],
+                         [leaf.GetNumberOfCells() for leaf in inputs])
+
+
+class Malformed(InputTest):
+    """Grids that no reader gives, but a programmable filter may."""
+
+    def apply(self, data):
+        producer = simple.TrivialProducer()
+        producer.GetClientSideObject().SetOutput(data)
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=producer)
+            refresh(flip)
+        return messages.text, flip.GetClientSideObject().GetOutputDataObject(0)
+
+    def test_pixels_without_four_points(self):
+        for ids in ((), (0, 1), (0, 1, 2)):
+            text, output = self.apply(make_grid(make_fan(5).GetPoints(), [(VTK_PIXEL, ids)]))
+            self.assertIn("Cell 0 is a pixel", text)
+            self.assertEqual(output.GetNumberOfCells(), 0)
+
+    def test_arrays_that_contradict_each_other(self):
+        for offsets, types in (((0, 9), 1), ((0, -3, 3), 2), ((), 1), ((0, 3), 0)):
+            cells = vtkCellArray()
+            arrays = [vtkTypeInt64Array(), vtkTypeInt64Array(), vtkUnsignedCharArray()]
+            for array, values in zip(arrays, (offsets, (0, 1, 2), [VTK_TRIANGLE] * types)):
+                for value in values:
+                    array.InsertNextValue(value)
+            cells.SetData(*arrays[:2])
+            grid = vtkUnstructuredGrid()
+            grid.SetPoints(make_fan(5).GetPoints())
+            grid.SetCells(arrays[2], cells)
+            text, output = self.apply(grid)
+            self.assertIn("contradict each other", text)
+            self.assertEqual(output.GetNumberOfCells(), 0)
+            blocks = vtkMultiBlockDataSet()
+            for i, block in enumerate((grid, make_fan(20))):
+                blocks.SetBlock(i, block)
+            text, output = self.apply(blocks)
+            self.assertIn("block 1: The offsets", text)
+            self.assertEqual(output.GetBlock(1).GetNumberOfCells(), 18)
+
+    def test_short_cell_arrays(self):
+        for cells in ([(VTK_TRIANGLE, (0, 1, 4))] * 2, [(VTK_LINE, (0, 1)), (VTK_QUAD, (0, 1, 2, 4))]):
+            grid = make_grid(make_fan(5).GetPoints(), cells)
+            for kind in (vtkBitArray, vtkStringArray, vtkVariantArray):
+                array = kind()
+                array.SetName(kind.__name__)
+                grid.GetCellData().AddArray(array)
+            text, output = self.apply(grid)
+            self.assertIn("3 cell arrays with too few tuples", text)
+            self.assertGreater(output.GetNumberOfCells(), 1)
+            self.assertEqual(get_numbers(output)[-1], 1)
 
 
 if __name__ == "__main__":

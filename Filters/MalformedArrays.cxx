@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MalformedArrays.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <string>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Names each array of `data` that has less than `tuples` tuples.
+std::vector<std::string> FindShortArrays(vtkDataSetAttributes* data, vtkIdType tuples)
+{
+  std::vector<std::string> names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() < tuples)
+    {
+      names.push_back(array->GetName() ? array->GetName() : "");
+    }
+  }
+  return names;
+}
+
+/// Quoted, as many as a warning has room for.
+std::string List(const std::vector<std::string>& names)
+{
+  constexpr std::size_t Most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < Most; ++i)
+  {
+    text += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
+  }
+  return names.size() > Most ? text + ", and " + std::to_string(names.size() - Most) + " more"
+                             : text;
+}
+
+void AddShortArrays(const std::string& kind, const char* fate,
+  const std::vector<std::string>& names, std::vector<Defect>& defects)
+{
+  if (!names.empty())
+  {
+    const std::string what = kind + (names.size() == 1 ? " array" : " arrays");
+    defects.push_back({ what + " with too few tuples " + fate + ": " + List(names),
+      static_cast<std::int64_t>(names.size()) });
+  }
+}
+
+}
+
+vtkSmartPointer<vtkCellData> TakeWholeArrays(vtkPolyData* mesh)
+{
+  auto data = vtkSmartPointer<vtkCellData>::New();
+  data->ShallowCopy(mesh->GetCellData());
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (data->GetAbstractArray(i)->GetNumberOfTuples() < mesh->GetNumberOfCells())
+    {
+      data->RemoveArray(i);
+    }
+  }
+  return data;
+}
+
+void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects)
+{
+  constexpr const char* Passed = "passed unchanged";
+  vtkCellData* cells = mesh->GetCellData();
+  AddShortArrays(
+    "point", Passed, FindShortArrays(mesh->GetPointData(), mesh->GetNumberOfPoints()), defects);
+  AddShortArrays("cell", cellsStay ? Passed : "left out",
+    FindShortArrays(cells, mesh->GetNumberOfCells()), defects);
+  vtkAbstractArray* ghosts = cells->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
+  if (ghosts && !vtkArrayDownCast<vtkUnsignedCharArray>(ghosts))
+  {
+    defects.push_back({ "ghost array that is not of type unsigned char ignored", 1 });
+  }
+}
+
+}
