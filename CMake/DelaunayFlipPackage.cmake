@@ -1,13 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Installs the engine, and what find_package(DelaunayFlip) of other projects reads. The VTK modules
-# install themselves; see DelaunayFlipVTK.cmake.
+# Installs the engine, its C interface, and what find_package(DelaunayFlip) of other projects reads.
+# The VTK modules install themselves; see DelaunayFlipVTK.cmake.
 set(delaunayflip_cmake "${CMAKE_INSTALL_LIBDIR}/cmake/DelaunayFlip")
 install(TARGETS DelaunayFlipEngine EXPORT DelaunayFlipEngine
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   PUBLIC_HEADER DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip")
 install(EXPORT DelaunayFlipEngine NAMESPACE DelaunayFlip:: FILE DelaunayFlip-engine-targets.cmake
+  DESTINATION "${delaunayflip_cmake}")
+install(TARGETS DelaunayFlipC EXPORT DelaunayFlipC
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  PUBLIC_HEADER DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip")
+install(EXPORT DelaunayFlipC NAMESPACE DelaunayFlip:: FILE DelaunayFlip-c-targets.cmake
   DESTINATION "${delaunayflip_cmake}")
 
 # What DelaunayFlipConfig.cmake.in is filled with.

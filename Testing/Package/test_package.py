@@ -15,6 +15,7 @@ from readme import ROOT, read, snippets
 
 CMAKE = os.environ["DELAUNAYFLIP_CMAKE"]
 EXAMPLE = f"{ROOT}/Examples/Cxx/FlipArrays.cpp"
+C_EXAMPLE = f"{ROOT}/Examples/C/flip_arrays.c"
 HEAD = "cmake_minimum_required(VERSION 3.22)\nproject(Consumer LANGUAGES CXX)\n"
 NO_VTK = "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON"
 
@@ -98,7 +99,7 @@ endif()
     def test_headers(self):
         """Each public header is installed and stands alone; no other one of the engine is there."""
         installed = os.listdir(f"{self.prefix}/include/delaunayflip")
-        headers = list_public_headers()
+        headers = list_public_headers() + ["delaunayflip_c.h"]
         self.assertEqual(sorted(name for name in installed if not name.startswith("vtk")),
                          sorted(headers))
         for header in headers:
@@ -110,6 +111,18 @@ add_library(headers OBJECT {sources})
 target_link_libraries(headers PRIVATE DelaunayFlip::Engine)
 """)
         self.build()
+
+    def test_c_program(self):
+        """It links libdelaunayflip alone: no C++, no oneTBB, no VTK."""
+        self.write("CMakeLists.txt", f"""
+cmake_minimum_required(VERSION 3.22)
+project(Consumer LANGUAGES C)
+find_package(DelaunayFlip 0.1 REQUIRED COMPONENTS C)
+add_executable(consumer "{C_EXAMPLE}")
+target_link_libraries(consumer PRIVATE DelaunayFlip::C)
+""")
+        self.build(NO_VTK, "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
+        self.assertIn("1 flips", self.run_program("consumer"))
 
     def test_a_component_that_is_not_there(self):
         self.write("CMakeLists.txt", HEAD + "find_package(DelaunayFlip REQUIRED COMPONENTS Wings)\n")

@@ -24,7 +24,7 @@ LICENSED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake")
 
 LARGEST = 1_000_000  # bytes
 
-LIBRARY_FOLDERS = ("CUDA/", "Engine/", "Filters/", "Plugin/", "Rendering/")
+LIBRARY_FOLDERS = ("CInterface/", "CUDA/", "Engine/", "Filters/", "Plugin/", "Rendering/")
 FORBIDDEN = re.compile(
     r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b"
 )
@@ -43,7 +43,7 @@ def check_licences(root):
             continue
         lines = read(root, path).splitlines()
         start = 1 if lines and lines[0].startswith("#!") else 0
-        head = [line.lstrip("/# ") for line in lines[start : start + 2]]
+        head = [line.lstrip("/#* ") for line in lines[start : start + 2]]
         if tuple(head) != LICENCE:
             yield f"{path}: does not begin with the two SPDX lines"
 

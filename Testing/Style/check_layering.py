@@ -5,8 +5,8 @@
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
-engine: Filters and Command see its public headers, Rendering and Plugin see Filters alone; nothing
-that ships sees Testing or Examples. The engine sees no VTK.
+engine: CInterface, Filters and Command see its public headers, Rendering and Plugin see Filters
+alone; nothing that ships sees Testing or Examples. The engine sees no VTK.
 """
 
 import os
@@ -22,11 +22,12 @@ CHOICE = "Engine"  # what stands at its root, except the public headers
 
 # Layers above the engine, and what they may include.
 ABOVE = {
+    "CInterface": {PUBLIC, "CInterface"},
     "Filters": {PUBLIC, "Filters"},
     "Rendering": {"Filters", "Rendering"},
     "Command": {PUBLIC, "Filters", "Command"},
     "Plugin": {"Filters", "Plugin"},
-    "Examples": {PUBLIC, "Filters", "Rendering", "Examples"},
+    "Examples": {PUBLIC, "CInterface", "Filters", "Rendering", "Examples"},
 }
 
 

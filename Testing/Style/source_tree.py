@@ -8,7 +8,7 @@ import sys
 
 SKIPPED = 125  # CTest's SKIP_RETURN_CODE in this project
 
-CPP_SUFFIXES = (".h", ".cpp", ".cxx", ".cuh", ".cu")
+CPP_SUFFIXES = (".h", ".c", ".cpp", ".cxx", ".cuh", ".cu")
 
 UNTRACKED = (".git", "demo-output", "__pycache__")
 

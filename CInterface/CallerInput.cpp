@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CallerInput.h"
+
+#include "KeptReport.h"
+#include "Status.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// The caller's struct as this library knows it: members that a program compiled with an older
+/// header does not have keep their defaults.
+template <typename Struct>
+Struct Complete(const Struct& given, void (*initialize)(Struct*))
+{
+  Require(given.size >= static_cast<std::int64_t>(sizeof(given.size)),
+    "the size of a struct is not set: call its _init function first");
+  Struct complete;
+  initialize(&complete);
+  std::memcpy(&complete, &given, std::min(sizeof(Struct), static_cast<std::size_t>(given.size)));
+  complete.size = sizeof(Struct);
+  return complete;
+}
+
+template <typename Enumeration>
+Enumeration ToEnumeration(std::int32_t value, Enumeration last, const char* rule)
+{
+  Require(value >= 0 && value <= static_cast<std::int32_t>(last), rule);
+  return static_cast<Enumeration>(value);
+}
+
+PointArray ToPoints(const delaunayflip_mesh& c)
+{
+  Require(c.number_of_points >= 0, "number_of_points is negative");
+  Require(c.points || c.number_of_points == 0, "points is null");
+  Require(c.point_type == DELAUNAYFLIP_FLOAT32 || c.point_type == DELAUNAYFLIP_FLOAT64,
+    "point_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64");
+  return c.point_type == DELAUNAYFLIP_FLOAT32
+    ? PointArray(static_cast<const float*>(c.points), c.number_of_points)
+    : PointArray(static_cast<const double*>(c.points), c.number_of_points);
+}
+
+/// Views integers of the caller as `Array`, whose 32-bit ids are Id32 and 64-bit ids are Id64.
+template <typename Array, typename Id32, typename Id64, typename Void>
+Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
+{
+  Require(triangles >= 0, "number_of_triangles is negative");
+  Require(ids || triangles == 0, "triangles is null");
+  Require(type == DELAUNAYFLIP_INT32 || type == DELAUNAYFLIP_INT64,
+    "id_type is neither DELAUNAYFLIP_INT32 nor DELAUNAYFLIP_INT64");
+  return type == DELAUNAYFLIP_INT32 ? Array(static_cast<Id32*>(ids), triangles)
+                                    : Array(static_cast<Id64*>(ids), triangles);
+}
+
+}
+
+delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given)
+{
+  Require(given, "mesh is null");
+  return Complete(*given, delaunayflip_mesh_init);
+}
+
+TriangleMesh ToMesh(const delaunayflip_mesh& c)
+{
+  TriangleMesh mesh;
+  mesh.Points = ToPoints(c);
+  mesh.Triangles = ToIds<TriangleArray, const std::int32_t, const std::int64_t>(
+    c.triangles, c.number_of_triangles, c.id_type);
+  Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
+  Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
+  mesh.ConstraintEdges = c.constraint_edges;
+  mesh.NumberOfConstraintEdges = c.number_of_constraint_edges;
+  mesh.Regions = c.regions;
+  mesh.FrozenTriangles = c.frozen_triangles;
+  return mesh;
+}
+
+MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type)
+{
+  return ToIds<MutableTriangleArray, std::int32_t, std::int64_t>(ids, triangles, type);
+}
+
+GeometryKind ToGeometry(std::int32_t value)
+{
+  return ToEnumeration(value, GeometryKind::Surface, "geometry is no delaunayflip_geometry");
+}
+
+FlipOptions ToOptions(const delaunayflip_options* given)
+{
+  FlipOptions options;
+  if (!given)
+  {
+    return options;
+  }
+  const delaunayflip_options c = Complete(*given, delaunayflip_options_init);
+  options.Geometry = ToGeometry(c.geometry);
+  options.Criterion = ToEnumeration(
+    c.criterion, CriterionKind::OppositeAngles, "criterion is no delaunayflip_criterion");
+  options.TieRule =
+    ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule is no delaunayflip_tie_rule");
+  options.Backend =
+    ToEnumeration(c.backend, BackendKind::Threads, "backend is no delaunayflip_backend");
+  options.Tolerance = c.tolerance;
+  options.FeatureAngle = c.feature_angle;
+  options.MaximumIterations = c.maximum_iterations;
+  options.NumberOfThreads = c.number_of_threads;
+  options.Device = c.device;
+  options.TrackQuality = c.track_quality != 0;
+  return options;
+}
+
+Observers::Observers(const delaunayflip_callbacks* given)
+{
+  if (!given)
+  {
+    return;
+  }
+  const delaunayflip_callbacks c = Complete(*given, delaunayflip_callbacks_init);
+  if (c.progress)
+  {
+    this->Progress = [c](double share) { return c.progress(share, c.user) != 0; };
+  }
+  if (c.iteration)
+  {
+    this->Iteration = [c](const IterationRecord& record)
+    {
+      const delaunayflip_iteration copy = ToC(record);
+      return c.iteration(&copy, c.user) != 0;
+    };
+  }
+}
+
+}

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CALLERINPUT_H
+#define DELAUNAYFLIP_CALLERINPUT_H
+
+#include "delaunayflip_c.h"
+
+#include "DelaunayFlip.h"
+
+#include <cstdint>
+
+/// @file
+/// The structs of a C program as the engine's types. Every function throws InvalidCall where the
+/// program breaks a rule of delaunayflip_c.h.
+
+namespace delaunayflip
+{
+
+/// A struct with its size; all other members are 0.
+template <typename Struct>
+Struct MakeEmpty()
+{
+  Struct values = {};
+  values.size = sizeof(Struct);
+  return values;
+}
+
+/// The mesh with all members that this library knows.
+delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given);
+
+/// Views of the arrays of a complete mesh.
+TriangleMesh ToMesh(const delaunayflip_mesh& mesh);
+
+/// A view of an array for three ids per triangle, of a delaunayflip_type.
+MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type);
+
+GeometryKind ToGeometry(std::int32_t value);
+
+/// The engine's defaults where `given` is null.
+FlipOptions ToOptions(const delaunayflip_options* given);
+
+/// The engine's observers that call the functions of the caller, who may have none.
+struct Observers
+{
+  explicit Observers(const delaunayflip_callbacks* given);
+
+  ProgressObserver Progress;
+  FlipObserver Iteration;
+};
+
+}
+
+#endif

@@ -1,0 +1,279 @@
+/* SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+ * SPDX-License-Identifier: BSD-3-Clause
+ */
+#ifndef DELAUNAYFLIP_C_INTERFACE_H
+#define DELAUNAYFLIP_C_INTERFACE_H
+
+#include <stdint.h>
+
+/** @file
+ * The engine's C interface, in the shared library libdelaunayflip: for C, and for every language
+ * that can call C (Python's ctypes, Julia, Rust, Fortran, ...).
+ *
+ * Rules that hold for all of it:
+ *
+ * - Every function that can fail returns a delaunayflip_status. After a failure,
+ *   delaunayflip_error_message() says what was wrong, where, and what to do. A failing call writes
+ *   none of its outputs.
+ * - A struct begins with its size in bytes. Fill structs with their `_init` function before you set
+ *   members; so a program that was compiled with an older header works with a newer library.
+ *   Newer headers only add members at the end. Enumerations are passed as int32_t.
+ * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
+ *   reads the arrays of its mesh as long as it lives.
+ * - Different sessions may be used by different threads at the same time; one session by one thread
+ *   at a time.
+ * - Same mesh and options, same result, bit for bit, for any number of threads and any backend.
+ */
+
+#if defined(__GNUC__)
+#define DELAUNAYFLIP_API __attribute__((visibility("default")))
+#else
+#define DELAUNAYFLIP_API
+#endif
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+/** The version of this interface. The library's is at least the header's where both fit together.
+ */
+#define DELAUNAYFLIP_INTERFACE_VERSION 1
+
+  /** The interface version of the library that was loaded. */
+  DELAUNAYFLIP_API int32_t delaunayflip_interface_version(void);
+
+  /** The release of the library, e.g. "0.1.0". */
+  DELAUNAYFLIP_API const char* delaunayflip_version(void);
+
+  typedef enum
+  {
+    DELAUNAYFLIP_OK = 0,
+    DELAUNAYFLIP_INVALID_MESH =
+      1, /**< A triangle or constraint edge names a point that is not there. */
+    DELAUNAYFLIP_INVALID_OPTIONS = 2, /**< Options out of range, or that contradict the mesh. */
+    DELAUNAYFLIP_MESH_TOO_LARGE = 3,
+    DELAUNAYFLIP_BACKEND_UNAVAILABLE = 4, /**< The requested backend cannot run here. */
+    DELAUNAYFLIP_OUT_OF_MEMORY = 5,
+    DELAUNAYFLIP_INVALID_CALL =
+      6, /**< A null pointer, an unknown type, or a struct without a size. */
+    DELAUNAYFLIP_FAILED = 7 /**< Anything else. */
+  } delaunayflip_status;
+
+  /** The message of the last failing call of this thread, in English; "" if there was none. Valid
+   * until the thread's next failing call. */
+  DELAUNAYFLIP_API const char* delaunayflip_error_message(void);
+
+  /** Where the last failing call of this thread found an invalid mesh: the triangle or the
+   * constraint edge, and the point id that it names. -1 where the failure has no such place. */
+  DELAUNAYFLIP_API int64_t delaunayflip_error_cell(void);
+  DELAUNAYFLIP_API int64_t delaunayflip_error_point(void);
+
+  typedef enum
+  {
+    DELAUNAYFLIP_FLOAT32 = 0,
+    DELAUNAYFLIP_FLOAT64 = 1,
+    DELAUNAYFLIP_INT32 = 2,
+    DELAUNAYFLIP_INT64 = 3
+  } delaunayflip_type;
+
+  /** A triangle mesh. Any mesh is accepted: non-manifold, open, of mixed winding, with duplicate,
+   * degenerate or unused parts. */
+  typedef struct
+  {
+    int64_t size;
+    const void* points; /**< x, y, z of every point: 3 * number_of_points numbers. */
+    int64_t number_of_points;
+    const void* triangles; /**< Three point ids per triangle: 3 * number_of_triangles integers. */
+    int64_t number_of_triangles;
+    int32_t point_type; /**< DELAUNAYFLIP_FLOAT32 or DELAUNAYFLIP_FLOAT64. [FLOAT64] */
+    int32_t id_type; /**< DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64, of the triangles. [INT64] */
+    const int64_t* constraint_edges; /**< Edges that must stay: pairs of point ids, or null. */
+    int64_t number_of_constraint_edges;
+    const int32_t* regions; /**< A label per triangle, or null: edges between labels stay. */
+    const unsigned char* frozen_triangles; /**< A flag per triangle, or null: where it is not 0, the
+                                                triangle's edges stay. */
+  } delaunayflip_mesh;
+
+  typedef enum
+  {
+    DELAUNAYFLIP_GEOMETRY_AUTO = 0, /**< Planar, else planar-xy for terrain, else surface. */
+    DELAUNAYFLIP_GEOMETRY_PLANAR = 1, /**< In the plane of the points; an error if there is none. */
+    DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z rides along. */
+    DELAUNAYFLIP_GEOMETRY_SURFACE = 3 /**< In space. */
+  } delaunayflip_geometry;
+
+  typedef enum
+  {
+    DELAUNAYFLIP_IN_CIRCLE = 0, /**< The exact in-circle predicate; surfaces ignore it. */
+    DELAUNAYFLIP_OPPOSITE_ANGLES = 1 /**< The sum of opposite angles above pi + tolerance. */
+  } delaunayflip_criterion;
+
+  typedef enum
+  {
+    DELAUNAYFLIP_KEEP_TIES = 0, /**< An edge of four points on one circle stays. */
+    DELAUNAYFLIP_CANONICAL_TIES = 1 /**< The result does not depend on the input's triangles. */
+  } delaunayflip_tie_rule;
+
+  typedef enum
+  {
+    DELAUNAYFLIP_BACKEND_AUTO = 0, /**< A GPU for large meshes where there is one, else threads. */
+    DELAUNAYFLIP_BACKEND_CUDA = 1,
+    DELAUNAYFLIP_BACKEND_THREADS = 2
+  } delaunayflip_backend;
+
+  /** Defaults in brackets. FlipOptions.h describes each option in full. */
+  typedef struct
+  {
+    int64_t size;
+    int32_t geometry; /**< A delaunayflip_geometry. [AUTO] */
+    int32_t criterion; /**< A delaunayflip_criterion. [IN_CIRCLE] */
+    int32_t tie_rule; /**< A delaunayflip_tie_rule. [KEEP_TIES] */
+    int32_t backend; /**< A delaunayflip_backend. [AUTO] */
+    double tolerance; /**< Radians for OPPOSITE_ANGLES, 0 <= tolerance < 1; -1: automatic. [-1] */
+    double feature_angle; /**< Degrees, 0 .. 180: sharper edges of surfaces stay. [30] */
+    int64_t maximum_iterations; /**< -1: until done. [-1] */
+    int32_t number_of_threads; /**< 0: as many as the machine has. [0] */
+    int32_t device; /**< CUDA's number of the GPU; -1: the thread's current one. [-1] */
+    int32_t track_quality; /**< Not 0: the smallest angle after every iteration. [0] */
+    int32_t reserved; /**< 0. */
+  } delaunayflip_options;
+
+  typedef enum
+  {
+    DELAUNAYFLIP_NOT_STARTED = 0,
+    DELAUNAYFLIP_CONVERGED = 1, /**< An iteration found nothing that it may flip. */
+    DELAUNAYFLIP_ITERATION_LIMIT = 2,
+    DELAUNAYFLIP_ABORTED = 3, /**< A callback returned 0. */
+    DELAUNAYFLIP_RUNNING = 4 /**< There is more to do. */
+  } delaunayflip_stop_reason;
+
+  /** One iteration. non_delaunay = flipped + excluded + blocked. */
+  typedef struct
+  {
+    int64_t iteration; /**< 1, 2, ... */
+    int64_t tested; /**< Edges tested. */
+    int64_t non_delaunay; /**< Bad edges known when the iteration chose; never fixed ones. */
+    int64_t flipped;
+    int64_t
+      excluded; /**< Not flipped because a neighbour was, or because it lies between chunks. */
+    int64_t blocked; /**< Bad, but the flip would fold the mesh or duplicate an edge. */
+    double minimum_angle; /**< Degrees, after the iteration; NaN where it was not computed. */
+    double seconds;
+  } delaunayflip_iteration;
+
+  /** What a run did. Strings are valid until the session's next call, or its end. */
+  typedef struct
+  {
+    int64_t size;
+    int32_t stop_reason; /**< A delaunayflip_stop_reason. */
+    int32_t geometry_used; /**< A delaunayflip_geometry, never AUTO. */
+    const char* geometry_reason; /**< Why that geometry was used. */
+    const char* backend; /**< E.g. "Threads: 8" or "CUDA: NVIDIA H200". */
+    const char* fallback; /**< Why the CPU stood in for a GPU; "" if it did not. */
+    const char* tolerance; /**< "automatic", the value asked for, or "none". */
+    const char* defects; /**< What the mesh had wrong, as a sentence; "" if nothing. */
+    int64_t number_of_iterations;
+    int64_t total_flips;
+    int64_t total_excluded;
+    int64_t total_blocked;
+    int64_t non_delaunay_before; /**< Bad edges of the input that are not fixed. */
+    int64_t non_delaunay_after; /**< Bad edges left, flippable or blocked. */
+    int64_t edges;
+    int64_t boundary_edges;
+    int64_t non_manifold_edges;
+    int64_t wrongly_wound_edges;
+    int64_t feature_edges;
+    int64_t constraint_edges;
+    int64_t region_edges;
+    int64_t fixed_edges; /**< Edges that never flip, for any reason. */
+    int64_t unmatched_constraints; /**< Constraint edges that the mesh does not have. */
+    int64_t euler_characteristic; /**< Used points - edges + triangles; flips keep it. */
+    double
+      minimum_angle_before; /**< Degrees; 0 with a degenerate triangle; NaN without triangles. */
+    double minimum_angle_after;
+    double build_seconds;
+    double flip_seconds;
+  } delaunayflip_report;
+
+  /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
+   * 0 to abort the run, which then ends with a valid mesh. */
+  typedef struct
+  {
+    int64_t size;
+    int32_t (*progress)(double share, void* user); /**< The share of the work done, 0 .. 1. */
+    int32_t (*iteration)(const delaunayflip_iteration* record, void* user); /**< After each one. */
+    void* user;
+  } delaunayflip_callbacks;
+
+  /** Fill a struct with its size and the defaults; all other members with 0. */
+  DELAUNAYFLIP_API void delaunayflip_mesh_init(delaunayflip_mesh* mesh);
+  DELAUNAYFLIP_API void delaunayflip_options_init(delaunayflip_options* options);
+  DELAUNAYFLIP_API void delaunayflip_report_init(delaunayflip_report* report);
+  DELAUNAYFLIP_API void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks);
+
+  /** A mesh in the course of its flips. */
+  typedef struct delaunayflip_session delaunayflip_session;
+
+  /** Builds the edges of `mesh` and tests them all. `options` and `callbacks` may be null. A
+   * progress callback that returns 0 gives a session that holds the input's triangles, aborted. On
+   * success `*session` must be given to delaunayflip_close. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
+    delaunayflip_session** session);
+
+  /** Runs at most `iterations` more iterations; -1: until there is nothing more to flip, or a
+   * limit.
+   * `*is_running` (may be null) becomes 1 if there is more to do, else 0. `callbacks` may be null.
+   */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_advance(delaunayflip_session* session,
+    int64_t iterations, const delaunayflip_callbacks* callbacks, int32_t* is_running);
+
+  /** Fills `report`, whose size must be set (delaunayflip_report_init). */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_report(
+    delaunayflip_session* session, delaunayflip_report* report);
+
+  /** Copies the records of iterations first + 1 .. first + count to `records`, which has room for
+   * `count` of them, each of `record_size` bytes: sizeof(delaunayflip_iteration). `first` + `count`
+   * must not exceed the report's number_of_iterations. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session,
+    int64_t first, int64_t count, delaunayflip_iteration* records, int64_t record_size);
+
+  /** Writes the triangles in their input slots: 3 * number_of_triangles integers of `id_type`
+   * (DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64). A triangle that no flip touched keeps its three ids
+   * in their order. `triangles` may be the array of the mesh itself, once the session has nothing
+   * more to do. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles(
+    delaunayflip_session* session, void* triangles, int32_t id_type);
+
+  /** Writes, for every triangle slot, how many flips it was part of: number_of_triangles integers.
+   */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts(
+    delaunayflip_session* session, int32_t* counts);
+
+  /** Ends a session; null is allowed. */
+  DELAUNAYFLIP_API void delaunayflip_close(delaunayflip_session* session);
+
+  /** The whole run in one call: flips `mesh` and writes the result to `triangles` (integers of the
+   * mesh's id_type), which may be the very array of the mesh. `report` may be null; its strings are
+   * valid until this thread's next call of this function. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_flip(const delaunayflip_mesh* mesh,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks, void* triangles,
+    delaunayflip_report* report);
+
+  /** The smallest angle of each triangle in degrees, in space or (PLANAR_XY) by x and y, to
+   * `angles`: number_of_triangles numbers. NaN where a coordinate is not finite. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_angles(
+    const delaunayflip_mesh* mesh, int32_t geometry, double* angles);
+
+  /** 1 where there is a GPU that this library can use, else 0. */
+  DELAUNAYFLIP_API int32_t delaunayflip_has_cuda_device(void);
+
+  /** Frees the memory that the CUDA backend keeps between runs. */
+  DELAUNAYFLIP_API void delaunayflip_release_cuda_memory(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,510 @@
+/* SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+ * SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "delaunayflip_c.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/** @file
+ * Usage: delaunayflip-c-test CASE
+ */
+
+#define CHECK(condition)                                                                         \
+  do                                                                                             \
+  {                                                                                              \
+    if (!(condition))                                                                            \
+    {                                                                                            \
+      fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, delaunayflip_error_message()); \
+      exit(1);                                                                                   \
+    }                                                                                            \
+  } while (0)
+
+/* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
+static const double Points[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+static const int64_t LongDiagonal[] = { 0, 1, 2, 0, 2, 3 };
+
+static delaunayflip_mesh MakeMesh(void)
+{
+  delaunayflip_mesh mesh;
+  delaunayflip_mesh_init(&mesh);
+  mesh.points = Points;
+  mesh.number_of_points = 4;
+  mesh.triangles = LongDiagonal;
+  mesh.number_of_triangles = 2;
+  return mesh;
+}
+
+static int HasShortDiagonal(const int64_t* triangles)
+{
+  int ends = 0;
+  int i;
+  for (i = 0; i < 6; ++i)
+  {
+    ends += triangles[i] == 1 || triangles[i] == 3;
+  }
+  return ends == 4;
+}
+
+/* A lattice of side x side points, z = 0, whose columns have been pushed sideways. */
+typedef struct
+{
+  double* points;
+  int64_t* triangles;
+  delaunayflip_mesh mesh;
+} Lattice;
+
+static Lattice MakeLattice(int64_t side)
+{
+  Lattice lattice;
+  int64_t row, column, used = 0;
+  lattice.points = malloc(sizeof(double) * 3 * side * side);
+  lattice.triangles = malloc(sizeof(int64_t) * 6 * (side - 1) * (side - 1));
+  for (row = 0; row < side; ++row)
+  {
+    for (column = 0; column < side; ++column)
+    {
+      double* point = lattice.points + 3 * (row * side + column);
+      point[0] = (double)column + 5.25 * (double)row;
+      point[1] = (double)row;
+      point[2] = 0.0;
+    }
+  }
+  for (row = 0; row + 1 < side; ++row)
+  {
+    for (column = 0; column + 1 < side; ++column)
+    {
+      const int64_t corner = row * side + column;
+      const int64_t quad[6] = { corner, corner + 1, corner + side + 1, corner, corner + side + 1,
+        corner + side };
+      memcpy(lattice.triangles + used, quad, sizeof(quad));
+      used += 6;
+    }
+  }
+  delaunayflip_mesh_init(&lattice.mesh);
+  lattice.mesh.points = lattice.points;
+  lattice.mesh.number_of_points = side * side;
+  lattice.mesh.triangles = lattice.triangles;
+  lattice.mesh.number_of_triangles = used / 3;
+  return lattice;
+}
+
+static void FreeLattice(Lattice* lattice)
+{
+  free(lattice->points);
+  free(lattice->triangles);
+}
+
+static delaunayflip_report GetReport(delaunayflip_session* session)
+{
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  CHECK(delaunayflip_get_report(session, &report) == DELAUNAYFLIP_OK);
+  return report;
+}
+
+static void TestVersions(void)
+{
+  CHECK(delaunayflip_interface_version() == DELAUNAYFLIP_INTERFACE_VERSION);
+  CHECK(strchr(delaunayflip_version(), '.') != NULL);
+}
+
+static void TestFlipsSquare(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(triangles));
+  CHECK(report.stop_reason == DELAUNAYFLIP_CONVERGED);
+  CHECK(report.geometry_used == DELAUNAYFLIP_GEOMETRY_PLANAR);
+  CHECK(report.total_flips == 1);
+  CHECK(report.non_delaunay_before == 1 && report.non_delaunay_after == 0);
+  CHECK(report.edges == 5 && report.boundary_edges == 4 && report.euler_characteristic == 1);
+  CHECK(report.minimum_angle_after > report.minimum_angle_before);
+  CHECK(strlen(report.geometry_reason) > 0 && strlen(report.backend) > 0);
+  CHECK(strcmp(report.defects, "") == 0);
+}
+
+static void TestAllTypes(void)
+{
+  const float floats[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+  const int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
+  int32_t result32[6];
+  int64_t result64[6];
+  delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_session* session;
+  int i;
+  mesh.points = floats;
+  mesh.point_type = DELAUNAYFLIP_FLOAT32;
+  mesh.triangles = ids;
+  mesh.id_type = DELAUNAYFLIP_INT32;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, result32, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_triangles(session, result64, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(result64));
+  for (i = 0; i < 6; ++i)
+  {
+    CHECK(result32[i] == result64[i]);
+  }
+  delaunayflip_close(session);
+}
+
+static void TestSteps(void)
+{
+  Lattice lattice = MakeLattice(20);
+  delaunayflip_session* session;
+  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
+  int64_t* stepped = malloc(bytes);
+  int64_t* whole = malloc(bytes);
+  int32_t* counts = malloc(sizeof(int32_t) * lattice.mesh.number_of_triangles);
+  int32_t is_running = 1;
+  int64_t steps = 0, flips = 0, i;
+  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  while (is_running)
+  {
+    CHECK(delaunayflip_advance(session, 1, NULL, &is_running) == DELAUNAYFLIP_OK);
+    ++steps;
+    CHECK(GetReport(session).stop_reason ==
+      (is_running ? DELAUNAYFLIP_RUNNING : DELAUNAYFLIP_CONVERGED));
+  }
+  CHECK(steps > 2);
+  CHECK(delaunayflip_store_triangles(session, stepped, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_flip_counts(session, counts) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, whole, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(stepped, whole, bytes) == 0);
+  for (i = 0; i < lattice.mesh.number_of_triangles; ++i)
+  {
+    flips += counts[i];
+  }
+  CHECK(flips == 2 * GetReport(session).total_flips && flips > 0);
+  delaunayflip_close(session);
+  free(stepped);
+  free(whole);
+  free(counts);
+  FreeLattice(&lattice);
+}
+
+static void TestInPlace(void)
+{
+  Lattice lattice = MakeLattice(10);
+  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
+  int64_t* apart = malloc(bytes);
+  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, apart, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(apart, lattice.triangles, bytes) != 0);
+  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, lattice.triangles, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(apart, lattice.triangles, bytes) == 0);
+  free(apart);
+  FreeLattice(&lattice);
+}
+
+static void TestConstraints(void)
+{
+  const int64_t diagonal[] = { 2, 0 };
+  const int32_t regions[] = { 7, 8 };
+  const unsigned char frozen[] = { 0, 1 };
+  delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  mesh.constraint_edges = diagonal;
+  mesh.number_of_constraint_edges = 1;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(triangles, LongDiagonal, sizeof(triangles)) == 0);
+  CHECK(report.constraint_edges == 1 && report.total_flips == 0);
+  mesh = MakeMesh();
+  mesh.regions = regions;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(report.region_edges == 1 && report.total_flips == 0);
+  mesh = MakeMesh();
+  mesh.frozen_triangles = frozen;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(report.total_flips == 0);
+}
+
+typedef struct
+{
+  int64_t calls;
+  int64_t last_call; /* The call that returns 0. */
+  double share;
+  int64_t flips;
+} Log;
+
+static int32_t LogProgress(double share, void* user)
+{
+  Log* log = user;
+  CHECK(share >= log->share && share <= 1.0);
+  log->share = share;
+  return ++log->calls != log->last_call;
+}
+
+static int32_t LogIteration(const delaunayflip_iteration* record, void* user)
+{
+  Log* log = user;
+  log->flips += record->flipped;
+  CHECK(record->iteration == log->calls + 1);
+  return ++log->calls != log->last_call;
+}
+
+static void TestProgressAborts(void)
+{
+  Lattice lattice = MakeLattice(50);
+  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
+  int64_t* triangles = malloc(bytes);
+  Log log = { 0, 0, 0.0, 0 };
+  delaunayflip_callbacks callbacks;
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(delaunayflip_flip(&lattice.mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(log.calls > 1 && log.share == 1.0);
+  log.calls = 0;
+  log.last_call = 1;
+  log.share = 0.0;
+  CHECK(delaunayflip_flip(&lattice.mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(log.calls == 1);
+  CHECK(report.stop_reason == DELAUNAYFLIP_ABORTED && report.total_flips == 0);
+  CHECK(memcmp(triangles, lattice.triangles, bytes) == 0);
+  free(triangles);
+  FreeLattice(&lattice);
+}
+
+static void TestIterationAborts(void)
+{
+  Lattice lattice = MakeLattice(30);
+  Log log = { 0, 2, 0.0, 0 };
+  delaunayflip_callbacks callbacks;
+  delaunayflip_session* session;
+  int32_t is_running = 1;
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.iteration = LogIteration;
+  callbacks.user = &log;
+  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, &callbacks, &is_running) == DELAUNAYFLIP_OK);
+  CHECK(!is_running);
+  CHECK(log.calls == 2);
+  CHECK(GetReport(session).stop_reason == DELAUNAYFLIP_ABORTED);
+  CHECK(GetReport(session).total_flips == log.flips);
+  delaunayflip_close(session);
+  FreeLattice(&lattice);
+}
+
+static void TestInvalidMesh(void)
+{
+  const int64_t wrong[] = { 0, 1, 2, 0, 2, 4 };
+  delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6] = { -1, -1, -1, -1, -1, -1 };
+  double angles[2] = { -1.0, -1.0 };
+  mesh.triangles = wrong;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_MESH);
+  CHECK(delaunayflip_error_cell() == 1 && delaunayflip_error_point() == 4);
+  CHECK(strstr(delaunayflip_error_message(), "4") != NULL);
+  CHECK(triangles[0] == -1);
+  CHECK(delaunayflip_triangle_angles(&mesh, DELAUNAYFLIP_GEOMETRY_SURFACE, angles) ==
+    DELAUNAYFLIP_INVALID_MESH);
+  CHECK(angles[0] == -1.0);
+}
+
+static void TestInvalidOptions(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_options options;
+  delaunayflip_options_init(&options);
+  options.feature_angle = 181.0;
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  CHECK(delaunayflip_error_cell() == -1);
+  delaunayflip_options_init(&options);
+  options.geometry = 4;
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  options.geometry = -1;
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+}
+
+static void TestNullPointers(void)
+{
+  delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_session* session = NULL;
+  int64_t triangles[6];
+  CHECK(delaunayflip_flip(NULL, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_advance(NULL, -1, NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_get_report(NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  mesh.points = NULL;
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(session == NULL);
+  CHECK(strstr(delaunayflip_error_message(), "points") != NULL);
+  delaunayflip_close(NULL);
+}
+
+static void TestUnsetSizes(void)
+{
+  delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_options options;
+  int64_t triangles[6];
+  memset(&options, 0, sizeof(options));
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(strstr(delaunayflip_error_message(), "_init") != NULL);
+  mesh.size = 0;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+}
+
+/* A program whose header ended after `tie_rule` gets the defaults of what follows, and a report cut
+ * where its own ended. */
+static void TestOldProgram(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_options options;
+  delaunayflip_report report;
+  delaunayflip_options_init(&options);
+  options.size = (int64_t)((char*)&options.backend - (char*)&options);
+  options.feature_angle = 1000.0; /* Beyond the size: not looked at. */
+  delaunayflip_report_init(&report);
+  report.size = (int64_t)((char*)&report.total_flips - (char*)&report);
+  report.total_flips = -5;
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(triangles));
+  CHECK(report.number_of_iterations > 0);
+  CHECK(report.total_flips == -5);
+}
+
+/* A program with a longer struct than the library's: the end of its report stays as it was. */
+static void TestNewerProgram(void)
+{
+  struct
+  {
+    delaunayflip_report report;
+    int64_t unknown;
+  } newer;
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_report_init(&newer.report);
+  newer.report.size = sizeof(newer);
+  newer.unknown = 42;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &newer.report) == DELAUNAYFLIP_OK);
+  CHECK(newer.report.total_flips == 1);
+  CHECK(newer.report.size == sizeof(newer));
+  CHECK(newer.unknown == 42);
+}
+
+static void TestEmptyMesh(void)
+{
+  delaunayflip_mesh mesh;
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  delaunayflip_mesh_init(&mesh);
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, NULL, &report) == DELAUNAYFLIP_OK);
+  CHECK(report.total_flips == 0 && report.edges == 0);
+  CHECK(isnan(report.minimum_angle_before));
+}
+
+static void TestAngles(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  double angles[2];
+  CHECK(
+    delaunayflip_triangle_angles(&mesh, DELAUNAYFLIP_GEOMETRY_SURFACE, angles) == DELAUNAYFLIP_OK);
+  CHECK(fabs(angles[0] - 26.565051177077976) < 1e-9);
+  CHECK(fabs(angles[0] - angles[1]) < 1e-12);
+}
+
+static void TestIterations(void)
+{
+  Lattice lattice = MakeLattice(20);
+  delaunayflip_session* session;
+  delaunayflip_iteration records[3];
+  delaunayflip_report report;
+  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, 3, NULL, NULL) == DELAUNAYFLIP_OK);
+  report = GetReport(session);
+  CHECK(report.number_of_iterations == 3);
+  CHECK(delaunayflip_get_iterations(session, 0, 3, records, sizeof(records[0])) == DELAUNAYFLIP_OK);
+  CHECK(records[0].iteration == 1 && records[2].iteration == 3);
+  CHECK(records[0].flipped + records[1].flipped + records[2].flipped == report.total_flips);
+  CHECK(delaunayflip_get_iterations(session, 1, 3, records, sizeof(records[0])) ==
+    DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_get_iterations(session, -1, 1, records, sizeof(records[0])) ==
+    DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_get_iterations(session, 3, 0, NULL, sizeof(records[0])) == DELAUNAYFLIP_OK);
+  delaunayflip_close(session);
+  FreeLattice(&lattice);
+}
+
+static void TestBackendUnavailable(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_options options;
+  delaunayflip_options_init(&options);
+  options.backend = DELAUNAYFLIP_BACKEND_CUDA;
+  if (delaunayflip_has_cuda_device())
+  {
+    CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_OK);
+    CHECK(HasShortDiagonal(triangles));
+    delaunayflip_release_cuda_memory();
+    return;
+  }
+  CHECK(
+    delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_BACKEND_UNAVAILABLE);
+  CHECK(strlen(delaunayflip_error_message()) > 0);
+}
+
+static void TestThreads(void)
+{
+  Lattice lattice = MakeLattice(100);
+  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
+  int64_t* one = malloc(bytes);
+  int64_t* three = malloc(bytes);
+  delaunayflip_options options;
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  delaunayflip_options_init(&options);
+  options.backend = DELAUNAYFLIP_BACKEND_THREADS;
+  options.number_of_threads = 1;
+  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, one, &report) == DELAUNAYFLIP_OK);
+  CHECK(strcmp(report.backend, "Threads: 1") == 0);
+  options.number_of_threads = 3;
+  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, three, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(one, three, bytes) == 0);
+  free(one);
+  free(three);
+  FreeLattice(&lattice);
+}
+
+typedef struct
+{
+  const char* name;
+  void (*run)(void);
+} Case;
+
+int main(int argc, char** argv)
+{
+  const Case cases[] = { { "versions", TestVersions }, { "flips_square", TestFlipsSquare },
+    { "all_types", TestAllTypes }, { "steps", TestSteps }, { "in_place", TestInPlace },
+    { "constraints", TestConstraints }, { "progress_aborts", TestProgressAborts },
+    { "iteration_aborts", TestIterationAborts }, { "invalid_mesh", TestInvalidMesh },
+    { "invalid_options", TestInvalidOptions }, { "null_pointers", TestNullPointers },
+    { "unset_sizes", TestUnsetSizes }, { "old_program", TestOldProgram },
+    { "newer_program", TestNewerProgram }, { "empty_mesh", TestEmptyMesh },
+    { "angles", TestAngles }, { "iterations", TestIterations },
+    { "backend_unavailable", TestBackendUnavailable }, { "threads", TestThreads } };
+  size_t i;
+  for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)
+  {
+    if (strcmp(cases[i].name, argv[1]) == 0)
+    {
+      cases[i].run();
+      return 0;
+    }
+  }
+  fprintf(stderr, "usage: delaunayflip-c-test CASE\n");
+  return 2;
+}
