@@ -6,61 +6,62 @@
  *
  * vtkDelaunayFlip keeps the points of a mesh where they are and changes only how they are joined:
  * in every iteration it flips, in parallel, an independent set of edges that are not locally
- * Delaunay, until none is left that it may flip.
+ * Delaunay, until no such edge is left that may be flipped.
  *
- * What goes in: any vtkPolyData, also as a block of a composite dataset. Triangles are flipped;
- * quads, polygons and triangle strips are split into triangles first (see Triangulate). Nothing is
- * assumed about the mesh: it may be open, non-manifold, of mixed winding, with duplicate,
- * degenerate or unused parts. What is not provably safe to flip stays as it is and is counted.
- * The optional second input holds constraint edges as lines and polygons, over the same point ids
- * or at the same places (SetConstraintsConnection()); lines of the first input are constraints too
- * (LinesAsConstraints).
+ * Input: any vtkPolyData, also as a block of a composite dataset. Quads, polygons and triangle
+ * strips are first split into triangles (see Triangulate). Nothing is assumed about the mesh: it
+ * may be open or non-manifold, have mixed winding, and contain duplicate, degenerate or unused
+ * parts. Edges that are not provably safe to flip stay and are counted. The optional second input
+ * holds constraint edges, as lines and polygons with the same point ids or at the same places (see
+ * SetConstraintsConnection()). Lines of the first input are constraints too (see
+ * LinesAsConstraints).
  *
- * What comes out: on port 0 the mesh, with the very same vtkPoints object and point data, verts
- * and lines, and with every triangle in the slot, and with the cell data, that it came with.
- * Triangles that no flip touched are bit-identical. Active cell normals are computed anew for
- * changed triangles. Where a cell was split, global cell ids become pedigree ids, since they are no
- * longer unique. Output cells are ordered verts, lines, polygons (triangles of strips after those
- * of the polygons), strips; cells of fewer than three points pass as they are. On port 1 a vtkTable
- * with one row per iteration: Iteration, Tested, NonDelaunay, Flipped, Excluded, Blocked,
- * MinimumAngle (degrees; NaN where it was not computed) and Seconds. Port 0 carries the same
- * columns as field data, beside one-value arrays: Converged, StopReason, TotalFlips,
- * NonDelaunayEdges, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
- * GeometryUsed, GeometryReason, Tolerance ("automatic", the value, or "none" where the in-circle
- * predicate decides) and Backend. In the field data each name begins with "DelaunayFlip:", e.g.
- * "DelaunayFlip:Flipped", so that arrays of the input with such names pass. Input without
- * triangles, polygons or strips passes as a shallow copy, with a table of no rows.
+ * Output port 0: the mesh. It shares the vtkPoints object of the input and keeps its point data,
+ * verts and lines. Every triangle keeps its place in the cell array and its cell data; triangles
+ * that no flip changed are bit-identical. Active cell normals are recomputed for changed triangles.
+ * If cells were split, global cell ids become pedigree ids, since they are no longer unique. Output
+ * cells are ordered verts, lines, polygons (triangles of strips after those of the polygons),
+ * strips. Cells with fewer than three points pass unchanged. Input without triangles, polygons or
+ * strips passes as a shallow copy, with an empty table.
+ *
+ * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
+ * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
+ * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
+ * Converged, StopReason, TotalFlips, NonDelaunayEdges, FixedEdges, NonManifoldEdges,
+ * ConstraintEdges, UnmatchedConstraintEdges, GeometryUsed, GeometryReason, Tolerance ("automatic",
+ * the value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
+ * begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short
+ * names pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
  * cells (vtkGhostType: duplicate, refined or hidden).
  *
- * How it differs from its neighbours: vtkDelaunay2D makes a triangulation of points from nothing
- * and in x and y only; this filter improves a mesh that exists, planar in any orientation or a
- * surface in space, keeps its holes, borders and constraints, and is exact in the plane: by default
- * each edge is judged by an error-free in-circle predicate.
+ * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, in x and y
+ * only. This one improves an existing mesh, planar in any orientation or a surface in space, and
+ * keeps its holes, borders and constraints. In the plane it is exact: by default each edge is
+ * judged by an error-free in-circle predicate.
  *
- * Where the work is done: on a GPU, in a build with the CUDA backend, where there is one and the
- * mesh is large enough for it, else on threads of the CPU (see Backend). The same input gives the
- * same output, bit for bit, on either and for any number of threads; Seconds and Backend are the
- * only values that may differ.
- *
- * @warning
- * Points that do not belong to any triangle stay unused: nothing is inserted. On surfaces the
- * result is Delaunay in the sense of opposite-angle sums, and an edge whose flip would fold the
- * surface or duplicate an edge stays and is reported as blocked.
- *
- * Composite input (multiblock, partitioned): every polygonal block is flipped by itself, others
- * pass with a warning; an error empties the block that it names, and the others are flipped. The
- * read-back methods and the table, of which there is one, sum up all blocks; the field data of a
- * block are its own. Composite constraints of the same structure are taken block by block. The same
- * sums are made over the pieces of a parallel run, where the ranks of the global
- * vtkMultiProcessController, as in ParaView, update a piece each: all of them must update together.
- * Rank 0 has the table, and gives the messages.
+ * The work is done on a GPU if the build has the CUDA backend, there is a GPU, and the mesh is
+ * large enough; otherwise on CPU threads (see Backend). The same input gives the same output, bit
+ * for bit, on either and with any number of threads. Only Seconds and Backend may differ.
  *
  * @warning
- * Edges between the pieces of a parallel run, or between the partitions of a dataset, stay, and the
- * counts do not know of them. An update that leaves such edges gives a warning.
+ * Points that belong to no triangle stay unused: nothing is inserted. On surfaces the result is
+ * Delaunay in the sense of opposite-angle sums. An edge whose flip would fold the surface over, or
+ * create an edge that exists already, stays and is reported as blocked.
+ *
+ * Composite input (multiblock, partitioned): every polygonal block is flipped separately; other
+ * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
+ * and the other blocks are flipped. The methods that return results, and the only table, have the
+ * sums over all blocks; the field data of a block are its own. Composite constraints with the same
+ * structure apply block by block. In a parallel run, where each rank of the global
+ * vtkMultiProcessController updates one piece, as in ParaView, the sums are over all pieces. All
+ * ranks must update together. Rank 0 has the table and gives the messages.
+ *
+ * @warning
+ * Edges between the pieces of a parallel run, or between the partitions of a dataset, stay and are
+ * not counted. An update that leaves such edges gives a warning.
  *
  * @par References
  * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
@@ -108,25 +109,24 @@ public:
 
   ///@{
   /**
-   * In which space edges are judged. PLANAR judges in the plane of the points, whatever its
-   * orientation, and is an error if there is none. PLANAR_XY judges by x and y and lets z ride
-   * along (terrain). SURFACE judges in space, by opposite-angle sums. AUTO (default) is the first
-   * of these that fits:
+   * The space in which edges are judged. PLANAR judges in the plane of the points, in any
+   * orientation; the update fails if they lie in no plane. PLANAR_XY judges by x and y alone, for
+   * terrain. SURFACE judges in space, by opposite-angle sums. AUTO (default) chooses the first of
+   * these that fits:
    *
-   * PLANAR when all used points lie in one plane, within 1e-6 of the diagonal of their bounding
-   * box.
+   * PLANAR if all used points lie in one plane, within 1e-6 of the diagonal of their bounding box.
    *
-   * PLANAR_XY when the mesh is a height field over x and y (all triangles but at most one in 1,000
-   * have area there and turn the same way, and around no point they turn more than once) and either
-   * z extends further than x and y, as with degrees and metres, or 95 % of the area slopes below 45
-   * degrees. The slope of a sliver is that of its steepest edge: planes of slivers are steep in the
-   * gentlest terrain.
+   * PLANAR_XY if the mesh is a height field over x and y, and either z extends further than both x
+   * and y, as with degrees and metres, or 95 % of the area slopes less than 45 degrees. It is a
+   * height field if in the projection all triangles, except at most one in 1,000, have area and
+   * turn the same way, and the triangles around any point turn at most once. The slope of a sliver
+   * is that of its steepest edge, because the planes of slivers are steep even in gentle terrain.
    *
-   * SURFACE else. One warning is given where only a few triangles, less than one in 100, stood
-   * against PLANAR_XY. Ask for PLANAR_XY where terrain is steeper.
+   * SURFACE otherwise. If fewer than one triangle in 100 ruled out a height field, a warning says
+   * so. Choose PLANAR_XY yourself for steeper terrain.
    *
-   * GetGeometryReason() says why. Where SURFACE is used on a height field, by choice or not, and
-   * its flips turn triangles over in x and y, a warning counts them.
+   * GetGeometryReason() says why a geometry was used. If SURFACE is used on a height field, chosen
+   * by AUTO or by you, and flips turn triangles over in x and y, a warning counts them.
    */
   enum GeometryType
   {
@@ -134,7 +134,7 @@ public:
     GEOMETRY_PLANAR = 1,
     GEOMETRY_PLANAR_XY = 2,
     GEOMETRY_SURFACE = 3,
-    GEOMETRY_MIXED = 4 ///< Of GetGeometryUsed() only.
+    GEOMETRY_MIXED = 4 ///< Returned by GetGeometryUsed(); cannot be set.
   };
   vtkSetClampMacro(Geometry, int, GEOMETRY_AUTO, GEOMETRY_SURFACE);
   vtkGetMacro(Geometry, int);
@@ -146,9 +146,9 @@ public:
 
   ///@{
   /**
-   * How an edge is judged. IN_CIRCLE (default) is the exact predicate of planar geometry.
-   * OPPOSITE_ANGLES is the criterion of the literature: the two angles opposite the edge sum to
-   * more than pi + Tolerance. Surfaces always use OPPOSITE_ANGLES.
+   * How an edge is judged. With IN_CIRCLE (default), by the exact in-circle predicate, in planar
+   * geometry. With OPPOSITE_ANGLES an edge is bad if the two angles opposite to it sum to more than
+   * pi + Tolerance. Surfaces always use OPPOSITE_ANGLES.
    */
   enum CriterionType
   {
@@ -163,12 +163,12 @@ public:
 
   ///@{
   /**
-   * By how many radians an opposite-angle sum must exceed pi. At least 0 and below 1, or -1
-   * (default), else the update fails. -1 is automatic: each edge has its own tolerance, as large as
-   * the change of its sum that a unit in the last place of its points' coordinates (float or
-   * double) may cause. It grows with the distance from the origin and with short edges. A surface
-   * that is Delaunay within the precision of its points comes back bit-identical then. Without
-   * effect on the in-circle criterion, which is exact.
+   * How far an opposite-angle sum may exceed pi before the edge is bad, in radians: at least 0 and
+   * below 1, or -1 (default); other values fail the update. -1 is automatic: each edge has its own
+   * tolerance, the largest change of its sum that one unit in the last place of its points'
+   * coordinates (float or double) can cause. This tolerance is larger far from the origin and for
+   * short edges. With it, a surface that is Delaunay within the precision of its points comes back
+   * bit-identical. Has no effect on the in-circle criterion, which is exact.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -176,9 +176,9 @@ public:
 
   ///@{
   /**
-   * What happens to an edge whose four points lie on one circle exactly. KEEP (default) leaves it,
+   * What happens to an edge whose four points lie exactly on one circle. KEEP (default) leaves it,
    * so that a Delaunay mesh comes back bit-identical. CANONICAL makes the result independent of the
-   * triangles of the input; it needs planar geometry and the in-circle criterion, else the update
+   * input's triangles. It needs planar geometry and the in-circle criterion; otherwise the update
    * fails.
    */
   enum TieRuleType
@@ -194,8 +194,8 @@ public:
 
   ///@{
   /**
-   * On surfaces, an edge stays when the normals of its two triangles differ by more than this many
-   * degrees in the input. 0 to 180; default 30; 180 turns feature edges off.
+   * On surfaces, an edge stays if the normals of its two triangles differ by more than this angle
+   * in the input. In degrees, 0 to 180; default 30; 180 turns feature edges off.
    */
   vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
   vtkGetMacro(FeatureAngle, double);
@@ -203,9 +203,9 @@ public:
 
   ///@{
   /**
-   * Name of a cell array, numeric or of strings, with any number of components, that tells
-   * regions apart: edges between triangles of different values stay. Default none ("" or null);
-   * the update fails if the input has no such array.
+   * The name of a cell array that labels regions: edges between triangles with different values
+   * stay. The array may hold numbers or strings, with any number of components. Default: none (""
+   * or null). The update fails if the input has no such array.
    */
   vtkSetStdStringFromCharMacro(RegionArray);
   vtkGetCharFromStdStringMacro(RegionArray);
@@ -213,8 +213,8 @@ public:
 
   ///@{
   /**
-   * Keep the edges along the lines of the input (every pair of consecutive points of its polylines)
-   * that are edges of the mesh. Default on. Lines pass to the output in any case.
+   * Keep the edges of the mesh that lie along lines of the input, that is, join consecutive points
+   * of its polylines. Default on. Lines always pass to the output.
    */
   vtkSetMacro(LinesAsConstraints, bool);
   vtkGetMacro(LinesAsConstraints, bool);
@@ -223,11 +223,11 @@ public:
 
   ///@{
   /**
-   * Split quads, polygons and triangle strips into triangles and flip those too. A quad is cut
-   * along the diagonal of its first and third point unless that runs outside it; a larger polygon
-   * becomes a fan where it is convex, else its ears are clipped. Default on. Off: such cells pass
-   * untouched and their edges stay (in the counts they take part as the triangles they would
-   * become, none of whose edges may flip).
+   * Split quads, polygons and triangle strips into triangles and flip those too. A quad is split
+   * along the diagonal from its first to its third point, unless that runs outside it; a larger
+   * polygon becomes a fan if it is convex, else its ears are clipped. Default on. If off, such
+   * cells pass unchanged and their edges stay. They are then counted as the triangles that they
+   * would become, with all of their edges fixed.
    */
   vtkSetMacro(Triangulate, bool);
   vtkGetMacro(Triangulate, bool);
@@ -236,11 +236,11 @@ public:
 
   ///@{
   /**
-   * Where the flips run; the result is the same, bit for bit. AUTO (default) takes a GPU where
-   * there is one that this build can use and there are at least 20,000 triangles, after polygons
-   * and strips were split; where that GPU fails, for want of memory say, the CPU does the work and
-   * the update gives one warning that says why. CUDA is a GPU for meshes of any size, and the
-   * update fails if there is none or if it fails. THREADS are those of the CPU.
+   * Where the flips run; the result is the same, bit for bit. AUTO (default) uses a GPU if there is
+   * one that this build supports and the mesh, once split, has at least 20,000 triangles. If that
+   * GPU fails, for example because it runs out of memory, the CPU does the work and one warning
+   * says why. CUDA uses a GPU for meshes of any size; the update fails if there is no GPU or the
+   * GPU fails. THREADS uses CPU threads.
    */
   enum BackendType
   {
@@ -257,9 +257,9 @@ public:
 
   ///@{
   /**
-   * CUDA's number of the GPU to use, 0 or more; -1 (default): the one that is current in the thread
-   * that updates, usually 0. Where there is no such GPU, AUTO warns and takes the CPU, and CUDA
-   * fails. Without effect where the flips run on the CPU.
+   * CUDA's number of the GPU to use, 0 or more; -1 (default): the current device of the thread that
+   * updates, usually 0. If there is no such GPU, AUTO gives a warning and uses the CPU, and with
+   * CUDA the update fails. Has no effect on the CPU.
    */
   vtkSetClampMacro(DeviceId, int, -1, VTK_INT_MAX);
   vtkGetMacro(DeviceId, int);
@@ -267,7 +267,8 @@ public:
 
   ///@{
   /**
-   * Threads to use; 0 (default): as many as the machine has. The result does not depend on it.
+   * The number of CPU threads; 0 (default): as many as the machine has. The result does not depend
+   * on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
@@ -275,10 +276,9 @@ public:
 
   ///@{
   /**
-   * Upper limit of iterations: -1 (default) goes on until no edge can flip, 0 makes none. On
-   * surfaces -1 has a safety limit of the number of triangles + 1000, which gives a warning when it
-   * is reached; a limit that was asked for gives none. StopReason tells of either, and the output
-   * is a valid mesh.
+   * The most iterations to make; 0 makes none, and -1 (default) sets no limit. On surfaces -1 still
+   * has a safety limit, the number of triangles + 1000, with a warning if it is reached. Reaching a
+   * limit that you set gives no warning. StopReason tells of both, and the output is a valid mesh.
    */
   vtkSetClampMacro(MaximumIterations, vtkIdType, -1, VTK_ID_MAX);
   vtkGetMacro(MaximumIterations, vtkIdType);
@@ -286,8 +286,8 @@ public:
 
   ///@{
   /**
-   * Compute the smallest angle of the mesh after every iteration instead of only after the first
-   * and the last. Costs a pass over the mesh each time. Default off.
+   * Compute the smallest angle of the mesh after every iteration, instead of only after the first
+   * and the last one. Costs one pass over the mesh per iteration. Default off.
    */
   vtkSetMacro(TrackQuality, bool);
   vtkGetMacro(TrackQuality, bool);
@@ -296,8 +296,8 @@ public:
 
   ///@{
   /**
-   * Add the cell array vtkDelaunayFlipCount (int): how often each triangle was part of a flip; 0
-   * for other cells. Default off.
+   * Add the cell array vtkDelaunayFlipCount (int): in how many flips each triangle took part; 0 for
+   * other cells. Default off.
    */
   vtkSetMacro(GenerateFlipCount, bool);
   vtkGetMacro(GenerateFlipCount, bool);
@@ -308,9 +308,9 @@ public:
   /**
    * Add the cell arrays vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter (double): the
    * smallest angle of each triangle in degrees, 0 to 60, in space or, with PLANAR_XY, in the
-   * projection. Before is that of the triangle which the input, its polygons split, had in the same
-   * place. 0 where a triangle has no area; NaN where a coordinate is NaN or infinite, and for cells
-   * that are no triangles. Default off.
+   * projection. Before is the angle of the triangle that was in the same place in the input, after
+   * polygons were split. 0 for triangles without area; NaN if a coordinate is NaN or infinite, and
+   * for cells that are not triangles. Default off.
    */
   vtkSetMacro(GenerateQuality, bool);
   vtkGetMacro(GenerateQuality, bool);
@@ -319,20 +319,20 @@ public:
 
   ///@{
   /**
-   * Let the mesh be seen while it improves: every update makes IterationsPerUpdate more iterations
-   * and gives the mesh, and what is told of it, as they are then. Default off. The filter keeps the
-   * state from one update to the next, in memory of the host or of a GPU, until it is turned off.
-   * The last of these meshes is, bit for bit, the one of an update without LiveUpdate.
+   * Show the mesh while it improves: every update makes IterationsPerUpdate more iterations and
+   * outputs the mesh, with its statistics, as it is then. Default off. The filter keeps the state
+   * between updates, in memory of the host or of a GPU, until LiveUpdate is turned off. The last
+   * mesh is bit-identical to that of an update without LiveUpdate.
    *
-   * Ask for the next update with Advance():
+   * Request the next update by Advance():
    *
    *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
    *
-   * Another input or option starts again. When only points were moved, under the same cells, the
-   * next update starts from the triangles that flips have made, with the edges that were fixed at
-   * the beginning (a warm start); its statistics begin anew. Composite input and input in several
-   * pieces (a parallel run) are flipped at once, with a warning, and so, silently, is input in
-   * ParaView's pvbatch.
+   * A change of the input or of an option starts a new run. But if only points were moved, under
+   * the same cells, the next update continues from the flipped triangles, with the edges that were
+   * fixed at the beginning (a warm start); its statistics start again. Composite input, and input
+   * in several pieces (a parallel run), is flipped at once, with a warning. So is any input in
+   * ParaView's pvbatch, without a warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);
@@ -341,25 +341,26 @@ public:
 
   ///@{
   /**
-   * Iterations that an update makes when LiveUpdate is on: 1 (default) or more, or 0 for as many as
-   * fit 50 ms, at least one. With 0 the meshes on the way may differ from run to run; the last one
-   * and the table do not.
+   * The number of iterations per update when LiveUpdate is on: 1 (default) or more, or 0 for as
+   * many as fit into 50 ms, at least one. With 0 the intermediate meshes may differ between runs;
+   * the last one and the table do not.
    */
   vtkSetClampMacro(IterationsPerUpdate, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(IterationsPerUpdate, vtkIdType);
   ///@}
 
   /**
-   * Lets the next update of a live run go on: marks the filter as modified, if there is more to do.
-   * @returns whether there is: not after convergence, the iteration limit or an error, nor without
-   * LiveUpdate.
+   * Requests the next step of a live run: marks the filter as modified if there is more to do.
+   * @returns whether there is more to do: false after convergence, the iteration limit or an error,
+   * and without LiveUpdate.
    */
   bool Advance();
 
   ///@{
   /**
-   * Hold a live run: while this is on, GetNeedsUpdate() returns false; Advance() and Step() still
-   * work. Default off. To set it does not mark the filter as modified, for that would make a step.
+   * Pause a live run: while this is on, GetNeedsUpdate() returns false; Advance() and Step() still
+   * work. Default off. Setting it does not mark the filter as modified, since that would cause a
+   * step.
    */
   void SetPaused(bool paused) { this->Paused = paused; }
   vtkGetMacro(Paused, bool);
@@ -367,41 +368,41 @@ public:
   ///@}
 
   /**
-   * As Advance(): one more update of a live run, paused or not. For a button beside Paused.
+   * The same as Advance(): requests one more step of a live run, paused or not. For a button.
    */
   bool Step() { return this->Advance(); }
 
   /**
-   * Lets the next update of a live run start from the input again.
+   * Makes the next update of a live run start from the input again.
    */
   void Restart();
 
   /**
-   * For programs that poll (ParaView's LiveSource): as Advance(), but false before the first
-   * update, after an abort and while Paused.
+   * For programs that poll, such as ParaView with a LiveSource: the same as Advance(), but returns
+   * false before the first update, after an abort and while Paused is on.
    */
   bool GetNeedsUpdate();
 
   ///@{
   /**
-   * Constraint edges, optional: the edges along the lines and polygons of this input stay where
-   * they are edges of the mesh. Where it has no points, or the very points of the first input (as
-   * many, the same bits), its point ids are those of the mesh, as with the source of vtkDelaunay2D.
-   * Else edges are matched by the coordinates of their points, so that the output of
-   * vtkFeatureEdges, which numbers points anew, can be used. These must be equal, not near; where
-   * one of the inputs has float points and the other double ones, they are compared after rounding
-   * to float. Where several points of the mesh coincide, every pair of them that is an edge of the
-   * mesh is meant. Constraint edges that match none are counted, and the update gives one warning.
+   * Constraint edges, optional: edges of the mesh along the lines and polygons of this input stay.
+   * If this input has no points, or the same points as the first input (the same number and bits),
+   * its point ids are those of the mesh, as with the source of vtkDelaunay2D. Otherwise edges are
+   * matched by the coordinates of their points, so the output of vtkFeatureEdges, which renumbers
+   * points, can be used. Coordinates must be equal, not just close; if one input has float points
+   * and the other double, they are compared after rounding to float. If several points of the mesh
+   * coincide, all pairs of them that are edges of the mesh match. Constraint edges that match no
+   * edge of the mesh are counted, and the update gives one warning.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints);
   ///@}
 
   /**
-   * Gives back the memory, of GPUs and of the host, that the CUDA backend keeps from one update for
-   * the next. All filters of a process share it; updates under way in other threads keep theirs.
-   * The next update on a GPU begins a little slower. A filter that has been updated does this when
-   * it is deleted. Never fails; does nothing where no GPU was used.
+   * Frees the memory, on GPUs and on the host, that the CUDA backend keeps for the next update. All
+   * filters of a process share it; updates that are running in other threads keep theirs. The next
+   * update on a GPU starts a little slower. A filter that has been updated does this when it is
+   * deleted. Never fails; does nothing if no GPU was used.
    */
   void ReleaseDeviceMemory();
 
@@ -410,12 +411,13 @@ public:
 
   ///@{
   /**
-   * What the last update did: over blocks and pieces NumberOfIterations is the largest, TotalFlips
-   * the sum. From an observer of ProgressEvent, they are those of the current block up to now.
-   * Progress is an estimate of the share of the time that has passed, from the split of polygons
-   * and the search for edges on; AbortExecute is looked at whenever it is told, every 0.1 s or more
-   * often for a million triangles. Aborted before the first iteration, the output holds the
-   * triangles of the input, or its polygons where those were still being split.
+   * What the last update did. With several blocks or pieces, NumberOfIterations is the largest of
+   * theirs and TotalFlips the sum. In an observer of ProgressEvent they are those of the current
+   * block so far. Progress is the estimated share of the update's time that has passed, including
+   * the splitting of polygons and the search for edges. AbortExecute is checked whenever progress
+   * is reported: for a million triangles at least every 0.1 s. If aborted before the first
+   * iteration, the output has the triangles of the input, or its polygons if those were still being
+   * split.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
@@ -423,31 +425,32 @@ public:
 
   ///@{
   /**
-   * How many edges of the mesh the lines of the first input and the constraints of the second hold,
-   * and how many constraint edges match no edge of the mesh. After a warm start, as at the
-   * beginning. Sums as TotalFlips: where all blocks share the constraints, an edge is unmatched
-   * once for each block that does not have it.
+   * How many edges of the mesh are constraint edges, by lines of the first input or by the second
+   * input, and how many edges of these lines and of the second input match no edge of the mesh.
+   * After a warm start, as at the beginning. Both are sums over blocks and pieces: if all blocks
+   * share the constraints, an edge counts as unmatched once for each block that does not have it.
    */
   vtkIdType GetNumberOfConstraintEdges() const;
   vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
   ///@}
 
   /**
-   * Edges left that are not Delaunay and not fixed, after the last update; a sum as TotalFlips.
+   * How many bad edges, neither locally Delaunay nor fixed, are left after the last update; the sum
+   * over blocks and pieces.
    */
   vtkIdType GetNumberOfNonDelaunayEdges() const;
 
   /**
-   * Whether the last update ended because an iteration found nothing that it may flip.
+   * Whether the last update ended because an iteration found no edge that may flip.
    */
   bool GetConverged() const;
 
   ///@{
   /**
-   * Why the last update ended. NOT_STARTED before any; RUNNING when a live update has made its
-   * iterations and more are to come; FAILED after an error, when the outputs are empty and the text
-   * is "failed: " and why. The update after an error needs nothing but what puts it right. Over
-   * blocks and pieces it is the worst of all.
+   * Why the last update ended. NOT_STARTED before the first update; RUNNING if a live update has
+   * made its iterations and there is more to do; FAILED after an error, with empty outputs and the
+   * text "failed: " and the reason. Once the cause is removed, the next update works. With several
+   * blocks or pieces, the worst of their reasons.
    */
   enum StopReasonType
   {
@@ -464,8 +467,9 @@ public:
 
   ///@{
   /**
-   * The geometry that the last update used, one of GeometryType; GEOMETRY_AUTO before any, after an
-   * error and for a mesh without triangles; GEOMETRY_MIXED, "mixed", if blocks or pieces differ.
+   * The geometry that the last update used, one of GeometryType. GEOMETRY_AUTO before the first
+   * update, after an error and for a mesh without triangles; GEOMETRY_MIXED, "mixed", if blocks or
+   * pieces differ.
    */
   int GetGeometryUsed() const;
   const char* GetGeometryUsedAsString() const;
@@ -479,17 +483,18 @@ public:
 
   /**
    * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:
-   * NVIDIA H200" where blocks differ; "" before any, after an error and for a mesh without
-   * triangles.
+   * NVIDIA H200" if blocks differ. "" before the first update, after an error and for a mesh
+   * without triangles.
    */
   const char* GetBackendUsed() const;
 
   ///@{
   /**
-   * What was at fault when the last update failed: FAILURE_OPTIONS contradict each other or the
-   * mesh, FAILURE_MESH names points that do not exist or is too large, FAILURE_BACKEND cannot run
-   * here, FAILURE_OTHER (no memory). FAILURE_NONE before any update and after one that succeeded.
-   * GetErrorCode() is then vtkErrorCode::UserError plus this number, or vtkErrorCode::NoError.
+   * What caused the last update to fail. FAILURE_OPTIONS: options contradict each other or the
+   * mesh. FAILURE_MESH: the mesh names points that do not exist, or is too large. FAILURE_BACKEND:
+   * the backend cannot run here. FAILURE_OTHER: no memory. FAILURE_NONE before the first update and
+   * after success. GetErrorCode() returns vtkErrorCode::UserError plus this number, or
+   * vtkErrorCode::NoError.
    */
   enum FailureType
   {
@@ -503,12 +508,12 @@ public:
   ///@}
 
   /**
-   * Why the last update failed, in words; "" before any update and after one that succeeded.
+   * Why the last update failed, in words; "" before the first update and after success.
    */
   const char* GetErrorMessage() const;
 
   /**
-   * Everything that is known of the last update, for C++ callers that include FlipReport.h.
+   * The full report of the last update, for C++ callers that include FlipReport.h.
    */
 #ifndef __VTK_WRAP__
   const delaunayflip::FlipReport& GetReport() const;
@@ -526,9 +531,11 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
-   * The mesh that an input, or a block of it, is; null if it is none. For subclasses that know more
-   * surfaces than vtkPolyData. The same object as long as the input is the same. May throw
-   * std::invalid_argument where the input contradicts itself: the update fails, with its text.
+   * Returns an input, or a block of it, as a mesh; null if it is not a surface. Subclasses that
+   * accept more than vtkPolyData override this. Returns the same object while the input is the
+   * same.
+   * May throw std::invalid_argument if the input contradicts itself; the update then fails with
+   * its text.
    */
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
@@ -577,10 +584,11 @@ private:
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
   bool HasExecuted = false;
-  bool IsAtWork = false; ///< Within an update.
+  bool IsAtWork = false; ///< An update is running.
   bool MayGoOn = true; ///< Whether another live update can change the mesh.
-  std::unique_ptr<delaunayflip::FlipRun> Run; ///< Of live updates.
-  std::unique_ptr<delaunayflip::UpdateReport> Report; ///< Of the mesh under way; then, of all.
+  std::unique_ptr<delaunayflip::FlipRun> Run; ///< Null without LiveUpdate.
+  /// During an update that of the current mesh, afterwards the sum over all meshes.
+  std::unique_ptr<delaunayflip::UpdateReport> Report;
 
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
   void operator=(const vtkDelaunayFlip&) = delete;

@@ -48,7 +48,7 @@ void pqDelaunayFlipHiddenArrays::AddExpression()
   {
     return;
   }
-  this->IsAdding = true; // what follows modifies the settings, twice
+  this->IsAdding = true; // the following calls modify the settings, twice
   const int last = settings->GetNumberOfFilterExpressions();
   settings->SetNumberOfFilterExpressions(last + 1);
   settings->SetFilterExpression(last, Expression);

@@ -5,9 +5,9 @@
 
 #include <QObject>
 
-/// Keeps the field data of the filter, an array a column of its table, out of the menu Color By:
-/// one expression more by which ParaView hides arrays. Those of the user stay, and the settings
-/// file does not get to know it.
+/// Keeps the filter's field data, one array per column of its table, out of the menu Color By. Adds
+/// an expression to those by which ParaView hides arrays; those of the user stay, and the new one
+/// is not written to the settings file.
 class pqDelaunayFlipHiddenArrays : public QObject
 {
 public:

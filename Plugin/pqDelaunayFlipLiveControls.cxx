@@ -57,7 +57,7 @@ void pqDelaunayFlipLiveControls::setPaused(bool isPaused)
 
 void pqDelaunayFlipLiveControls::step()
 {
-  this->Pause->setChecked(true); // or the next step would come by itself
+  this->Pause->setChecked(true); // otherwise the next step would follow by itself
   this->invoke("Step");
 }
 

@@ -8,7 +8,7 @@
 class QPushButton;
 class vtkSMPropertyGroup;
 
-/// Buttons that hold a live run, make one step of it, and begin it again. They act at once, without
+/// Buttons that pause a live run, make one step of it, and restart it. They act at once, without
 /// Apply.
 class pqDelaunayFlipLiveControls : public pqPropertyWidget
 {

@@ -11,8 +11,8 @@ class QLabel;
 class vtkSMProperty;
 class vtkSMPropertyGroup;
 
-/// A group of properties that are read back, as plain text beside their names. Its text can be
-/// selected and copied, and there is nothing to edit. Advanced properties are for scripts alone.
+/// A group of information properties, shown as plain text beside their names. The text can be
+/// selected and copied, but not edited. Advanced properties are not shown: they are for scripts.
 class pqDelaunayFlipResults : public pqPropertyWidget
 {
   Q_OBJECT
@@ -26,7 +26,7 @@ private Q_SLOTS:
 private:
   QLabel* makeValue(vtkSMProperty* smproperty);
 
-  QList<QLabel*> Values; ///< With the names of their properties.
+  QList<QLabel*> Values; ///< Labels, whose object names are those of the properties.
 };
 
 #endif

@@ -35,7 +35,7 @@ QString MakeText(pqOutputPort* port)
   return source->getNumberOfOutputPorts() > 1 ? name + ":" + port->getPortName() : name;
 }
 
-/// A filter and all that comes after it.
+/// A filter and everything downstream of it.
 QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
 {
   QSet<pqPipelineSource*> found{ first };
@@ -139,7 +139,8 @@ void pqDelaunayFlipSourceList::showInput()
   const bool isSet = helper.GetNumberOfElements() > 0;
   const QString key = isSet ? MakeKey(helper.GetAsProxy(), helper.GetOutputPort()) : QString();
   const QSignalBlocker blocker(this->Choices);
-  this->Choices->setCurrentIndex(this->Choices->findData(key)); // -1, empty, for what is not listed
+  this->Choices->setCurrentIndex(
+    this->Choices->findData(key)); // -1, an empty choice, if not listed
   this->IsEdited = false;
 }
 

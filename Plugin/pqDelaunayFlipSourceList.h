@@ -13,8 +13,8 @@
 class QComboBox;
 class vtkSMProperty;
 
-/// The sources of polygonal data that an optional input can have, as a list beside "(none)". Unlike
-/// ParaView's own list it leaves out what comes after the filter: a loop would crash ParaView.
+/// A list of the sources of polygonal data for an optional input, and "(none)". Unlike ParaView's
+/// own list, it leaves out what is downstream of the filter: a loop would crash ParaView.
 class pqDelaunayFlipSourceList : public pqPropertyWidget
 {
   Q_OBJECT
@@ -31,7 +31,7 @@ private Q_SLOTS:
   void edit();
 
 private:
-  /// An output port: its name, and the id and number that find it.
+  /// An output port: its name, and a key from the source's id and the port's number.
   struct Source
   {
     QString Text;
@@ -47,9 +47,9 @@ private:
   void setInput(const QStringList& key);
 
   QComboBox* Choices;
-  QVector<Source> Sources; ///< Of the list.
-  bool IsEdited = false; ///< Since the last Apply or Reset.
-  QTimer Changes; ///< Fires after the last of several.
+  QVector<Source> Sources; ///< The entries of the list.
+  bool IsEdited = false; ///< Whether edited since the last Apply or Reset.
+  QTimer Changes; ///< Fires once after several changes.
 };
 
 #endif

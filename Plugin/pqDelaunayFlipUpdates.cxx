@@ -19,7 +19,7 @@ void ReadBack(pqPipelineSource* flip)
   flip->getProxy()->UpdatePropertyInformation();
   for (pqPipelineSource* consumer : flip->getAllConsumers())
   {
-    consumer->renderAllViews(); // when the event loop comes to it
+    consumer->renderAllViews(); // later, from the event loop
   }
 }
 

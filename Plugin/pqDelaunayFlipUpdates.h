@@ -9,12 +9,13 @@ class pqPipelineSource;
 
 /// What the client does after every update of the plugin's filters.
 ///
-/// Delaunay Flip: it reads the group Last Update of the Properties panel again, since ParaView
-/// reads such properties while it applies the others, which is before the pipeline runs. It also
-/// renders what other filters make of the output, since ParaView renders the views of a live source
-/// alone.
+/// Delaunay Flip: reads the group Last Update of the Properties panel again. ParaView reads such
+/// properties when it applies the others, which is before the pipeline runs. Also renders what
+/// other filters make of the output, since ParaView renders only the views of the live source
+/// itself.
 ///
-/// Plot Delaunay Flips: it gives the axis of the chart the scale that the filter prepared for.
+/// Plot Delaunay Flips: gives the axis of the chart the scale for which the filter prepared the
+/// data.
 class pqDelaunayFlipUpdates : public QObject
 {
 public:

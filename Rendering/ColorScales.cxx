@@ -20,7 +20,7 @@ namespace
 
 using Color = std::array<double, 3>;
 
-/// Bands from the first colour to the last, for 0 to `largest`.
+/// Fills the table, for 0 to `largest`, with bands of colours interpolated between `stops`.
 void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, int bands, double largest)
 {
   vtkNew<vtkColorTransferFunction> function;

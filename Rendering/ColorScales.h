@@ -8,12 +8,13 @@ class vtkLookupTable;
 namespace delaunayflip
 {
 
-/// Smallest angles of triangles, 0 to 60 degrees in steps of five: red for slivers, blue for
-/// equilateral triangles.
+/// Colours for the smallest angles of triangles, 0 to 60 degrees in steps of five: from red for
+/// slivers to blue for equilateral triangles.
 void FillAngleColors(vtkLookupTable* table);
 
-/// Numbers of flips in twelve steps from nearly white to dark violet: 0 to `largest`, rounded up to
-/// a multiple of four, whose quarters are whole; 12 at least, since fewer would make colours jump.
+/// Colours for numbers of flips, in twelve steps from nearly white to dark violet. The range is 0
+/// to `largest`, rounded up to a multiple of four for whole labels at its quarters, and at least
+/// 12.
 void FillCountColors(vtkLookupTable* table, double largest);
 
 }

@@ -20,7 +20,7 @@ std::string MakeFrameName(const std::string& prefix, int frame)
   return prefix + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".png";
 }
 
-/// By way of memory: the writer has no word for a full disk.
+/// Encodes the PNG in memory first, because VTK's writer does not report a full disk.
 bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
 {
   vtkNew<vtkWindowToImageFilter> picture;

@@ -10,11 +10,11 @@ class vtkRenderWindow;
 namespace delaunayflip
 {
 
-/// `prefix` 12 -> "prefix0012.png".
+/// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
 std::string MakeFrameName(const std::string& prefix, int frame);
 
-/// Writes what a window shows as a PNG.
-/// @returns whether all of it could be written.
+/// Writes the picture in a window to a PNG file.
+/// @returns whether the whole file could be written.
 bool WriteFrame(vtkRenderWindow* window, const std::string& fileName);
 
 }

@@ -31,7 +31,7 @@ namespace delaunayflip
 namespace
 {
 
-constexpr const char* QualityName = "Quality"; // that vtkMeshQuality gives its array
+constexpr const char* QualityName = "Quality"; // as vtkMeshQuality names its array
 constexpr const char* CountName = "vtkDelaunayFlipCount";
 constexpr int FontSize = 14;
 
@@ -54,7 +54,7 @@ void Paint(vtkTextProperty* text, const double* color)
   text->SetColor(color[0], color[1], color[2]);
 }
 
-/// The axis along which to look at a mesh: the one that it does not extend in, else z.
+/// The axis along which to look at a mesh: the one along which it is flat, else z.
 int GetViewAxis(const double* bounds)
 {
   const auto extent = [bounds](int axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
@@ -111,7 +111,7 @@ void LiveScene::PlaceTexts()
   this->Keys->SetPosition(0.5, 0.015);
 }
 
-/// Above the line of the keys, if there is one, as high as its labels need.
+/// Places the colour scale above the line of keys, if there is one, as high as its labels need.
 void LiveScene::PlaceScale()
 {
   const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
@@ -168,7 +168,7 @@ void LiveScene::LookAtMesh()
   const int axis = GetViewAxis(bounds);
   vtkCamera* camera = this->Renderer->GetActiveCamera();
   double position[3] = { 0.0, 0.0, 0.0 };
-  position[axis] = axis == 1 ? -1.0 : 1.0; // x points right in each
+  position[axis] = axis == 1 ? -1.0 : 1.0; // so that x points to the right
   camera->SetPosition(position);
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   camera->SetViewUp(0.0, axis == 2 ? 1.0 : 0.0, axis == 2 ? 0.0 : 1.0);
@@ -213,7 +213,7 @@ void LiveScene::ColorBySmallestAngle()
   this->ShowScale("smallest angle (degrees)");
 }
 
-/// The input has no counts yet.
+/// The input has no array of counts yet.
 void LiveScene::ColorByFlipCount()
 {
   this->Mapper->SetInputDataObject(this->Mesh);

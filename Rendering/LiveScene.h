@@ -21,7 +21,7 @@ class vtkTextActor;
 namespace delaunayflip
 {
 
-/// What a live view puts into a renderer: a mesh, a scale of its colours, and texts.
+/// What a live view adds to a renderer: a mesh, its colour scale, and texts.
 class LiveScene
 {
 public:
@@ -30,15 +30,15 @@ public:
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
 
-  /// Goes to the first renderer of a window, which gets one if it has none.
+  /// Adds the scene to the first renderer of a window; creates one if there is none.
   void Enter(vtkRenderWindow* window);
   void Leave();
   vtkRenderer* GetRenderer() const;
 
-  /// Points a camera at the mesh, if the renderer has none yet.
+  /// Makes a camera that looks at the mesh, if the renderer has none yet.
   void LookAtMesh();
 
-  /// Triangles.
+  /// Shows a mesh, which must consist of triangles.
   void SetMesh(vtkPolyData* mesh);
   vtkPolyData* GetMesh() const;
 
@@ -47,7 +47,7 @@ public:
   void SetEdgeVisibility(bool visible);
   bool GetEdgeVisibility() const;
 
-  /// The smallest angle of the mesh in degrees; NaN where there are no triangles.
+  /// The smallest angle of the mesh in degrees; NaN if it has no triangles.
   double GetSmallestAngle();
 
   void SetStatus(const std::string& text, bool isError);
@@ -70,7 +70,7 @@ private:
   vtkNew<vtkScalarBarActor> Scale;
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
-  double LargestCount = 0.0; ///< Of flips, in any mesh so far.
+  double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
   double Ink[3] = { 0.0, 0.0, 0.0 };
 };
 

@@ -29,7 +29,7 @@ LiveState ToState(int stopReason)
 
 }
 
-/// An update that only a changed input or option asks for is a step too.
+/// An update caused only by a change of the input or of an option is a step too.
 LiveState MakeStep(vtkDelaunayFlip* filter)
 {
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();

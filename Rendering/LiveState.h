@@ -8,22 +8,22 @@ class vtkDelaunayFlip;
 namespace delaunayflip
 {
 
-/// Of the mesh in a live view.
+/// The state of the mesh in a live view.
 enum class LiveState
 {
   NotStarted,
   UnderWay, ///< Another step may change it.
-  Aborted, ///< The same, but the filter was told to stop.
+  Aborted, ///< The same, but the filter was asked to stop.
   Converged,
-  Limited, ///< By the iteration limit.
-  Failed, ///< It is that of the step before.
-  Unchanged, ///< The filter had nothing to do; only what MakeStep() returns.
+  Limited, ///< The iteration limit was reached.
+  Failed, ///< The filter failed; the mesh is that of the step before.
+  Unchanged, ///< The filter had nothing to do. Only returned by MakeStep().
 };
 
-/// Lets a filter make a step, and tells what came out.
+/// Makes the filter do one step, and returns the outcome.
 LiveState MakeStep(vtkDelaunayFlip* filter);
 
-/// Whether a step that came out like this ends a run; an abort only pauses it.
+/// Whether a step with this outcome ends a run. An abort only pauses it.
 bool IsEnd(LiveState state);
 
 }

@@ -43,7 +43,7 @@ std::string DescribeCounts(vtkDelaunayFlip* filter)
     Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
 }
 
-/// Why there is no mesh. The filter knows nothing where what feeds it has failed.
+/// Why there is no mesh. If the filter's source failed, the filter itself has no message.
 std::string GetReason(vtkDelaunayFlip* filter)
 {
   const std::string message = filter->GetErrorMessage();
@@ -53,7 +53,7 @@ std::string GetReason(vtkDelaunayFlip* filter)
 /// Breaks a text into lines that fit into a window.
 std::string Wrap(const std::string& text)
 {
-  constexpr std::size_t width = 60; // letters
+  constexpr std::size_t width = 60; // characters
   std::istringstream words(text);
   std::string wrapped;
   std::string word;
@@ -94,7 +94,7 @@ std::string DescribeState(const LiveStatus& status)
   }
 }
 
-/// The counts of the filter, which sums up blocks, are of no mesh after a failure.
+/// After a failure the filter has no counts, so the text says which frame is shown instead.
 std::string DescribeMesh(const LiveStatus& status)
 {
   const std::string state = DescribeState(status);

@@ -12,10 +12,10 @@
 namespace delaunayflip
 {
 
-/// What the keys of a live view do.
+/// The line that explains the keys of a live view.
 extern const char* const KeyHelp;
 
-/// What a live view tells of its mesh.
+/// What the statistics of a live view are about.
 struct LiveStatus
 {
   vtkDelaunayFlip* Filter;
@@ -23,10 +23,10 @@ struct LiveStatus
   bool IsRunning;
   int Frame;
   vtkIdType Triangles;
-  double SmallestAngle; ///< Degrees; NaN where unknown.
+  double SmallestAngle; ///< In degrees; NaN if unknown.
 };
 
-/// In two or three lines; a failure takes as many as it needs.
+/// The statistics in two or three lines; a failure in as many as its reason needs.
 std::string DescribeStatus(const LiveStatus& status);
 
 }

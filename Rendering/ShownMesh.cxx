@@ -18,7 +18,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Whether every cell is a triangle, as in any output of the filter that came of polygons alone.
+/// Whether every cell is a triangle, as in outputs of the filter without lines or verts.
 bool HasOnlyTriangles(vtkPolyData* mesh)
 {
   const vtkIdType triangles = mesh->GetNumberOfPolys();

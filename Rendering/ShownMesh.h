@@ -12,13 +12,13 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// What an algorithm gets at its first port, up to date; null where that is nothing.
+/// Updates the first input of an algorithm and returns it; null if there is none.
 vtkDataObject* UpdateInput(vtkAlgorithm* filter);
 
 bool IsComposite(vtkDataObject* data);
 
-/// The faces of a mesh, or of all blocks of a composite one, as triangles: a copy that shares what
-/// it can, with the cell data of its cells.
+/// The faces of a mesh, or of all blocks of a composite one, as triangles with their cell data: a
+/// copy that shares arrays where it can.
 vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data);
 
 }

@@ -25,9 +25,9 @@ using namespace delaunayflip;
 namespace
 {
 
-constexpr vtkIdType SmallMesh = 20000; // triangles whose edges can be told apart
+constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
 
-/// Says so while something is under way that must not be begun twice.
+/// Sets a flag during its lifetime: for work that must not be started again meanwhile.
 class BusyScope
 {
 public:
@@ -134,7 +134,7 @@ void vtkDelaunayFlipLiveView::Attach()
 {
   this->Window = this->Interactor->GetRenderWindow();
   this->Scene->Enter(this->Window);
-  // Before the interactor styles, which do not see what is taken here.
+  // Called before the interactor styles, which do not receive events handled here.
   constexpr float priority = 1.0f;
   using Self = vtkDelaunayFlipLiveView;
   this->Observers = {
@@ -224,7 +224,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const LiveState next = this->UpdateFilter();
   if (this->State == LiveState::NotStarted)
   {
-    return false; // An observer of the filter has ended it.
+    return false; // An observer of the filter has ended the run.
   }
   const bool isNews = next != LiveState::Unchanged || this->IsRunning();
   if (next != LiveState::UnderWay)
@@ -247,7 +247,7 @@ LiveState vtkDelaunayFlipLiveView::UpdateFilter()
   return MakeStep(filter);
 }
 
-/// Where the filter fails, the last mesh stays.
+/// If the filter failed, the last mesh stays.
 void vtkDelaunayFlipLiveView::ShowStep(LiveState step)
 {
   if (step == LiveState::Failed || step == LiveState::Unchanged)
@@ -303,7 +303,7 @@ void vtkDelaunayFlipLiveView::ShowStatus()
     this->Scene->SetStatus("", false);
     return;
   }
-  // Off screen there are no keys: the caller of Step() drives it.
+  // Off screen there are no keys: the program calls Step().
   const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
   const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
     this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() };
@@ -320,7 +320,8 @@ void vtkDelaunayFlipLiveView::StartTimer()
   }
 }
 
-/// One timer a step: none has to be destroyed, which VTK 9.1 does not survive while timers fire.
+/// Uses one-shot timers, so that none has to be destroyed: VTK 9.1 crashes if a timer is destroyed
+/// while timers fire.
 bool vtkDelaunayFlipLiveView::AwaitStep()
 {
   this->TimerId = this->Interactor
@@ -333,7 +334,7 @@ bool vtkDelaunayFlipLiveView::AwaitStep()
   return this->TimerId != 0;
 }
 
-/// The timer that was awaited fires once more, unheeded.
+/// A timer that was already started still fires, and is ignored.
 void vtkDelaunayFlipLiveView::StopTimer() { this->TimerId = 0; }
 
 bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }

@@ -4,50 +4,50 @@
  * @class   vtkDelaunayFlipLiveView
  * @brief   watch vtkDelaunayFlip at work in a window
  *
- * vtkDelaunayFlipLiveView drives a vtkDelaunayFlip from the timer of an interactor and draws the
- * mesh after every step: first the input, then the mesh after each IterationsPerUpdate iterations
- * of the filter, until nothing is left to flip. On the screen it shows statistics: the iteration,
- * the flips so far, the bad edges left, the smallest angle and whether the run goes on.
+ * vtkDelaunayFlipLiveView drives a vtkDelaunayFlip from the timer of an interactor. It draws the
+ * input, then the mesh after every step of IterationsPerUpdate iterations, until no edge is left to
+ * flip. It shows statistics: the iteration, the flips so far, the bad edges left, the smallest
+ * angle, and whether the run continues.
  *
  *     vtkNew<vtkDelaunayFlipLiveView> view;
  *     view->SetFilter(flip);
- *     view->SetInteractor(interactor); // that has a render window
+ *     view->SetInteractor(interactor); // with a render window
  *     view->Run();
  *     interactor->Start();
  *
- * Keys: space runs and pauses, n makes one step, b begins again, k changes the colours, g shows and
- * hides the edges, i the statistics. These keys do not reach the interactor style; all others do.
+ * Keys: space runs and pauses, n makes one step, b begins again, k changes the colours, g shows or
+ * hides the edges, i the statistics. Only other keys reach the interactor style.
  *
- * What it draws into: the first renderer of the interactor's window, which it gives the faces of
- * the mesh (quads, polygons and strips as triangles; neither lines nor verts), a scale of colours
- * and two texts; all of them go when the view does. Where the window has no renderer it makes one,
- * with a white background. A renderer without a camera gets one that looks at the mesh from +z, or
- * at a flat mesh along the axis that it does not extend in.
+ * Drawing: the view adds to the first renderer of the interactor's window the faces of the mesh
+ * (quads, polygons and strips as triangles; no lines or verts), a colour scale and two texts, and
+ * removes them when it is deleted. If the window has no renderer, the view makes one with a white
+ * background. A renderer without a camera gets one that looks at the mesh from +z, or at a flat
+ * mesh along the axis in which it has no extent.
  *
- * What it does to the filter: Start() turns on LiveUpdate and GenerateFlipCount, which stay on, and
- * restarts it. The filter must not be executed by others in the meantime: an update between two
- * steps, by another view say, is a step that is not shown. Composite input cannot be flipped live;
- * its first step is the last, and LiveUpdate is turned off for it. Input that changes, also after
- * the end, is noticed at the next Step(), Run() or Restart().
+ * The filter: Start() restarts it and turns on LiveUpdate and GenerateFlipCount, which stay on. Do
+ * not update the filter elsewhere in the meantime: an update between two steps, for example by
+ * another view, is a step that is not shown. Composite input cannot be flipped live; LiveUpdate is
+ * turned off for it, and its first step is the last. A change of the input, also after the end, is
+ * noticed at the next Step(), Run() or Restart().
  *
- * The pipeline is updated before anything is drawn, never from within a rendering, and what is
- * drawn is a copy (shallow): to draw the window again, or to turn the mesh, never executes the
- * filter. A window that is off screen works too: there Step() makes frame after frame without an
- * event loop.
+ * The pipeline is updated before anything is drawn, never while rendering, and the mesh that is
+ * drawn is a shallow copy. So drawing the window again, or rotating the mesh, never executes the
+ * filter. Off-screen windows work too: there, call Step() for every frame, without an event loop.
  *
- * A failure of the filter ends the run and is told on the screen, over the last good mesh; the
- * filter itself gives the error. The next Step() or Run() tries again.
+ * A failure of the filter ends the run. The reason is shown over the last good mesh; the filter
+ * itself reports the error. The next Step() or Run() tries again.
  *
- * Events: UpdateEvent after every frame, drawn and written; StartEvent when the timer begins;
- * EndEvent when a step finds the end of the run: convergence, an iteration limit or a failure.
+ * Events: UpdateEvent after every frame has been drawn and written; StartEvent when the timer
+ * starts; EndEvent when a run ends: by convergence, an iteration limit or a failure.
  * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
  * Start() and Restart() do nothing.
  *
- * Cost: a step of the filter, a copy of its triangles to the graphics card, and, where statistics
- * are shown or triangles are coloured by their smallest angle, a pass of vtkMeshQuality. After the
- * end of a run there is no timer.
+ * Cost per step: a step of the filter, a copy of its triangles to the graphics card, and, if
+ * statistics are shown or triangles are coloured by smallest angle, a pass of vtkMeshQuality. No
+ * timer runs after the end of a run.
  *
- * The view keeps the filter alive, but neither interactor nor window; they may go in any order.
+ * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
+ * any order.
  *
  * @sa
  * vtkDelaunayFlip
@@ -84,7 +84,8 @@ public:
 
   ///@{
   /**
-   * The filter to watch. Needed. Another one ends the run; Start() or Run() begins with it.
+   * The filter to watch; required. Setting another one ends the run; Start() or Run() begins with
+   * it.
    */
   void SetFilter(vtkDelaunayFlip* filter);
   vtkDelaunayFlip* GetFilter() const;
@@ -92,8 +93,8 @@ public:
 
   ///@{
   /**
-   * The interactor whose timer drives the run, whose keys command it and whose render window shows
-   * it. Needed, with its window. Another one ends the run; Start() or Run() begins with it.
+   * The interactor whose timer and keys control the run and whose render window shows it; required,
+   * with its window. Setting another one ends the run; Start() or Run() begins with it.
    */
   void SetInteractor(vtkRenderWindowInteractor* interactor);
   vtkRenderWindowInteractor* GetInteractor() const;
@@ -101,10 +102,10 @@ public:
 
   ///@{
   /**
-   * What the colour of a triangle tells. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
-   * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: how often it was part of a flip,
-   * on a scale from 0 to the largest count so far, 12 at least. Takes effect at the next frame or
-   * Render().
+   * What the colour of a triangle shows. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
+   * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: in how many flips it took part,
+   * from 0 to the largest count so far or 12, whichever is larger. Takes effect at the next frame
+   * or Render().
    */
   enum ColorByType
   {
@@ -121,8 +122,8 @@ public:
 
   ///@{
   /**
-   * Whether the edges of triangles are drawn. AUTO (default): below 20,000 triangles. Takes effect
-   * at the next frame or Render().
+   * Whether the edges of triangles are drawn. AUTO (default): if there are fewer than 20,000
+   * triangles. Takes effect at the next frame or Render().
    */
   enum EdgeVisibilityType
   {
@@ -140,10 +141,10 @@ public:
   ///@{
   /**
    * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
-   * the run goes on; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of the
-   * filter); the smallest angle of the mesh on the screen, in space and in degrees. For the input
-   * the second line is the number of triangles. Default on. A failure is shown in any case. Takes
-   * effect at the next frame or Render().
+   * the run continues; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of
+   * the filter); the smallest angle of the mesh that is shown, in space, in degrees. For the input
+   * the second line is the number of triangles. Default on. A failure is always shown. Takes effect
+   * at the next frame or Render().
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);
@@ -152,8 +153,8 @@ public:
 
   ///@{
   /**
-   * Whether a line at the bottom of the window names the keys. Default on; never drawn in a window
-   * that is off screen.
+   * Whether a line at the bottom of the window explains the keys. Default on. Never drawn in an
+   * off-screen window.
    */
   vtkSetMacro(ShowKeys, bool);
   vtkGetMacro(ShowKeys, bool);
@@ -162,8 +163,8 @@ public:
 
   ///@{
   /**
-   * Milliseconds from the end of a step, when its frame is drawn, to the next one; 1 or more,
-   * default 50. Takes effect at the next step.
+   * The time from the end of a step, when its frame has been drawn, to the next step, in
+   * milliseconds: 1 or more, default 50. Takes effect at the next step.
    */
   vtkSetClampMacro(FrameInterval, int, 1, VTK_INT_MAX);
   vtkGetMacro(FrameInterval, int);
@@ -171,25 +172,25 @@ public:
 
   ///@{
   /**
-   * Where not empty, every frame is written as a PNG: FramePrefix followed by its number of four
-   * digits or more and .png. The input is frame 0000. Files that exist are overwritten, also after
-   * Restart(). A frame that cannot be written gives an error and ends the writing, not the run;
-   * setting the prefix or Start() tries again. Default none.
+   * If not empty, every frame is written to a PNG file: FramePrefix, the frame number with at least
+   * four digits, and .png. The input is frame 0000. Existing files are overwritten, also after
+   * Restart(). If a frame cannot be written, an error is given and no more frames are written, but
+   * the run continues; setting the prefix, or Start(), tries again. Default: none.
    */
   void SetFramePrefix(const char* prefix);
   vtkGetCharFromStdStringMacro(FramePrefix);
   ///@}
 
   /**
-   * Prepares filter, renderer and keys, and shows the input as frame 0, paused. An error if filter,
-   * its input, interactor or window are missing. What Step(), Run() and Restart() begin with if
-   * nobody has called it; a second call begins again.
+   * Prepares filter, renderer and keys, and shows the input as frame 0, paused. Gives an error if
+   * the filter, its input, the interactor or its window is missing. Step(), Run() and Restart()
+   * call this first if it has not been called. A second call begins again.
    */
   void Start();
 
   /**
-   * Steps from now on whenever the interactor's timer fires, in its event loop, until the end or
-   * Pause(). An error if the interactor has no timer.
+   * Makes a step whenever the interactor's timer fires, in its event loop, until the end of the run
+   * or Pause(). Gives an error if the interactor has no timer.
    */
   void Run();
 
@@ -199,21 +200,20 @@ public:
   void Pause();
 
   /**
-   * Pauses, lets the filter make IterationsPerUpdate iterations and shows the mesh. Where nothing
-   * is left to do, no frame is made.
-   * @returns whether another step can change the mesh, so that `while (view->Step());` makes all
-   * frames.
+   * Pauses, makes the filter do IterationsPerUpdate iterations, and shows the mesh. If there is
+   * nothing left to do, no frame is made.
+   * @returns whether another step can change the mesh, so `while (view->Step());` makes all frames.
    */
   bool Step();
 
   /**
-   * Begins again at the input, as frame 0: paused where the run was paused by Pause() or Step(),
-   * else running.
+   * Begins again at the input, as frame 0; paused if the run was paused by Pause() or Step(), else
+   * running.
    */
   void Restart();
 
   /**
-   * Draws the window again, as the properties say now. Makes no step and writes no frame.
+   * Draws the window again with the current properties. Makes no step and writes no frame.
    */
   void Render();
 
@@ -223,17 +223,17 @@ public:
   bool IsRunning() const;
 
   /**
-   * Whether the mesh on the screen is what the filter converged to.
+   * Whether the mesh that is shown is the one to which the filter converged.
    */
   bool GetConverged() const;
 
   /**
-   * The number of the frame on the screen: of steps since the input; -1 before Start().
+   * The number of the frame that is shown: the number of steps since the input; -1 before Start().
    */
   vtkGetMacro(FrameNumber, int);
 
   /**
-   * The renderer that it draws into, or null before Start(): for its camera and background.
+   * The renderer that the view draws into, for its camera and background; null before Start().
    */
   vtkRenderer* GetRenderer() const;
 
@@ -274,11 +274,11 @@ private:
   std::unique_ptr<delaunayflip::LiveScene> Scene;
   delaunayflip::LiveState State;
   int FrameNumber = -1;
-  int TimerId = 0; ///< Of the timer that is awaited; 0: none.
-  std::vector<unsigned long> Observers; ///< Of the interactor.
-  bool IsMeantToRun = false; ///< Run() was called, and neither Pause() nor Step() since.
-  bool IsBusy = false; ///< The filter executes, or the window is drawn.
-  bool CanWrite = true; ///< No frame has failed.
+  int TimerId = 0; ///< The timer that makes the next step; 0: none.
+  std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
+  bool IsMeantToRun = false; ///< Run() was called, and no Pause() or Step() since.
+  bool IsBusy = false; ///< The filter is executing, or the window is being drawn.
+  bool CanWrite = true; ///< False once a frame could not be written.
 
   vtkDelaunayFlipLiveView(const vtkDelaunayFlipLiveView&) = delete;
   void operator=(const vtkDelaunayFlipLiveView&) = delete;

@@ -65,7 +65,7 @@ Kind GetKind(int cellType)
   }
 }
 
-/// Cells of one kind, and where they come from.
+/// Cells of one kind, and the ids that they had in the input.
 struct Cells
 {
   vtkNew<vtkCellArray> Array;
@@ -90,7 +90,7 @@ vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)
   return points;
 }
 
-/// Before anything follows the offsets of a grid.
+/// Checks the arrays of a grid before any of its offsets is used.
 void RequireWholeCells(vtkUnstructuredGrid* grid)
 {
   vtkCellArray* cells = grid->GetCells();
@@ -103,7 +103,7 @@ void RequireWholeCells(vtkUnstructuredGrid* grid)
   }
 }
 
-/// A pixel counts its points not around the quad, as all other cells, but row by row.
+/// Reorders the points of a pixel, which are row by row, so that they go around the quad.
 void TurnPixel(vtkIdType cell, vtkIdList* ids)
 {
   if (ids->GetNumberOfIds() != 4)
@@ -114,7 +114,7 @@ void TurnPixel(vtkIdType cell, vtkIdList* ids)
   std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
 }
 
-/// The cells of an unstructured grid of polygons alone are those of the result, as they are.
+/// Shares the cell array of an unstructured grid that consists of polygons only.
 bool ShareCells(vtkDataSet* input, vtkPolyData* output)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);

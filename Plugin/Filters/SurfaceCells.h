@@ -11,15 +11,15 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Whether all cells of a dataset are those of a vtkPolyData: vertices, lines, triangles, quads,
-/// pixels, polygons and strips. Also for one without cells.
-/// @throws std::invalid_argument when the arrays of its cells contradict each other.
+/// Whether a vtkPolyData can hold all cells of a dataset: vertices, lines, triangles, quads,
+/// pixels, polygons and strips. True for a dataset without cells.
+/// @throws std::invalid_argument if the arrays of its cells contradict each other.
 bool HasSurfaceCells(vtkDataSet* input);
 
-/// The same points under the same ids, with the same data, and the same cells: vertices, lines,
-/// polygons and strips, in this order, each with its data. Blanked cells are left out.
-/// @param input A dataset that HasSurfaceCells.
-/// @throws std::invalid_argument when a pixel has not four points.
+/// Converts a dataset. Points keep their ids and data. Cells keep their data, in the order
+/// vertices, lines, polygons, strips. Blanked cells are left out.
+/// @param input a dataset for which HasSurfaceCells is true.
+/// @throws std::invalid_argument if a pixel does not have four points.
 vtkSmartPointer<vtkPolyData> ToPolyData(vtkDataSet* input);
 
 }

@@ -37,7 +37,7 @@ void AddColumn(vtkTable* input, const char* name, bool withZeros, vtkTable* outp
   }
   if (rows == 1)
   {
-    values->InsertNextValue(values->GetValue(0)); // a line through one point is an error in VTK
+    values->InsertNextValue(values->GetValue(0)); // VTK reports an error for a line with one point
   }
   output->AddColumn(values);
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDelaunayFlipChart
- * @brief   what a line chart of the iterations of vtkDelaunayFlip shows
+ * @brief   prepare the iterations of vtkDelaunayFlip for a line chart
  *
- * In goes the table of iterations, out come its columns that are worth a line: Iteration, Flipped,
- * Excluded, Blocked, NonDelaunay, Tested and MinimumAngle, as numbers of type double. Columns that
- * the table lacks are left out. A single row comes out twice, since a line takes two points.
+ * The input is the table of iterations. The output has the columns to draw: Iteration, Flipped,
+ * Excluded, Blocked, NonDelaunay, Tested and MinimumAngle, as double. Columns that the input lacks
+ * are left out. A single row is repeated, since a line needs two points.
  */
 #ifndef vtkDelaunayFlipChart_h
 #define vtkDelaunayFlipChart_h
@@ -23,8 +23,8 @@ public:
 
   ///@{
   /**
-   * For a logarithmic axis: leave out counts of 0, which have no logarithm (they become NaN). With
-   * one of them ParaView would draw a linear axis and a warning. Default off.
+   * For a logarithmic axis: leave out counts of 0, which have no logarithm, by making them NaN.
+   * With a single 0, ParaView would draw a linear axis and give a warning. Default off.
    */
   vtkSetMacro(LogScale, bool);
   vtkGetMacro(LogScale, bool);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVDelaunayFlip
- * @brief   vtkDelaunayFlip for everything that is a surface in ParaView
+ * @brief   vtkDelaunayFlip for all types of surfaces in ParaView
  *
- * Beside vtkPolyData it takes unstructured grids of surface cells (vertices, lines, triangles,
- * quads, pixels, polygons, strips) and structured, rectilinear and image data of two dimensions,
- * e.g. height fields. Points keep their ids, and cells their data; the output is a vtkPolyData.
- * Image and rectilinear data are planar: terrain becomes a surface by Warp By Scalar first.
+ * Besides vtkPolyData it accepts unstructured grids of surface cells (vertices, lines, triangles,
+ * quads, pixels, polygons, strips) and two-dimensional structured, rectilinear and image data, e.g.
+ * height fields. Points keep their ids, and cells their data; the output is a vtkPolyData. Image
+ * and rectilinear data are planar: use Warp By Scalar first to turn them into terrain.
  *
  * A dataset with other cells is an error. As a block of a composite dataset it passes unchanged,
  * with one warning per update.
@@ -36,7 +36,7 @@ protected:
   vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input) override;
 
 private:
-  // The surface of the last input: a live run goes on only with the same arrays.
+  // The last input and its surface: a live run continues only with the same arrays.
   vtkSmartPointer<vtkDataSet> Source;
   vtkMTimeType SourceTime = 0;
   vtkSmartPointer<vtkPolyData> Surface;
