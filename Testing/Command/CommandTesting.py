@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the command share: running it, small meshes, and reading what it wrote."""
+"""Helpers for the tests of the command: run it, make small meshes, and read its output."""
 
 import json
 import os
@@ -39,7 +39,7 @@ FORMATS = list(READERS)
 
 
 class CommandTest(unittest.TestCase):
-    """Runs the command in a folder of its own, in which no temporary may stay behind."""
+    """Runs the command in a folder of its own, in which it must leave no temporary file."""
 
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
@@ -54,7 +54,7 @@ class CommandTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def run_command(self, *arguments, **options):
-        """Runs it; the result has returncode, stdout and stderr (text)."""
+        """Runs it. The result has returncode, stdout and stderr (text)."""
         return subprocess.run(
             command_line(*arguments),
             cwd=self.folder,
@@ -74,7 +74,7 @@ class CommandTest(unittest.TestCase):
         return result
 
     def fail_with(self, code, *arguments, naming=()):
-        """Runs it and expects the exit code and one line of error with every word of `naming`."""
+        """Runs it and expects this exit code and a one-line error with every word of `naming`."""
         result = self.run_command(*arguments)
         self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
         errors = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
@@ -84,7 +84,7 @@ class CommandTest(unittest.TestCase):
         return result
 
     def report(self, *arguments, code=0):
-        """Runs it with --report and gives that back."""
+        """Runs it with --report and returns the report."""
         path = self.path("report.json")
         self.succeed(*arguments, "--report", path, code=code)
         return read_report(path)
@@ -127,8 +127,8 @@ def make_array(name, values):
 
 
 def worst_case(size):
-    """The literature's slow case: 2 * size points in two rows, 2 * size - 2 triangles; takes
-    2 * size - 3 iterations and (size - 1)^2 flips."""
+    """The slow case of the literature, with 2 * size points in two rows and 2 * size - 2
+    triangles. It takes 2 * size - 3 iterations and (size - 1)^2 flips."""
     upper = [(size + 1.0 + i, 1.0, 0.0) for i in range(size)]
     lower = [(float(j), -1.0, 0.0) for j in range(size)]
     triangles = [(size, i + 1, i) for i in range(size - 1)]
@@ -160,7 +160,7 @@ def bumpy_grid(columns, height, seed=7):
 
 
 def random_insertion(count, seed=3):
-    """A square of two triangles; every further random point splits the triangle that holds it."""
+    """A square of two triangles; every further random point splits the triangle around it."""
     generator = random.Random(seed)
     points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
     triangles = [(0, 1, 2), (0, 2, 3)]
@@ -182,7 +182,7 @@ def random_insertion(count, seed=3):
 
 
 def write_mesh(mesh, path, **settings):
-    """Writes with VTK's writer for the extension; settings are its methods and their arguments."""
+    """Writes with VTK's writer for the extension; `settings` are its methods and arguments."""
     writer = WRITERS[os.path.splitext(path)[1].lower()]()
     writer.SetFileName(path)
     writer.SetInputData(mesh)
@@ -230,7 +230,7 @@ def triangle_set(mesh):
 
 
 def edge_counts(triangles):
-    """(edges, edges of one triangle, edges of three or more) by counting."""
+    """(edges, edges with one triangle, edges with three or more), by counting."""
     uses = {}
     for a, b, c in triangles:
         for edge in ((a, b), (b, c), (c, a)):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real planar meshes and terrain, asked for or found to be judged in x and y: the answers are exact, for the Delaunay
-triangulation is unique but for co-circular points."""
+"""Real planar meshes, and terrain judged by x and y, by request or by Auto. The answers are exact:
+the Delaunay triangulation is unique except for co-circular points."""
 
 import csv
 import os
@@ -83,7 +83,7 @@ class Planar(RealDataTest):
         self.assertEqual(counts, (179726, 271, 0))
 
     def test_ties(self):
-        """A regular terrain far from the origin: every diagonal is an exact tie."""
+        """Regular terrain far from the origin: every diagonal is an exact tie."""
         report = self.flip("turbine_siting_terrain_utm.stl", *XY)
         self.assertEqual((report["total_flips"], report["non_delaunay_before"]), (0, 0))
 

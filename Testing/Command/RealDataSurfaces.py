@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real surfaces in space, with feature edges off. The counts of flips depend on their order; where
-one iteration does everything they do not."""
+"""Real surfaces in space, with feature edges off. The number of flips depends on their order,
+except where one iteration makes all of them."""
 
 import os
 import unittest
@@ -10,7 +10,7 @@ from typing import NamedTuple
 from CommandTesting import CommandTest, edge_counts, read_mesh, triangles_of
 from RealDataTesting import FOLDER, RealDataTest
 
-# The known answers take coordinates as they are, whatever their precision.
+# The known answers take coordinates as exact.
 AS_GIVEN = ("--tolerance", "1e-9")
 OFF = ("--feature-angle", "180", *AS_GIVEN)
 
@@ -20,11 +20,11 @@ class Known(NamedTuple):
     triangles: int
     bad: int  # before
     flips: int
-    left: int  # at most: blocked edges
+    left: int  # the most edges that may be left, all blocked
     non_manifold: int = 0
     boundary: int = 0
-    share: float = 0.05  # by which the counts may differ
-    terrain: bool = False  # flipped as a surface all the same
+    share: float = 0.05  # how much the counts may differ
+    terrain: bool = False  # terrain, but flipped as a surface
 
 
 SCANS = {
@@ -69,7 +69,7 @@ class Surfaces(RealDataTest):
         return report
 
     def check_output_from_outside(self, known):
-        """Counts the edges of out.vtk without the engine."""
+        """Counts the edges of out.vtk independently of the engine."""
         _, boundary, non_manifold = edge_counts(triangles_of(read_mesh(self.path("out.vtk"))))
         self.assertEqual((boundary, non_manifold), (known.boundary, known.non_manifold))
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests on real meshes share. The meshes do not belong to this project: the folder named
-by DELAUNAYFLIP_DATA_DIR holds them, and without it there is nothing to test."""
+"""Helpers for the tests on real meshes. The meshes are not part of this project; they are in the
+folder DELAUNAYFLIP_DATA_DIR. Without it there is nothing to test."""
 
 import os
 import sys
@@ -18,10 +18,10 @@ KEPT = ["points", "triangles", "edges", "boundary_edges", "non_manifold_edges"]
 
 class RealDataTest(CommandTest):
     def flip(self, name, *arguments):
-        """Flips a real mesh to out.vtk, checks that its counts are kept, and gives the report."""
+        """Flips a real mesh to out.vtk, checks that its counts are kept, and returns the report."""
         report = self.report(os.path.join(FOLDER, name), "out.vtk", *arguments)
         self.assertTrue(report["converged"], name)
-        # The output as the command itself sees it: made from the file alone, with no flips.
+        # The counts of the output by the command itself, which reads the file and makes no flips.
         result = self.run_command(
             *("out.vtk", "again.vtk", "--max-iterations", "0", "--report", "again.json", *arguments)
         )
@@ -32,5 +32,5 @@ class RealDataTest(CommandTest):
         return report
 
     def about(self, value, expected, name, share=0.05):
-        """Counts on surfaces depend on the order of the flips."""
+        """Compares counts that depend on the order of the flips."""
         self.assertLessEqual(abs(value - expected), share * expected, f"{name}: {value}")

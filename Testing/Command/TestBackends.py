@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the flips run: on machines with a GPU and without, and in builds with CUDA and without."""
+"""Where the flips run: on machines with and without a GPU, in builds with and without CUDA."""
 
 import os
 import unittest
 
 from CommandTesting import CommandTest, bumpy_grid, read_report, worst_case, write_mesh
 
-# The folder of a driver that is too old; none in a build without the CUDA backend.
+# The folder with a driver that is too old; empty in a build without the CUDA backend.
 OLD_DRIVER = os.environ.get("DELAUNAYFLIP_OLD_DRIVER", "")
 REASON = "CUDA could not " if OLD_DRIVER else "this build has no CUDA backend"
 NO_SUCH_DEVICE = "1000000"
@@ -26,7 +26,7 @@ class BackendTest(CommandTest):
         self.large = write_mesh(bumpy_grid(102, 0), self.path("large.vtk"))
 
     def run_on(self, mesh, *arguments, **options):
-        """The report, and the lines of standard error, of a run that succeeds."""
+        """The report and the standard error, in lines, of a run that succeeds."""
         path = self.path("report.json")
         result = self.run_command(mesh, "out.vtk", "--report", path, *arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -58,7 +58,7 @@ class Backends(BackendTest):
                 self.assertRegex(report["backend"], r"^Threads: \d+$")
 
     def test_forced(self):
-        """A machine with a GPU, and a build that can use it, runs; any other one says why not."""
+        """With a GPU that the build can use, the run succeeds; otherwise an error says why."""
         arguments = (self.small, "out.vtk", "--backend", "cuda")
         if self.run_command(*arguments).returncode == 0:
             self.assertRegex(self.report(*arguments)["backend"], r"^CUDA: .+$")
@@ -70,7 +70,7 @@ class Backends(BackendTest):
 
 @unittest.skipUnless(OLD_DRIVER, "no CUDA backend")
 class Fallback(BackendTest):
-    """A build with the CUDA backend where the driver is too old for it."""
+    """A build with the CUDA backend, with a driver that is too old for it."""
 
     def test_the_cpu_takes_over(self):
         self.run_on(self.large, "--backend", "threads")

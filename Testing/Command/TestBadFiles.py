@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Input that is cut off or corrupt: an exit code and a line of explanation, never a crash, never
-half a mesh."""
+"""Truncated or corrupt input gives an exit code and a one-line explanation, never a crash or half a
+mesh."""
 
 import os
 import random
@@ -30,8 +30,8 @@ class BadFileTest(CommandTest):
 
 class Truncated(BadFileTest):
     def cut(self, name, keep_from=0, **settings):
-        """Cuts a file at every fortieth of its length: refused, or (when only the end mark, or the
-        last blank, is gone) read whole."""
+        """Truncates a file at every fortieth of its length. It must be refused, or read completely
+        if only the end mark or the last blank is missing."""
         path = write_mesh(bumpy_grid(GRID, 0), self.path(name), **settings)
         with open(path, "rb") as file:
             whole = file.read()
@@ -68,7 +68,7 @@ class Truncated(BadFileTest):
         self.cut("b.stl", SetFileTypeToASCII=())
 
     def test_obj(self):
-        """The format has no end mark: a cut shows within a line only."""
+        """The format has no end mark: truncation can be noticed only within a line."""
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1")
         self.refuse("a.obj", "line 3", "three coordinates")
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2")
@@ -162,7 +162,7 @@ class OtherData(BadFileTest):
         self.refuse("grid.vtp", "UnstructuredGrid", "Extract Surface")
 
     def test_newer_version(self):
-        """A warning, for the rest may be readable."""
+        """Only a warning, since the file may be readable."""
         write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
         with open(self.path("a.vtk"), encoding="ascii") as file:
             text = file.read()
@@ -171,7 +171,7 @@ class OtherData(BadFileTest):
         self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
 
     def test_no_triangles(self):
-        """Nothing to do is no error."""
+        """That there is nothing to do is not an error."""
         write_mesh(make_mesh([(0, 0, 0), (1, 0, 0)], []), self.path("points.vtk"))
         for extension in (".vtk", ".vtp", ".ply", ".obj"):
             result = self.succeed("points.vtk", "out" + extension)

@@ -95,7 +95,7 @@ class BadFile(CommandTest):
 
     def test_nothing_is_written_when_one_file_cannot_be(self):
         self.fail_with(3, self.mesh, "out.vtk", "--report", "none/r", naming=["none/r"])
-        # A pipe stands for every special file: none may be replaced by a plain one.
+        # A pipe, as an example of special files, which must not be replaced by regular ones.
         os.mkfifo(self.path("pipe"))
         self.fail_with(3, self.mesh, "out.vtk", "--statistics", "pipe", naming=["pipe"])
         self.assertEqual(sorted(os.listdir(self.folder)), ["mesh.vtk", "pipe"])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every input format to every output format; what each keeps, and what the command says of it."""
+"""Every input format to every output format: what each keeps, and what the command reports."""
 
 import os
 import shutil
@@ -22,7 +22,7 @@ from CommandTesting import (
 
 
 def annotated_mesh():
-    """A planar mesh with a line, point and cell data, a point of its own and thirds as
+    """A planar mesh with a line, point and cell data, an isolated point, and thirds as
     coordinates."""
     mesh = bumpy_grid(5, 0)
     mesh.GetPoints().InsertNextPoint(1 / 3, -2 / 3, 0)
@@ -35,7 +35,7 @@ def annotated_mesh():
 
 class RoundTrip(CommandTest):
     def convert_all(self, mesh):
-        """The result, as triangles, of every pair of formats."""
+        """The resulting triangles are the same for every pair of formats."""
         results = {}
         for source in FORMATS:
             path = write_mesh(mesh, self.path("in" + source))
@@ -111,7 +111,7 @@ class Kept(CommandTest):
         self.assertNotIn(b'format="ascii"', text)
 
     def test_appended_data(self):
-        # Larger than what VTK gives to its XML parser at a time.
+        # Larger than the pieces that VTK passes to its XML parser.
         mesh = bumpy_grid(60, 0)
         self.succeed(write_mesh(mesh, self.path("a.vtp"), SetDataModeToBinary=()), "a.vtk")
         for name, encode in (("b.vtp", "EncodeAppendedDataOn"), ("c.vtp", "EncodeAppendedDataOff")):
@@ -190,7 +190,7 @@ class Lost(CommandTest):
             self.assertEqual(self.succeed(path, "out" + extension).stderr, "")
 
     def test_double_ply(self):
-        """VTK reads any .ply in single precision."""
+        """VTK reads every .ply in single precision."""
         with open(self.path("in.ply"), "w", encoding="ascii") as file:
             file.write(
                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
@@ -202,7 +202,7 @@ class Lost(CommandTest):
 
 class RepeatedPoints(CommandTest):
     def test_obj_with_normals(self):
-        """Four normals a vertex: VTK's reader makes twelve points of a tetrahedron."""
+        """Normals differ by triangle, so VTK's reader makes twelve points of a tetrahedron."""
         with open(self.path("in.obj"), "w", encoding="ascii") as file:
             file.write(
                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writing that fails half-way. A limit on the size of files stands for a full disk."""
+"""Writing that fails half-way. A file size limit takes the place of a full disk."""
 
 import os
 import resource
@@ -15,8 +15,7 @@ class FullDisk(CommandTest):
         self.mesh = write_mesh(bumpy_grid(30, 1), self.path("mesh.vtk"))
 
     def refuse(self, limit, *arguments, naming):
-        """Expects exit code 3 and that no file is new or changed when none may exceed `limit`
-        bytes."""
+        """With files limited to `limit` bytes, expects exit code 3 and no new or changed file."""
         before = {name: self.content(name) for name in os.listdir(self.folder)}
         result = self.run_command(
             self.mesh,
@@ -43,7 +42,7 @@ class FullDisk(CommandTest):
                 self.refuse(limit, name, naming=name)
 
     def test_text_cut_between_lines(self):
-        """What is there reads well; only the number of triangles tells."""
+        """The truncated file can be read; only its number of triangles is wrong."""
         self.succeed(self.mesh, "out.obj")
         limit = self.content("out.obj").index(b"\n", -500) + 1
         self.refuse(limit, "out.obj", naming="out.obj")

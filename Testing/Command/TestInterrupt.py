@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Signals, and what a terminal sees."""
+"""Signals, and the output on a terminal."""
 
 import os
 import pty
@@ -21,7 +21,7 @@ from CommandTesting import (
 
 
 class Interrupt(CommandTest):
-    """The slow mesh takes 30,000 iterations: the signal always comes before the end."""
+    """The slow mesh takes 30,000 iterations, so the signal always comes before the end."""
 
     def setUp(self):
         super().setUp()
@@ -30,7 +30,7 @@ class Interrupt(CommandTest):
             file.write("precious")
 
     def start(self, *arguments, disposition=signal.SIG_DFL):
-        """Starts the command with a terminal as its stderr; gives it back with the terminal."""
+        """Starts the command with a terminal as stderr. Returns the process and the terminal."""
         terminal, far_end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen(
@@ -45,7 +45,7 @@ class Interrupt(CommandTest):
         return process, terminal
 
     def stop(self, number, when=b"iteration"):
-        """The exit code and last words of a command that gets the signal when it says a word."""
+        """The exit code and last output of a command that gets the signal when it prints a word."""
         process, terminal = self.start(
             self.mesh, "out.vtk", "--report", "report", "--statistics", "table"
         )
@@ -76,7 +76,7 @@ class Interrupt(CommandTest):
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
 
     def test_ignored_interrupt_stays_ignored(self):
-        """As a shell starts a job in the background."""
+        """The signal is ignored, as for a job that a shell starts in the background."""
         mesh = write_mesh(worst_case(3000), self.path("mesh.vtk"))
         process, terminal = self.start(mesh, "new.vtk", disposition=signal.SIG_IGN)
         read_terminal(terminal, until=b"[")
@@ -122,7 +122,7 @@ class Terminal(CommandTest):
 
 
 def read_terminal(terminal, until=None):
-    """What arrives within a minute, up to the words or, without any, up to a quiet moment."""
+    """The output within a minute, up to `words` or, without any, up to a pause."""
     text = b""
     end = time.monotonic() + 60
     while time.monotonic() < end and not (until and until in text):
@@ -130,7 +130,7 @@ def read_terminal(terminal, until=None):
         if ready:
             try:
                 text += os.read(terminal, 4096)
-            except OSError:  # nobody holds the other end any more
+            except OSError:  # the other end has been closed
                 break
         elif until is None:
             break

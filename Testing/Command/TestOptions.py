@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""That the options reach the filter: each test has a mesh on which its option decides."""
+"""Tests that the options reach the filter, each with a mesh for which the option matters."""
 
 import math
 import unittest
 
 from CommandTesting import CommandTest, bumpy_grid, make_mesh, triangle_set, read_mesh, write_mesh
 
-# Cut along its long diagonal.
+# Divided along its long diagonal.
 KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
 KITE_CELLS = [(0, 1, 2), (0, 2, 3)]
 
@@ -34,7 +34,7 @@ class Options(CommandTest):
         self.fail_with(2, path, "out.ply", "--quality", naming=["--quality", ".vtp"])
 
     def angles(self, name):
-        """The smallest values of what --quality adds."""
+        """The smallest values of the arrays that --quality adds."""
         data = read_mesh(self.path(name)).GetCellData()
         arrays = [data.GetArray("vtkDelaunayFlipAngle" + when) for when in ("Before", "After")]
         return [array.GetRange()[0] for array in arrays if array]
@@ -48,7 +48,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh, "--feature-angle", "95"), 1)
 
     def test_tolerance(self):
-        """The opposite angles sum to pi + 0.01 or so."""
+        """The opposite angles sum to about pi + 0.01."""
         mesh = make_mesh([(-1, 0, 0), (0, -0.995, 0), (1, 0, 0), (0, 0.995, 0)], KITE_CELLS)
         angles = ("--criterion", "opposite-angles")
         self.assertEqual(self.flips(mesh, *angles), 1)

@@ -17,7 +17,7 @@ from CommandTesting import (
 
 
 def turns_of(mesh):
-    """Twice the area of each triangle in x and y; below 0 where it turns right."""
+    """Twice the signed area of each triangle in x and y; negative if it turns right."""
     points = points_of(mesh)
     for triangle in triangles_of(mesh):
         (ax, ay, _), (bx, by, _), (cx, cy, _) = (points[i] for i in triangle)
@@ -52,7 +52,7 @@ class Summary(CommandTest):
 
 class Messages(CommandTest):
     def test_steep_height_field(self):
-        """The summary has a hint, and the warning counts what flips have turned over."""
+        """The summary gives a hint, and a warning counts triangles that flips have turned over."""
         path = write_mesh(bumpy_grid(20, 20), self.path("in.vtk"))
         result = self.succeed(path, "out.vtk")
         self.assertIn("% of its area slopes below 45 degrees; if it is terrain", result.stdout)

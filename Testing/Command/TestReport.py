@@ -31,7 +31,7 @@ COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Se
 
 
 def smallest_angle(mesh):
-    """In degrees."""
+    """The smallest angle in degrees."""
     points = points_of(mesh)
     angles = []
     for triangle in triangles_of(mesh):

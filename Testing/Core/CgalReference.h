@@ -6,7 +6,7 @@
 #include "FlipTestSupport.h"
 
 /// @file
-/// CGAL as the judge of planar results, in x and y.
+/// CGAL as the reference for planar results, in x and y.
 
 namespace delaunayflip
 {
@@ -15,15 +15,16 @@ namespace delaunayflip
 /// perturbation.
 TriangleSet MakeCgalDelaunay(const PointArray& points);
 
-/// Constrained Delaunay triangulation; constraints meet at points only. Ties as CGAL leaves them.
+/// Constrained Delaunay triangulation. Constraints must meet only at points. Ties are left as CGAL
+/// happens to decide them.
 TriangleSet MakeCgalConstrainedDelaunay(const TriangleMesh& mesh);
 
 /// Edges of two triangles that CGAL's exact in-circle predicate rejects, for counter-clockwise
 /// meshes without degenerate triangles.
 std::int64_t CountCgalViolations(const TriangleMesh& mesh);
 
-/// A valid but bad triangulation of the convex hull of distinct points: inserted by rising x, with
-/// no regard to shape. z is 0.
+/// A valid but bad triangulation of the convex hull of distinct points, which are inserted in the
+/// order of x without regard to shape. z is 0.
 OwnedMesh<double> MakeSweptMesh(const std::vector<std::array<double, 2>>& points);
 
 }

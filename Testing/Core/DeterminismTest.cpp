@@ -18,7 +18,7 @@ struct NamedMesh
 
 void PrintTo(const NamedMesh& mesh, std::ostream* stream) { *stream << mesh.Name; }
 
-/// Large enough for several cache-sized chunks, also where tests are reduced.
+/// Large enough for several chunks, even where tests are reduced.
 OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(90000, 41); }
 
 OwnedMesh<double> MakeTiltedPlane()

@@ -31,7 +31,7 @@ void ExpectSameAngle(double expected, double angle)
   }
 }
 
-/// Runs in the geometry, whatever the mesh; checks what holds for any input.
+/// Flips the mesh in this geometry, and checks what must hold for any input.
 FlipResult FlipDirty(const OwnedMesh<double>& mesh, GeometryKind geometry)
 {
   FlipOptions options;
@@ -90,7 +90,7 @@ TEST(DirtyInput, DelaunayMeshesComeBackBitForBit)
   }
 }
 
-/// The points named are NaN or infinite; no flip touches their triangles, all others become
+/// Some points are NaN or infinite: no flip touches their triangles, and all others become
 /// Delaunay.
 TEST(DirtyInput, NonFinitePointsStayAndTheRestIsProcessed)
 {
@@ -143,7 +143,7 @@ TEST(DirtyInput, MeshesOfNothingButNaNEnd)
   }
 }
 
-/// A cap whose apex lies on the shared edge, exactly: its angle is pi, so the edge is bad.
+/// A cap whose apex lies exactly on the shared edge: its angle is pi, so the edge is bad.
 TEST(DirtyInput, FlatCapsFlip)
 {
   OwnedMesh<double> mesh = { { 0, 0, 0, 4, 0, 0, 2, 3, 0, 1, 0, 0 }, { 0, 1, 2, 1, 0, 3 } };
@@ -162,7 +162,7 @@ TEST(DirtyInput, FlatCapsFlip)
   }
 }
 
-/// The apex beyond the shared edge, on its line: no flip can mend that.
+/// The apex lies on the line of the shared edge, but outside it: no flip can improve that.
 TEST(DirtyInput, FlatTrianglesThatOverhangStay)
 {
   const OwnedMesh<double> mesh = { { 0, 0, 0, 4, 0, 0, 2, 3, 0, 5, 0, 0 }, { 0, 1, 2, 1, 0, 3 } };
@@ -208,7 +208,7 @@ TEST(DirtyInput, CoincidentPointsAreNotMerged)
   }
 }
 
-/// Lattice points moved onto each other: zero-area triangles, inverted ones and ties all over.
+/// Lattice points moved onto each other: many zero-area and inverted triangles, and many ties.
 TEST(DirtyInput, CrumpledLatticesEnd)
 {
   for (std::uint32_t seed = 0; seed < 60 / Reduction; ++seed)
@@ -245,7 +245,7 @@ TEST(DirtyInput, TrianglesWithRepeatedIdsStay)
   }
 }
 
-/// Unused points, one of them NaN, decide nothing.
+/// Unused points, even NaN, change nothing.
 TEST(DirtyInput, IsolatedPointsDoNotMatter)
 {
   const OwnedMesh<double> clean = MakeRandomBadMeshDouble(500, 86);
@@ -258,7 +258,7 @@ TEST(DirtyInput, IsolatedPointsDoNotMatter)
   EXPECT_TRUE(result.Report.Defects.empty());
 }
 
-/// A hub of very many triangles, seen from where nearly all of its edges are bad.
+/// A hub of very many triangles, placed so that nearly all of its edges are bad.
 TEST(DirtyInput, HugeFansAreProcessed)
 {
   const int count = 20000 / static_cast<int>(Reduction);

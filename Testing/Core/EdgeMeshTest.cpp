@@ -19,7 +19,7 @@
 #include <vector>
 
 /// @file
-/// The edge arrays against brute force: a map from vertex pairs to corners.
+/// Compares the edge arrays with brute force: a map from vertex pairs to corners.
 
 namespace
 {
@@ -61,7 +61,7 @@ std::map<Pair, std::vector<CornerId>> MapCorners(const EdgeMesh& mesh)
   return corners;
 }
 
-/// Corners of every edge record, by smallest corner: what ids must follow.
+/// The corners of every edge, in the order of the smallest corner, which edge ids must follow.
 std::vector<std::vector<CornerId>> ExpectedRecords(const EdgeMesh& mesh)
 {
   std::vector<std::vector<CornerId>> records;
@@ -133,7 +133,7 @@ TEST(EdgeTableTest, HubsLeaveRoomForAll)
   }
 }
 
-/// A planar mesh needs the table of vertex pairs for its constraints only; edges are the same.
+/// A planar mesh needs the table of vertex pairs only for constraints. Edges are the same without.
 TEST(EdgeMesh, PairsAlikeWithAndWithoutTheTable)
 {
   const ThreadBackend backend(2);
@@ -157,7 +157,7 @@ TEST(EdgeMesh, PairsAlikeWithAndWithoutTheTable)
   }
 }
 
-/// What pairing leaves in the triangles: other corners and roles.
+/// The result of pairing that is stored in the triangles: other corners and roles.
 std::vector<std::uint32_t> PairInSlices(
   const TriangleMesh& mesh, std::int64_t slices, EdgeCounts& counts, const ThreadBackend& backend)
 {
@@ -199,7 +199,7 @@ TEST(EdgeMesh, PairsAlikeInSlices)
   ExpectSlicesAlike(MakeSoup(300, 2000, 5).View());
 }
 
-/// The hub's slice has half of the edges, more than its share of the table.
+/// The slice with the hub has half of the edges, more than its share of the table.
 TEST(EdgeMesh, PairsUnevenSlicesTogether)
 {
   OwnedMesh<float> fan;
@@ -215,7 +215,7 @@ TEST(EdgeMesh, PairsUnevenSlicesTogether)
   ExpectSlicesAlike(fan.View());
 }
 
-/// None of these triangles has an edge that counts, and still one repeats another.
+/// These triangles have no edges between different points, and still one repeats another.
 TEST(EdgeMesh, FindsRepeatedTrianglesOfOnePoint)
 {
   OwnedMesh<float> mesh;
@@ -227,7 +227,7 @@ TEST(EdgeMesh, FindsRepeatedTrianglesOfOnePoint)
 }
 
 /// One thread would pair all corners of a vertex that has most of the edges.
-TEST(CornerPairing, KnowsWhetherBlocksAreEven)
+TEST(CornerPairing, KnowsWhetherBucketsAreEven)
 {
   const ThreadBackend backend(2);
   const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1);
@@ -260,7 +260,7 @@ TEST(EdgeMesh, SoupMatchesBruteForce)
 
 TEST(EdgeMesh, SeparateTrianglesFillTheTable)
 {
-  // Three edges a triangle: twice what a closed mesh has, so the first table runs full.
+  // Three edges per triangle, twice as many as in a closed mesh: the first table becomes full.
   const ThreadBackend backend(2);
   OwnedMesh<float> mesh;
   for (std::int32_t i = 0; i < 30000; ++i)
@@ -276,7 +276,7 @@ TEST(EdgeMesh, SeparateTrianglesFillTheTable)
 
 TEST(EdgeMesh, HubOfManyTriangles)
 {
-  // One vertex in every triangle: nothing may cost the square of its degree.
+  // One vertex is in every triangle. No cost may grow with the square of its degree.
   const ThreadBackend backend(2);
   constexpr std::int32_t Spokes = 300000;
   OwnedMesh<float> mesh;

@@ -40,7 +40,7 @@ Rational Determinant(const RationalVector& a, const RationalVector& b, const Rat
 
 int Sign(const Rational& value) { return static_cast<int>(CGAL::sign(value)); }
 
-/// (x, y, lift) of p relative to d, each lift squared on its own before the subtraction.
+/// (x, y, lift) of p relative to d. Both lifts are computed first, then subtracted.
 RationalVector LiftedDifference(const Point3& p, const Point3& d, bool tilted)
 {
   RationalVector result = Subtract(p, d);
@@ -57,9 +57,9 @@ Point3 GetPoint(const TriangleMesh& mesh, std::int64_t id)
   return { mesh.Points.Get(id, 0), mesh.Points.Get(id, 1), mesh.Points.Get(id, 2) };
 }
 
-/// a, p, q, b: triangles (a, p, q) and (b, q, p). The angles at a and b sum to more than pi when
-/// sin(A + B) < 0; sines are positive multiples of the crosses' lengths, which in one plane compare
-/// by any vector along the normal.
+/// Quad a, p, q, b has the triangles (a, p, q) and (b, q, p). The angles at a and b sum to more
+/// than pi if sin(A + B) < 0. Sines are positive multiples of the lengths of cross products, which
+/// in one plane can be compared along any vector parallel to the normal.
 bool IsViolated(const std::array<Point3, 4>& quad)
 {
   const RationalVector ap = Subtract(quad[1], quad[0]);

@@ -16,15 +16,15 @@ namespace delaunayflip
 
 using Point3 = std::array<double, 3>;
 
-/// Turn of a, b, c in x and y.
+/// The sign of the turn a, b, c in x and y.
 int RationalTurn(const Point3& a, const Point3& b, const Point3& c);
 
 /// Sign of the determinant with rows (x, y, x^2 + y^2, 1); with `tilted`, z^2 joins the third.
 int RationalInCircle(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, bool tilted = false);
 
-/// Edges of a mesh in any exact plane of space, two triangles each, whose fourth point lies inside
-/// the circle of the other three (by a determinant in space that knows no projection).
+/// Counts the interior edges of a mesh that lies exactly in some plane whose fourth point lies
+/// inside the circle of the other three, by a determinant in space, without projection.
 std::int64_t CountRationalViolations(const TriangleMesh& mesh);
 
 /// Triangles by the sign of their turn in x and y.

@@ -17,7 +17,7 @@ namespace
 
 using Edge = std::pair<std::int64_t, std::int64_t>;
 
-/// Edges with the triangles beside them.
+/// Edges with their incident triangles.
 std::map<Edge, std::vector<std::int64_t>> CollectEdges(const TriangleArray& triangles)
 {
   std::map<Edge, std::vector<std::int64_t>> edges;
@@ -31,7 +31,7 @@ std::map<Edge, std::vector<std::int64_t>> CollectEdges(const TriangleArray& tria
   return edges;
 }
 
-/// Every `step`-th edge of two triangles, now and then turned round.
+/// Every `step`-th interior edge, some of them reversed.
 std::vector<std::int64_t> PickConstraints(const TriangleArray& triangles, int step)
 {
   std::vector<std::int64_t> constraints;
@@ -91,7 +91,7 @@ TEST(ConstraintEdges, StayOnSurfaces)
 TEST(ConstraintEdges, CountOnceAndAreReportedWhenMissing)
 {
   const OwnedMesh<double> grid = MakeGridMesh(2, 1);
-  // 0-4 is a diagonal, given thrice; 1-3 the other diagonal; 0-1 a boundary edge; 5-5 no edge.
+  // 0-4 is a diagonal, given three times; 1-3 the other diagonal; 0-1 a boundary edge; 5-5 no edge.
   const std::vector<std::int64_t> constraints = { 0, 4, 4, 0, 0, 4, 1, 3, 0, 1, 5, 5 };
   const FlipReport report = MakeSession(WithConstraints(grid.View(), constraints)).GetReport();
   EXPECT_EQ(2, report.Edges.Constraint);
@@ -132,7 +132,7 @@ TEST(Regions, KeepTheirBorders)
     {
       ++borders;
       ASSERT_EQ(1u, edgesAfter.count(edge));
-      // Slots keep their label, so the labels beside the border are the same as before.
+      // Slots keep their labels, so the labels on either side of the border are the same as before.
       const std::vector<std::int64_t>& after = edgesAfter.at(edge);
       EXPECT_EQ(std::minmax({ regions[incident[0]], regions[incident[1]] }),
         std::minmax({ regions[after[0]], regions[after[1]] }));
@@ -167,7 +167,6 @@ TEST(FrozenTriangles, StayBitForBit)
   EXPECT_LT(0, CountNonDelaunayEdges(WithTriangles(bad.View(), result.Triangles), FlipOptions()));
 }
 
-/// A box's edges are sharp; its flat faces may flip.
 /// The pairs of a list of vertex ids, the smaller id first.
 std::set<Edge> ToEdges(const std::vector<std::int64_t>& ids)
 {

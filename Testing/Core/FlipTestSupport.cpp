@@ -50,8 +50,8 @@ FlipOptions OnTestBackend(FlipOptions options)
 namespace
 {
 
-/// Calls run(options) on the test's backend. A GPU that was not forced by the test itself gives way
-/// where its arithmetic ends, and nowhere else: any other failure of it is the test's.
+/// Calls run(options) on the test's backend. If a GPU that the test itself did not force lacks the
+/// arithmetic for the coordinates, the CPU takes over. Any other failure of it fails the test.
 template <typename Run>
 auto RunOnTestBackend(const FlipOptions& options, const Run& run)
 {

@@ -13,20 +13,21 @@
 #include <vector>
 
 /// @file
-/// What several engine tests need: running flips on copies, comparing meshes, changing them.
+/// Helpers of several engine tests: flip copies of meshes, compare meshes, change them.
 
 namespace delaunayflip
 {
 
-/// Instrumented programs are an order of magnitude slower: sizes and case counts shrink with them.
+/// Whether the program is instrumented, and so an order of magnitude slower: tests then use smaller
+/// meshes and fewer cases.
 #ifdef DELAUNAYFLIP_REDUCED_TESTS
 constexpr std::int64_t Reduction = 10;
 #else
 constexpr std::int64_t Reduction = 1;
 #endif
 
-/// A set of triangles without their order: each starts at its smallest id, then all are sorted.
-/// The direction in which a triangle runs still shows.
+/// Triangles in a canonical order: each starts at its smallest id, then all are sorted. Their
+/// winding is kept.
 using TriangleSet = std::vector<std::array<std::int64_t, 3>>;
 TriangleSet ToTriangleSet(const TriangleArray& triangles);
 TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles);
@@ -38,26 +39,26 @@ struct FlipResult
   FlipReport Report;
 };
 
-/// Whether the environment variable DELAUNAYFLIP_TEST_BACKEND is "cuda": tests that leave the
-/// backend open then run on the GPU, whatever the size of their meshes.
+/// Whether the environment variable DELAUNAYFLIP_TEST_BACKEND is "cuda". Tests that do not choose a
+/// backend then run on the GPU, whatever the size of their meshes.
 bool IsTestBackendCuda();
 
-/// The options with the backend of DELAUNAYFLIP_TEST_BACKEND where they leave it open.
+/// The options, with the backend of DELAUNAYFLIP_TEST_BACKEND if they do not choose one.
 FlipOptions OnTestBackend(FlipOptions options);
 
-/// A session on that backend. Coordinates that need the CPU's exact arithmetic get the CPU, as they
-/// do with BackendKind::Auto.
+/// A session on that backend. Coordinates that need the CPU's exact arithmetic run on the CPU, as
+/// with BackendKind::Auto.
 FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options = {});
 
-/// Runs all flips on a copy of the triangles, on the backend that MakeSession takes.
+/// Runs all flips on a copy of the triangles, on the backend that MakeSession chooses.
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options = {});
 
 TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles);
 
-/// `mesh` with other triangles: the caller's labels and constraints stay attached.
+/// `mesh` with other triangles but the same labels and constraints.
 TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles);
 
-/// Reports a failure for every count of edges that flips may not change and that changed.
+/// Reports a failure for every count of edges that has changed although flips must not change it.
 void ExpectSameTopology(
   const TriangleArray& before, const std::vector<std::int32_t>& after, const FlipReport& report);
 
@@ -68,16 +69,16 @@ void ExpectConsistentStatistics(const FlipReport& report);
 /// Reports a failure for every difference other than times, the backend's name and its fallback.
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b);
 
-/// The count of the first defect whose text holds `word`, or 0; reports a failure unless it names
-/// its first ids.
+/// The count of the first defect whose text contains `word`, or 0. Reports a failure if the defect
+/// lacks its first ids.
 std::int64_t CountDefect(const FlipReport& report, const std::string& word);
 
 bool HasEdge(const std::vector<std::int32_t>& triangles, std::int64_t p, std::int64_t q);
 
-/// Swaps two corners of every triangle, so that it runs the other way.
+/// Reverses the winding of every triangle.
 void ReverseTriangles(std::vector<std::int32_t>& triangles);
 
-/// An integer in [0, count), the same with every standard library.
+/// A random integer in [0, count), the same with every standard library.
 inline std::int32_t DrawIndex(std::mt19937& random, std::int64_t count)
 {
   return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(count));

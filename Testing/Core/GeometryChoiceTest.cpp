@@ -13,7 +13,7 @@
 #include <limits>
 
 /// @file
-/// What GeometryKind::Auto comes to, why, and when a run warns of it.
+/// Which geometry GeometryKind::Auto chooses, why, and when a run gives a warning.
 
 namespace delaunayflip
 {
@@ -46,7 +46,7 @@ void Append(OwnedMesh<double>& mesh, const OwnedMesh<double>& other)
   }
 }
 
-/// What the report says before the first flip.
+/// Checks the report before the first flip.
 FlipReport Survey(const OwnedMesh<double>& mesh, GeometryKind geometry = GeometryKind::Auto)
 {
   FlipOptions options;
@@ -65,7 +65,7 @@ void ExpectChoice(const OwnedMesh<double>& mesh, GeometryKind geometry, const st
   EXPECT_EQ(geometry, FindGeometry(mesh.View(), FlipOptions()));
 }
 
-/// No warning, at the beginning and at the end.
+/// Expects no warning, neither at the beginning nor at the end.
 void ExpectNoDefects(const OwnedMesh<double>& mesh)
 {
   EXPECT_EQ("", DescribeDefects(Flip(mesh.View()).Report.Defects));
@@ -117,7 +117,7 @@ TEST(GeometryChoice, UtmTerrainIsPlanarXY)
   }
 }
 
-/// However rough: in degrees and metres slopes mean nothing.
+/// Even rough terrain: in degrees and metres slopes mean nothing.
 OwnedMesh<double> MakeDegreesAndMetres()
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(5000, 31);
@@ -141,7 +141,7 @@ TEST(GeometryChoice, DegreesAndMetresArePlanarXY)
   EXPECT_EQ("", DescribeDefects(result.Report.Defects));
 }
 
-/// A hemisphere seen from above, 29 % of which slopes below 45 degrees.
+/// A hemisphere above x and y, of which 29 % slopes below 45 degrees.
 OwnedMesh<double> MakeDome()
 {
   constexpr std::int32_t Columns = 90;
@@ -254,7 +254,7 @@ TEST(GeometryChoice, WellShapedTrianglesAreJudgedByTheirPlanes)
   ExpectChoice(roof, GeometryKind::Surface, "but only 0 % of its area slopes below 45 degrees");
 }
 
-/// A lattice in the plane of two axes, at a place on the third.
+/// A lattice in the plane of two axes, at a given coordinate on the third.
 OwnedMesh<double> MakeSide(int axisU, int axisV, double place)
 {
   OwnedMesh<double> side = MakeGridMesh(4, 4);
@@ -296,7 +296,7 @@ TEST(GeometryChoice, AnOpenCylinderIsASurface)
   ExpectNoDefects(cylinder);
 }
 
-/// A roof. Gentle, it is judged by x and y, where its ridge is an edge like others.
+/// A roof. If its slopes are gentle, it is judged by x and y, where its ridge is an ordinary edge.
 TEST(GeometryChoice, ACreasedPlateIsPlanarXYWhereItSlopesGently)
 {
   const auto plate = [](double slope)
@@ -315,7 +315,7 @@ TEST(GeometryChoice, TwoStackedHorizonsArePlanarXY)
   ExpectNoDefects(horizons);
 }
 
-/// A globe in degrees and metres, whose last column of triangles runs back across the whole map.
+/// A globe in degrees and metres, whose last column of triangles spans the whole map backwards.
 OwnedMesh<double> MakeGlobe(std::int32_t columns, std::int32_t rows)
 {
   OwnedMesh<double> globe =
@@ -352,7 +352,7 @@ TEST(GeometryChoice, AThinAntimeridianIsLeftAsItIs)
   EXPECT_EQ(16, CountRight(globe, result.Triangles));
 }
 
-/// Triangles apart from each other, of which the first ones are turned over.
+/// Separate triangles, of which the first ones are turned over.
 OwnedMesh<double> MakeScatter(std::int32_t count, std::int32_t turned)
 {
   OwnedMesh<double> mesh;
@@ -377,7 +377,7 @@ TEST(GeometryChoice, OneTriangleInAThousandMayStray)
   EXPECT_EQ(0u, Survey(MakeScatter(1000, 10)).Defects.size());
 }
 
-/// A floor and a ramp of 4 : 3 whose area is 5.
+/// A floor, and a ramp with slope 4 : 3 and area 5.
 TEST(GeometryChoice, NinetyFivePercentMustSlopeGently)
 {
   const auto plate = [](double length)
@@ -390,7 +390,7 @@ TEST(GeometryChoice, NinetyFivePercentMustSlopeGently)
   ExpectChoice(plate(94.5), GeometryKind::Surface, "only 94 % of its area slopes below 45 degrees");
 }
 
-/// A fan around point 0, of some angle, that rises a little.
+/// A fan around point 0 that covers a given angle and rises a little.
 OwnedMesh<double> MakeStaircase(int count, double turns, bool closed)
 {
   OwnedMesh<double> mesh;
@@ -413,7 +413,7 @@ TEST(GeometryChoice, StarsThatOverlapMakeASurface)
   ExpectChoice(MakeStaircase(24, 2.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 3.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 1.01, false), GeometryKind::Surface, overlap);
-  // Four steps of half a turn but for the last digits.
+  // Four steps of half a turn each, up to rounding.
   OwnedMesh<double> thin = MakeStaircase(4, 2.0 - 0x1p-36, false);
   Append(thin, MakeStaircase(8, 1.0, true));
   ExpectChoice(thin, GeometryKind::Surface, overlap);
@@ -428,7 +428,7 @@ TEST(GeometryChoice, StarsThatOverlapMakeASurface)
   ExpectChoice(MakeStaircase(24, 1.0, true), GeometryKind::PlanarXY, "a height field");
 }
 
-/// A point next to an edge of every triangle: angles are 0 and pi in all but the last digits.
+/// Each triangle has a point almost on its opposite edge: angles are 0 and pi up to rounding.
 TEST(GeometryChoice, ThinTrianglesDoNotAddUpToMoreThanATurn)
 {
   OwnedMesh<double> mesh = MakeHeights(40, 40, [](double x, double y) { return 0.1 * Wave(x, y); });
@@ -454,7 +454,7 @@ TEST(GeometryChoice, ThinTrianglesDoNotAddUpToMoreThanATurn)
   ExpectChoice(mesh, GeometryKind::PlanarXY, "a height field over x, y, and 100 % of its area");
 }
 
-/// The answer may depend neither on the order of triangles nor on threads or scale.
+/// The choice must not depend on the order of triangles, on threads or on scale.
 TEST(GeometryChoice, IsTheSameWhateverTheOrder)
 {
   OwnedMesh<double> mesh =
@@ -481,7 +481,7 @@ TEST(GeometryChoice, IsTheSameWhateverTheOrder)
   }
 }
 
-/// Where x and y decide, a height that is NaN does no harm.
+/// If x and y decide, a height that is NaN does no harm.
 TEST(GeometryChoice, HeightsNeedNotBeFinite)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 32);
@@ -497,7 +497,7 @@ TEST(GeometryChoice, HeightsNeedNotBeFinite)
   EXPECT_EQ(Flip(mesh.View(), options).Triangles, result.Triangles);
 }
 
-/// What a run says of triangles that its flips have turned over in x and y.
+/// How many triangles the report says were turned over in x and y.
 std::int64_t CountTurnedOver(const FlipReport& report)
 {
   EXPECT_GE(1u, report.Defects.size()) << DescribeDefects(report.Defects);
@@ -521,7 +521,7 @@ TEST(GeometryChoice, FlipsInSpaceThatTurnTerrainOverAreCounted)
   }
 }
 
-/// Once, however the run is cut into pieces, and not before it has stopped.
+/// Only once, even if the run is divided into several calls, and not before it has ended.
 TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
 {
   const OwnedMesh<double> mesh = MakeDegreesAndMetres();

@@ -16,7 +16,7 @@ namespace
 
 using Cell = std::array<std::uint32_t, 3>;
 
-/// The cells of a cube or square along the curve; a square's have third coordinate 0.
+/// The cells of a cube or square in the order of the curve. Those of a square have z = 0.
 template <typename IndexOf>
 std::vector<Cell> WalkCurve(std::uint32_t side, std::uint32_t depth, const IndexOf& indexOf)
 {

@@ -22,23 +22,23 @@ namespace
 
 constexpr std::size_t Megabyte = std::size_t(1) << 20;
 
-TEST(HostMemory, BlocksAreAlignedAndApart)
+TEST(HostMemory, AllocationsAreAlignedAndDisjoint)
 {
   HostMemory memory;
-  std::vector<Array<std::uint8_t>> blocks;
-  // Some from the heap, some of pages.
+  std::vector<Array<std::uint8_t>> arrays;
+  // Some allocations come from the heap, others are pages.
   for (const std::size_t bytes : { std::size_t(0), std::size_t(1), Megabyte - 1, Megabyte,
          Megabyte + 1, 2 * Megabyte, 3 * Megabyte - 1, 5 * Megabyte })
   {
-    blocks.emplace_back(bytes, memory);
-    ASSERT_EQ(0u, reinterpret_cast<std::uintptr_t>(blocks.back().Data()) % 64) << bytes;
-    std::fill_n(blocks.back().Data(), bytes, static_cast<std::uint8_t>(blocks.size()));
+    arrays.emplace_back(bytes, memory);
+    ASSERT_EQ(0u, reinterpret_cast<std::uintptr_t>(arrays.back().Data()) % 64) << bytes;
+    std::fill_n(arrays.back().Data(), bytes, static_cast<std::uint8_t>(arrays.size()));
   }
-  for (std::size_t i = 0; i < blocks.size(); ++i)
+  for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    const Array<std::uint8_t>& block = blocks[i];
+    const Array<std::uint8_t>& array = arrays[i];
     EXPECT_TRUE(std::all_of(
-      block.Data(), block.Data() + block.Size(), [i](std::uint8_t byte) { return byte == i + 1; }))
+      array.Data(), array.Data() + array.Size(), [i](std::uint8_t byte) { return byte == i + 1; }))
       << i;
   }
 }
@@ -50,18 +50,18 @@ TEST(HostMemory, TooMuchIsBadAlloc)
   EXPECT_THROW(memory.Allocate(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
 }
 
-TEST(HostMemory, LargeBlocksGoBackToTheSystem)
+TEST(HostMemory, LargeAllocationsGoBackToTheSystem)
 {
   HostMemory memory;
   constexpr std::size_t Bytes = 64 * Megabyte;
-  void* block = memory.Allocate(Bytes);
+  void* pages = memory.Allocate(Bytes);
   unsigned char isResident = 0;
-  static_cast<char*>(block)[0] = 1;
-  EXPECT_EQ(0, mincore(block, 1, &isResident));
+  static_cast<char*>(pages)[0] = 1;
+  EXPECT_EQ(0, mincore(pages, 1, &isResident));
   EXPECT_EQ(1, isResident & 1);
-  memory.Free(block, Bytes);
-  // Not mapped any more.
-  EXPECT_EQ(-1, mincore(block, 1, &isResident));
+  memory.Free(pages, Bytes);
+  // No longer mapped.
+  EXPECT_EQ(-1, mincore(pages, 1, &isResident));
   EXPECT_EQ(ENOMEM, errno);
 }
 #endif

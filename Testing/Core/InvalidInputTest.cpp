@@ -13,7 +13,7 @@ namespace
 
 constexpr std::int64_t Far = std::numeric_limits<std::int64_t>::max() / 8;
 
-/// Expects InvalidMesh that names this cell and point, and an output that nothing has touched.
+/// Expects InvalidMesh with this cell and point, and an unchanged output array.
 void ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t point)
 {
   std::vector<std::int64_t> output(3 * mesh.Triangles.Count, -7);
@@ -123,7 +123,8 @@ TEST(InvalidOptions, AreThoseThatTheMeshCannotHonour)
   EXPECT_NO_THROW(Flip(grid.View()));
 }
 
-/// More than half-edges can number: said before anything is read or allocated.
+/// More triangles than half-edges can be numbered for: refused before anything is read or
+/// allocated.
 TEST(TooLargeMeshes, AreRefusedUnread)
 {
   const OwnedMesh<double> grid = MakeGridMesh(3, 3);
@@ -138,7 +139,7 @@ TEST(TooLargeMeshes, AreRefusedUnread)
   }
 }
 
-/// A forced backend runs or is refused; it never gives way to another silently.
+/// A forced backend runs or is refused; it is never replaced silently.
 TEST(ForcedBackend, RunsOrIsRefused)
 {
   const OwnedMesh<double> grid = MakeGridMesh(3, 3);

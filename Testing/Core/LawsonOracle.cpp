@@ -34,7 +34,7 @@ TriangleSet LawsonOracle::GetTriangles() const
   std::vector<std::int32_t> triangles;
   for (const auto& [edge, opposite] : this->Opposites)
   {
-    // Each triangle once, at the edge that leaves its smallest vertex.
+    // Each triangle once: at the edge that starts at its smallest vertex.
     if (edge.first < edge.second && edge.first < opposite)
     {
       triangles.insert(triangles.end(), { edge.first, edge.second, opposite });

@@ -16,7 +16,7 @@ namespace delaunayflip
 {
 
 /// Lawson's algorithm in x and y in rational arithmetic, one flip at a time, until none is left:
-/// the obvious way to the mesh that the engine must reach.
+/// a simple way to compute the mesh that the engine must reach.
 class LawsonOracle
 {
 public:

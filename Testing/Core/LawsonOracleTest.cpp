@@ -17,7 +17,7 @@ namespace
 
 using Edge = LawsonOracle::Edge;
 
-/// Random distinct points of a small lattice with all its ties, triangulated anyhow.
+/// Random distinct points of a small lattice, with many ties, and some triangulation of them.
 OwnedMesh<double> DrawMesh(std::mt19937& random)
 {
   const int size = 3 + DrawIndex(random, 6);
@@ -78,7 +78,7 @@ TEST(LawsonOracle, CanonicalMeshesAreTheSameTriangleForTriangle)
   }
 }
 
-/// With ties kept the end depends on the order of flips, but nothing is left for the oracle to do.
+/// If ties are kept, the result depends on the order of flips, but nothing is left for the oracle.
 TEST(LawsonOracle, FindsNothingLeftToFlip)
 {
   std::mt19937 random(92);

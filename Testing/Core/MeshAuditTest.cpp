@@ -16,7 +16,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Triangles between few points at random: every kind of edge, repeated ids included.
+/// Random triangles on a few points: every kind of edge, and triangles with repeated ids.
 std::vector<std::int32_t> DrawSoup(std::mt19937& random, int points, int triangles)
 {
   std::vector<std::int32_t> ids;
@@ -27,7 +27,7 @@ std::vector<std::int32_t> DrawSoup(std::mt19937& random, int points, int triangl
   return ids;
 }
 
-/// Edges by walking over all triangles for every pair of points.
+/// Counts edges by a search through all triangles for every pair of points.
 EdgeCounts CountByBruteForce(const std::vector<std::int32_t>& triangles, int points)
 {
   EdgeCounts counts;
@@ -113,7 +113,7 @@ TEST(GeneratedMeshes, AreWhatTheySay)
 
 TEST(DuplicateEdgesGained, AreCountedWhereThreeTrianglesMeet)
 {
-  // The second mesh joins 0-1 a third time; 2-3 is new as well, but of two triangles only.
+  // The second mesh has a third triangle at 0-1. 2-3 is new as well, but has only two triangles.
   const std::vector<std::int32_t> before = { 0, 1, 2, 1, 0, 3, 4, 5, 6, 5, 4, 7 };
   const std::vector<std::int32_t> after = { 0, 1, 2, 1, 0, 3, 0, 1, 6, 2, 3, 7 };
   EXPECT_EQ(0, CountDuplicateEdgesGained(ViewTriangles(before), ViewTriangles(before)));
@@ -128,7 +128,7 @@ OwnedMesh<double> MakePair(const std::vector<double>& points)
   return { points, { 0, 1, 2, 0, 2, 3 } };
 }
 
-/// A flat rhombus cut along its long diagonal.
+/// A planar rhombus, divided along its long diagonal.
 OwnedMesh<double> MakeBadPair() { return MakePair({ -2, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1, 0 }); }
 
 std::int64_t CountBad(const TriangleMesh& mesh, GeometryKind geometry = GeometryKind::Auto,

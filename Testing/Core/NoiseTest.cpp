@@ -10,8 +10,8 @@
 #include <limits>
 
 /// @file
-/// What the automatic tolerance promises of an edge: if it is bad, its angle sum exceeds pi
-/// wherever its four points are within a unit in the last place of their coordinates.
+/// The promise of the automatic tolerance: if an edge is bad, its angle sum exceeds pi wherever its
+/// four points are within one unit in the last place of their coordinates.
 
 namespace delaunayflip
 {
@@ -43,7 +43,7 @@ long double AngleAt(const Vector& apex, const Vector& p, const Vector& q)
 template <typename Real>
 using QuadCoordinates = std::array<Real, 12>;
 
-/// By how much the angles at a and b sum to more than pi.
+/// By how much the sum of the angles at a and b exceeds pi.
 template <typename Real>
 long double FindExcess(const QuadCoordinates<Real>& x)
 {
@@ -51,7 +51,7 @@ long double FindExcess(const QuadCoordinates<Real>& x)
   return AngleAt(get(0), get(1), get(2)) + AngleAt(get(3), get(1), get(2)) - std::acos(-1.0L);
 }
 
-/// By the engine and by the audit.
+/// Judges the edge by the engine and by the audit.
 struct Judgement
 {
   bool IsBad, IsBadByAudit;
@@ -70,7 +70,7 @@ Judgement Judge(const QuadCoordinates<Real>& x)
 
 double DrawSigned(std::mt19937& random) { return random() / 2147483648.0 - 1.0; }
 
-/// Nearly a circle's four points, with an angle sum close to pi on either side, somewhere in space.
+/// Four points almost on a circle somewhere in space, with an angle sum just below or above pi.
 template <typename Real>
 QuadCoordinates<Real> DrawQuad(std::mt19937& random)
 {
@@ -93,7 +93,7 @@ QuadCoordinates<Real> DrawQuad(std::mt19937& random)
   return x;
 }
 
-/// Each coordinate stays or goes to one of its neighbours, whatever lowers the sum.
+/// Keeps each coordinate or moves it to a neighbouring number, whichever makes the sum smallest.
 template <typename Real>
 void LowerSum(QuadCoordinates<Real>& x)
 {
@@ -115,7 +115,7 @@ void LowerSum(QuadCoordinates<Real>& x)
   }
 }
 
-/// Each coordinate stays or goes to one of its neighbours at random.
+/// Keeps each coordinate or moves it to a neighbouring number, at random.
 template <typename Real>
 QuadCoordinates<Real> Perturb(QuadCoordinates<Real> x, std::mt19937& random)
 {
@@ -148,9 +148,9 @@ void ExpectBadEdgesAreBadWithinPrecision(std::uint32_t seed)
       ASSERT_LT(0, FindExcess(Perturb(x, random))) << "case " << i;
     }
   }
-  // These sums come so close to pi + tolerance that rounding may decide, differently in each.
+  // Some sums are so close to pi + tolerance that rounding decides, differently in the two.
   EXPECT_LE(different, 40 / Reduction);
-  // Many are bad, and many more would be if rounding did not count.
+  // Many edges are bad, and without a tolerance many more would be.
   EXPECT_LT(2000 / Reduction, bad);
   EXPECT_LT(1000 / Reduction, doubtful);
 }

@@ -26,7 +26,8 @@ class ObserverTest : public testing::Test
 protected:
   void SetUp() override { this->Complete = Flip(this->Mesh.View()); }
 
-  /// The session's mesh is valid and its report says how many violations are left.
+  /// Checks that the session's mesh is valid and that its report counts the bad edges that are
+  /// left.
   void ExpectValid(const FlipSession& session) const
   {
     const std::vector<std::int32_t> triangles = Store(session);
@@ -105,7 +106,7 @@ TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
     return true;
   };
   EXPECT_THROW(session.Advance(-1, throwing), std::logic_error);
-  // On a GPU the whole batch is in the report before the observer hears of it.
+  // On a GPU the whole batch is in the report before the observer is called.
   const std::size_t done = session.GetReport().Iterations.size();
   EXPECT_TRUE(done == 2 || (IsTestBackendCuda() && done > 2)) << done;
   this->ExpectValid(session);
@@ -156,7 +157,7 @@ TEST_F(ObserverTest, ReportsHaveTheAngleOfEveryStop)
   for (int stop = 0; stop < 3; ++stop)
   {
     ASSERT_TRUE(session.Advance(1));
-    ASSERT_TRUE(session.Advance(1)); // nobody asked for the angle before it
+    ASSERT_TRUE(session.Advance(1)); // the angle before it was not requested
     const std::vector<std::int32_t> triangles = Store(session);
     EXPECT_NEAR(MinimumAngle(WithTriangles(this->Mesh.View(), triangles), GeometryKind::Planar),
       session.GetReport().MinimumAngleAfter, 1e-9);

@@ -13,7 +13,8 @@ namespace delaunayflip
 namespace
 {
 
-/// Planar meshes that cover themselves: flips must end and repeat no edge, in both tie modes.
+/// Planar meshes that overlap themselves: with either tie rule, flips must end and create no edge
+/// twice.
 std::int64_t FlipOverlapping(const OwnedMesh<double>& mesh)
 {
   std::int64_t left = 0;
@@ -32,7 +33,7 @@ std::int64_t FlipOverlapping(const OwnedMesh<double>& mesh)
 }
 
 /// A fan of `count` triangles that winds `turns` times around vertex 0; closed, or open like a
-/// spiral staircase seen from above.
+/// spiral staircase.
 OwnedMesh<double> MakeWindingFan(int count, int turns, bool closed, std::uint32_t seed)
 {
   std::mt19937 random(seed);
@@ -65,8 +66,8 @@ TEST(Overlap, FansThatWindTwiceGainNoEdgeTwice)
   }
 }
 
-/// Diamonds on top of each other that share only their lower and upper ends p and q: each wants to
-/// turn its bad edge into p-q.
+/// Diamonds on top of each other that share only their lower and upper ends p and q: the bad edge
+/// of each would become p-q.
 TEST(Overlap, DiamondsThatShareTheirEndsGainNoEdgeTwice)
 {
   for (std::int32_t layers = 2; layers < 6; ++layers)
@@ -85,8 +86,8 @@ TEST(Overlap, DiamondsThatShareTheirEndsGainNoEdgeTwice)
   }
 }
 
-/// Two fans over the same polygon, back to back, glued along the border: both sides want the same
-/// edges, and only one may have each.
+/// Two fans over the same polygon, back to back and joined along the border: flips on both sides
+/// would make the same edges, and only one side may get each.
 TEST(Overlap, FlatPillowsGainNoEdgeTwice)
 {
   std::int64_t blocked = 0;
@@ -111,7 +112,7 @@ TEST(Overlap, FlatPillowsGainNoEdgeTwice)
   EXPECT_LT(0, blocked);
 }
 
-/// The slots of the triangles that turn to a side (1, -1), or to none (0), by exact orientations.
+/// The slots of the triangles with this exact orientation: 1, -1, or 0 without area.
 std::vector<std::int64_t> FindTurns(const OwnedMesh<double>& mesh, int side)
 {
   std::vector<std::int64_t> slots;
@@ -130,7 +131,8 @@ std::vector<std::int64_t> FindTurns(const OwnedMesh<double>& mesh, int side)
   return slots;
 }
 
-/// A vertex pulled out of its star turns triangles over; pairs of opposite turns never flip.
+/// A vertex that is moved out of its star inverts triangles. Triangles of opposite orientation
+/// never flip with each other.
 TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
 {
   std::mt19937 random(7);

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RandomMeshTest,
   [](const auto& test)
   { return std::to_string(test.param.Points) + "PointsSeed" + std::to_string(test.param.Seed); });
 
-/// Random points of a small lattice: most of them share their circle with others.
+/// Random points of a small lattice, with many ties.
 std::vector<std::array<double, 2>> DrawLatticePoints(int size, int share, std::uint32_t seed)
 {
   std::mt19937 random(seed);
@@ -119,7 +119,7 @@ TEST(LatticePoints, BecomeCgalsTrianglesCanonically)
   }
 }
 
-/// Integer points of a circle about the origin, all of them ties.
+/// Integer points on a circle about the origin: every edge is a tie.
 TEST(CirclePoints, BecomeCgalsTrianglesCanonically)
 {
   std::vector<std::array<double, 2>> points;
@@ -153,7 +153,7 @@ TEST(CanonicalResult, DoesNotDependOnTheInputsTriangles)
   const FlipOptions options = WithTieRule(TieRuleKind::Canonical);
   const TriangleSet expected = ToTriangleSet(Flip(grid.View(), options).Triangles);
   EXPECT_EQ(expected, ToTriangleSet(Flip(swept.View(), options).Triangles));
-  // Nor on which way they run.
+  // It does not depend on their winding either.
   OwnedMesh<double> reversed = swept;
   ReverseTriangles(reversed.Triangles);
   FlipResult result = Flip(reversed.View(), options);
@@ -182,8 +182,8 @@ TEST(MirroredMeshes, GiveTheMirroredResult)
     ToTriangleSet(Flip(mesh.View()).Triangles) == ToTriangleSet(Flip(mirrored.View()).Triangles));
 }
 
-/// Maps under which the lattice of the random meshes stays exact: scaled by powers of two or moved
-/// by integers below 2^28, the triangles of the result must be the very same.
+/// Maps that keep the lattice of the random meshes exact, scaling by powers of two and translation
+/// by integers below 2^28, must not change the triangles of the result.
 TEST(ExactMaps, ChangeNothing)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 8);
@@ -242,7 +242,7 @@ TEST(OppositeAngles, ReachNearlyTheSameMesh)
   EXPECT_TRUE(result.Report.Converged());
   EXPECT_EQ(0, CountNonDelaunayEdges(after, options));
   EXPECT_EQ(mesh.NumberOfTriangles(), CountTurns(after).Left);
-  // Within the tolerance, in-circle may see more; the paper met a share of 0.05 %.
+  // In-circle may find edges within the tolerance; the paper reports 0.05 % of edges.
   EXPECT_LE(CountNonDelaunayEdges(after, FlipOptions()), mesh.NumberOfTriangles() / 2000);
 }
 

@@ -67,7 +67,7 @@ FourPoints DrawFloats(std::mt19937& random)
   return FillPoints([&] { return static_cast<float>(DrawUnit(random)); });
 }
 
-/// One coordinate of one point a few steps of the last bit away.
+/// Moves one coordinate of one point by a few units in the last place.
 FourPoints Nudge(FourPoints points, std::mt19937& random)
 {
   double& x = points[DrawIndex(random, 4)][DrawIndex(random, 2)];
@@ -93,8 +93,8 @@ FourPoints DrawNudgedLine(std::mt19937& random)
   return Nudge(points, random);
 }
 
-/// The neighbourhoods in which naive orientation tests show their noise: a few last bits about
-/// (0.5, 0.5), beside two far points of the diagonal.
+/// Where naive orientation tests fail: points a few units in the last place from (0.5, 0.5), with
+/// two distant points of the diagonal.
 FourPoints DrawNearDiagonal(std::mt19937& random)
 {
   const auto near = [&] { return 0.5 + std::ldexp(DrawIndex(random, 64), -53); };
@@ -122,7 +122,7 @@ FourPoints DrawHugeGrid(std::mt19937& random)
   return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); });
 }
 
-/// Subnormal numbers about zero, and those about the border to normal ones.
+/// Subnormal numbers around zero, and numbers around the smallest normal one.
 FourPoints DrawSubnormal(std::mt19937& random)
 {
   return FillPoints(
@@ -150,13 +150,14 @@ FourPoints DrawAnyExponents(std::mt19937& random)
     [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 2090) - 1070); });
 }
 
-/// Spreads about what the narrow fixed-point integers can hold.
+/// Ranges of exponents around what the narrow fixed-point integers can hold.
 FourPoints DrawWideExponents(std::mt19937& random)
 {
   return FillPoints([&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 30) - 15); });
 }
 
-/// Coordinates far from double's limits whose products, of two or of four, are not.
+/// Coordinates that are far from the limits of double, although products of two or four of them are
+/// not.
 FourPoints DrawVanishingProducts(std::mt19937& random)
 {
   const int exponent = DrawIndex(random, 2) ? -269 : -538;
@@ -181,7 +182,7 @@ FourPoints DrawLargestOffsets(std::mt19937& random)
     });
 }
 
-/// Offsets in x that are the next double above 2^62, in units of 1: these need the wide integers.
+/// Offsets in x that are the next double above 2^62, beside units of 1: these need wide integers.
 FourPoints DrawOffsetsAbove62Bits(std::mt19937& random)
 {
   FourPoints points = FillPoints([&] { return 2.0 * DrawIndex(random, 100) - 99.0; });
@@ -193,8 +194,8 @@ FourPoints DrawOffsetsAbove62Bits(std::mt19937& random)
   return points;
 }
 
-/// A quad of an O-grid about the origin, on two circles: where an axis crosses, rounding noise of
-/// 6e-17 stands for zero.
+/// A quad of an O-grid about the origin, on two circles. On the axes, coordinates that should be
+/// zero are rounding noise of 6e-17.
 FourPoints DrawGridAboutOrigin(std::mt19937& random)
 {
   const int steps = 4 << DrawIndex(random, 6);
@@ -211,8 +212,8 @@ FourPoints DrawGridAboutOrigin(std::mt19937& random)
   return points;
 }
 
-/// An isosceles trapezoid about the y axis is exactly on one circle whatever its numbers are. The z
-/// of its two parallel sides keeps the tie.
+/// An isosceles trapezoid about the y axis is exactly on one circle, whatever its numbers are. Its
+/// z is constant on each of the parallel sides, which keeps the tie.
 template <typename Draw>
 FourPoints DrawTrapezoidOf(std::mt19937& random, const Draw& draw)
 {
@@ -224,7 +225,7 @@ FourPoints DrawTrapezoidOf(std::mt19937& random, const Draw& draw)
   return points;
 }
 
-/// Some of its numbers are rounding noise.
+/// A trapezoid with rounding noise as some of its numbers.
 FourPoints DrawNoisyTrapezoid(std::mt19937& random)
 {
   return DrawTrapezoidOf(
@@ -236,8 +237,8 @@ FourPoints DrawNudgedTrapezoid(std::mt19937& random)
   return Nudge(DrawNoisyTrapezoid(random), random);
 }
 
-/// An integer that is less than 2^bits in magnitude and uses all of a double's bits where it can,
-/// often as the largest.
+/// An integer below 2^bits in magnitude, often the largest, that uses all bits of a double if it
+/// can.
 double DrawInteger(std::mt19937& random, int bits)
 {
   const int used = DrawIndex(random, 2) ? bits : 1 + DrawIndex(random, bits);
@@ -248,7 +249,7 @@ double DrawInteger(std::mt19937& random, int bits)
   return DrawIndex(random, 2) ? integer : -integer;
 }
 
-/// Any number of bits up to the largest that the wide integers take.
+/// Integers with any number of bits up to the most that the wide integers can hold.
 FourPoints DrawLongIntegers(std::mt19937& random)
 {
   const int bits = 62 + DrawIndex(random, 64);
@@ -261,13 +262,13 @@ FourPoints DrawLongTrapezoid(std::mt19937& random)
   return DrawTrapezoidOf(random, [&] { return DrawInteger(random, bits); });
 }
 
-/// Near ties; a small number that moves by its last bit may no longer fit.
+/// Near ties. If a small number is moved by a unit in the last place, it may no longer fit.
 FourPoints DrawNudgedLongTrapezoid(std::mt19937& random)
 {
   return Nudge(DrawLongTrapezoid(random), random);
 }
 
-/// One coordinate a bit too long.
+/// One coordinate has one bit too many.
 FourPoints DrawTooLongIntegers(std::mt19937& random)
 {
   FourPoints points = DrawLongIntegers(random);
@@ -284,7 +285,7 @@ FourPoints DrawExtremes(std::mt19937& random)
   return points;
 }
 
-/// Axis-aligned rectangles whose sides are no multiples of a power of two that anyone thought of.
+/// Axis-aligned rectangles whose sides are not multiples of a convenient power of two.
 FourPoints DrawRectangle(std::mt19937& random)
 {
   const auto draw = [&] { return 0.1 * DrawIndex(random, 300); };

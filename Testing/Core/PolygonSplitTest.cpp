@@ -19,7 +19,7 @@ namespace
 using Polygon = std::vector<std::array<double, 2>>;
 using Ids = std::vector<std::int64_t>;
 
-/// Coordinates of a polygon laid into the plane x, y by default.
+/// Coordinates of a polygon, by default in the plane of x and y.
 std::vector<double> Embed(const Polygon& polygon,
   const AffineMap& map = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } } })
 {
@@ -65,8 +65,8 @@ double DoubleArea(const Polygon& polygon)
   return area;
 }
 
-/// The triangles tile the polygon when there are count - 2 of them, all run its way and their areas
-/// sum to its own (coordinates are small integers, so sums are exact).
+/// The triangles tile the polygon if there are count - 2 of them, all have its winding, and their
+/// areas sum to its own (coordinates are small integers, so sums are exact).
 void ExpectTiles(const Polygon& polygon, const Ids& triangles)
 {
   ASSERT_EQ(3 * (polygon.size() - 2), triangles.size());
@@ -80,7 +80,7 @@ void ExpectTiles(const Polygon& polygon, const Ids& triangles)
   EXPECT_EQ(DoubleArea(polygon), sum);
 }
 
-/// Every starting vertex, both directions, several planes.
+/// Checks every first vertex, both directions, and several planes.
 void ExpectTilesEverywhere(Polygon polygon)
 {
   const AffineMap maps[] = { { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 0, 3 } } },
@@ -114,7 +114,7 @@ TEST(SplitPolygon, CutsAQuadFromItsFirstVertex)
 
 TEST(SplitPolygon, CutsAConcaveQuadInside)
 {
-  // The dent at vertex 1, then at vertex 0.
+  // The reflex corner is vertex 1, then vertex 0.
   EXPECT_EQ((Ids{ 0, 1, 3, 1, 2, 3 }), Split(Embed({ { 0, 0 }, { 2, 1 }, { 4, 0 }, { 2, 8 } })));
   EXPECT_EQ((Ids{ 0, 1, 2, 0, 2, 3 }), Split(Embed({ { 2, 1 }, { 4, 0 }, { 2, 8 }, { 0, 0 } })));
   ExpectTilesEverywhere({ { 0, 0 }, { 2, 1 }, { 4, 0 }, { 2, 8 } });
@@ -206,7 +206,7 @@ TEST(SplitPolygon, UsesTheGivenIdsAndAppends)
   EXPECT_EQ((Ids{ 7, 1, 2, 4, 1, 4, 5 }), triangles);
 }
 
-/// Ears of a large polygon take long: its observer hears of them, and can stop it.
+/// Clipping the ears of a large polygon takes long: its observer is called, and can stop it.
 TEST(SplitPolygon, TellsOfLargePolygons)
 {
   constexpr int Spikes = 3000;

@@ -83,7 +83,7 @@ TEST_P(PredicatesTest, InCircleTiltedIsExact)
     });
 }
 
-/// Reports a failure unless `sign` is right, or says that the points do not fit and they may not.
+/// Reports a failure unless `sign` is right, or says that points do not fit where that is allowed.
 void ExpectFixedPointSign(int expected, int sign, Fit fit, const FourPoints& points)
 {
   EXPECT_NE(sign == UncertainSign ? Fit::Always : Fit::Never, fit) << Describe(points);
@@ -93,7 +93,7 @@ void ExpectFixedPointSign(int expected, int sign, Fit fit, const FourPoints& poi
   }
 }
 
-/// Without the filters, which leave little to these.
+/// Tested without the filters, which would leave few cases to fixed-point integers.
 TEST_P(PredicatesTest, FixedPointIsExact)
 {
   const Fit fit = GetParam().FixedPoint;
@@ -121,7 +121,7 @@ TEST_P(PredicatesTest, FixedPointIsExact)
 INSTANTIATE_TEST_SUITE_P(Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()),
   [](const auto& test) { return std::string(test.param.Name); });
 
-/// The bound that the proof for 64 bits assumes.
+/// Tests the bound that the proof for 64 bits assumes.
 TEST(FixedPointPredicate, HoldsOffsetsOfAtMost2To62In64Bits)
 {
   const double half = std::ldexp(1.0, 61);

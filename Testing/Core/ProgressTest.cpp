@@ -19,7 +19,7 @@ std::vector<std::int32_t> Store(const FlipSession& session)
   return triangles;
 }
 
-/// Keeps what it is told; ends the run at one of its calls.
+/// Records what it is told, and ends the run at a given call.
 class Watcher
 {
 public:
@@ -118,7 +118,7 @@ TEST_P(ProgressTest, ChangesNothing)
   ExpectSameStatistics(unwatched.Report, session.GetReport());
 }
 
-/// At an abort the mesh is that of a run with as many iterations.
+/// After an abort the mesh is that of a run with the same number of iterations.
 TEST_P(ProgressTest, EndsTheRunAtAnyCall)
 {
   Watcher whole;
@@ -211,7 +211,7 @@ TEST(ProgressOfAllInOne, IsToldAndEndsTheRun)
   EXPECT_TRUE(mesh.Triangles == triangles);
 }
 
-/// What was asked for is an error also where somebody would stop the run.
+/// Invalid options are an error even if the observer would stop the run at once.
 TEST(ProgressOfAllInOne, ComesAfterTheChecks)
 {
   OwnedMesh<double> mesh = MakeSmallPlane();
@@ -221,7 +221,7 @@ TEST(ProgressOfAllInOne, ComesAfterTheChecks)
   EXPECT_TRUE(watcher.Told.empty());
 }
 
-/// A limit of iterations is an end to look forward to: the last but one of n is told as n - 1.
+/// With an iteration limit n, progress after iteration n - 1 is at least (n - 1) / n of the loop's.
 TEST(ProgressOfAllInOne, FollowsTheIterationLimit)
 {
   const OwnedMesh<double> mesh = MakeWorstCaseMesh(300);

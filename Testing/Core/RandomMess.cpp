@@ -79,8 +79,8 @@ OwnedMesh<double> MakeMesh(Random& random)
   return mesh;
 }
 
-/// Options that fit any mesh: not Planar, which wants a plane, nor Canonical, which wants no
-/// surface.
+/// Options that are valid for any mesh: not Planar, which needs a plane, nor Canonical, which is
+/// not for surfaces.
 FlipOptions MakeOptions(Random& random)
 {
   constexpr GeometryKind Geometries[] = { GeometryKind::Auto, GeometryKind::PlanarXY,

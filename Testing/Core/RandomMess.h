@@ -12,7 +12,7 @@
 namespace delaunayflip
 {
 
-/// A small mesh of every kind of dirt, with constraints and options drawn at random.
+/// A small random mesh with every kind of defect, random constraints and random options.
 struct RandomMess
 {
   OwnedMesh<double> Mesh;
@@ -22,7 +22,7 @@ struct RandomMess
   TriangleMesh View() const;
 };
 
-/// The same for a seed on every machine.
+/// A seed gives the same mesh on every machine.
 RandomMess MakeRandomMess(std::uint32_t seed);
 
 }

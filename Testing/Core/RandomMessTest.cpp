@@ -9,9 +9,9 @@
 #include <vector>
 
 /// @file
-/// Thousands of small meshes of every kind of dirt under random options: whatever goes in, the
-/// counts of edges by kind stay, no edge is doubled, the statistics add up, and the loop ends by
-/// itself.
+/// Thousands of small meshes with every kind of defect, under random options: whatever the input,
+/// the counts of edges by kind stay, no edge is created twice, the statistics add up, and the loop
+/// ends by itself.
 
 namespace
 {

@@ -12,11 +12,11 @@ using namespace delaunayflip;
 
 TEST(StateWords, MatchStatesFindsEveryRange)
 {
-  // As many as there may be. Those that there are end with Candidate.
+  // More values than there are states, of which Candidate is the last.
   constexpr int NumberOfStates = 16;
   static_assert(static_cast<int>(EdgeState::Candidate) < NumberOfStates);
   std::mt19937 random(5);
-  for (int round = 0; round < 100; ++round)
+  for (int repetition = 0; repetition < 100; ++repetition)
   {
     // Words are read at multiples of 64 states.
     alignas(64) EdgeState states[StatesPerSet];

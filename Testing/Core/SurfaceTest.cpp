@@ -40,7 +40,7 @@ long double AngleAt(const Vector& apex, const Vector& p, const Vector& q)
   return std::atan2(std::sqrt(Dot(n, n)), Dot(Subtract(p, apex), Subtract(q, apex)));
 }
 
-/// Looks, with inverse trigonometry and a map of edges, for edges that should have been flipped.
+/// Finds edges that should have been flipped, by inverse trigonometry and a map of edges.
 class SurfaceReferee
 {
 public:
@@ -56,8 +56,8 @@ public:
     }
   }
 
-  /// Edges of exactly two consistently wound triangles whose opposite angles sum to more than pi,
-  /// by a margin, although their flip would neither fold the surface nor repeat an edge.
+  /// Counts edges of exactly two consistently wound triangles whose opposite angles sum to more
+  /// than pi by a margin, and whose flip would neither fold the surface over nor repeat an edge.
   std::int64_t CountMissedFlips() const
   {
     std::int64_t missed = 0;
@@ -113,7 +113,7 @@ FlipOptions SurfaceOptions()
   return options;
 }
 
-/// All that must hold after flips on a surface, whatever it looks like.
+/// Everything that must hold after flips on any surface.
 FlipResult FlipSurface(const OwnedMesh<double>& mesh)
 {
   const FlipResult result = Flip(mesh.View(), SurfaceOptions());
@@ -140,7 +140,7 @@ TEST(Surface, ClosedSpheresStayClosed)
   }
 }
 
-/// Few columns: nearly every flip would repeat an edge, at once or together with another flip.
+/// With few columns, nearly every flip would repeat an edge that exists or that another flip makes.
 TEST(Surface, NarrowSpheresGainNoEdgeTwice)
 {
   std::int64_t blocked = 0;
@@ -167,8 +167,8 @@ TEST(Surface, TetrahedraStayAsTheyAre)
   EXPECT_EQ(1, result.Report.NonDelaunayAfter);
 }
 
-/// A sheet folded nearly flat on itself: the angles sum to more than pi, yet the triangles of the
-/// flip would face each other.
+/// A sheet folded almost flat onto itself: the angles sum to more than pi, but the new triangles
+/// would face each other.
 TEST(Surface, FlipsThatFoldItOverAreBlocked)
 {
   const OwnedMesh<double> folded = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, 3, 1 },
@@ -177,7 +177,7 @@ TEST(Surface, FlipsThatFoldItOverAreBlocked)
   EXPECT_EQ(folded.Triangles, result.Triangles);
   EXPECT_EQ(1, result.Report.NonDelaunayBefore);
   EXPECT_EQ(1, result.Report.NonDelaunayAfter);
-  // Opened, the same two triangles may.
+  // Unfolded, the same two triangles may flip.
   const OwnedMesh<double> opened = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, -3, 1 },
     { 2, 0, 1, 3, 1, 0 } };
   EXPECT_EQ(1, FlipSurface(opened).Report.TotalFlips);
@@ -242,7 +242,7 @@ TEST(Surface, DuplicateTrianglesKeepTheirEdges)
   }
 }
 
-/// The same triangle twice and nothing else: two incident triangles everywhere, none may flip.
+/// The same triangle twice and nothing else: every edge has two triangles, but none may flip.
 TEST(Surface, LoneDuplicatesAreReported)
 {
   const std::vector<std::int32_t> pairs[] = { { 0, 1, 2, 1, 2, 0 }, { 0, 1, 2, 2, 1, 0 } };

@@ -6,15 +6,15 @@
 #include <gtest/gtest.h>
 
 /// @file
-/// With DELAUNAYFLIP_TEST_BACKEND=cuda this whole program tests the GPU; without a GPU it then runs
-/// nothing, rather than pass on the CPU.
+/// With DELAUNAYFLIP_TEST_BACKEND=cuda this whole program tests the GPU. If there is none, all
+/// tests are skipped, instead of passing on the CPU.
 
 namespace delaunayflip
 {
 namespace
 {
 
-/// Skips every test, one by one: an environment that skips all leaves them reported as passed.
+/// Skips the tests one by one: if an environment skipped all, they would be reported as passed.
 class GpuOrNothing : public testing::EmptyTestEventListener
 {
 public:
@@ -36,7 +36,7 @@ const bool IsRegistered = []
   return true;
 }();
 
-TEST(TestBackend, IsTheOneAskedFor)
+TEST(TestBackend, IsTheRequestedOne)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(100, 1);
   const std::string expected = IsTestBackendCuda() ? "CUDA: " : "Threads: ";

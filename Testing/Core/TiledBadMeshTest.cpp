@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 /// @file
-/// The tiles of a large benchmark mesh fit together.
+/// Checks that the tiles of a large benchmark mesh fit together.
 
 namespace delaunayflip
 {

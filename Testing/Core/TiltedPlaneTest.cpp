@@ -32,7 +32,7 @@ FlipResult FlipPlanar(const OwnedMesh<double>& mesh, TieRuleKind rule = TieRuleK
   return result;
 }
 
-/// Whether all triangles face the way the first does, in the shadow along some axis.
+/// Whether all triangles face the same way as the first, in the projection along some axis.
 bool FaceOneWay(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -50,8 +50,8 @@ bool FaceOneWay(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& 
   return false;
 }
 
-/// Similarities that keep the lattice: which coordinate is constant, which way the plane faces, or
-/// how it is tilted, changes nothing.
+/// Similarities that keep the lattice: it does not matter which coordinate is constant, which way
+/// the plane faces, or how it is tilted.
 TEST(TiltedPlane, SimilarMeshesGiveTheSameTriangles)
 {
   const OwnedMesh<double> flat = MakeRandomBadMeshDouble(3000 / Reduction, 21);
@@ -103,8 +103,8 @@ TEST(TiltedPlane, LatticePointsGiveTheSameCanonicalMeshWhateverTheStart)
   EXPECT_EQ(ToTriangleSet(canonical.Triangles), ToTriangleSet(fromSwept.Triangles));
 }
 
-/// Rotations by any angle round the coordinates, so that points leave their plane by last bits:
-/// flips must end, in agreement with the audit, and leave a valid mesh.
+/// Rotations by any angle round coordinates, so points leave their plane by some units in the last
+/// place. Flips must end, agree with the audit, and leave a valid mesh.
 TEST(TiltedPlane, RoundedRotationsEnd)
 {
   const OwnedMesh<double> flat = MakeRandomBadMeshDouble(2000 / Reduction, 23);

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 /// @file
-/// The automatic tolerance on whole meshes: rounding alone flips nothing, all else does.
-/// NoiseTest.cpp has single edges.
+/// The automatic tolerance on whole meshes: rounding alone causes no flips, larger errors do.
+/// NoiseTest.cpp tests single edges.
 
 namespace delaunayflip
 {
@@ -65,14 +65,14 @@ TEST(AutomaticTolerance, LeavesAFarSphereAsItIs)
   ExpectUnchanged(sphere, OfSurfaces(Automatic));
   ExpectUnchanged(RoundToFloat(sphere), OfSurfaces(Automatic));
   EXPECT_LT(5000, Flip(RoundToFloat(sphere).View(), OfSurfaces(Fixed)).Report.TotalFlips);
-  // What floats would forgive there is bad where the points are doubles.
+  // What rounding to float would explain is bad if the points are doubles.
   OwnedMesh<double> dented = sphere;
   dented.Points[3 * 15000] += 0.5;
   EXPECT_LT(0, Flip(dented.View(), OfSurfaces(Automatic)).Report.TotalFlips);
   ExpectUnchanged(RoundToFloat(dented), OfSurfaces(Automatic));
 }
 
-/// Planes judged by angles pack floats as doubles; they are still floats.
+/// The engine packs the points of a plane as doubles; their precision is still float.
 TEST(AutomaticTolerance, LeavesAPlaneOfFloatsAsItIs)
 {
   const OwnedMesh<double> grid = Transform(
@@ -90,7 +90,7 @@ TEST(AutomaticTolerance, LeavesAPlaneOfFloatsAsItIs)
   }
 }
 
-/// @param noise radians that no edge left exceeds.
+/// @param noise the most, in radians, by which the sum of an edge that is left may exceed pi.
 template <typename Real>
 void ExpectOnlyNoiseStays(const OwnedMesh<Real>& mesh, double noise)
 {
@@ -110,8 +110,8 @@ TEST(AutomaticTolerance, LetsABadSurfaceFlip)
   ExpectOnlyNoiseStays(RoundToFloat(sphere), 0.02); // at the poles
 }
 
-/// The same lattice points further and further away: they stay the same numbers but for the origin,
-/// and what is noise there is noise further out.
+/// The same lattice points moved further and further from the origin, without rounding: what is
+/// noise at one distance is noise at larger ones.
 TEST(AutomaticTolerance, GrowsWithTheDistanceFromTheOrigin)
 {
   const AffineMap curved = { { { 1024, 0, 0, 0 }, { 0, 1024, 0, 0 }, { 0, 0, 1024, 0 } } };

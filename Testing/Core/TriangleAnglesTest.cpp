@@ -24,7 +24,7 @@ std::vector<double> FindAngles(const TriangleMesh& mesh, GeometryKind geometry, 
   return angles;
 }
 
-/// By the lengths of the sides and the law of cosines.
+/// The smallest angle from the lengths of the sides, by the law of cosines.
 double AngleByLengths(const TriangleMesh& mesh, std::int64_t triangle, int axes)
 {
   long double squares[3]; // of the side opposite to each corner
@@ -56,7 +56,7 @@ void ExpectAnglesByLengths(const TriangleMesh& mesh, GeometryKind geometry)
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
     const double expected = AngleByLengths(mesh, t, geometry == GeometryKind::PlanarXY ? 2 : 3);
-    // Lengths tell little of small angles: the cosine is 1 - angle^2 / 2.
+    // Lengths determine small angles poorly: the cosine is 1 - angle^2 / 2.
     ASSERT_NEAR(expected, angles[t], 1e-9 + 1e-12 / std::max(expected, 1e-6)) << t;
   }
 }
@@ -85,7 +85,7 @@ TEST(TriangleAngles, DoNotDependOnThreadsOrIds)
   }
 }
 
-/// Of one triangle.
+/// The smallest angle of one triangle.
 double FindAngle(const std::vector<double>& points, GeometryKind geometry)
 {
   const OwnedMesh<double> mesh = { points, { 0, 1, 2 } };

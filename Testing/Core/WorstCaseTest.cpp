@@ -58,7 +58,7 @@ TEST(WorstCase, GrowsAsThePaperSays)
   }
 }
 
-/// The opposite-angle sum is the paper's own test and decides alike here.
+/// The opposite-angle sum, the paper's own criterion, makes the same decisions here.
 TEST(WorstCase, TakesTheSameFlipsByAngles)
 {
   FlipOptions options;

@@ -23,7 +23,7 @@
 namespace
 {
 
-/// The rhombus with a vert, a line along its rim, and cells numbered 10, 11, 12, 13.
+/// The rhombus with a vert, a line along its boundary, and cells numbered 10, 11, 12, 13.
 vtkSmartPointer<vtkPolyData> MakeMixedRhombus()
 {
   auto mesh = MakeRhombus();
@@ -45,8 +45,8 @@ void SetCellNormals(vtkPolyData* mesh, double z)
   mesh->GetCellData()->SetNormals(normals);
 }
 
-/// Two triangles over the square -1..1, folded by 20 degrees or so along the long diagonal 0-2, and
-/// a third one, level, that nothing flips.
+/// Two triangles over the square -1..1, folded by about 20 degrees along the diagonal 0-2, and a
+/// third, level one without edges that may flip.
 vtkSmartPointer<vtkPolyData> MakeFoldedRhombus()
 {
   return MakeMesh({ { -3, 0, 0 }, { 0, -1, 0.1 }, { 3, 0, 0 }, { 0, 1, 0.1 }, { 10, 0, 0 },
@@ -136,7 +136,7 @@ TEST(VtkDelaunayFlip, InputIsUntouched)
 TEST(VtkDelaunayFlip, NormalsOfChangedTrianglesAreRenewed)
 {
   auto mesh = MakeFoldedRhombus();
-  SetCellNormals(mesh, 0.5); // not of unit length: a computed one is told apart
+  SetCellNormals(mesh, 0.5); // not of unit length, unlike computed normals
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   ASSERT_EQ(filter->GetTotalFlips(), 1);
@@ -178,7 +178,7 @@ TEST(VtkDelaunayFlip, FlipCountsPerTriangle)
 
 TEST(VtkDelaunayFlip, AnglesPerTriangle)
 {
-  // Angles of half the rhombus, and of a triangle of 1-3 and an end: sides 2, sqrt 10, sqrt 10.
+  // Half of the rhombus, and a triangle of 1-3 and an end, whose sides are 2, sqrt 10, sqrt 10.
   const double before = std::atan(1.0 / 3.0) * Degrees, after = 2.0 * before;
   auto mesh = MakeMixedRhombus();
   WatchedFilter filter(mesh);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Where the flips run. On a machine without a GPU some of these skip, on one with a GPU others.
+/// Where the flips run. Some of these tests are skipped without a GPU, others with one.
 
 #include "FilterTestSupport.h"
 
@@ -82,7 +82,7 @@ TEST(VtkDelaunayFlip, AutoIsSilent)
   EXPECT_EQ(filter->GetReport().Fallback, "");
 }
 
-/// Also run with OldDriver, which makes any machine one whose GPU fails.
+/// Also run with OldDriver, with which the GPU of any machine fails.
 TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
 {
   if (!delaunayflip::HasCudaDevice())
@@ -92,7 +92,7 @@ TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
   auto mesh = MakeLargeMesh();
   WatchedFilter filter(mesh);
   filter->SetDeviceId(NoSuchDevice);
-  filter->SetMaximumIterations(100000); // no second cause to warn
+  filter->SetMaximumIterations(100000); // so that there is no other warning
   EXPECT_EQ(GetCells(filter.Run()->GetPolys()), RunOnThreads(mesh));
   EXPECT_TRUE(filter.GetErrors().empty());
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
@@ -133,7 +133,7 @@ TEST(VtkDelaunayFlip, ForcedBackendThatIsAbsentIsAnError)
   EXPECT_EQ(output->GetNumberOfCells(), 0);
   EXPECT_EQ(output->GetNumberOfPoints(), 0);
 
-  filter->SetBackendToThreads(); // and the error is over
+  filter->SetBackendToThreads(); // then there is no error
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
 }
@@ -163,7 +163,7 @@ TEST(VtkDelaunayFlip, DeviceMemoryMayBeReleasedAtAnyTime)
   {
     WatchedFilter other(mesh);
     RunCleanly(other);
-  } // it gives back what both have kept
+  } // releases the memory that both have kept
   filter->ReleaseDeviceMemory();
   filter->ReleaseDeviceMemory();
   filter->Modified();

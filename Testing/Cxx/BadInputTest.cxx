@@ -20,7 +20,7 @@
 namespace
 {
 
-/// The one error that a mesh gives; its output must be empty.
+/// The only error for a mesh, whose output must be empty.
 std::string GetError(WatchedFilter& filter)
 {
   vtkPolyData* output = filter.Run();
@@ -44,7 +44,7 @@ bool Holds(const std::string& text, const std::string& part)
   return text.find(part) != std::string::npos;
 }
 
-/// The rhombus beside a far away part, which must not keep it from being processed.
+/// The rhombus and a distant part, which must not keep it from being processed.
 vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons)
 {
   auto mesh = MakeRhombus();
@@ -89,7 +89,7 @@ TEST(VtkDelaunayFlip, TriangleOutOfRangeIsAnError)
   for (const vtkIdType id : { 4, -1, 1 << 30 })
   {
     auto mesh = MakeRhombusAnd({}, { { 0, 1, id } });
-    mesh->SetVerts(MakeCells({ { 0 } })); // so that polygons do not count from 0
+    mesh->SetVerts(MakeCells({ { 0 } })); // so that the ids of polygons do not start at 0
     WatchedFilter filter(mesh);
     const std::string error = GetError(filter);
     EXPECT_TRUE(Holds(error, "cell 3")) << error;

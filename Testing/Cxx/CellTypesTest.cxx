@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Quads, polygons, strips and cells of too few points.
+/// Quads, polygons, strips and cells with too few points.
 
 #include "FilterTestSupport.h"
 
@@ -38,7 +38,7 @@ TEST(VtkDelaunayFlip, QuadsSplitAlongTheirFirstDiagonal)
 
 TEST(VtkDelaunayFlip, ConcaveQuadsSplitInside)
 {
-  // An arrow head whose notch, point 3, makes diagonal 0-2 run outside.
+  // An arrow head: because of its reflex corner, point 3, diagonal 0-2 runs outside.
   auto mesh = MakeMesh({ { 0, 0, 0 }, { 2, 1, 0 }, { 0, 2, 0 }, { 1, 1, 0 } }, { { 0, 1, 2, 3 } });
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
@@ -79,7 +79,7 @@ TEST(VtkDelaunayFlip, StripsFollowThePolygons)
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   EXPECT_EQ(output->GetNumberOfStrips(), 0);
-  // One winding throughout: the odd triangles of a strip are turned round.
+  // All have the same winding: that of a strip's odd triangles is reversed.
   EXPECT_EQ(GetCell(output, 3), Cell({ 3, 0, 4 }));
   EXPECT_EQ(GetCell(output, 4), Cell({ 4, 0, 1 }));
   EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
@@ -87,7 +87,7 @@ TEST(VtkDelaunayFlip, StripsFollowThePolygons)
 
 TEST(VtkDelaunayFlip, TrianglesOfQuadsFlip)
 {
-  // The rhombus as one quad, cut along 0-2 first.
+  // The rhombus as one quad, which is first split along 0-2.
   auto mesh =
     MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
   WatchedFilter filter(mesh);
@@ -137,8 +137,7 @@ TEST(VtkDelaunayFlip, TriangulateOffKeepsOtherCells)
 
 TEST(VtkDelaunayFlip, TriangulateOffFixesTheirEdges)
 {
-  // A square of two triangles that share the side 0-2 of a flat quad; on the other side of it, a
-  // triangle: the side is bad, and stays.
+  // A flat quad, and a triangle at its side 0-2. This edge is bad, but stays.
   auto mesh =
     MakeMesh({ { -3, 0, 0 }, { 3, 0, 0 }, { 0, 0.5, 0 }, { 1, -0.5, 0 }, { -1, -0.5, 0 } },
       { { 0, 1, 2 }, { 1, 0, 4, 3 } });

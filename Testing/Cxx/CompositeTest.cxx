@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Composite datasets: each block by itself, and sums that are true of all.
+/// Composite datasets: each block is flipped separately, and results are summed.
 
 #include "LiveTestSupport.h"
 
@@ -153,7 +153,8 @@ TEST(Composite, OneTableSumsBlocks)
 
 TEST(Composite, TheAngleIsTheSmallestOfAllBlocks)
 {
-  // The rhombus ends after one iteration with a smaller angle than the other mesh then has.
+  // The rhombus needs one iteration; its smallest angle is then smaller than that of the other
+  // mesh.
   auto sharp = MakeRhombus();
   sharp->GetPoints()->SetPoint(0, -0.001, 0.0, 0.0);
   sharp->GetPoints()->SetPoint(2, 0.001, 0.0, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Constraints of the second input that have points of their own: matched by place.
+/// Constraints of the second input with their own points: matched by place.
 
 #include "LiveTestSupport.h"
 
@@ -26,7 +26,7 @@ Mesh MakeLines(const Points& points, const Cells& lines)
   return mesh;
 }
 
-/// All edges between two triangles, with points numbered anew.
+/// All edges with two triangles, with points in a different order.
 Mesh ExtractInnerEdges(vtkPolyData* mesh, int precision)
 {
   vtkNew<vtkFeatureEdges> edges;
@@ -49,7 +49,7 @@ void Convert(vtkPolyData* mesh, int type)
   mesh->SetPoints(points);
 }
 
-/// What came of constraints: edges held, edges unmatched.
+/// The results for constraints: edges kept, edges unmatched.
 using Counts = std::pair<vtkIdType, vtkIdType>;
 
 vtkIdType GetField(vtkPolyData* mesh, const char* name)
@@ -77,8 +77,8 @@ Counts Constrain(vtkPolyData* mesh, vtkPolyData* constraints)
   return Constrain(filter, constraints);
 }
 
-/// MakeRhombus() beside which point 4 lies on point 0, and point 5 on point 2. Of the latter pair 5
-/// is a corner of the triangle (5, 6, 7).
+/// MakeRhombus(), with point 4 at the place of point 0, and point 5 at that of point 2. Point 5 is
+/// a corner of the triangle (5, 6, 7).
 Mesh MakeCrowdedRhombus()
 {
   return MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { -3, 0, 0 }, { 3, 0, 0 },
@@ -132,7 +132,7 @@ TEST(ConstraintPlaces, FloatsOfADoubleMesh)
   Mesh line = MakeLines({ { -3.1, 0, 0 }, { 3, 0, 0 } }, { { 0, 1 } });
   Convert(line, VTK_FLOAT);
   EXPECT_EQ(Constrain(mesh, line), Counts(1, 0));
-  Convert(line, VTK_DOUBLE); // with the bits of the floats, which are not those of the mesh
+  Convert(line, VTK_DOUBLE); // the values of the floats, which differ from those of the mesh
   EXPECT_EQ(Constrain(mesh, line), Counts(0, 1));
 }
 
@@ -167,7 +167,7 @@ TEST(ConstraintPlaces, OfCoincidentPointsThePairThatIsAnEdge)
   EXPECT_EQ(
     Constrain(filter, MakeLines({ { 3, 0, 0 }, { -3, 0, 0 } }, { { 0, 1 } })), Counts(1, 0));
   EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
-  // Places with several points each, and no edge between them.
+  // Several points at each place, and no edge between the places.
   EXPECT_EQ(Constrain(mesh, MakeLines({ { -3, 0, 0 }, { 9, 0, 0 } }, { { 0, 1 } })), Counts(0, 1));
 }
 
@@ -181,7 +181,7 @@ TEST(ConstraintPlaces, OfTwoSheetsBothEdges)
 
 TEST(ConstraintPlaces, TheSamePointsGoByIds)
 {
-  // 4 lies where 0 is, but 4-2 is no edge.
+  // Point 4 is at the place of 0, but 4-2 is not an edge.
   auto mesh = MakeCrowdedRhombus();
   vtkNew<vtkPolyData> constraints;
   constraints->SetPoints(mesh->GetPoints());
@@ -203,7 +203,7 @@ TEST(ConstraintPlaces, WithoutPointsTheyGoByIds)
 
 TEST(ConstraintPlaces, PointsThatCoincideAmongTheConstraints)
 {
-  // Loose segments, one of them twice, and one without length.
+  // Separate segments, one of them twice, and one of length zero.
   Mesh lines = MakeLines({ { -3, 0, 0 }, { 3, 0, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 3, 0, 0 },
                            { -3, 0, 0 }, { 0, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 }, { 5, 5, 5 } },
     { { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 }, { 1, 8 }, { 9, 2 } });
@@ -246,7 +246,7 @@ TEST(ConstraintPlaces, IdsOutOfRangeAreAnError)
   EXPECT_NE(filter.GetErrors()[0].find("names point 3"), std::string::npos);
 }
 
-TEST(ConstraintPlaces, MovedConstraintsStartALiveRunAnew)
+TEST(ConstraintPlaces, MovedConstraintsRestartALiveRun)
 {
   auto mesh = MakeRhombus();
   Mesh line = MakeLines({ { -3, 0, 0 }, { 4, 0, 0 } }, { { 0, 1 } });
@@ -269,7 +269,7 @@ TEST(ConstraintPlaces, WarmStartsKeepThemAndTheirCounts)
   filter.RunToTheEnd();
   for (int move = 0; move < 2; ++move)
   {
-    Shear(mesh, 0.01); // nothing is at the places of the constraints any more
+    Shear(mesh, 0.01); // no point is at a place of the constraints any more
     filter.RunToTheEnd();
     EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
     EXPECT_EQ(filter->GetNumberOfConstraintEdges(), 1);

@@ -21,7 +21,7 @@
 namespace
 {
 
-/// How many flips the rhombus takes with its two triangles in these regions.
+/// How many flips the rhombus takes if its two triangles have these region labels.
 template <typename ArrayT, typename Value>
 vtkIdType CountFlips(const std::vector<Value>& values, int components)
 {
@@ -61,7 +61,7 @@ vtkIdType CountFlipsWithGhost(int flag)
 TEST(VtkDelaunayFlip, LinesConstrain)
 {
   auto mesh = MakeRhombus();
-  mesh->SetLines(MakeCells({ { 1, 2, 0, 3 } })); // its middle piece is the long diagonal
+  mesh->SetLines(MakeCells({ { 1, 2, 0, 3 } })); // its middle segment is the long diagonal
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   EXPECT_TRUE(HasEdge(output, 0, 2));
@@ -79,7 +79,7 @@ TEST(VtkDelaunayFlip, SecondInputConstrainsByLines)
   constraints->SetLines(MakeCells({ { 2, 0 } }));
   WatchedFilter filter(MakeRhombus());
   filter->SetConstraintsData(constraints);
-  filter->LinesAsConstraintsOff(); // which speaks of the first input only
+  filter->LinesAsConstraintsOff(); // which concerns only the first input
   EXPECT_TRUE(HasEdge(RunCleanly(filter), 0, 2));
 }
 
@@ -97,7 +97,7 @@ TEST(VtkDelaunayFlip, MissingConstraintsGiveOneWarning)
   auto mesh = MakeRhombus();
   mesh->SetLines(MakeCells({ { 1, 3 }, { 3, 1 }, { 0, 1 } }));
   WatchedFilter filter(mesh);
-  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3)); // not there at first: nothing holds 0-2
+  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3)); // not an edge at first, so 0-2 may flip
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
   EXPECT_NE(filter.GetWarnings()[0].find("1 constraint edge"), std::string::npos)
     << filter.GetWarnings()[0];
@@ -111,7 +111,7 @@ TEST(VtkDelaunayFlip, BordersOfRegionsStay)
   EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ 0.25, 0.5 }, 1)), 0);
   EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, NAN }, 1)), 1);
   EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, 0.5 }, 1)), 0);
-  // Different beyond the 53 bits of a double.
+  // Different only beyond the 53 bits of a double.
   EXPECT_EQ((CountFlips<vtkLongLongArray, long long>({ 1LL << 60, (1LL << 60) + 1 }, 1)), 0);
 }
 
@@ -128,7 +128,7 @@ TEST(VtkDelaunayFlip, RegionsOfAnyArray)
 
 TEST(VtkDelaunayFlip, RegionsOfSplitCells)
 {
-  // The rhombus as a quad: its diagonal is inside one region.
+  // The rhombus as a quad: its diagonal lies inside one region.
   auto mesh = MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 3, 3, 0 } },
     { { 2, 4, 3 }, { 0, 1, 2, 3 } });
   mesh->SetVerts(MakeCells({ { 0 } }));
@@ -159,12 +159,12 @@ TEST(VtkDelaunayFlip, GhostsAreFrozen)
   EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::DUPLICATECELL), 0);
   EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::REFINEDCELL), 0);
   EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::HIDDENCELL), 0);
-  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::EXTERIORCELL), 1); // no ghost
+  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::EXTERIORCELL), 1); // not a ghost
 }
 
 TEST(VtkDelaunayFlip, FeatureEdgesStay)
 {
-  // The rhombus folded by about 90 degrees along its long diagonal, with flat ends: a surface.
+  // The rhombus, folded by about 90 degrees along its long diagonal, with flat ends: a surface.
   auto mesh = MakeRhombus();
   mesh->GetPoints()->SetPoint(1, 0, -1, 1);
   mesh->GetPoints()->SetPoint(3, 0, 1, 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// After an error: what the filter says, and that the next update works.
+/// What the filter reports after an error, and that the next update works.
 
 #include "LiveTestSupport.h"
 
@@ -17,7 +17,7 @@ namespace
 
 constexpr int Ten = 10;
 
-/// What a surface makes fail, one after the other.
+/// Options that fail for a surface, one after the other.
 void SetWrong(vtkDelaunayFlip* filter, int which)
 {
   filter->SetGeometry(

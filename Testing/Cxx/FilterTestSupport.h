@@ -16,17 +16,17 @@
 #include <string>
 #include <vector>
 
-/// Meshes and look-ups that the tests of vtkDelaunayFlip share.
+/// Meshes and helpers for the tests of vtkDelaunayFlip.
 
 using Points = std::vector<std::array<double, 3>>;
 using Cell = std::vector<vtkIdType>;
 using Cells = std::vector<Cell>;
 
-/// A mesh of double points and polygons.
+/// A mesh with double points and polygons.
 vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygons);
 
-/// A rhombus of points 0 (left), 1 (below), 2 (right), 3 (above), cut along its long diagonal 0-2:
-/// triangles (0, 1, 2) and (0, 2, 3). One flip, to 1-3, makes it Delaunay.
+/// A rhombus of points 0 (left), 1 (below), 2 (right), 3 (above), divided along its long diagonal
+/// 0-2 into triangles (0, 1, 2) and (0, 2, 3). One flip, to 1-3, makes it Delaunay.
 vtkSmartPointer<vtkPolyData> MakeRhombus();
 
 /// The point ids of a cell.
@@ -36,7 +36,7 @@ Cell GetCell(vtkPolyData* mesh, vtkIdType cell);
 Cells GetCells(vtkCellArray* cells);
 vtkSmartPointer<vtkCellArray> MakeCells(const Cells& cells);
 
-/// Whether two points are neighbours along the rim of a polygon.
+/// Whether two points are joined by an edge of some polygon.
 bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b);
 
 /// Adds an int array that numbers cells or points from `first`.
@@ -59,13 +59,13 @@ vtkSmartPointer<vtkPolyData> ToPolyData(const delaunayflip::OwnedMesh<Real>& mes
   return MakeMesh(points, triangles);
 }
 
-/// Points and triangles for the audit functions; the mesh must hold triangles only.
+/// Points and triangles for the audit functions; the mesh must have triangles only.
 delaunayflip::OwnedMesh<double> ToOwnedMesh(vtkPolyData* mesh);
 
-/// Edges that violate the in-circle criterion (the opposite-angle sum on surfaces).
+/// The number of edges that violate the in-circle criterion (the opposite-angle sum on surfaces).
 long long CountViolations(vtkPolyData* mesh);
 
-/// A filter that keeps what it and its executive would have printed.
+/// A filter that records its errors and warnings, and those of its executive.
 class WatchedFilter
 {
 public:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// A live run ends with what an update gives at once, bit for bit.
+/// A live run ends with the same bits as a single update.
 
 #include "LiveTestSupport.h"
 
@@ -28,7 +28,7 @@ namespace
 
 using Mesh = vtkSmartPointer<vtkPolyData>;
 
-constexpr double Size = 10.0; // at 1e7, floats are 1 apart: rounding ruins these meshes
+constexpr double Size = 10.0; // at 1e7, floats are 1 apart: rounding would ruin these meshes
 
 std::string Print(vtkAbstractArray* array)
 {
@@ -46,7 +46,7 @@ std::string Print(vtkAbstractArray* array)
   return text.str();
 }
 
-/// Every array but those of seconds.
+/// Every array, except the seconds.
 std::map<std::string, std::string> GetContents(vtkFieldData* data)
 {
   std::map<std::string, std::string> contents;
@@ -78,7 +78,7 @@ void ExpectSame(vtkDelaunayFlip* live, vtkDelaunayFlip* once)
 
 using Setting = std::function<void(vtkDelaunayFlip*)>;
 
-/// Runs a mesh at once and live, with steps of several lengths.
+/// Runs a mesh in a single update, and live with steps of several lengths.
 void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
 {
   WatchedFilter once(mesh);
@@ -103,7 +103,7 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
   }
 }
 
-/// Enlarges a mesh and moves it away, into points of this type.
+/// Scales a mesh and moves it away from the origin, with points of this type.
 template <typename ArrayT>
 void Place(vtkPolyData* mesh, double scale, double offset)
 {
@@ -208,7 +208,7 @@ TEST_P(LiveBits, AreThoseOfAnUpdateAtOnce)
     GTEST_SKIP() << "no GPU that this build can use";
   }
   auto mesh = kind.Make();
-  // Floats that far away have room for large meshes only.
+  // Floats that far from the origin can represent only large meshes.
   isDouble ? Place<vtkDoubleArray>(mesh, Size, offset)
            : Place<vtkFloatArray>(mesh, 1000.0 * Size, offset);
   ExpectLiveIsAtOnce(mesh,

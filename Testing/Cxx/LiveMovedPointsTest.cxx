@@ -21,7 +21,7 @@ vtkIdType CountFixedEdges(vtkDelaunayFlip* filter)
     filter->GetOutput()->GetFieldData()->GetArray("DelaunayFlip:FixedEdges")->GetTuple1(0));
 }
 
-/// The triangles that an update at once, by x and y, makes of a mesh.
+/// The triangles of a mesh after a single update by x and y.
 Cells FlipAtOnceXY(vtkPolyData* mesh)
 {
   WatchedFilter filter(mesh);
@@ -77,7 +77,7 @@ TEST(LiveUpdate, FixedEdgesTravelWithMovedPoints)
 
 TEST(LiveUpdate, FeatureEdgesStayWhenFlattened)
 {
-  // A roof along 0-2, then flat: the ridge stays though a flat rhombus would flip it.
+  // A roof along 0-2 that becomes flat: the ridge stays, although in a flat rhombus it would flip.
   auto mesh = MakeRhombus();
   mesh->GetPoints()->SetPoint(1, 0.0, -1.0, -1.0);
   mesh->GetPoints()->SetPoint(3, 0.0, 1.0, -1.0);
@@ -111,8 +111,8 @@ TEST(LiveUpdate, PlaneThatBecomesASurfaceStartsAgain)
 
 TEST(LiveUpdate, SteepHillsThatBecomeGentleStartAgain)
 {
-  // In space flips turn triangles over in x and y; by x and y the input must do, not what they
-  // made.
+  // Flips in space turn triangles over in x and y. So a run that changes to x and y must start from
+  // the input, not from the flipped triangles.
   const auto scale = [](vtkPolyData* mesh, double height)
   {
     for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
@@ -150,7 +150,8 @@ TEST(LiveUpdate, QuadsStartWarmly)
 
 TEST(LiveUpdate, MovedPointsKeepTheirPrecision)
 {
-  // 400 points in 10 x 10 m, 1e7 m away: rounded to floats, a metre apart there, few are left.
+  // 400 points in 10 x 10 m, at 1e7 m, where floats are 1 m apart: rounding would make most
+  // coincide.
   auto mesh = MakeBadPlane();
   for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
   {
@@ -164,7 +165,7 @@ TEST(LiveUpdate, MovedPointsKeepTheirPrecision)
   filter.Run();
   for (const double factor : { 0.3, -0.5 })
   {
-    Shear(mesh, factor); // the first in the middle of a run
+    Shear(mesh, factor); // the first time in the middle of a run
     filter.RunToTheEnd();
     EXPECT_TRUE(filter->GetConverged());
     EXPECT_GT(filter->GetTotalFlips(), 0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// How fast a live run goes: as many iterations as fit a time, pause and step.
+/// The pace of a live run: as many iterations as fit into a time, pause, and step.
 
 #include "LiveTestSupport.h"
 
@@ -16,7 +16,7 @@
 namespace
 {
 
-/// Seconds aside.
+/// Apart from the seconds.
 void ExpectSameTables(vtkDelaunayFlip* filter, vtkDelaunayFlip* other)
 {
   vtkTable* table = filter->GetIterations();
@@ -64,7 +64,7 @@ TEST(LivePace, SlowIterationsComeOneByOne)
 
 TEST(LivePace, FastIterationsComeTogether)
 {
-  // 97 of them, each of some microseconds. Where a machine stands still, a second update is enough.
+  // 97 iterations of a few microseconds each. If the machine stalls, a second update is allowed.
   LiveFilter filter(ToPolyData(delaunayflip::MakeWorstCaseMesh(50)));
   filter->SetIterationsPerUpdate(0);
   EXPECT_LT(filter.RunToTheEnd(), 48);
@@ -88,7 +88,7 @@ TEST(LivePace, PausedIsNotPolled)
   filter.Run();
   filter->PausedOn();
   filter.Run();
-  EXPECT_EQ(filter->GetNumberOfIterations(), 1); // to pause is no step
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1); // pausing makes no step
   EXPECT_FALSE(filter->GetNeedsUpdate());
   EXPECT_TRUE(filter->Advance());
   filter.Run();

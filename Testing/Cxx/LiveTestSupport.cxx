@@ -29,7 +29,7 @@ LiveFilter::LiveFilter(vtkPolyData* input)
 
 int LiveFilter::RunToTheEnd()
 {
-  constexpr int Most = 1000; // a run that does not end fails its test
+  constexpr int Most = 1000; // updates, after which the test fails
   int updates = 0;
   do
   {

@@ -5,13 +5,13 @@
 
 #include "FilterTestSupport.h"
 
-/// What the tests of live updates share.
+/// Helpers for the tests of live updates.
 
 /// A random bad mesh of 400 points, and a closed surface with bad triangles.
 vtkSmartPointer<vtkPolyData> MakeBadPlane();
 vtkSmartPointer<vtkPolyData> MakeBadSphere();
 
-/// The cells of a run without live update.
+/// The polygons after a single update, without LiveUpdate.
 Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle = 30.0);
 
 /// A filter with LiveUpdate on.
@@ -20,13 +20,13 @@ class LiveFilter : public WatchedFilter
 public:
   explicit LiveFilter(vtkPolyData* input);
 
-  /// Updates until there is nothing left to do. @returns the number of updates.
+  /// Updates until nothing is left to do. @returns the number of updates.
   int RunToTheEnd();
 
   Cells GetTriangles();
 };
 
-/// Moves the points in place: a shear, which makes other edges bad.
+/// Moves the points in place by a shear, which makes other edges bad.
 void Shear(vtkPolyData* mesh, double factor);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live updates: some iterations at a time.
+/// Live updates: a few iterations at a time.
 
 #include "LiveTestSupport.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live views: what is drawn, said and written.
+/// Live views: the picture, the texts and the files.
 
 #include "LiveViewTestSupport.h"
 
@@ -21,7 +21,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A folder that goes with the test.
+/// A folder that is removed after the test.
 class Folder
 {
 public:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live views: timer, keys, states, and what becomes of them when things go wrong.
+/// Live views: timer, keys and states, also in case of failures.
 
 #include "LiveViewTestSupport.h"
 
@@ -25,14 +25,14 @@ Cells FlipAtOnce(vtkPolyData* mesh)
   return GetCells(RunCleanly(filter)->GetPolys());
 }
 
-/// Timers that never fire of themselves.
+/// Timers that fire only when the test makes them fire.
 void GiveTimers(vtkGenericRenderWindowInteractor* interactor)
 {
   OnEvent(interactor, vtkCommand::CreateTimerEvent,
     [interactor]() { interactor->SetTimerEventPlatformId(7); });
 }
 
-/// On one line.
+/// The text in one line.
 std::string Unwrap(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -69,7 +69,7 @@ TEST(LiveView, NoTimerIsLeftAfterTheEnd)
   view->Run();
   view.RunFor(500);
   EXPECT_TRUE(view->GetConverged());
-  EXPECT_EQ(timerEvents, view->GetFrameNumber() + 1); // and the one that ends the loop
+  EXPECT_EQ(timerEvents, view->GetFrameNumber() + 1); // one more ends the event loop
 }
 
 TEST(LiveView, StepByStep)
@@ -314,7 +314,7 @@ TEST(LiveView, TimersOfOthersAreLeftAlone)
   interactor->TimerEventResetsTimerOff();
   view->SetInteractor(interactor);
   view->Run();
-  EXPECT_EQ(view.Errors.size(), 1u); // nobody makes timers
+  EXPECT_EQ(view.Errors.size(), 1u); // nothing makes timers
   EXPECT_FALSE(view->IsRunning());
   GiveTimers(interactor);
   view->Run();
@@ -329,7 +329,7 @@ TEST(LiveView, TimersOfOthersAreLeftAlone)
 
 TEST(LiveView, AnyOrderOfDeletion)
 {
-  WatchedView other; // A virtual display begins anew when its last window goes.
+  WatchedView other; // A virtual display resets when its last window is closed.
   other->Start();
   std::array<int, 4> order = { 0, 1, 2, 3 };
   do
@@ -385,7 +385,7 @@ TEST(LiveView, ObserversMayDoAnything)
 {
   WatchedView view(MakeBadPlane(), false);
   auto restart = [&view]() { view->Restart(); };
-  OnProgress(view.Filter.Get(), restart); // while the filter executes: ignored
+  OnProgress(view.Filter.Get(), restart); // ignored while the filter executes
   view->Step();
   view->Step();
   EXPECT_EQ(view->GetFrameNumber(), 2);

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-/// What the tests of vtkDelaunayFlipLiveView share.
+/// Helpers for the tests of vtkDelaunayFlipLiveView.
 
 vtkSmartPointer<vtkPolyData> MakeBadPlane();
 
 /// Calls a function at every event of an object.
 void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action);
 
-/// A view with a filter, an interactor and a window, and with all that it tells.
+/// A view with a filter, an interactor and a window, which records events and errors.
 class WatchedView
 {
 public:
@@ -30,21 +30,21 @@ public:
 
   vtkDelaunayFlipLiveView* operator->() { return this->View; }
 
-  /// Runs, in the event loop, until the run has ended; a failure when that takes a minute. Like
-  /// RunFor() once a process: X interactors are listed for all event loops, also when deleted.
+  /// Runs the event loop until the end of the run; reports a failure after a minute. This and
+  /// RunFor() can be used once per process: event loops visit all X interactors, even deleted ones.
   void RunToTheEnd();
 
-  /// The event loop for some milliseconds.
+  /// Runs the event loop for this time.
   void RunFor(unsigned long milliseconds);
 
-  /// As if a key were pressed in the window. @returns whether others heard of it.
+  /// Simulates a key press in the window. @returns whether other observers received it.
   bool Press(const char* key);
 
-  /// What the window says; "" where it says nothing.
+  /// The statistics in the window; "" if there are none.
   std::string GetStatus();
   std::string GetKeys();
 
-  /// The array that triangles are coloured by, or "".
+  /// The array by which triangles are coloured, or "".
   std::string GetColorArray();
   bool HasEdges();
   vtkIdType GetNumberOfTriangles();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The filter as a part of a pipeline: progress, abort, limits.
+/// The filter in a pipeline: progress, abort, limits.
 
 #include "FilterTestSupport.h"
 
@@ -91,7 +91,7 @@ TEST(VtkDelaunayFlip, AbortLeavesAValidMesh)
   EXPECT_EQ(output->GetNumberOfCells(), mesh->GetNumberOfCells());
 }
 
-TEST(VtkDelaunayFlip, LimitThatWasAskedForGivesNoWarning)
+TEST(VtkDelaunayFlip, RequestedLimitGivesNoWarning)
 {
   auto mesh = MakeLongRun();
   WatchedFilter filter(mesh);
@@ -105,8 +105,7 @@ TEST(VtkDelaunayFlip, LimitThatWasAskedForGivesNoWarning)
 
 TEST(VtkDelaunayFlip, SafetyLimitWarns)
 {
-  // Without a tolerance, rounding calls both diagonals of some quads bad: flips go round in
-  // circles.
+  // Without a tolerance, rounding makes both diagonals of some quads bad, and flips never end.
   std::mt19937 random(1);
   WatchedFilter filter;
   filter->SetGeometryToSurface();
@@ -123,7 +122,7 @@ TEST(VtkDelaunayFlip, SafetyLimitWarns)
     std::string::npos)
     << filter.GetWarnings()[0];
 
-  // The automatic tolerance lets no edge flip for rounding alone.
+  // With the automatic tolerance no edge flips because of rounding alone.
   WatchedFilter automatic(vtkPolyData::SafeDownCast(filter->GetInput()));
   automatic->SetGeometryToSurface();
   RunCleanly(automatic);

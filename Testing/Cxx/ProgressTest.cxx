@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What observers of progress see of an update, and that they can stop it anywhere.
+/// The progress events of an update, and that observers can stop it at any of them.
 
 #include "FilterTestSupport.h"
 #include "LiveTestSupport.h"
@@ -17,9 +17,9 @@
 namespace
 {
 
-constexpr int Side = 120; ///< Quads; enough for several progress events while they are split.
+constexpr int Side = 120; ///< Quads per side: enough for several progress events during the split.
 
-/// Quads with numbered cells, of which many split along the wrong diagonal.
+/// Quads with numbered cells, many of which are split along the wrong diagonal.
 vtkSmartPointer<vtkPolyData> MakeQuads()
 {
   Points points;
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkPolyData> MakeLongRun()
   return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(300, 1));
 }
 
-/// What an update's progress events saw; stops it at one of them.
+/// Records the progress events of an update, and stops it at one of them.
 class ProgressWatch
 {
 public:
@@ -64,7 +64,7 @@ public:
   {
     if (this->Filter->GetProgress() == 0.0)
     {
-      return; // the executive's, before the filter has begun
+      return; // an event of the executive, before the filter runs
     }
     this->Progress.push_back(this->Filter->GetProgress());
     this->Iterations.push_back(this->Filter->GetNumberOfIterations());
@@ -89,7 +89,7 @@ Cells FlipTo(vtkPolyData* mesh, vtkIdType iterations)
   return GetCells(RunCleanly(filter)->GetPolys());
 }
 
-/// Stops updates of a mesh at each of their events.
+/// Stops updates of a mesh at each of their events in turn.
 void ExpectToStopAnywhere(vtkPolyData* mesh)
 {
   bool hasStoppedEarly = false;
@@ -188,7 +188,7 @@ TEST(FilterProgress, AnAbortedUpdateIsFollowedByAWholeOne)
   EXPECT_TRUE(filter->GetConverged());
 }
 
-/// Wherever it is stopped, a live run goes on with the next update.
+/// Wherever it is stopped, a live run continues with the next update.
 TEST(FilterProgress, LiveRunsGoOn)
 {
   for (const vtkSmartPointer<vtkPolyData>& input : { MakeQuads(), MakeLongRun() })

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The table, the field data and the read-back methods.
+/// The table, the field data and the methods that return results.
 
 #include "FilterTestSupport.h"
 
@@ -35,7 +35,7 @@ void AddText(vtkPolyData* mesh, const std::string& name)
   mesh->GetFieldData()->AddArray(array);
 }
 
-/// 6 triangles that take flips {1, 2, 3, 2, 1}.
+/// 6 triangles, whose iterations make 1, 2, 3, 2 and 1 flips.
 vtkSmartPointer<vtkPolyData> MakeWorstCase()
 {
   return ToPolyData(delaunayflip::MakeWorstCaseMesh(4));
@@ -59,7 +59,7 @@ std::string GetText(vtkPolyData* mesh, const std::string& name)
 
 }
 
-TEST(VtkDelaunayFlip, TableHasOneRowAnIteration)
+TEST(VtkDelaunayFlip, TableHasOneRowPerIteration)
 {
   WatchedFilter filter(MakeWorstCase());
   RunCleanly(filter);
@@ -136,7 +136,7 @@ TEST(VtkDelaunayFlip, FieldDataTellTheTolerance)
 
 TEST(VtkDelaunayFlip, FieldDataOfTheInputPass)
 {
-  // Of the names that the table has, too.
+  // Even arrays with the names of the table's columns.
   std::vector<std::string> names(std::begin(Columns), std::end(Columns));
   names.insert(names.end(), std::begin(Totals), std::end(Totals));
   auto mesh = MakeWorstCase();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// How points and ids are stored.
+/// Types and layouts of points and ids.
 
 #include "FilterTestSupport.h"
 
@@ -50,7 +50,7 @@ void ExpectDelaunay(vtkPolyData* mesh)
   EXPECT_EQ(CountViolations(output), 0);
 }
 
-/// The storage of the output's polygons for the rhombus and a quad stored in 32 or 64 bits.
+/// How the output stores polygons, for the rhombus and a quad stored with 32 or 64 bits.
 bool Is64BitAfterRun(bool wide, bool quads, bool triangulate)
 {
   auto mesh = MakeRhombus();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The automatic tolerance on what VTK's own sources make.
+/// The automatic tolerance, with the output of VTK's own sources.
 
 #include "FilterTestSupport.h"
 
@@ -13,7 +13,7 @@
 namespace
 {
 
-/// The quads of this sphere are cut along a diagonal; which one is a tie.
+/// A sphere whose quads are divided along a diagonal; both diagonals are tied.
 vtkSmartPointer<vtkPolyData> MakeSphere(int precision, double x, double y)
 {
   vtkNew<vtkSphereSource> source;
@@ -38,7 +38,8 @@ TEST(VtkDelaunayFlip, SpheresOfVtkStayAsTheyAre)
       auto sphere = MakeSphere(precision, 0.1 * distance, distance);
       WatchedFilter filter(sphere);
       filter->SetGeometryToSurface();
-      // Far away floats make triangles without area at the poles, which is worth a warning.
+      // Far away, rounding to float leaves triangles without area at the poles, which gives a
+      // warning.
       vtkPolyData* output = filter.Run();
       EXPECT_TRUE(filter.GetErrors().empty());
       EXPECT_EQ(filter->GetTotalFlips(), 0);

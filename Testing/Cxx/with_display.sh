@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# with_display.sh PROGRAM [ARGUMENT...] - runs a program that draws: on the display there is, else on
-# a virtual one. Without either it exits with 125, which CTest reports as skipped.
+# with_display.sh PROGRAM [ARGUMENT...] - runs a program that draws, on the current display or else
+# on a virtual one. Without either it exits with 125, which CTest reports as skipped.
 if [ -n "$DISPLAY" ]; then
   exec "$@"
 elif ! command -v Xvfb >/dev/null; then
@@ -11,9 +11,9 @@ elif ! command -v Xvfb >/dev/null; then
   exit 125
 fi
 
-# The server takes a free number itself and tells it: xvfb-run guesses one, and now and then guesses
-# that of a server which is about to end. Without -noreset it starts anew whenever its last client
-# leaves, and refuses the next one meanwhile.
+# The server chooses a free number itself: xvfb-run guesses one, and sometimes guesses that of a
+# server which is about to end. Without -noreset the server resets whenever its last client leaves,
+# and refuses new ones meanwhile.
 folder=$(mktemp -d)
 LD_LIBRARY_PATH= Xvfb -displayfd 3 -screen 0 1600x1200x24 -nolisten tcp -noreset \
   3>"$folder/display" >"$folder/log" 2>&1 &

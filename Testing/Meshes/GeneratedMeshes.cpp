@@ -10,8 +10,8 @@ namespace delaunayflip
 namespace
 {
 
-/// A point of the unit circle, `turn` (0 <= turn < 1) of the way round it. The rational
-/// parametrization needs no sine, whose last bit differs between machines.
+/// The point of the unit circle at `turn` (0 <= turn < 1) turns. The rational parametrization needs
+/// no sine, whose last bit differs between machines.
 struct CirclePoint
 {
   explicit CirclePoint(double turn)
@@ -47,7 +47,8 @@ struct CirclePoint
   double Sine = 0.0;
 };
 
-/// In [0, 1), from the generator's own bits: the standard's distributions differ between libraries.
+/// A random number in [0, 1), made from the generator's bits: the distributions of the standard
+/// differ between libraries.
 double DrawUnit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
 
 void AddPoint(OwnedMesh<double>& mesh, double x, double y, double z)
@@ -65,7 +66,7 @@ struct Quad
   std::int32_t A, B, C, D;
 };
 
-/// Cuts along A-C or, with `otherDiagonal`, along B-D.
+/// Divides a quad along A-C or, with `otherDiagonal`, along B-D.
 void AddQuad(OwnedMesh<double>& mesh, const Quad& quad, bool otherDiagonal)
 {
   if (otherDiagonal)
@@ -80,8 +81,8 @@ void AddQuad(OwnedMesh<double>& mesh, const Quad& quad, bool otherDiagonal)
 
 bool DrawBit(std::mt19937& random) { return (random() >> 31) != 0; }
 
-/// Vertices are moved along their circles by shift() of the distance between two; quads are cut
-/// along one diagonal or, if cut(), the other.
+/// Moves vertices along their circles by shift() times the distance of neighbours, and divides
+/// quads along one diagonal or, if cut() is true, the other.
 template <typename Shift, typename Cut>
 OwnedMesh<double> MakeSphere(
   std::int32_t columns, std::int32_t rows, const Shift& shift, const Cut& cut)

@@ -9,12 +9,12 @@
 #include <vector>
 
 /// @file
-/// Meshes that tests and benchmarks make for themselves, the same on every machine.
+/// Meshes that tests and benchmarks generate, the same on every machine.
 
 namespace delaunayflip
 {
 
-/// An owned mesh: x, y, z of the points and three ids a triangle.
+/// An owned mesh: x, y, z of the points and three ids per triangle.
 template <typename Real>
 struct OwnedMesh
 {
@@ -35,45 +35,45 @@ struct OwnedMesh
   }
 };
 
-/// The paper's Fig. 7: a unit square of two triangles; every further random point splits the
-/// triangle that holds it into three (into four, with the neighbour, when it lies on an edge).
+/// The paper's Fig. 7: a unit square of two triangles. Every further random point splits the
+/// triangle that contains it into three; if it lies on an edge, it splits both triangles in two.
 /// `points` >= 4.
 OwnedMesh<float> MakeRandomBadMesh(std::int64_t points, std::uint32_t seed);
 
 /// The same in double precision.
 OwnedMesh<double> MakeRandomBadMeshDouble(std::int64_t points, std::uint32_t seed);
 
-/// A random bad mesh for large sizes, made by many threads (0: as many as the machine has): a
-/// square of tilesPerSide x tilesPerSide squares that share their corners and borders, each split
-/// as above by random points inside it. The same for any number of threads. `points` >=
-/// (tilesPerSide + 1)^2, and some hundred thousand a tile at most.
+/// A large random bad mesh, made by several threads (0: as many as the machine has). It is a square
+/// of tilesPerSide x tilesPerSide squares that share their corners and borders, each split as above
+/// by random points inside it. The same for any number of threads. `points` is at least
+/// (tilesPerSide + 1)^2 and at most a few hundred thousand per tile.
 OwnedMesh<float> MakeTiledBadMesh(
   std::int64_t points, std::int32_t tilesPerSide, std::uint32_t seed, int threads = 0);
 
-/// The paper's Fig. 6 with 2 * size points and 2 * size - 2 triangles: size 4 is the paper's own
-/// case, 6 triangles that take flips {1, 2, 3, 2, 1}; (size - 1)^2 flips in 2 * size - 3
-/// iterations.
+/// The paper's Fig. 6, with 2 * size points and 2 * size - 2 triangles. It takes (size - 1)^2 flips
+/// in 2 * size - 3 iterations. The paper's own case has size 4: 6 triangles, whose iterations make
+/// 1, 2, 3, 2 and 1 flips.
 OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size);
 
-/// A lattice of columns x rows unit squares, each cut along the same diagonal: every edge is a tie
-/// or clearly good.
+/// A lattice of columns x rows unit squares, all divided along the same diagonal: every edge is a
+/// tie or clearly good.
 OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows);
 
-/// A closed sphere-like surface of good topology and bad triangles: a latitude-longitude sphere
-/// whose vertices are moved along their circles at random and whose quads are cut at random.
-/// `rows` circles of `columns` points between two poles; `columns` >= 3, `rows` >= 1.
+/// A latitude-longitude sphere with bad triangles: vertices are moved along their circles at
+/// random, and quads are divided along a random diagonal. It has `rows` circles of `columns` points
+/// between two poles; `columns` >= 3, `rows` >= 1.
 OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
-/// The latitude-longitude sphere of radius 1 itself, as VTK's sphere source makes it: every quad is
-/// a trapezoid with its corners on one circle, but for the rounding of their coordinates.
+/// A latitude-longitude sphere of radius 1, as VTK's sphere source makes it: up to rounding, every
+/// quad is a trapezoid with its corners on one circle.
 OwnedMesh<double> MakeLatLongSphere(std::int32_t columns, std::int32_t rows);
 
-/// A Moebius strip of `columns` x `rows` quads, vertices moved along the strip at random and quads
-/// cut at random: one side, one boundary, `rows` wrongly wound edges at the seam. `columns` >= 3,
-/// `rows` >= 1.
+/// A Moebius strip of `columns` x `rows` quads, with vertices moved along the strip at random and
+/// quads divided along a random diagonal. It has one side, one boundary, and `rows` wrongly wound
+/// edges at the seam. `columns` >= 3, `rows` >= 1.
 OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
-/// The mesh with every tenth triangle twice, so that edges of three and more triangles abound.
+/// The mesh with every tenth triangle repeated, so that many edges have three or more triangles.
 OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh);
 
 }

@@ -86,7 +86,7 @@ FileMesh ReadMeshFile(const std::string& path)
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
   if (!file || error || !IsSound(header) || size != GetFileSize(header))
   {
-    throw std::runtime_error(path + " is not a whole mesh file");
+    throw std::runtime_error(path + " is not a complete mesh file");
   }
   FileMesh mesh;
   mesh.Name = std::filesystem::path(path).stem().string();

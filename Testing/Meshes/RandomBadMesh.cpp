@@ -10,7 +10,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Strictly inside the square, so that its boundary stays four edges.
+/// A point strictly inside the square, so that the boundary keeps its four edges.
 std::int32_t DrawCoordinate(std::mt19937& random)
 {
   std::int32_t coordinate = 0;

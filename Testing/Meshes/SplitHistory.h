@@ -11,8 +11,8 @@
 namespace delaunayflip
 {
 
-/// Coordinates count steps of 2^-24: float holds every one of them exactly, and an orientation
-/// determinant of them fits 64 bits with room to spare.
+/// Coordinates are multiples of 2^-24: float represents them exactly, and an orientation
+/// determinant of them easily fits into 64 bits.
 constexpr std::int32_t LatticeSize = std::int32_t(1) << 24;
 
 struct LatticePoint
@@ -26,8 +26,8 @@ inline bool operator==(const LatticePoint& a, const LatticePoint& b)
   return a.X == b.X && a.Y == b.Y;
 }
 
-/// A triangle that is, or once was, part of the mesh. Its children cover it and share their last
-/// vertex, the point that split it.
+/// A triangle that is or was part of the mesh. Its children cover it, and the last vertex of each
+/// is the point that split it.
 struct HistoryNode
 {
   std::array<std::int32_t, 3> Vertices;
@@ -35,12 +35,12 @@ struct HistoryNode
   std::int32_t NumberOfChildren = 0;
 };
 
-/// The tree of all splits: a point goes down from the square to the triangle that holds it, in
+/// The tree of all splits. It finds the triangle that contains a point from the root downwards, in
 /// O(log n) expected steps and without any adjacency between triangles.
 class SplitHistory
 {
 public:
-  /// @param side of the square, at most LatticeSize.
+  /// @param side the side of the square, at most LatticeSize.
   SplitHistory(std::int64_t expectedPoints, std::int32_t side)
   {
     this->Points.reserve(static_cast<std::size_t>(expectedPoints));
@@ -49,7 +49,7 @@ public:
     this->Nodes = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
   }
 
-  /// Adds a point inside the square; no change when it is already there.
+  /// Adds a point inside the square, unless it is already there.
   void Insert(const LatticePoint& point)
   {
     this->FindLeaves(point);
@@ -83,7 +83,7 @@ public:
     }
   }
 
-  std::vector<LatticePoint> Points; ///< The four corners of the square first.
+  std::vector<LatticePoint> Points; ///< First the four corners of the square.
 
 private:
   std::int64_t Turn(std::int32_t from, std::int32_t to, const LatticePoint& point) const
@@ -94,15 +94,15 @@ private:
       (std::int64_t(b.Y) - a.Y) * (std::int64_t(point.X) - a.X);
   }
 
-  /// Whether a child holds a point that its parent holds. Only the two sides at the last vertex are
-  /// new; the third is the parent's.
+  /// Whether a child contains a point that its parent contains. Only the two sides at the last
+  /// vertex are new; the third is the parent's.
   bool ChildHolds(const HistoryNode& child, const LatticePoint& point) const
   {
     return this->Turn(child.Vertices[1], child.Vertices[2], point) >= 0 &&
       this->Turn(child.Vertices[2], child.Vertices[0], point) >= 0;
   }
 
-  /// All leaves that hold the point: one, two when it lies on an edge, more when it is a vertex.
+  /// All leaves that contain the point: one, two if it lies on an edge, more if it is a vertex.
   void FindLeaves(const LatticePoint& point)
   {
     this->Leaves.clear();
@@ -139,7 +139,7 @@ private:
     }
   }
 
-  /// Splits a leaf at the newest point. An edge that the point lies on spans no triangle with it.
+  /// Splits a leaf at the newest point. An edge on which the point lies makes no triangle with it.
   void Split(std::int32_t leaf)
   {
     const auto newest = static_cast<std::int32_t>(this->Points.size()) - 1;

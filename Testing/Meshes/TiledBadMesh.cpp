@@ -13,8 +13,8 @@ namespace delaunayflip
 namespace
 {
 
-/// Where the tiles of a mesh lie and what each of them holds. The corners of all tiles are the
-/// first points; the points inside tile after tile follow.
+/// Where the tiles of a mesh lie and how many points each contains. The corners of all tiles are
+/// the first points; the points inside follow, tile by tile.
 class TiledSquare
 {
 public:
@@ -38,7 +38,7 @@ public:
     return 2 * (this->PointsInside + this->GetNumberOfTiles());
   }
 
-  /// Points inside the tiles before `tile`.
+  /// The number of points inside the tiles before `tile`.
   std::int64_t CountBefore(std::int64_t tile) const
   {
     const std::int64_t tiles = this->GetNumberOfTiles();
@@ -52,7 +52,7 @@ public:
       static_cast<std::int32_t>(tile / this->TilesPerSide) * this->TileSize };
   }
 
-  /// The mesh's id of a point of a tile.
+  /// The id in the mesh of a point of a tile.
   std::int32_t GetId(std::int64_t tile, std::int32_t point) const
   {
     if (point >= 4)
@@ -72,7 +72,7 @@ private:
   const std::int64_t PointsInside;
 };
 
-/// In [1, size - 1]: inside the tile, so that its border stays four edges.
+/// A random coordinate in [1, size - 1]: inside the tile, so that its border keeps its four edges.
 std::int32_t DrawInside(std::mt19937& random, std::int32_t size)
 {
   return 1 + static_cast<std::int32_t>((std::uint64_t(random()) * std::uint64_t(size - 1)) >> 32);
@@ -97,7 +97,7 @@ void StoreCorners(const TiledSquare& square, OwnedMesh<float>& mesh)
   }
 }
 
-/// Everything of a tile but its corners, which it shares.
+/// The part of a tile without its corners, which are shared.
 void MakeTile(
   const TiledSquare& square, std::int64_t tile, std::uint32_t seed, OwnedMesh<float>& mesh)
 {

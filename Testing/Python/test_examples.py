@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples that write a mesh and a picture into a folder: what they write, and what they say when
-something is wrong. EXAMPLE in the environment is the program, STEM the name of its files.
+"""Examples that write a mesh and a picture into a folder: their files, and their messages in case
+of an error. In the environment, EXAMPLE is the program and STEM the name of its files.
 """
 import os
 import subprocess

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The live viewers of the examples, off screen: frame by frame, the mesh that they end with, what
-they read, and what they say when something is wrong.
+"""The live viewers of the examples, off screen: their frames, the final mesh, the formats that they
+read, and their messages in case of an error.
 
-EXAMPLE in the environment is the viewer. The baselines are frames of it, reduced to 128 colours,
-which the comparison does not notice.
+In the environment, EXAMPLE is the viewer. The baselines are its frames, reduced to 128 colours, a
+difference that the comparison ignores.
 """
 import os
 import subprocess
@@ -31,8 +31,9 @@ from example_files import make_bad_mesh  # noqa: E402
 WRITERS = {".vtk": vtkPolyDataWriter, ".vtp": vtkXMLPolyDataWriter, ".ply": vtkPLYWriter,
            ".stl": vtkSTLWriter, ".obj": vtkOBJWriter}
 
-# By vtkImageDifference, which looks past shifts by a pixel, as between versions of FreeType. The
-# same picture without its texts is at 90, the mesh of another iteration at 7 to 280.
+# An error of vtkImageDifference, which tolerates shifts by a pixel, as between versions of
+# FreeType. The same picture without its texts has an error of 90, the mesh of another iteration 7
+# to 280.
 TOLERANCE = 15.0
 
 
@@ -144,7 +145,7 @@ class Files(Viewer):
                 self.assertEqual(flips, flip.GetTotalFlips())
 
     def test_points_that_a_format_repeats_are_joined(self):
-        """vtkOBJReader gives each of these triangles points of its own."""
+        """vtkOBJReader gives each of these triangles its own points."""
         file = self.write_text("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\n"
                                "vn 0 0 1\nvn 0 1 1\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n")
         mesh, flips = self.flip_file(file)
@@ -173,8 +174,8 @@ class Files(Viewer):
                 self.expect_failure(3, file, saying=f"error: {file}: {reason}")
 
     def cut(self, name, version=42):
-        """Half of a file. VTK 9.1 crashes on such .ply and, of version 4.2, .vtk; others give a part
-        of the mesh."""
+        """Half of a file. VTK 9.1 crashes on such .ply files, and on .vtk files of version 4.2; for
+        other formats it returns a part of the mesh."""
         writer = WRITERS[os.path.splitext(name)[1]]()
         if name.endswith(".vtk"):
             writer.SetFileVersion(version)
@@ -190,7 +191,7 @@ class Files(Viewer):
 class Options(Viewer):
 
     def make_hill(self):
-        """A height field that lies in no plane."""
+        """A height field whose points lie in no plane."""
         mesh = make_bad_mesh()
         points = mesh.GetPoints()
         for i in range(points.GetNumberOfPoints()):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkDelaunayFlip as Python sees it: the essentials, through numpy where bits matter."""
+"""The essentials of vtkDelaunayFlip in Python; with numpy where bits matter."""
 import importlib.util
 import math
 import random
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-# Nothing of VTK is imported before: the package must bring what it needs.
+# Imported before any module of VTK: the package must load what it needs.
 from delaunayflip import vtkDelaunayFlip
 
 import numpy
@@ -31,7 +31,7 @@ def make_cells(cells):
 
 
 def make_mesh(points, polygons):
-    """A mesh of double points; the array of the points is kept alive by the mesh."""
+    """A mesh with double points; the mesh keeps the array of points alive."""
     array = vtkPoints()
     array.SetData(numpy_to_vtk(numpy.array(points, dtype=float), deep=True))
     mesh = vtkPolyData()
@@ -41,12 +41,12 @@ def make_mesh(points, polygons):
 
 
 def make_rhombus():
-    """Cut along its long diagonal 0-2; one flip, to 1-3, makes it Delaunay."""
+    """A rhombus divided along its long diagonal 0-2. One flip, to 1-3, makes it Delaunay."""
     return make_mesh([(-3, 0, 0), (0, -1, 0), (3, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
 
 
 def make_bad_mesh(number_of_points=150):
-    """Random points, each joined to the corners of the triangle that it falls into."""
+    """Random points, each joined to the corners of the triangle that contains it."""
     generator = random.Random(5)
     points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     triangles = [(0, 1, 2)]
@@ -82,7 +82,7 @@ def get_angle(points, a, b, c):
 
 
 def count_violations(mesh):
-    """Edges whose opposite angles sum to more than pi."""
+    """The number of edges whose opposite angles sum to more than pi."""
     points = vtk_to_numpy(mesh.GetPoints().GetData())
     opposite = {}
     for a, b, c in get_cells(mesh.GetPolys()):
@@ -98,7 +98,7 @@ def add_numbers(data, name, count):
 
 
 class Watched:
-    """A filter with the errors and warnings that it gave."""
+    """A filter that records its errors and warnings."""
 
     def __init__(self, data):
         self.filter = vtkDelaunayFlip()
@@ -418,14 +418,14 @@ assert view.GetColorBy() == view.COLOR_BY_SMALLEST_ANGLE
 
 
 def list_properties():
-    """What the class itself, not a base, lets callers both set and get."""
+    """The properties with both a setter and a getter in the class itself, not in a base class."""
     own = set(dir(vtkDelaunayFlip)) - set(dir(vtkPolyDataAlgorithm))
     names = [name[3:] for name in own if name.startswith("Set")]
     return sorted(name for name in names if "Get" + name in own)
 
 
 def change_property(flip, name):
-    """Gives a property another value; every number may become larger by 1."""
+    """Gives a property another value; numbers become larger by 1, which is always valid."""
     value = getattr(flip, "Get" + name)()
     other = not value if isinstance(value, bool) else "x" if isinstance(value, str) else value + 1
     getattr(flip, "Set" + name)(other)
