@@ -5,6 +5,9 @@
 
 #include "GeneratedMeshes.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace delaunayflip
 {
 
@@ -17,6 +20,9 @@ struct CgalTime
 /// CGAL's Delaunay_triangulation_2 with exact predicates of a mesh's points. Inserting a range
 /// sorts it in space first, CGAL's fastest way.
 CgalTime TimeCgalDelaunay(const OwnedMesh<float>& mesh);
+
+/// The triangles of that triangulation: three ids each.
+std::vector<std::int32_t> MakeCgalTriangles(const OwnedMesh<float>& mesh);
 
 }
 

@@ -3,38 +3,76 @@
 #ifndef DELAUNAYFLIP_SEQUENTIALLAWSON_H
 #define DELAUNAYFLIP_SEQUENTIALLAWSON_H
 
+#include "CornerMesh.h"
 #include "GeneratedMeshes.h"
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
 
-/// The textbook way to the same mesh: triangles with neighbours, a stack of edges to look at, one
-/// flip at a time. For planar, counter-clockwise, embedded meshes; by x and y.
+/// The textbook way: a stack of edges to look at, one flip at a time.
+/// @param mesh becomes one in which no edge is bad.
+/// @param isBad whether the edge of a corner with a twin is bad.
+/// @param maximumFlips at which to stop, for tests that may go round in circles.
+/// @returns the number of flips.
+template <typename IsBad>
+std::int64_t RunLawson(CornerMesh& mesh, const IsBad& isBad, std::int64_t maximumFlips)
+{
+  std::vector<std::int32_t> stack;
+  std::vector<char> isStacked(mesh.Vertices.size(), 0);
+  const auto push = [&](std::int32_t corner)
+  {
+    if (mesh.Twins[corner] >= 0 && !isStacked[corner])
+    {
+      isStacked[corner] = 1;
+      stack.push_back(corner);
+    }
+  };
+  for (std::int32_t corner = 0; corner < mesh.CountCorners(); ++corner)
+  {
+    if (mesh.IsInterior(corner))
+    {
+      push(corner);
+    }
+  }
+  std::int64_t flips = 0;
+  while (!stack.empty() && flips < maximumFlips)
+  {
+    const std::int32_t corner = stack.back();
+    stack.pop_back();
+    isStacked[corner] = 0;
+    if (mesh.Twins[corner] >= 0 && isBad(corner))
+    {
+      const std::int32_t twin = mesh.Twins[corner];
+      mesh.Flip(corner);
+      ++flips;
+      for (const std::int32_t outer :
+        { corner, CornerMesh::Previous(corner), twin, CornerMesh::Previous(twin) })
+      {
+        push(outer);
+      }
+    }
+  }
+  return flips;
+}
+
+/// For planar, counter-clockwise, embedded meshes; by x and y, exactly.
 class SequentialLawson
 {
 public:
-  /// Finds the neighbours by sorting vertex pairs.
   explicit SequentialLawson(const OwnedMesh<float>& mesh);
 
   /// @returns the number of flips.
   std::int64_t Run();
 
-  const std::vector<std::int32_t>& GetTriangles() const { return this->Vertices; }
+  const std::vector<std::int32_t>& GetTriangles() const { return this->Mesh.Vertices; }
 
 private:
-  void FindNeighbors();
-  bool IsBad(std::int32_t corner) const;
-  void Flip(std::int32_t corner);
-  void Link(std::int32_t corner, std::int32_t twin);
-  void Push(std::int32_t corner);
-
   std::vector<double> Points; ///< x, y.
-  std::vector<std::int32_t> Vertices; ///< One a corner, three corners a triangle.
-  std::vector<std::int32_t> Twins; ///< The corner across the edge opposite a corner, or -1.
-  std::vector<std::int32_t> Stack; ///< Corners whose opposite edge must be judged.
-  std::vector<char> IsStacked; ///< By corner.
+  CornerMesh Mesh;
 };
 
 }

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EXPERIMENTSUPPORT_H
+#define DELAUNAYFLIP_EXPERIMENTSUPPORT_H
+
+#include "Experiments.h"
+#include "PaperMethod.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// @file
+/// What several experiments need.
+
+namespace delaunayflip
+{
+
+/// The epsilon of eq. 5 for float angles, "experimentally estimated" like the paper's: of 1e-7 ...
+/// 1e-3, the smallest with which the loop ended on random bad meshes (RunQuality). acos alone errs
+/// by up to 3.5e-4 near pi, where the cosine's last bit is worth that much.
+constexpr double FloatEpsilon = 5e-4;
+
+/// Milliseconds that a call takes.
+template <typename Work>
+double MeasureMilliseconds(const Work& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+    .count();
+}
+
+/// Times of several runs, by what was timed.
+class Stopwatches
+{
+public:
+  explicit Stopwatches(const ExperimentSettings& settings)
+    : Settings(settings)
+  {
+  }
+
+  /// Calls run(), which returns an object of milliseconds; the first time to warm up, unless that
+  /// alone took more than half of the time there is.
+  template <typename Run>
+  void Repeat(const Run& run)
+  {
+    double spent = MeasureMilliseconds([&] { this->Add(run()); });
+    const bool isWarmUp = spent < 500.0 * this->Settings.Seconds;
+    if (!this->Settings.HasTimes || !isWarmUp)
+    {
+      return;
+    }
+    this->Samples.clear();
+    for (int i = 0; i < this->Settings.Repetitions; ++i)
+    {
+      spent += MeasureMilliseconds([&] { this->Add(run()); });
+      if (spent > 1e3 * this->Settings.Seconds)
+      {
+        break;
+      }
+    }
+  }
+
+  /// Adds the spread of every time to a row, unless there shall be none.
+  void Store(Json& row) const
+  {
+    for (const auto& [name, times] : this->Samples.items())
+    {
+      std::vector<double> sorted = times.get<std::vector<double>>();
+      std::sort(sorted.begin(), sorted.end());
+      const std::size_t middle = sorted.size() / 2;
+      const double median =
+        sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+      if (this->Settings.HasTimes)
+      {
+        row[name] = { { "median", median }, { "smallest", sorted.front() },
+          { "largest", sorted.back() }, { "runs", sorted.size() } };
+      }
+    }
+  }
+
+private:
+  void Add(const Json& times)
+  {
+    for (const auto& [name, time] : times.items())
+    {
+      this->Samples[name].push_back(time);
+    }
+  }
+
+  const ExperimentSettings& Settings;
+  Json Samples = Json::object();
+};
+
+/// A result of either method: what a row says besides times.
+struct MethodRun
+{
+  std::vector<std::int32_t> Triangles;
+  Json Row = Json::object();
+};
+
+/// Runs the engine on a mesh, as often as the settings say, and fills a row: "program", "backend",
+/// "iterations", "flips", "bad_left", "blocked_left", "stop", times and, by iteration, "flipped"
+/// and "excluded".
+MethodRun RunOurs(const ExperimentSettings& settings, const TriangleMesh& mesh,
+  const FlipOptions& options, const std::string& program);
+
+/// The same for the paper's method. Flips are counted in a run of their own.
+MethodRun RunPapers(const ExperimentSettings& settings, const TriangleMesh& mesh,
+  const PaperOptions& options, const std::string& program);
+
+FlipOptions OnThreads(int threads);
+FlipOptions OnGpu();
+
+TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles);
+
+/// Edges that violate the exact in-circle criterion by x and y.
+std::int64_t CountExactViolations(const TriangleMesh& mesh);
+
+/// Triangles of `found` that are not in `expected`, whatever their order and winding.
+std::int64_t CountDifferentTriangles(
+  const std::vector<std::int32_t>& found, const std::vector<std::int32_t>& expected);
+
+}
+
+#endif
