@@ -61,8 +61,6 @@ endif()
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 set(DELAUNAYFLIP_PYTHON ON)
-set(delaunayflip_packages "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
-set(DELAUNAYFLIP_PYTHONPATH "${CMAKE_BINARY_DIR}/${delaunayflip_packages}")
 vtk_module_wrap_python(
   MODULES ${delaunayflip_modules}
   PYTHON_PACKAGE delaunayflip
@@ -70,7 +68,3 @@ vtk_module_wrap_python(
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   SOABI "${Python3_SOABI}"
   INSTALL_HEADERS OFF)
-configure_file(Filters/Python/__init__.py "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/__init__.py"
-  COPYONLY)
-install(FILES Filters/Python/__init__.py
-  DESTINATION "${delaunayflip_packages}/delaunayflip" COMPONENT python)

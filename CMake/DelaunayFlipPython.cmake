@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+
+# The Python package delaunayflip, in the folder DELAUNAYFLIP_PYTHONPATH of the build. It finds
+# libdelaunayflip in a folder above; DelaunayFlipVTK adds the wrapped VTK modules.
+set(delaunayflip_packages "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+set(DELAUNAYFLIP_PYTHONPATH "${CMAKE_BINARY_DIR}/${delaunayflip_packages}")
+
+file(GLOB delaunayflip_python_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Python/delaunayflip/*.py")
+list(APPEND delaunayflip_python_files "${PROJECT_SOURCE_DIR}/Python/delaunayflip/py.typed")
+foreach(file IN LISTS delaunayflip_python_files)
+  get_filename_component(name "${file}" NAME)
+  configure_file("${file}" "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/${name}" COPYONLY)
+endforeach()
+install(FILES ${delaunayflip_python_files}
+  DESTINATION "${delaunayflip_packages}/delaunayflip" COMPONENT python)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delaunay edge flips for triangle meshes.
+
+With NumPy arrays:
+
+    import delaunayflip
+
+    result = delaunayflip.flip(points, triangles)
+    result.triangles  # better triangles of the same points
+
+As a filter of VTK:
+
+    from delaunayflip import vtkDelaunayFlip
+
+    flip = vtkDelaunayFlip()
+    flip.SetInputConnection(reader.GetOutputPort())
+    flip.Update()
+    mesh = flip.GetOutput()
+
+delaunayflip.vtkDelaunayFlipLiveView, if it was built, shows the filter at work in a window.
+
+Everything is loaded at its first use: the functions for arrays need NumPy and no VTK, the filter
+needs VTK and no OpenGL, and the live view needs VTK's OpenGL modules too.
+"""
+import importlib
+
+_HOMES = {
+    "flip": "._flip",
+    "Result": "._flip",
+    "Session": "._session",
+    "Report": "._report",
+    "smallest_angles": "._flip",
+    "has_cuda_device": "._library",
+    "release_cuda_memory": "._library",
+    "FlipError": "._errors",
+    "InvalidMesh": "._errors",
+    "InvalidOptions": "._errors",
+    "MeshTooLarge": "._errors",
+    "BackendUnavailable": "._errors",
+    "vtkDelaunayFlip": "._vtk",
+    "vtkDelaunayFlipLiveView": "._vtk_rendering",
+}
+
+__all__ = [name for name in _HOMES if name != "vtkDelaunayFlipLiveView"]
+
+
+def __getattr__(name):
+    if name == "__version__":
+        value = importlib.import_module("._library", __name__).version()
+    elif name in _HOMES:
+        value = getattr(importlib.import_module(_HOMES[name], __name__), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted([*globals(), *_HOMES, "__version__"])

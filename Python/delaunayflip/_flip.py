@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The whole run in one call."""
+import dataclasses
+
+import numpy
+
+from . import _arrays, _library
+from ._report import Report
+from ._session import Session
+
+
+@dataclasses.dataclass(frozen=True)
+class Result:
+    """What `flip` returns."""
+
+    triangles: numpy.ndarray  #: (m, 3), in the input's order and of its integers.
+    flip_counts: numpy.ndarray  #: (m,) int32: how many flips each triangle was part of.
+    iterations: numpy.ndarray  #: Structured, a row per iteration; see Session.iterations.
+    report: Report
+
+
+def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule="keep",
+         tolerance=-1.0, feature_angle=30.0, constraints=None, regions=None, frozen=None,
+         maximum_iterations=-1, backend="auto", threads=0, device=-1, track_quality=False,
+         progress=None, on_iteration=None):
+    """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
+
+    Any mesh is accepted: open, non-manifold, of mixed winding, with degenerate triangles. Edges
+    that cannot flip safely stay and are counted. The same input gives the same result, bit for
+    bit, with any number of threads and on a GPU.
+
+    Args:
+        points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
+        triangles: (m, 3) int32 or int64, used without a copy if contiguous; never written.
+        geometry: Where edges are judged: "planar" in the plane of the points, "planar-xy" by x and
+            y (terrain), "surface" in space, "auto" whichever fits.
+        criterion: "in-circle" (exact; surfaces ignore it) or "opposite-angles".
+        tie_rule: "keep" edges of four points on one circle, or "canonical": the result does not
+            depend on the input's triangles (planar only).
+        tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
+            automatic, from the precision of the points. For "opposite-angles" and surfaces.
+        feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
+        constraints: (k, 2) pairs of point ids: edges that must stay.
+        regions: (m,) integers: edges between triangles of different labels stay.
+        frozen: (m,) flags: the edges of these triangles stay.
+        maximum_iterations: -1: until done; 0: only test.
+        backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
+        threads: 0: as many as the machine has.
+        device: CUDA's number of the GPU; -1: the current one.
+        track_quality: Compute the smallest angle after every iteration.
+        progress: Called with the share of the work done, 0 to 1; returning False aborts.
+        on_iteration: Called after each iteration with a dict of its numbers; False aborts.
+
+    Returns:
+        A `Result`. After an abort it holds the valid mesh of the last whole iteration.
+
+    Raises:
+        InvalidMesh: A triangle or constraint names a point that does not exist.
+        InvalidOptions: Options out of range, or that contradict the mesh.
+        MeshTooLarge: Too many triangles or points.
+        BackendUnavailable: No GPU for backend="cuda".
+        MemoryError, TypeError, ValueError: As usual.
+
+    Example:
+        >>> import numpy
+        >>> points = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
+        >>> triangles = numpy.array([[0, 1, 2], [0, 2, 3]])
+        >>> result = flip(points, triangles)
+        >>> result.report.total_flips
+        1
+        >>> sorted(sorted(triangle) for triangle in result.triangles.tolist())
+        [[0, 1, 3], [1, 2, 3]]
+    """
+    with Session(
+        points, triangles, constraints=constraints, regions=regions, frozen=frozen,
+        progress=progress, geometry=geometry, criterion=criterion, tie_rule=tie_rule,
+        tolerance=tolerance, feature_angle=feature_angle, maximum_iterations=maximum_iterations,
+        backend=backend, threads=threads, device=device, track_quality=track_quality,
+    ) as session:
+        if session.report.stop_reason != "aborted":
+            session.advance(progress=progress, on_iteration=on_iteration)
+        return Result(session.triangles, session.flip_counts, session.iterations, session.report)
+
+
+def smallest_angles(points, triangles, *, geometry="surface"):
+    """The smallest angle of each triangle.
+
+    Args:
+        points: As for `flip`.
+        triangles: As for `flip`.
+        geometry: "planar-xy" measures by x and y, every other in space.
+
+    Returns:
+        (m,) float64 in degrees, 0 to 60; NaN for a triangle with a coordinate that is not finite.
+
+    Raises:
+        InvalidMesh: A triangle names a point that does not exist.
+
+    Example:
+        >>> smallest_angles([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
+        array([45.])
+    """
+    mesh = _arrays.Mesh(points, triangles)
+    angles = numpy.empty(len(mesh.triangles))
+    _library.call("triangle_angles", mesh.struct, _library.GEOMETRIES.index(geometry),
+                  _arrays.address(angles))
+    return angles

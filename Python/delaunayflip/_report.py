@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run did."""
+import dataclasses
+
+from . import _library
+
+
+@dataclasses.dataclass(frozen=True)
+class Report:
+    """What a run did, and what it met in the mesh.
+
+    An edge is bad if it is not Delaunay. Fixed edges (boundary, non-manifold, feature, constraint,
+    ...) never flip and are never counted as bad.
+    """
+
+    stop_reason: str  #: "converged", "iteration limit", "aborted", "running" or "not started".
+    geometry_used: str  #: "planar", "planar-xy" or "surface".
+    geometry_reason: str  #: Why.
+    backend: str  #: E.g. "Threads: 8" or "CUDA: NVIDIA H200".
+    fallback: str  #: Why the CPU stood in for a GPU; "" if it did not.
+    tolerance: str  #: "automatic", the value asked for, or "none".
+    defects: str  #: What was wrong with the mesh, as a sentence; "" if nothing.
+    number_of_iterations: int
+    total_flips: int
+    total_excluded: int
+    total_blocked: int
+    non_delaunay_before: int  #: Bad edges of the input.
+    non_delaunay_after: int  #: Bad edges left, flippable or blocked.
+    edges: int
+    boundary_edges: int
+    non_manifold_edges: int
+    wrongly_wound_edges: int
+    feature_edges: int
+    constraint_edges: int
+    region_edges: int
+    fixed_edges: int
+    unmatched_constraints: int  #: Constraint edges that the mesh does not have.
+    euler_characteristic: int  #: Used points - edges + triangles; flips keep it.
+    minimum_angle_before: float  #: Degrees; NaN without triangles.
+    minimum_angle_after: float
+    build_seconds: float
+    flip_seconds: float
+
+    @property
+    def converged(self):
+        """Whether the run ended because no edge could flip any more."""
+        return self.stop_reason == "converged"
+
+
+def from_struct(struct):
+    """The report in a _library.Report."""
+    values = {}
+    for name, _ in struct._fields_[1:]:
+        value = getattr(struct, name)
+        values[name] = value.decode(errors="replace") if isinstance(value, bytes) else value
+    values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
+    values["geometry_used"] = _library.GEOMETRIES[struct.geometry_used]
+    return Report(**values)

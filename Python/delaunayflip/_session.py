@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run in steps."""
+import ctypes
+
+import numpy
+
+from . import _arrays, _library, _report
+from ._observers import Observers
+from ._options import make_options
+
+#: The columns of an iteration, as a NumPy structure.
+ITERATION = numpy.dtype(
+    [(name, "f8" if kind is ctypes.c_double else "i8") for name, kind in _library.Iteration._fields_]
+)
+
+
+class Session:
+    """A mesh in the course of its flips, for those who want to see the steps.
+
+    Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
+    `advance` flips. The arrays must not change while the session lives. A session is a context
+    manager; leaving it frees its memory.
+
+    Example:
+        >>> import numpy
+        >>> points = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
+        >>> triangles = numpy.array([[0, 1, 2], [0, 2, 3]])
+        >>> with Session(points, triangles) as session:
+        ...     print(session.report.non_delaunay_before, "bad edge")
+        ...     while session.advance(1):
+        ...         print(session.report.total_flips, "flips so far")
+        ...     print(session.report.stop_reason)
+        1 bad edge
+        converged
+    """
+
+    def __init__(self, points, triangles, *, constraints=None, regions=None, frozen=None,
+                 progress=None, **options):
+        self._handle = ctypes.c_void_p()
+        self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen)
+        chosen = make_options(**options)
+        observers = Observers(progress)
+        with observers.raising() as callbacks:
+            _library.call("open", self._mesh.struct, chosen, callbacks, self._handle)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            self.close()
+
+    def close(self):
+        """Frees the session's memory. It cannot be used afterwards; closing again is allowed."""
+        handle, self._handle = self._handle, None
+        if handle:
+            _library.library().delaunayflip_close(handle)
+
+    def advance(self, iterations=-1, *, progress=None, on_iteration=None):
+        """Runs at most so many more iterations; -1: until there is nothing more to flip.
+
+        Args:
+            iterations: How many, or -1.
+            progress: Called with the share of the work that is done, 0 to 1; False aborts.
+            on_iteration: Called after each iteration with a dict of its numbers; False aborts.
+
+        Returns:
+            Whether there is more to do and the run was not aborted.
+        """
+        running = ctypes.c_int32()
+        observers = Observers(progress, on_iteration)
+        with observers.raising() as callbacks:
+            _library.call("advance", self._open(), iterations, callbacks, running)
+        return bool(running.value)
+
+    @property
+    def report(self):
+        """What has happened so far, a `Report`."""
+        struct = _library.Report()
+        _library.library().delaunayflip_report_init(struct)
+        _library.call("get_report", self._open(), struct)
+        return _report.from_struct(struct)
+
+    @property
+    def iterations(self):
+        """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
+        excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
+        rows = numpy.empty(self.report.number_of_iterations, dtype=ITERATION)
+        _library.call("get_iterations", self._open(), 0, len(rows), _arrays.address(rows),
+                      ITERATION.itemsize)
+        return rows
+
+    @property
+    def triangles(self):
+        """The triangles so far in their input order, a new array of the input's integers, (m, 3)."""
+        triangles = numpy.empty_like(self._mesh.triangles)
+        _library.call("store_triangles", self._open(), _arrays.address(triangles),
+                      _arrays.id_type(triangles))
+        return triangles
+
+    @property
+    def flip_counts(self):
+        """How many flips each triangle was part of, (m,) int32."""
+        counts = numpy.empty(len(self._mesh.triangles), dtype=numpy.int32)
+        _library.call("store_flip_counts", self._open(), _arrays.address(counts))
+        return counts
+
+    def _open(self):
+        if not self._handle:
+            raise ValueError("the session is closed")
+        return self._handle
