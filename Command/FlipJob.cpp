@@ -113,10 +113,15 @@ public:
   {
     const auto start = Clock::now();
     this->Bar.Start("reading " + this->Settings.Input);
-    MeshFile file = ReadMesh(this->Settings.Input, this->Settings.InputFormat, this->Messages);
+    const FileMesh file = ReadMesh(
+      this->Settings.Input, this->Settings.InputFormat, RepeatedPoints::Merge, this->Messages);
     this->Bar.Clear();
     this->Input = file.Mesh;
     this->Run.ReadSeconds = SecondsSince(start);
+    for (const std::string& warning : file.Warnings)
+    {
+      PrintWarning(warning);
+    }
     for (const std::string& note : file.Notes)
     {
       this->Note(note);

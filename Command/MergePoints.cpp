@@ -96,6 +96,10 @@ vtkIdType MergeCoincidentPoints(vtkPolyData* mesh)
   std::vector<vtkIdType> kept;
   const std::vector<vtkIdType> ids = NumberDistinct(points, kept);
   const auto count = static_cast<vtkIdType>(kept.size());
+  if (count == points->GetNumberOfPoints())
+  {
+    return 0;
+  }
 
   vtkNew<vtkPoints> newPoints;
   newPoints->SetDataType(points->GetDataType());

@@ -122,7 +122,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
   try
   {
     WriteUnchecked(mesh, path, format, messages);
-    const MeshFile written = ReadUnmerged(path, format, messages);
+    const FileMesh written = ReadMesh(path, format, RepeatedPoints::Keep, messages);
     if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
     {
       return;

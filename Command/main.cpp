@@ -49,7 +49,9 @@ std::string ExplainDeath(const Arguments& arguments, const ChildOutcome& outcome
   switch (outcome.LastPhase)
   {
     case Phase::Reading:
-      return arguments.Input + ": cannot be read: VTK's reader crashed" + death +
+      return arguments.Input + ": cannot be read: " +
+        (outcome.DiedOf == SIGXCPU ? "reading takes far more time than a file of its size needs"
+                                   : "the reader crashed" + death) +
         "; the file is probably truncated or corrupt";
     case Phase::Flipping:
       return arguments.Input + ": flipping it crashed" + death +

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FILEMESH_H
+#define DELAUNAYFLIP_FILEMESH_H
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A surface mesh as its file has it.
+struct FileMesh
+{
+  vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
+  std::vector<std::string> Notes; ///< What reading changed or left out, one line each.
+  std::vector<std::string> Warnings; ///< What may be wrong with the file.
+};
+
+/// What a reader does with points that a format has to repeat.
+enum class RepeatedPoints
+{
+  Keep,
+  Merge
+};
+
+}
+
+#endif

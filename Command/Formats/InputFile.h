@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_INPUTFILE_H
+#define DELAUNAYFLIP_INPUTFILE_H
+
+#include <string>
+#include <string_view>
+
+namespace delaunayflip
+{
+
+/// The bytes of a file, in memory while this lives. A pipe is read to its end first.
+class InputFile
+{
+public:
+  /// @throws CommandError (BadFile) that names the file and the reason.
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  std::string_view GetBytes() const { return this->Bytes; }
+
+  /// What the user calls it.
+  const std::string& GetName() const { return this->Name; }
+
+  /// Where VTK's readers can open it: for a pipe, a copy of what came through it.
+  const std::string& GetPath() const { return this->Path; }
+
+  /// @throws CommandError (BadFile): the name and the reason.
+  [[noreturn]] void Fail(const std::string& reason) const;
+
+  /// The same with the number of the line that `place`, within the bytes, is on.
+  [[noreturn]] void FailAt(const char* place, const std::string& reason) const;
+
+private:
+  int OpenFile() const;
+  int Spool(int pipe) const;
+  void Map();
+
+  std::string Name;
+  std::string Path;
+  int Descriptor = -1;
+  std::string_view Bytes;
+};
+
+}
+
+#endif

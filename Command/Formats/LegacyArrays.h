@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_LEGACYARRAYS_H
+#define DELAUNAYFLIP_LEGACYARRAYS_H
+
+#include "TextCursor.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkDataArray.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+namespace delaunayflip
+{
+
+/// Reads the arrays of a legacy .vtk, as text or big-endian binary.
+class LegacyArrays
+{
+public:
+  explicit LegacyArrays(TextCursor& cursor)
+    : Cursor(cursor)
+  {
+  }
+
+  void SetBinary() { this->IsBinary = true; }
+  bool GetBinary() const { return this->IsBinary; }
+
+  /// The next word in lower case, in this line or another; empty at the end of the file.
+  std::string NextKeyword();
+
+  /// The next word, which may have %20 for a blank.
+  std::string NextName();
+
+  /// The next word as a number that is not negative.
+  vtkIdType NextCount();
+
+  /// Reads an array of a type, in the words of the format, and the names of its components if they
+  /// follow. What else may follow, such as ranges, is not used.
+  /// @throws CommandError (BadFile), before it asks for memory where the file is too short.
+  vtkSmartPointer<vtkAbstractArray> Read(
+    const std::string& type, vtkIdType tuples, vtkIdType components);
+
+  /// The same for a type of numbers only.
+  vtkSmartPointer<vtkDataArray> ReadNumbers(
+    const std::string& type, vtkIdType tuples, vtkIdType components);
+
+private:
+  template <typename Array>
+  vtkSmartPointer<vtkAbstractArray> ReadPlain(vtkIdType tuples, int components);
+  template <typename T>
+  void ReadValues(T* values, vtkIdType count);
+  vtkSmartPointer<vtkAbstractArray> ReadIds(vtkIdType tuples, int components);
+  vtkSmartPointer<vtkAbstractArray> ReadBits(vtkIdType tuples, int components);
+  vtkSmartPointer<vtkAbstractArray> ReadStrings(vtkIdType tuples, int components);
+  std::string NextString();
+  std::size_t NextStringLength();
+  void RequireBytes(vtkIdType count, std::size_t size) const;
+  const char* NextBytes(std::size_t size);
+  void ReadMetaData(vtkAbstractArray* array);
+
+  TextCursor& Cursor;
+  bool IsBinary = false;
+};
+
+}
+
+#endif

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "XmlReader.h"
+
+#include "Console.h"
+#include "LegacyReader.h"
+#include "TextCursor.h"
+
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPoints.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLFileReadTester.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cstring>
+#include <vector>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// The elements within another.
+std::vector<vtkXMLDataElement*> Children(vtkXMLDataElement* element)
+{
+  std::vector<vtkXMLDataElement*> children;
+  for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  {
+    children.push_back(element->GetNestedElement(i));
+  }
+  return children;
+}
+
+std::string AttributeOf(vtkXMLDataElement* element, const char* name)
+{
+  const char* const value = element->GetAttribute(name);
+  return value ? value : "";
+}
+
+/// Looks at the elements of a file before VTK believes them.
+class XmlCheck
+{
+public:
+  explicit XmlCheck(const InputFile& file)
+    : File(file)
+  {
+  }
+
+  void Check(vtkXMLDataElement* root)
+  {
+    // As many bytes as a byte of the file can stand for, by compression at its best.
+    constexpr double compression = 10000;
+    this->Growth = root->GetAttribute("compressor") ? compression : 1.0;
+    for (vtkXMLDataElement* dataSet : Children(root))
+    {
+      for (vtkXMLDataElement* part : Children(dataSet))
+      {
+        if (std::strcmp(part->GetName(), "Piece") == 0)
+        {
+          this->CheckPiece(part);
+        }
+        else if (std::strcmp(part->GetName(), "FieldData") == 0)
+        {
+          this->CheckFieldData(part);
+        }
+      }
+    }
+  }
+
+private:
+  void CheckFieldData(vtkXMLDataElement* fieldData)
+  {
+    for (vtkXMLDataElement* array : Children(fieldData))
+    {
+      this->CheckArray(array, this->GetCount(array, "NumberOfTuples", 0));
+    }
+  }
+
+  void CheckPiece(vtkXMLDataElement* piece)
+  {
+    double cells = 0;
+    for (const char* kind : { "Verts", "Lines", "Strips", "Polys" })
+    {
+      cells += this->GetCount(piece, ("NumberOf" + std::string(kind)).c_str(), 0);
+    }
+    for (vtkXMLDataElement* part : Children(piece))
+    {
+      const std::string name = part->GetName();
+      const double tuples = name == "CellData" ? cells
+        : name == "Points" || name == "PointData"
+        ? this->GetCount(piece, "NumberOfPoints", 0)
+        : this->GetCount(piece, ("NumberOf" + name).c_str(), 0);
+      for (vtkXMLDataElement* array : Children(part))
+      {
+        this->CheckArray(array, AttributeOf(array, "Name") == "connectivity" ? 0 : tuples);
+      }
+    }
+  }
+
+  /// Whether the file can hold so many tuples. Removes what VTK would misread.
+  void CheckArray(vtkXMLDataElement* array, double tuples)
+  {
+    const double values = tuples * this->GetCount(array, "NumberOfComponents", 1);
+    int type = 0;
+    const bool isBits = array->GetWordTypeAttribute("type", type) && type == VTK_BIT;
+    // A value takes a byte at least.
+    if (values >
+      (isBits ? 8.0 : 1.0) * this->Growth * static_cast<double>(this->File.GetBytes().size()))
+    {
+      this->File.Fail("array '" + AttributeOf(array, "Name") +
+        "' has more values than the file has bytes for (truncated or corrupt)");
+    }
+    array->RemoveAttribute("RangeMin");
+    array->RemoveAttribute("RangeMax");
+    for (vtkXMLDataElement* key : Children(array))
+    {
+      // Ranges are found anew; VTK writes infinite ones, which it cannot read.
+      if (AttributeOf(key, "name").find("RANGE") != std::string::npos)
+      {
+        array->RemoveNestedElement(key);
+      }
+    }
+  }
+
+  /// A number that is not negative, and not zero where `least` is one.
+  double GetCount(vtkXMLDataElement* element, const char* name, int least)
+  {
+    const std::string text = AttributeOf(element, name);
+    const char* const end = text.data() + text.size();
+    vtkIdType count = least;
+    const auto [last, error] = std::from_chars(text.data(), end, count);
+    if (element->GetAttribute(name) && (error != std::errc() || last != end || count < least))
+    {
+      this->File.Fail(std::string(name) + "=\"" + text + "\" is not a valid count");
+    }
+    return static_cast<double>(count);
+  }
+
+  const InputFile& File;
+  double Growth = 1.0;
+};
+
+/// VTK's reader, after the check, with numbers as text read by TextCursor.
+class CheckedXmlReader : public vtkXMLPolyDataReader
+{
+public:
+  static CheckedXmlReader* New();
+  vtkTypeMacro(CheckedXmlReader, vtkXMLPolyDataReader);
+
+  void SetFile(const InputFile& file)
+  {
+    this->File = &file;
+    this->SetFileName(file.GetPath().c_str());
+  }
+
+protected:
+  int ReadVTKFile(vtkXMLDataElement* root) override
+  {
+    XmlCheck(*this->File).Check(root);
+    return this->Superclass::ReadVTKFile(root);
+  }
+
+  int ReadArrayValues(vtkXMLDataElement* element, vtkIdType arrayIndex, vtkAbstractArray* array,
+    vtkIdType startIndex, vtkIdType numValues, FieldType type) override
+  {
+    auto* const numbers = vtkDataArray::SafeDownCast(array);
+    const bool fits = arrayIndex + numValues <= array->GetNumberOfValues();
+    if (!IsText(element) || !numbers || numbers->GetDataType() == VTK_BIT || !fits ||
+      array->GetName() == std::string("vtkGhostLevels")) // which VTK converts
+    {
+      return this->Superclass::ReadArrayValues(
+        element, arrayIndex, array, startIndex, numValues, type);
+    }
+    TextCursor cursor = this->FindText(element);
+    switch (numbers->GetDataType())
+    {
+      vtkTemplateMacro(ReadNumbers(
+        cursor, static_cast<VTK_TT*>(numbers->GetVoidPointer(arrayIndex)), startIndex, numValues));
+    }
+    array->Modified();
+    return 1;
+  }
+
+private:
+  static bool IsText(vtkXMLDataElement* element)
+  {
+    return !element->GetAttribute("offset") && AttributeOf(element, "format") != "binary";
+  }
+
+  /// What is between the tag of an element and the next tag.
+  TextCursor FindText(vtkXMLDataElement* element) const
+  {
+    const std::string_view bytes = this->File->GetBytes();
+    const auto tag = static_cast<std::size_t>(element->GetXMLByteIndex());
+    const std::size_t begin = std::min(bytes.find('>', tag), bytes.size() - 1) + 1;
+    return TextCursor(*this->File, begin, bytes.find('<', begin));
+  }
+
+  template <typename T>
+  static void ReadNumbers(TextCursor& cursor, T* numbers, vtkIdType skipped, vtkIdType count)
+  {
+    for (vtkIdType i = 0; i < skipped + count; ++i)
+    {
+      cursor.SkipSpace();
+      const T number = cursor.NextNumber<T>();
+      if (i >= skipped)
+      {
+        numbers[i - skipped] = number;
+      }
+    }
+  }
+
+  const InputFile* File = nullptr;
+};
+
+vtkStandardNewMacro(CheckedXmlReader);
+
+void RequirePolyData(const InputFile& file)
+{
+  vtkNew<vtkXMLFileReadTester> tester;
+  tester->SetFileName(file.GetPath().c_str());
+  const char* const type = tester->TestReadFile() ? tester->GetFileDataType() : nullptr;
+  if (!type)
+  {
+    file.Fail("not a VTK XML file");
+  }
+  if (std::strcmp(type, "PolyData") != 0)
+  {
+    FailOnType(file, type);
+  }
+}
+
+}
+
+FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
+{
+  RequirePolyData(file);
+  vtkNew<CheckedXmlReader> reader;
+  reader->SetFile(file);
+  {
+    const MutedStandardError muted;
+    reader->Update();
+  }
+  // Whatever the reader complained of means that something of the file is missing.
+  const std::string complaints = messages.TakeComplaints();
+  FileMesh result;
+  result.Mesh = reader->GetOutput();
+  if (!complaints.empty() || !result.Mesh)
+  {
+    file.Fail("cannot be read: " + (complaints.empty() ? "it contains no mesh" : complaints));
+  }
+  if (!result.Mesh->GetPoints())
+  {
+    const vtkNew<vtkPoints> none;
+    result.Mesh->SetPoints(none);
+  }
+  return result;
+}
+
+}
