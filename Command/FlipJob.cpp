@@ -5,6 +5,7 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
+#include "DiskSpace.h"
 #include "FormatLosses.h"
 #include "MeshReader.h"
 #include "MeshWriter.h"
@@ -243,8 +244,8 @@ private:
     stream.close();
     if (!stream)
     {
-      throw CommandError(
-        ExitCode::BadFile, file.GetTarget() + ": cannot be written (is the disk full?)");
+      throw CommandError(ExitCode::BadFile,
+        file.GetTarget() + ": cannot be written" + ExplainFailedWrite(file.GetTemporary()));
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "CommandError.h"
 #include "Console.h"
+#include "DiskSpace.h"
 #include "MeshReader.h"
 
 #include <vtkErrorCode.h>
@@ -30,6 +31,10 @@ void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages
   writer->SetInputData(mesh);
   const bool written = writer->Write() != 0;
   const std::string complaints = messages.TakeComplaints();
+  if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
+  {
+    throw CommandError(ExitCode::BadFile, "no space for the whole file");
+  }
   if (!written || !complaints.empty() || writer->GetErrorCode() != vtkErrorCode::NoError)
   {
     throw CommandError(ExitCode::BadFile, complaints.empty() ? "the writer failed" : complaints);
@@ -136,7 +141,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
     const std::size_t name = difference.find(path + ": ");
     difference.erase(0, name == 0 ? path.size() + 2 : 0);
   }
-  throw CommandError(ExitCode::BadFile, difference + " (is the disk full?)");
+  throw CommandError(ExitCode::BadFile, difference + ExplainFailedWrite(path));
 }
 
 }

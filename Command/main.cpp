@@ -4,6 +4,7 @@
 #include "ChildProcess.h"
 #include "CommandError.h"
 #include "Console.h"
+#include "DiskSpace.h"
 #include "FlipJob.h"
 #include "OutputFiles.h"
 
@@ -43,7 +44,8 @@ int Guarded(const std::function<int()>& work)
 }
 
 /// Says what the child was doing when a signal killed it, and what may have caused that.
-std::string ExplainDeath(const Arguments& arguments, const ChildOutcome& outcome)
+std::string ExplainDeath(
+  const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
   const std::string death = std::string(" (") + strsignal(outcome.DiedOf) + ")";
   switch (outcome.LastPhase)
@@ -58,7 +60,7 @@ std::string ExplainDeath(const Arguments& arguments, const ChildOutcome& outcome
         "; was there enough memory? Nothing was written";
     default:
       return arguments.Output + ": cannot be written: writing or checking it crashed" + death +
-        "; is the disk full?";
+        ExplainFailedWrite(files.Mesh.GetTemporary());
   }
 }
 
@@ -71,7 +73,7 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
   }
   if (outcome.DiedOf != 0)
   {
-    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, outcome));
+    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome));
   }
   if (outcome.LastPhase == Phase::Over)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CornerVectors.h"
 
+#include "Counted.h"
 #include "FileMesh.h"
 
 #include <vtkCellArray.h>
@@ -176,8 +177,8 @@ void AttachTexture(FileMesh& file, const std::string& name, const CornerVectors&
     Gathered("TCoords", texture, splitter.GetTextureOfPoints()));
   if (copies > 0)
   {
-    file.Notes.push_back(name + ": repeated " + std::to_string(copies) +
-      " points along seams of the texture; edges there stay");
+    file.Notes.push_back(name + ": repeated " + Counted(copies, "point") +
+      " along seams of the texture; edges there stay");
   }
 }
 
@@ -199,7 +200,7 @@ void AttachNormals(FileMesh& file, const std::string& name, const CornerVectors&
     return;
   }
   file.Notes.push_back(name +
-    ": its normals were ignored: they differ both at the triangles of a point and at the corners "
+    ": ignored its normals, since they differ both at the triangles of a point and at the corners "
     "of a triangle");
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LegacyArrays.h"
 
+#include "Counted.h"
+
 #include <vtkBitArray.h>
 #include <vtkCharArray.h>
 #include <vtkDoubleArray.h>
@@ -19,6 +21,7 @@
 #include <vtkUnsignedShortArray.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -93,6 +96,12 @@ vtkIdType LegacyArrays::NextCount()
     this->Cursor.Fail("a negative count");
   }
   return count;
+}
+
+bool LegacyArrays::IsAtDigit()
+{
+  this->Cursor.SkipSpace();
+  return !this->Cursor.IsAtEnd() && std::isdigit(*this->Cursor.NextBytes(0));
 }
 
 vtkSmartPointer<vtkAbstractArray> LegacyArrays::Read(
@@ -263,8 +272,8 @@ void LegacyArrays::RequireBytes(vtkIdType count, std::size_t size) const
   const std::size_t most = this->IsBinary ? left / size : (left + 1) / 2;
   if (count < 0 || static_cast<std::size_t>(count) > most)
   {
-    this->Cursor.Fail(std::to_string(count) + " values are declared here, but only " +
-      std::to_string(left) + " bytes follow (truncated or corrupt)");
+    this->Cursor.Fail(Counted(count, "value") + " do not fit into the " +
+      Counted(static_cast<std::int64_t>(left), "byte") + " after it (truncated or corrupt)");
   }
 }
 

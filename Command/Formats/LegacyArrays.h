@@ -35,6 +35,12 @@ public:
   /// The next word as a number that is not negative.
   vtkIdType NextCount();
 
+  /// Whether the next word begins with a digit.
+  bool IsAtDigit();
+
+  /// @throws CommandError (BadFile): the file, the line and the reason.
+  [[noreturn]] void Fail(const std::string& reason) const { this->Cursor.Fail(reason); }
+
   /// Reads an array of a type, in the words of the format, and the names of its components if they
   /// follow. What else may follow, such as ranges, is not used.
   /// @throws CommandError (BadFile), before it asks for memory where the file is too short.

@@ -3,13 +3,12 @@
 #include "LegacyReader.h"
 
 #include "LegacyArrays.h"
+#include "LegacyAttributes.h"
 #include "TextCursor.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
-#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -17,7 +16,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace delaunayflip
@@ -25,13 +23,6 @@ namespace delaunayflip
 
 namespace
 {
-
-/// Colors of a text go from 0 to 1.
-unsigned char ToByte(float color)
-{
-  const float level = 255.0f * color + 0.5f;
-  return level >= 0.0f ? static_cast<unsigned char>(std::min(level, 255.0f)) : 0;
-}
 
 /// Levels of ghosts, of files before VTK 6.3, as the type that they became.
 void UpdateGhosts(vtkAbstractArray* array)
@@ -54,7 +45,8 @@ public:
   explicit LegacyReader(const InputFile& file)
     : File(file),
       Cursor(file),
-      Arrays(Cursor)
+      Arrays(Cursor),
+      Attributes(Arrays)
   {
   }
 
@@ -134,26 +126,15 @@ private:
       { "cell_data", &LegacyReader::BeginCellData },
       { "point_data", &LegacyReader::BeginPointData },
     };
-    static const std::map<std::string, Reader> attributes = {
-      { "scalars", &LegacyReader::ReadScalars },
-      { "color_scalars", &LegacyReader::ReadColors },
-      { "lookup_table", &LegacyReader::ReadLookupTable },
-      { "vectors", &LegacyReader::ReadAttribute<vtkDataSetAttributes::VECTORS, 3> },
-      { "normals", &LegacyReader::ReadAttribute<vtkDataSetAttributes::NORMALS, 3> },
-      { "tensors", &LegacyReader::ReadAttribute<vtkDataSetAttributes::TENSORS, 9> },
-      { "tensors6", &LegacyReader::ReadAttribute<vtkDataSetAttributes::TENSORS, 6> },
-      { "texture_coordinates", &LegacyReader::ReadTexture },
-      { "global_ids", &LegacyReader::ReadAttribute<vtkDataSetAttributes::GLOBALIDS, 1> },
-      { "pedigree_ids", &LegacyReader::ReadAttribute<vtkDataSetAttributes::PEDIGREEIDS, 1> },
-      { "edge_flags", &LegacyReader::ReadAttribute<vtkDataSetAttributes::EDGEFLAG, 1> },
-    };
     const auto section = sections.find(keyword);
-    const auto attribute = attributes.find(keyword);
-    if (section == sections.end() && (attribute == attributes.end() || !this->Attributes))
+    if (section != sections.end())
+    {
+      (this->*section->second)();
+    }
+    else if (!this->Attributes.Read(keyword))
     {
       this->Cursor.Fail("an unknown keyword, or one that does not belong here");
     }
-    (this->*(section != sections.end() ? section : attribute)->second)();
   }
 
   void ReadPoints()
@@ -199,8 +180,8 @@ private:
     }
     if (last != ids || !cells->SetData(begins, corners))
     {
-      this->Cursor.Fail(
-        "cells of " + std::to_string(last) + " ids, but " + std::to_string(ids) + " ids");
+      this->Cursor.Fail("the last offset is " + std::to_string(last) +
+        ", but the number of ids is " + std::to_string(ids));
     }
     return cells;
   }
@@ -239,14 +220,15 @@ private:
       if (corners < 0 || corners > size - place)
       {
         this->Cursor.Fail("cell " + std::to_string(cell) + " of " + std::to_string(count) +
-          " does not fit into the " + std::to_string(size) + " numbers of all cells");
+          " exceeds the size of the list of cells, " + std::to_string(size));
       }
       cells->InsertNextCell(corners, numbers + place);
       place += corners;
     }
     if (place != size)
     {
-      this->Cursor.Fail(std::to_string(size - place) + " numbers more than the cells have");
+      this->Cursor.Fail("the size of the list of cells is " + std::to_string(size) +
+        ", but its cells end at " + std::to_string(place));
     }
     return cells;
   }
@@ -263,108 +245,13 @@ private:
 
   void BeginData(vtkDataSetAttributes* attributes, vtkIdType size, const std::string& what)
   {
-    this->Attributes = attributes;
-    this->Tuples = this->Arrays.NextCount();
-    if (this->Tuples != size)
+    const vtkIdType tuples = this->Arrays.NextCount();
+    if (tuples != size)
     {
-      this->Cursor.Fail("data for " + std::to_string(this->Tuples) + " " + what +
-        ", but there are " + std::to_string(size));
+      this->Cursor.Fail("the number of values is " + std::to_string(tuples) +
+        ", but the number of " + what + " is " + std::to_string(size));
     }
-  }
-
-  void ReadScalars()
-  {
-    const std::string name = this->Arrays.NextName();
-    const std::string type = this->Arrays.NextKeyword();
-    vtkIdType components = 1;
-    this->Cursor.SkipSpace();
-    if (!this->Cursor.IsAtLineEnd() && std::isdigit(*this->Cursor.NextBytes(0)))
-    {
-      components = this->Arrays.NextCount();
-    }
-    if (this->Arrays.NextKeyword() != "lookup_table")
-    {
-      this->Cursor.Fail("scalars without LOOKUP_TABLE");
-    }
-    const std::string table = this->Arrays.NextName();
-    const auto array = this->Arrays.ReadNumbers(type, this->Tuples, components);
-    if (this->Add(array, name, vtkDataSetAttributes::SCALARS))
-    {
-      this->TableName = table;
-    }
-  }
-
-  /// Bytes in binary files, from 0 to 1 in text.
-  void ReadColors()
-  {
-    const std::string name = this->Arrays.NextName();
-    const vtkIdType components = this->Arrays.NextCount();
-    const bool isBinary = this->Arrays.GetBinary();
-    const auto array =
-      this->Arrays.ReadNumbers(isBinary ? "unsigned_char" : "float", this->Tuples, components);
-    this->Add(isBinary ? array : this->ToBytes(array), name, vtkDataSetAttributes::SCALARS);
-  }
-
-  static vtkSmartPointer<vtkDataArray> ToBytes(vtkDataArray* array)
-  {
-    auto* const colors = vtkFloatArray::SafeDownCast(array);
-    auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
-    bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
-    std::transform(colors->GetPointer(0), colors->GetPointer(0) + colors->GetNumberOfValues(),
-      bytes->GetPointer(0), ToByte);
-    return bytes;
-  }
-
-  /// A table of the name that the scalars gave.
-  void ReadLookupTable()
-  {
-    const std::string name = this->Arrays.NextName();
-    const vtkIdType size = this->Arrays.NextCount();
-    const bool isBinary = this->Arrays.GetBinary();
-    const auto colors = this->Arrays.ReadNumbers(isBinary ? "unsigned_char" : "float", size, 4);
-    vtkNew<vtkLookupTable> table;
-    table->SetNumberOfTableValues(size);
-    for (vtkIdType i = 0; i < size; ++i)
-    {
-      const double scale = isBinary ? 255.0 : 1.0;
-      const double* const color = colors->GetTuple4(i);
-      table->SetTableValue(
-        i, color[0] / scale, color[1] / scale, color[2] / scale, color[3] / scale);
-    }
-    if (this->Attributes->GetScalars() && name == this->TableName)
-    {
-      this->Attributes->GetScalars()->SetLookupTable(table);
-    }
-  }
-
-  template <int Attribute, int Components>
-  void ReadAttribute()
-  {
-    const std::string name = this->Arrays.NextName();
-    const auto array = this->Arrays.Read(this->Arrays.NextKeyword(), this->Tuples, Components);
-    this->Add(array, name, Attribute);
-  }
-
-  void ReadTexture()
-  {
-    const std::string name = this->Arrays.NextName();
-    const vtkIdType components = this->Arrays.NextCount();
-    const std::string type = this->Arrays.NextKeyword();
-    const auto array = this->Arrays.ReadNumbers(type, this->Tuples, components);
-    this->Add(array, name, vtkDataSetAttributes::TCOORDS);
-  }
-
-  /// Makes the array the attribute if there is none yet, else one among others; whether the former.
-  bool Add(vtkAbstractArray* array, const std::string& name, int attribute)
-  {
-    array->SetName(name.c_str());
-    const bool isFirst = !this->Attributes->GetAbstractAttribute(attribute);
-    if (!isFirst || this->Attributes->SetAttribute(array, attribute) < 0)
-    {
-      this->Attributes->AddArray(array);
-    }
-    return isFirst;
+    this->Attributes.Begin(attributes, tuples);
   }
 
   /// Named arrays, of the points, the cells, or before both of the mesh as a whole.
@@ -372,7 +259,8 @@ private:
   {
     this->Arrays.NextName();
     const vtkIdType count = this->Arrays.NextCount();
-    vtkFieldData* const data = this->Attributes ? this->Attributes : this->Mesh()->GetFieldData();
+    vtkFieldData* const data =
+      this->Attributes.Get() ? this->Attributes.Get() : this->Mesh()->GetFieldData();
     for (vtkIdType i = 0; i < count; ++i)
     {
       const std::string name = this->Arrays.NextName();
@@ -384,7 +272,7 @@ private:
       const vtkIdType tuples = this->Arrays.NextCount();
       const auto array = this->Arrays.Read(this->Arrays.NextKeyword(), tuples, components);
       array->SetName(name.c_str());
-      if (this->Attributes)
+      if (this->Attributes.Get())
       {
         UpdateGhosts(array);
       }
@@ -397,9 +285,7 @@ private:
   LegacyArrays Arrays;
   FileMesh Result;
   bool HasOffsets = false;
-  vtkDataSetAttributes* Attributes = nullptr; ///< Of the points or cells, when data have begun.
-  vtkIdType Tuples = 0; ///< That they have.
-  std::string TableName; ///< What the active scalars call their colors.
+  LegacyAttributes Attributes; ///< Of the points or cells, once their data have begun.
 };
 
 }

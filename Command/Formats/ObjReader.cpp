@@ -3,6 +3,7 @@
 #include "ObjReader.h"
 
 #include "CornerVectors.h"
+#include "Counted.h"
 #include "MergePoints.h"
 #include "ObjParser.h"
 
@@ -142,7 +143,7 @@ void NoteUnknown(FileMesh& file, const std::string& name, const ObjContent& cont
   }
   if (!list.empty())
   {
-    file.Notes.push_back(name + ": lines with these keywords were ignored: " + list);
+    file.Notes.push_back(name + ": ignored the lines with these keywords: " + list);
   }
 }
 
@@ -151,8 +152,8 @@ void MergeRepeated(FileMesh& file, const std::string& name)
   const vtkIdType merged = MergeCoincidentPoints(file.Mesh);
   if (merged > 0)
   {
-    file.Notes.push_back(name + ": merged " + std::to_string(merged) +
-      " points that coincide (the file repeats them for texture coordinates and normals)");
+    file.Notes.push_back(name + ": merged " + Counted(merged, "point") +
+      " that coincide (the file repeats them for texture coordinates and normals)");
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlyHeader.h"
 
+#include "Counted.h"
 #include "TextCursor.h"
 
 #include <algorithm>
@@ -170,9 +171,9 @@ private:
       const std::int64_t least = std::max<std::int64_t>(this->LeastSize(element), 1);
       if (element.Count > (body + 1) / least)
       {
-        this->File.Fail("its header says " + std::to_string(element.Count) + " elements of type " +
-          element.Name + ", but only " + std::to_string(body) +
-          " bytes follow (truncated or corrupt)");
+        this->File.Fail("its header says 'element " + element.Name + " " +
+          std::to_string(element.Count) + "', too many for the " + Counted(body, "byte") +
+          " after it (truncated or corrupt)");
       }
     }
   }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlyReader.h"
 
-#include "CornerVectors.h"
+#include "Counted.h"
 #include "FileValues.h"
 #include "PlyArrays.h"
 #include "PlyHeader.h"
+#include "PlyTexture.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -44,7 +45,6 @@ public:
       Source(values),
       Vertices(header.CountOf("vertex"))
   {
-    this->Texture.Components = 2;
   }
 
   FileMesh Read()
@@ -55,8 +55,8 @@ public:
     }
     if (const std::size_t left = this->Source.Finish())
     {
-      this->Result.Notes.push_back(this->File.GetName() + ": " + std::to_string(left) +
-        " bytes after its last element were ignored");
+      this->Note(
+        "ignored " + Counted(static_cast<std::int64_t>(left), "byte") + " after its last element");
     }
     this->Assemble();
     return this->Result;
@@ -123,7 +123,7 @@ private:
     const std::int64_t length = this->NextInteger(*property.CountType);
     if (length < 0 || static_cast<std::size_t>(length) > this->Source.GetBytesLeft())
     {
-      this->Source.Fail("a list of " + std::to_string(length) + " items");
+      this->Source.Fail("a list of length " + std::to_string(length));
     }
     return length;
   }
@@ -133,8 +133,8 @@ private:
     const std::int64_t vertex = this->NextInteger(type);
     if (vertex < 0 || vertex >= this->Vertices)
     {
-      this->Source.Fail("vertex " + std::to_string(vertex) + " does not exist; there are " +
-        std::to_string(this->Vertices));
+      this->Source.Fail("vertex " + std::to_string(vertex) +
+        " is out of range; the number of vertices is " + std::to_string(this->Vertices));
     }
     return vertex;
   }
@@ -203,11 +203,11 @@ private:
   {
     for (std::int64_t i = 0; i < length; ++i)
     {
-      this->Texture.Values.push_back(VisitPlyType(property.Type,
+      this->Texture.Add(VisitPlyType(property.Type,
         [this](auto zero)
         { return static_cast<double>(this->Source.template Next<decltype(zero)>()); }));
     }
-    this->TextureEnds.push_back(static_cast<std::int64_t>(this->Texture.Values.size()));
+    this->Texture.EndFace();
   }
 
   /// One list of vertices may hold many strips, with -1 between them.
@@ -240,8 +240,8 @@ private:
   {
     if (vertex >= this->Vertices || vertex < -1)
     {
-      this->Source.Fail("vertex " + std::to_string(vertex) + " does not exist; there are " +
-        std::to_string(this->Vertices));
+      this->Source.Fail("vertex " + std::to_string(vertex) +
+        " is out of range; the number of vertices is " + std::to_string(this->Vertices));
     }
     if (vertex == -1)
     {
@@ -271,7 +271,7 @@ private:
         static_cast<vtkIdType>(second->GetTuple1(edge)) };
       if (std::min(ends[0], ends[1]) < 0 || std::max(ends[0], ends[1]) >= this->Vertices)
       {
-        this->File.Fail("edge " + std::to_string(edge) + " names a vertex that does not exist");
+        this->File.Fail("edge " + std::to_string(edge) + " has a vertex that is out of range");
       }
       this->Lines->InsertNextCell(2, ends);
     }
@@ -285,8 +285,8 @@ private:
         "', which may hold polygons; known elements are vertex, face, tristrips and edge");
     }
     this->ReadRows(element, [](const PlyProperty&, std::int64_t) {});
-    this->Note(std::to_string(element.Count) + " elements of the unknown type '" + element.Name +
-      "' were ignored");
+    this->Note("ignored " + Counted(element.Count, "element") + " of the unknown type '" +
+      element.Name + "'");
   }
 
   /// Whether there is one list of vertices, and of texture coordinates at most one.
@@ -308,8 +308,7 @@ private:
     {
       if (property.CountType && !isKept(property) && element.Count > 0)
       {
-        this->Note(
-          "the lists " + property.Name + " of the element " + element.Name + " were ignored");
+        this->Note("ignored the lists " + property.Name + " of the element " + element.Name);
       }
     }
   }
@@ -333,32 +332,7 @@ private:
       this->FaceArrays->AddTo(this->Result.Mesh->GetCellData(), this->Lines->GetNumberOfCells(),
         this->Strips->GetNumberOfCells());
     }
-    if (!this->Texture.Values.empty())
-    {
-      this->AssembleTexture();
-    }
-  }
-
-  /// Each face has two coordinates a corner, or none.
-  void AssembleTexture()
-  {
-    std::int64_t begin = 0;
-    for (vtkIdType face = 0; face < this->Polys->GetNumberOfCells(); ++face)
-    {
-      const vtkIdType corners = this->Polys->GetCellSize(face);
-      const std::int64_t size = this->TextureEnds[face] - begin;
-      if (size != 0 && size != 2 * corners)
-      {
-        this->File.Fail("face " + std::to_string(face) + " has " + std::to_string(size) +
-          " texture coordinates for its " + std::to_string(corners) + " corners");
-      }
-      for (vtkIdType corner = 0; corner < corners; ++corner)
-      {
-        this->Texture.OfCorner.push_back(size == 0 ? CornerVectors::None : begin / 2 + corner);
-      }
-      begin = this->TextureEnds[face];
-    }
-    AttachTexture(this->Result, this->File.GetName(), this->Texture);
+    this->Texture.Attach(this->Result, this->File);
   }
 
   const InputFile& File;
@@ -368,8 +342,7 @@ private:
   FileMesh Result;
   std::unique_ptr<PlyArrays> Arrays; ///< Of the element being read.
   std::unique_ptr<PlyArrays> FaceArrays;
-  CornerVectors Texture;
-  std::vector<std::int64_t> TextureEnds; ///< By face.
+  PlyTexture Texture;
   vtkNew<vtkCellArray> Lines;
   vtkNew<vtkCellArray> Polys;
   vtkNew<vtkCellArray> Strips;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StlReader.h"
 
+#include "Counted.h"
 #include "FileValues.h"
 #include "MergePoints.h"
 #include "TextCursor.h"
@@ -18,6 +19,7 @@
 #include <vtkUnsignedShortArray.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <vector>
 
@@ -240,10 +242,10 @@ void RequireText(const InputFile& file)
   const bool isText = bytes.find('\0') == std::string_view::npos;
   if (!isText && bytes.size() >= BodyBegin)
   {
-    const std::uint64_t triangles = AnnouncedTriangles(file);
-    file.Fail("its header says " + std::to_string(triangles) + " triangles, which take " +
-      std::to_string(BodyBegin + TriangleSize * triangles) + " bytes, but it has " +
-      std::to_string(bytes.size()) + " (truncated or corrupt)");
+    const std::int64_t triangles = AnnouncedTriangles(file);
+    file.Fail("its header says " + Counted(triangles, "triangle") + ", which take " +
+      std::to_string(BodyBegin + TriangleSize * static_cast<std::size_t>(triangles)) +
+      " bytes, but it has " + std::to_string(bytes.size()) + " (truncated or corrupt)");
   }
   if (!isText || bytes.empty())
   {

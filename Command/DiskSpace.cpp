@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DiskSpace.h"
+
+#include "Counted.h"
+
+#include <sys/resource.h>
+
+#include <cstdint>
+#include <filesystem>
+
+namespace delaunayflip
+{
+
+std::string ExplainFailedWrite(const std::string& path)
+{
+  constexpr std::uintmax_t least = 1 << 20; // what file systems keep back, or round to
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (!error && space.available < least)
+  {
+    return "; the disk is full";
+  }
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+  {
+    return "; files have a limit of " + Counted(static_cast<std::int64_t>(limit.rlim_cur), "byte") +
+      " here";
+  }
+  return {};
+}
+
+}

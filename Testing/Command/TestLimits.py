@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small files that ask for much, numbers at the end of their range, and files that are pipes."""
+
+import math
+import os
+import resource
+import threading
+import unittest
+
+from CommandTesting import (
+    FORMATS,
+    bumpy_grid,
+    make_mesh,
+    points_of,
+    read_mesh,
+    triangles_of,
+    write_mesh,
+)
+from TestBadFiles import BadFileTest
+from TestNumbers import TRIANGLE, as_text
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+MOST_MEMORY = 3 << 30  # of a process that refuses a file of some hundred bytes
+
+
+class Greed(BadFileTest):
+    """Refused soon, by a process that could not have taken much."""
+
+    def refuse_soon(self, name, content, *naming):
+        self.write(name, content)
+        result = self.run_command(
+            name,
+            "out.vtk",
+            preexec_fn=lambda: (
+                resource.setrlimit(resource.RLIMIT_CPU, (20, 20)),
+                resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY)),
+            ),
+        )
+        self.assertEqual(result.returncode, 3, f"{content}: {result.stderr}")
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        for word in (name, *naming):
+            self.assertIn(word, result.stderr)
+
+    def test_counts_of_vtk(self):
+        head = "# vtk DataFile Version 3.0\nt\n{}\nDATASET POLYDATA\n"
+        for encoding in ("ASCII", "BINARY"):
+            for body in (
+                "FIELD f 1\nname 1 4000000000 string\n",
+                "FIELD f 1\nname 1 4000000000 bit\n",
+                "FIELD f 1\nname 4000000000 4000000000 double\n",
+                "FIELD f 4000000000\n",
+                "POINTS 4000000000 float\n0 0 0\n",
+                "POINTS 1 float\n0 0 0\nPOLYGONS 1000000000 4000000000\n3 0 0 0\n",
+                "POINTS 0 float\nPOLYGONS 9000000000000000000 9\n3 0 0 0\n",
+            ):
+                self.refuse_soon("a.vtk", head.format(encoding) + body, "line ")
+
+    def test_offsets_of_vtk(self):
+        text = "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+        text += "0 0 0 1 0 0 0 1 0\nPOLYGONS 2 3\nOFFSETS vtktypeint64\n0 {}\n"
+        text += "CONNECTIVITY vtktypeint64\n0 1 2\n"
+        self.write("good.vtk", text.format(3))
+        self.succeed("good.vtk", "out.vtk")
+        os.remove(self.path("out.vtk"))
+        for last in (4, 999999999999, -1, 2):
+            self.refuse_soon("a.vtk", text.format(last), "line ")
+
+    def test_counts_of_vtp(self):
+        good = as_text(TRIANGLE, "a.vtp")
+        for old, new in (
+            ('NumberOfComponents="3"', 'NumberOfComponents=" "'),
+            ('NumberOfComponents="3"', 'NumberOfComponents=""'),
+            ('NumberOfComponents="3"', 'NumberOfComponents="0"'),
+            ('NumberOfComponents="3"', 'NumberOfComponents="-3"'),
+            ('NumberOfComponents="3"', 'NumberOfComponents="3x"'),
+            ('NumberOfComponents="3"', 'NumberOfComponents="99999999999"'),
+            ('NumberOfPoints="3"', 'NumberOfPoints="99999999999"'),
+            ('NumberOfPoints="3"', 'NumberOfPoints=" "'),
+            ('NumberOfPolys="1"', 'NumberOfPolys="99999999"'),
+            (">3<", ">99999999999<"),
+        ):
+            self.assertIn(old, good)
+            self.refuse_soon("a.vtp", good.replace(old, new))
+        field = '<FieldData><DataArray type="{}" Name="f" NumberOfTuples="4000000000"/></FieldData>'
+        for kind in ("Float64", "String", "Bit"):
+            content = good.replace("<Piece", field.format(kind) + "<Piece", 1)
+            self.refuse_soon("a.vtp", content, "'f'")
+
+    def test_counts_of_ply(self):
+        good = as_text(TRIANGLE, "a.ply")
+        for encoding in ("ascii", "binary_little_endian"):
+            for old, new in (
+                ("vertex 3", "vertex 4000000000000"),
+                ("face 1", "face 4000000000000"),
+                ("element face 1", "element face 1\nelement other 4000000000000"),
+                ("3 0 1 2", "4000000000 0 1 2"),
+            ):
+                self.refuse_soon("a.ply", good.replace(old, new).replace("ascii", encoding))
+
+    def test_memory_that_is_really_needed(self):
+        """A large file may take as much as it needs."""
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 300000)
+        self.assertEqual(self.report("a.obj", "out.stl")["triangles"], 300000)
+
+
+class Extremes(BadFileTest):
+    """VTK writes the ranges of such numbers into files and cannot always read them."""
+
+    def round_trip(self, mesh, check):
+        for first in (".vtk", ".vtp"):
+            path = write_mesh(mesh, self.path("in" + first))
+            for second in (".vtk", ".vtp"):
+                self.succeed(path, "out" + second)
+                self.succeed("out" + second, "again.vtk")
+                check(read_mesh(self.path("again.vtk")))
+
+    def test_large_coordinates(self):
+        points = [(0, 0, 0), (1e200, 0, 0), (1.7e308, 1.7e308, 0), (0, -1e300, 0)]
+        self.round_trip(
+            make_mesh(points, [(0, 1, 2), (0, 3, 1)]),
+            lambda mesh: self.assertEqual(points_of(mesh), points),
+        )
+
+    def test_infinite_and_nan_coordinates(self):
+        points = [(0.0, 0.0, 0.0), (math.inf, 0.0, 0.0), (0.0, 1.0, -math.inf)]
+        points += [(math.nan, 0.0, 0.0), (1.0, 1.0, 0.0)]
+        self.round_trip(
+            make_mesh(points, [(0, 1, 2), (0, 3, 4)]),
+            lambda mesh: self.assertEqual(repr(points_of(mesh)), repr(points)),
+        )
+
+    def test_arrays(self):
+        mesh = make_mesh(TRIANGLE, [(0, 1, 2)])
+        arrays = {
+            "nan": [math.nan] * 3,
+            "inf": [math.inf] * 3,
+            "mixed": [-math.inf, math.nan, 1.5],
+            "large": [1.7e308, -1.7e308, 1e200],
+        }
+        for name, values in arrays.items():
+            array = vtkDoubleArray()
+            array.SetName(name)
+            array.SetNumberOfComponents(2)
+            for value in values:
+                array.InsertNextTuple((value, 1))
+            mesh.GetPointData().AddArray(array)
+
+        def check(found):
+            for name, values in arrays.items():
+                array = found.GetPointData().GetArray(name)
+                self.assertEqual(repr([array.GetTuple(i)[0] for i in range(3)]), repr(values), name)
+
+        self.round_trip(mesh, check)
+
+
+class Pipes(BadFileTest):
+    def test_every_format(self):
+        mesh = bumpy_grid(20, 0)
+        for extension in FORMATS:
+            path = write_mesh(mesh, self.path("in" + extension))
+            self.succeed(path, "expected.stl")
+            with open(path, "rb") as file:
+                content = file.read()
+            os.mkfifo(self.path("pipe" + extension))
+            writer = threading.Thread(target=self.write, args=("pipe" + extension, content))
+            writer.start()
+            self.succeed("pipe" + extension, "out.stl")
+            writer.join()
+            self.assertEqual(
+                triangles_of(read_mesh(self.path("out.stl"))),
+                triangles_of(read_mesh(self.path("expected.stl"))),
+                extension,
+            )
+
+    def test_errors_name_the_pipe(self):
+        os.mkfifo(self.path("pipe.obj"))
+        writer = threading.Thread(target=self.write, args=("pipe.obj", "v 0 0 x\n"))
+        writer.start()
+        self.fail_with(3, "pipe.obj", "out.vtk", naming=["pipe.obj: line 1: 'x'"])
+        writer.join()
+
+    def test_name_that_begins_with_a_dash(self):
+        for name in ("-.obj", "-mesh.obj"):
+            self.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            self.succeed("--", name, "-out.vtk")
+            self.assertTrue(os.path.exists(self.path("-out.vtk")))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

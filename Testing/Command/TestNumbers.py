@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers in text files: read exactly or refused with the line, never changed."""
+
+import math
+import random
+import struct
+import unittest
+
+from CommandTesting import points_of, read_mesh
+from TestBadFiles import BadFileTest
+
+TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+
+
+def as_text(points, name):
+    """A triangle as a text file, with the coordinates as they are given."""
+    rows = [" ".join(map(str, point)) for point in points]
+    body = "\n".join(rows)
+    extension = name.rsplit(".", 1)[1]
+    if extension == "obj":
+        return "\n".join("v " + row for row in rows) + "\nf 1 2 3\n"
+    if extension == "ply":
+        axes = "".join(f"property double {axis}\n" for axis in "xyz")
+        return (
+            f"ply\nformat ascii 1.0\nelement vertex {len(rows)}\n{axes}element face 1\n"
+            f"property list uchar int vertex_indices\nend_header\n{body}\n3 0 1 2\n"
+        )
+    if extension == "stl":
+        vertices = "\n".join("vertex " + row for row in rows)
+        return (
+            "solid s\nfacet normal 0 0 1\nouter loop\n"
+            f"{vertices}\nendloop\nendfacet\nendsolid s\n"
+        )
+    if extension == "vtk":
+        return (
+            "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"
+            f"POINTS {len(rows)} double\n{body}\nPOLYGONS 1 4\n3 0 1 2\n"
+        )
+    return (
+        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>\n'
+        f'<Piece NumberOfPoints="{len(rows)}" NumberOfPolys="1"><Points>\n'
+        f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">\n{body}</DataArray>\n'
+        '</Points><Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2'
+        '</DataArray><DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>'
+        "</Polys></Piece></PolyData></VTKFile>\n"
+    )
+
+
+# The line of the second point.
+TEXTS = {"a.obj": 2, "a.ply": 11, "a.stl": 5, "a.vtk": 7, "a.vtp": 5}
+
+
+class Exact(BadFileTest):
+    def read(self, name, content):
+        self.write(name, content)
+        self.succeed(name, "out.vtk")
+        return read_mesh(self.path("out.vtk"))
+
+    def test_every_digit_of_a_double(self):
+        generator = random.Random(5)
+        for name in TEXTS:
+            bits = [generator.getrandbits(64) for _ in range(9)]
+            values = [struct.unpack("<d", struct.pack("<Q", b))[0] for b in bits]
+            values = [0.1 if math.isnan(v) or math.isinf(v) else v for v in values]
+            points = [tuple(values[i : i + 3]) for i in (0, 3, 6)]
+            mesh = self.read(name, as_text([map(repr, point) for point in points], name))
+            self.assertEqual(points_of(mesh), points, name)
+            self.assertEqual(mesh.GetPoints().GetData().GetClassName(), "vtkDoubleArray")
+
+    def test_utm_grid_keeps_its_points(self):
+        """In single precision the 400 points are 4."""
+        size = 20
+        points = [
+            (581311.123 + 0.001 * i, 4785270.456 + 0.001 * j, 0)
+            for j in range(size)
+            for i in range(size)
+        ]
+        faces = [
+            (a, a + 1, a + size)
+            for j in range(size - 1)
+            for a in range(j * size, j * size + size - 1)
+        ]
+        rows = [f"v {x!r} {y!r} {z}" for x, y, z in points]
+        rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+        read = points_of(self.read("a.obj", "\n".join(rows)))
+        self.assertEqual(read, points)
+        self.assertEqual(len(set(read)), 400)
+
+    def test_ways_to_write_a_number(self):
+        ways = {"+1.5": 1.5, "1.": 1.0, ".5": 0.5, "-0": 0.0, "1E3": 1e3, "1e-400": 0.0, "2e-324": 0.0}
+        for name in TEXTS:
+            for text, value in ways.items():
+                mesh = self.read(name, as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], name))
+                self.assertEqual(mesh.GetPoint(1)[0], value, (name, text))
+
+    def test_nan_and_infinity_stay(self):
+        for name in TEXTS:
+            for text, value in (
+                ("nan", math.nan),
+                ("NaN", math.nan),
+                ("inf", math.inf),
+                ("-inf", -math.inf),
+                ("-Infinity", -math.inf),
+            ):
+                mesh = self.read(name, as_text([(0, 0, 0), (1, text, 7), (0, 1, 0)], name))
+                point = mesh.GetPoint(1)
+                self.assertEqual(repr(point), repr((1.0, value, 7.0)), (name, text))
+                self.assertEqual(mesh.GetPoint(2), (0, 1, 0))
+
+    def test_single_precision_is_rounded_once(self):
+        """Half of a float's last place and a little more, which a double cannot tell from half."""
+        text = "1.00000005960464477539062500000000000001"
+        content = as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], "a.vtk").replace("double", "float")
+        self.assertEqual(self.read("a.vtk", content).GetPoint(1)[0], 1 + 2**-23)
+
+
+class Refused(BadFileTest):
+    def refuse_number(self, text, *naming):
+        for name, line in TEXTS.items():
+            self.write(name, as_text([(0, 0, 0), (1, text, 0), (0, 1, 0)], name))
+            self.refuse(name, f"line {line}", *naming)
+
+    def test_decimal_comma(self):
+        self.refuse_number("1,5", "'1,5' is not a number")
+
+    def test_words(self):
+        for text in ("abc", "1.5x", "0x10", "1e", "--1", "1.2.3", "+-1", "1d5"):
+            self.refuse_number(text, f"'{text}' is not a number")
+
+    def test_too_large(self):
+        for text in ("1e400", "-1e400", "1" + 400 * "0"):
+            self.refuse_number(text, "out of range")
+
+    def test_too_large_for_single_precision(self):
+        content = as_text([(0, 0, 0), (1, "1e39", 0), (0, 1, 0)], "a.ply")
+        self.write("a.ply", content.replace("double", "float"))
+        self.refuse("a.ply", "line 11", "'1e39' is out of range")
+
+    def test_missing_number(self):
+        for name in ("a.obj", "a.ply", "a.stl"):
+            self.write(name, as_text([(0, 0, 0), (1, "", 0), (0, 1, 0)], name))
+            self.refuse(name, f"line {TEXTS[name]}")
+
+    def test_integers_of_attributes(self):
+        content = as_text(TRIANGLE, "a.ply").replace("element face", "property uchar q\nelement face")
+        for text in ("256", "-1", "1.5", "x"):
+            rows = content.replace("0 0 0\n", "0 0 0 7\n").replace("1 0 0\n", f"1 0 0 {text}\n")
+            self.write("a.ply", rows.replace("0 1 0\n", "0 1 0 9\n"))
+            self.refuse("a.ply", "line 12", f"'{text}'")
+
+
+class Lines(BadFileTest):
+    def test_byte_order_mark_and_old_line_ends(self):
+        for name in ("a.obj", "a.ply", "a.stl", "a.vtk"):
+            text = as_text([(0, 0, 0), (1, 0.5, 0), (0, 1, 0)], name)
+            expected = None
+            for mark in ("", "\ufeff"):
+                for end in ("\n", "\r\n", "\r"):
+                    self.write(name, (mark + text.replace("\n", end)).encode("utf-8"))
+                    self.succeed(name, "out.vtk")
+                    points = points_of(read_mesh(self.path("out.vtk")))
+                    expected = expected or points
+                    self.assertEqual(points, expected, (name, mark, end))
+            self.assertEqual(expected[1], (1, 0.5, 0))
+
+    def test_lines_are_counted_with_any_end(self):
+        for end in ("\n", "\r\n", "\r"):
+            self.write("a.obj", as_text([(0, 0, 0), (1, "x", 0), (0, 1, 0)], "a.obj").replace("\n", end))
+            self.refuse("a.obj", "line 2:")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every element and property of a .ply, as text and binary of both byte orders."""
+
+import struct
+import unittest
+
+from CommandTesting import cells_of, points_of, read_mesh, triangles_of
+from TestBadFiles import BadFileTest
+from TestObj import tuples_of
+
+CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
+         "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
+         "int32": "i", "uint32": "I", "float32": "f", "float64": "d"}  # fmt: skip
+XYZ = ["float x", "float y", "float z"]
+INDICES = ["list uchar int vertex_indices"]
+SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+ENCODINGS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+def make_ply(encoding, *elements):
+    """A file of elements (name, properties, rows); a row has a list for each list property."""
+    head = ["ply", f"format {encoding} 1.0", "comment made for a test"]
+    body = b""
+    for name, properties, rows in elements:
+        head.append(f"element {name} {len(rows)}")
+        head += [f"property {text}" for text in properties]
+        for row in rows:
+            body += pack(ENCODINGS[encoding], properties, row)
+    return "\n".join(head + ["end_header", ""]).encode() + body
+
+
+def pack(order, properties, row):
+    values = []  # (type, value)
+    for text, value in zip(properties, row):
+        words = text.split()
+        if words[0] == "list":
+            values.append((words[1], len(value)))
+            values += [(words[2], item) for item in value]
+        else:
+            values.append((words[0], value))
+    if not order:
+        return " ".join(repr(value) for _, value in values).encode() + b"\n"
+    return b"".join(struct.pack(order + CODES[kind], value) for kind, value in values)
+
+
+class PlyTest(BadFileTest):
+    def read_all(self, *elements):
+        """The mesh of each encoding, and what was said of it."""
+        for encoding in ENCODINGS:
+            self.write("a.ply", make_ply(encoding, *elements))
+            result = self.succeed("a.ply", "out.vtp")
+            yield read_mesh(self.path("out.vtp")), result.stderr
+
+    def refuse_all(self, elements, *naming):
+        for encoding in ENCODINGS:
+            self.write("a.ply", make_ply(encoding, *elements))
+            self.refuse("a.ply", *naming)
+
+
+class Elements(PlyTest):
+    def test_triangle_strips(self):
+        """The original form of igea.ply; -1 separates strips."""
+        strips = [([0, 1, 2, 3, -1, 3, 2, 1],), ([0, 1, 3],), ([-1, 2, -1],)]
+        for mesh, _ in self.read_all(
+            ("vertex", XYZ, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]),
+            ("tristrips", ["list int int vertex_indices"], strips),
+        ):
+            triangles = triangles_of(mesh)
+            self.assertEqual(triangles, [(0, 1, 2), (2, 1, 3), (3, 2, 1), (0, 1, 3)])
+
+    def test_faces_and_strips_and_edges(self):
+        for mesh, _ in self.read_all(
+            ("edge", ["int vertex1", "int vertex2", "uchar red"], [(0, 1, 9), (2, 3, 9)]),
+            ("vertex", XYZ, SQUARE),
+            ("tristrips", INDICES, [([0, 2, 3],)]),
+            ("face", INDICES + ["short mark"], [([0, 1, 2], -7)]),
+        ):
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
+            self.assertEqual(cells_of(mesh.GetLines()), [(0, 1), (2, 3)])
+            marks = [int(mark) for (mark,) in tuples_of(mesh.GetCellData().GetArray("mark"))]
+            self.assertEqual(marks, [0, 0, -7, 0])
+
+    def test_unknown_element_with_lists_is_refused(self):
+        vertices = ("vertex", XYZ, SQUARE)
+        polygons = ("polygons", INDICES, [([0, 1, 2],)])
+        self.refuse_all((vertices, polygons), "'polygons'")
+        self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)]), polygons), "'polygons'")
+        self.refuse_all((vertices, ("triangle", ["int a", "int b"], [(0, 1)])), "'triangle'")
+
+    def test_other_elements_are_left_out_with_a_note(self):
+        for mesh, said in self.read_all(
+            ("camera", ["float view", "double far"], [(1, 2)]),
+            ("vertex", XYZ, SQUARE),
+            ("face", INDICES, [([0, 1, 2],)]),
+        ):
+            self.assertIn("a.ply: ignored 1 element of the unknown type 'camera'", said)
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
+
+    def test_vertices_that_do_not_exist(self):
+        for bad in (4, -1, -2):
+            faces = ("face", INDICES, [([0, 1, 2],), ([0, 1, bad],)])
+            self.refuse_all((("vertex", XYZ, SQUARE), faces), f"vertex {bad} is out of range")
+        strips = ("tristrips", INDICES, [([0, 1, 4],)])
+        self.refuse_all((("vertex", XYZ, SQUARE), strips), "vertex 4 is out of range")
+        edges = ("edge", ["int vertex1", "int vertex2"], [(0, 4)])
+        self.refuse_all((("vertex", XYZ, SQUARE), edges), "edge 0")
+
+    def test_rows_of_another_length(self):
+        content = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+        for row, line in ((b"3 0 1", 15), (b"3 0 1 2 3", 15), (b"", 16)):
+            self.write("a.ply", content.replace(b"3 0 1 2\n", row + b"\n"))
+            self.refuse("a.ply", f"line {line}:")
+
+    def test_bytes_behind_the_end_are_named(self):
+        for encoding in ENCODINGS:
+            content = make_ply(encoding, ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+            self.write("a.ply", content + b"3 0 2 3")
+            self.assertIn("a.ply: ignored 7 bytes after its last", self.succeed("a.ply", "out.vtp").stderr)
+
+
+class Properties(PlyTest):
+    def test_double_coordinates(self):
+        points = [(581311.123 + i, 4785270.456 + i * i, 1 / 3) for i in range(3)]
+        axes = ["double x", "double y", "double z"]
+        for mesh, said in self.read_all(
+            ("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])
+        ):
+            self.assertEqual(points_of(mesh), points)
+            self.assertEqual(said, "")
+
+    def test_single_precision_stays(self):
+        points = [(0.5, 1.25, 3), (1, 0, 0), (0, 1, 0)]
+        for mesh, _ in self.read_all(("vertex", XYZ, points), ("face", INDICES, [([0, 1, 2],)])):
+            self.assertEqual(mesh.GetPoints().GetData().GetClassName(), "vtkFloatArray")
+
+    def test_mixed_types_of_coordinates(self):
+        points = [(i, i * i, 0.1 * i) for i in range(3)]
+        axes = ["int x", "uchar y", "double z"]
+        for mesh, _ in self.read_all(("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])):
+            self.assertEqual(points_of(mesh), points)
+
+    def test_every_type(self):
+        """Values at both ends of the range of each type."""
+        types = [kind for kind in CODES if kind[-1].isalpha()]
+        extremes = {"b": 7, "h": 15, "i": 31}
+        rows = []
+        for low in (True, False, True):
+            row = [0.0, float(len(rows)), float(len(rows) ** 2)]
+            for kind in types:
+                bits = extremes.get(CODES[kind].lower())
+                signed = CODES[kind].islower()
+                top = 2 ** (bits + (not signed)) - 1 if bits else 1.5
+                row.append((-top - 1 if signed else 0) if low and bits else top)
+            rows.append(row)
+        properties = XYZ + [f"{kind} a_{kind}" for kind in types]
+        for mesh, _ in self.read_all(
+            ("vertex", properties, rows), ("face", INDICES, [([0, 1, 2],)])
+        ):
+            for place, kind in enumerate(types):
+                values = tuples_of(mesh.GetPointData().GetArray(f"a_{kind}"))
+                self.assertEqual(values, [(row[3 + place],) for row in rows], kind)
+
+    def test_colors_normals_and_texture(self):
+        vertex = XYZ + ["float nx", "float ny", "float nz", "uchar red", "uchar green"]
+        vertex += ["uchar blue", "uchar alpha", "float s", "float t", "float quality"]
+        rows = [(*p, 0, 0, 1, 10 * i, 20, 30, 40, i / 4, 0.5, i / 8) for i, p in enumerate(SQUARE)]
+        face = INDICES + ["uchar red", "uchar green", "uchar blue", "int region"]
+        for mesh, said in self.read_all(
+            ("vertex", vertex, rows),
+            ("face", face, [([0, 1, 2], 1, 2, 3, 77), ([0, 2, 3], 4, 5, 6, 88)]),
+        ):
+            self.assertEqual(said, "")
+            points, cells = mesh.GetPointData(), mesh.GetCellData()
+            self.assertEqual(tuples_of(points.GetNormals()), [(0, 0, 1)] * 4)
+            self.assertEqual(points.GetScalars().GetName(), "RGBA")
+            self.assertEqual(tuples_of(points.GetScalars())[3], (30, 20, 30, 40))
+            self.assertEqual(tuples_of(points.GetTCoords())[2], (0.5, 0.5))
+            self.assertEqual(tuples_of(points.GetArray("quality"))[3], (0.375,))
+            self.assertEqual(tuples_of(cells.GetArray("RGB")), [(1, 2, 3), (4, 5, 6)])
+            self.assertEqual(tuples_of(cells.GetArray("region")), [(77,), (88,)])
+
+    def test_texture_of_corners(self):
+        face = ["list uchar float texcoord", "list uchar int vertex_index"]
+        for mesh, said in self.read_all(
+            ("vertex", XYZ, SQUARE),
+            (
+                "face",
+                face,
+                [([0, 0, 1, 0, 1, 1], [0, 1, 2]), ([0, 0, 0.5, 1, 0, 1], [0, 2, 3]), ([], [3, 2, 1])],
+            ),
+        ):
+            self.assertIn("repeated 1 point along seams", said)
+            self.assertEqual(points_of(mesh)[4:], [(1, 1, 0)])
+            coordinates = tuples_of(mesh.GetPointData().GetTCoords())
+            self.assertEqual(coordinates, [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 1)])
+        self.refuse_all(
+            (("vertex", XYZ, SQUARE), ("face", face, [([0, 0, 1, 0], [0, 1, 2])])), "face 0"
+        )
+
+    def test_other_lists_are_left_out_with_a_note(self):
+        vertex = ["list uchar int neighbours"] + XYZ
+        rows = [([1, 2, 3], *point) for point in SQUARE]
+        face = ["list int float weights"] + INDICES
+        for mesh, said in self.read_all(
+            ("vertex", vertex, rows), ("face", face, [([0.5], [0, 1, 2]), ([], [0, 2, 3])])
+        ):
+            self.assertIn("a.ply: ignored the lists neighbours of the element vertex", said)
+            self.assertIn("a.ply: ignored the lists weights of the element face", said)
+            self.assertEqual(points_of(mesh), SQUARE)
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
+
+
+class Heads(PlyTest):
+    def test_what_is_wrong_is_on_its_line(self):
+        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+        for old, new, line in (
+            (b"format ascii", b"format utf8", 2),
+            (b"vertex 4", b"vertex four", 4),
+            (b"vertex 4", b"vertex -4", 4),
+            (b"float y", b"quad y", 6),
+            (b"list uchar", b"list float", 9),
+            (b"element face", b"elements face", 8),
+            (b"element face 1", b"element vertex 1", 8),
+        ):
+            self.assertIn(old, good)
+            self.write("a.ply", good.replace(old, new))
+            self.refuse("a.ply", f"line {line}:")
+
+    def test_what_is_missing(self):
+        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+        for old, new, naming in (
+            (b"float z", b"float w", "x, y and z"),
+            (b"vertex_indices", b"corners", "vertex_indices"),
+            (b"element vertex", b"element points", "number of vertices is 0"),
+        ):
+            self.write("a.ply", good.replace(old, new))
+            self.refuse("a.ply", naming)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
