@@ -148,7 +148,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
     "available; 130 interrupted. After a failure no file has been changed.");
-  app.add_option("INPUT", arguments.Input, "The mesh to read")->required();
+  app.add_option("INPUT", arguments.Input, "The mesh to read: .vtk, .vtp, .ply, .stl or .obj")
+    ->required();
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments.Flip);
   AddRunOptions(app, arguments);
