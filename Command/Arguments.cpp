@@ -93,7 +93,8 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     ->check(Within(-1.0, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
   app
     .add_option("--threads", arguments.Flip.NumberOfThreads,
-      "Number of CPU threads; 0: all. The result does not depend on it [0]")
+      "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
+      "that is more. The result does not depend on it [0]")
     ->check(Within(0.0, 65536.0, "a number of threads (0 to 65536)"));
   app.add_flag("--quality", arguments.Quality,
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after (.vtk "

@@ -72,7 +72,8 @@ struct FlipOptions
   /// loop in floating point, -1 means the number of triangles + 1000.
   std::int64_t MaximumIterations = -1;
 
-  /// Threads to use; 0: as many as the machine has. The result does not depend on it.
+  /// Threads to use; 0: as many as the machine has. At most twice as many are used, or 16 if that
+  /// is more, and fewer if the system cannot start so many. The result does not depend on it.
   int NumberOfThreads = 0;
 
   /// CUDA's number of the GPU to use; -1: the one that is current in the calling thread.

@@ -267,8 +267,9 @@ public:
 
   ///@{
   /**
-   * The number of CPU threads; 0 (default): as many as the machine has. The result does not depend
-   * on it.
+   * The number of CPU threads; 0 (default): as many as the machine has. At most twice as many are
+   * used, or 16 if that is more, and fewer if the system cannot start so many; GetBackendUsed()
+   * tells how many there were. The result does not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);

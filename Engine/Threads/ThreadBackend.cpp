@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadBackend.h"
 
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <new>
 #include <thread>
 
 #if defined(DELAUNAYFLIP_STD_THREADS)
-#include <atomic>
 #include <exception>
 #include <mutex>
 #else
@@ -19,9 +22,64 @@ namespace delaunayflip
 
 namespace
 {
+/// Starts up to `most` threads at once. @returns how many there can be beside the calling one.
+int CountStartable(int most)
+{
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  std::atomic<int> arrived{ 0 };
+  std::vector<std::thread> threads;
+  threads.reserve(most);
+  try
+  {
+    while (static_cast<int>(threads.size()) < most)
+    {
+      threads.emplace_back(
+        [&arrived, ended]()
+        {
+          // The C library reserves address space for each thread that allocates.
+          const std::unique_ptr<volatile char[]> some(new (std::nothrow) volatile char[64]);
+          ++arrived;
+          ended.wait();
+        });
+      while (arrived < static_cast<int>(threads.size()))
+      {
+        std::this_thread::yield();
+      }
+    }
+  }
+  catch (const std::exception&)
+  {
+    // The system has no room for more.
+  }
+  end.set_value();
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  return static_cast<int>(threads.size());
+}
+
+/// As many threads as this have been started at once in this process.
+std::atomic<int> mostStarted{ 1 };
+
+/// oneTBB ends the process where the system refuses it a thread, so that is tried before. Half of
+/// those that there is room for leave memory for the mesh.
+int LimitToStartable(int threads)
+{
+  if (threads <= mostStarted)
+  {
+    return threads;
+  }
+  const int startable = 1 + CountStartable(threads - 1);
+  return startable < threads ? std::max(1, startable / 2) : threads;
+}
+
 int ResolveThreads(int threads)
 {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int most = std::max(MostThreads, 2 * cores);
+  return LimitToStartable(threads > 0 ? std::min(threads, most) : cores);
 }
 }
 
@@ -56,6 +114,7 @@ public:
       }
     };
     std::vector<std::thread> helpers;
+    helpers.reserve(this->Size);
     for (std::int64_t i = 1; i < std::min<std::int64_t>(this->Size, count); ++i)
     {
       helpers.emplace_back(drain);
@@ -86,6 +145,11 @@ public:
           tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
       Arena(threads)
   {
+    if (threads > mostStarted)
+    {
+      mostStarted = threads;
+      this->StartAll();
+    }
   }
 
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
@@ -95,6 +159,26 @@ public:
   }
 
   int Size;
+
+private:
+  /// oneTBB starts threads when there is work, when the mesh may have left no room for them. It
+  /// keeps those that it has.
+  void StartAll()
+  {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(100);
+    std::atomic<int> arrived{ 0 };
+    this->Run(this->Size,
+      [&](std::int64_t)
+      {
+        ++arrived;
+        while (arrived < this->Size && Clock::now() < deadline)
+        {
+          std::this_thread::yield();
+        }
+      });
+  }
+
   tbb::global_control Allowance; // lets a caller ask for more threads than cores
   tbb::task_arena Arena;
 };

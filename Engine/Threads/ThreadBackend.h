@@ -23,6 +23,10 @@
 namespace delaunayflip
 {
 
+/// More threads than this are used only where there are more than half as many cores: they would
+/// cost memory and help nobody.
+constexpr int MostThreads = 16;
+
 /// Number of the first item of every piece of a range, and of all items (ForEachNumbered).
 struct ThreadNumbering
 {
@@ -39,7 +43,8 @@ struct ThreadNumbering
 class ThreadBackend
 {
 public:
-  /// @param threads 0: as many as the machine has.
+  /// @param threads 0: as many as the machine has. What is too many to help, or for the system, is
+  /// reduced.
   explicit ThreadBackend(int threads);
   ~ThreadBackend();
   ThreadBackend(ThreadBackend&&) noexcept;

@@ -3,9 +3,12 @@
 """Tests that the options reach the filter, each with a mesh for which the option matters."""
 
 import math
+import os
+import resource
 import unittest
 
-from CommandTesting import CommandTest, bumpy_grid, make_mesh, triangle_set, read_mesh, write_mesh
+from CommandTesting import (
+    CommandTest, bumpy_grid, make_mesh, random_insertion, triangle_set, read_mesh, write_mesh)
 
 # Divided along its long diagonal.
 KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
@@ -82,6 +85,26 @@ class Options(CommandTest):
         arguments = (path, "out.vtk", "--backend", "threads", "--threads")
         for threads in (1, 3):
             self.assertEqual(self.report(*arguments, threads)["backend"], f"Threads: {threads}")
+
+    def test_too_many_threads(self):
+        path = write_mesh(random_insertion(5000), self.path("in.vtk"))
+        arguments = (path, "out.vtk", "--backend", "threads", "--threads")
+        backend = self.report(*arguments, 65536)["backend"]
+        self.assertLessEqual(int(backend.split()[1]), max(16, 2 * os.cpu_count()))
+        with open(self.path("out.vtk"), "rb") as file:
+            expected = file.read()
+        for megabytes in (200, 250, 300, 350, 400, 500, 800):  # with room for a few of their stacks
+            limit = megabytes << 20
+            result = self.run_command(
+                *arguments, "2000",
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            if result.returncode == 0:
+                with open(self.path("out.vtk"), "rb") as file:
+                    self.assertEqual(file.read(), expected)
+            else:
+                self.assertEqual(result.returncode, 3)
+                self.assertIn("not enough memory", result.stderr)
+        self.assertEqual(result.returncode, 0)  # 800 MiB are enough
 
 
 if __name__ == "__main__":

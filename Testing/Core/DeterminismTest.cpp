@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <thread>
+
 namespace delaunayflip
 {
 namespace
@@ -74,6 +79,18 @@ TEST_P(DeterminismTest, AnyNumberOfThreadsGivesTheSameBits)
     this->Options.NumberOfThreads = threads;
     this->ExpectSame(Flip(this->Mesh.View(), this->Options));
     ASSERT_FALSE(HasFailure()) << threads << " threads";
+  }
+}
+
+TEST_P(DeterminismTest, MoreThreadsThanCanHelpAreReduced)
+{
+  this->Options.NumberOfThreads = std::numeric_limits<int>::max();
+  const FlipResult result = Flip(this->Mesh.View(), this->Options);
+  this->ExpectSame(result);
+  if (!IsTestBackendCuda())
+  {
+    const int most = std::max(16, 2 * static_cast<int>(std::thread::hardware_concurrency()));
+    EXPECT_LE(std::stoi(result.Report.Backend.substr(std::string("Threads: ").size())), most);
   }
 }
 
