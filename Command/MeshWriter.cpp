@@ -4,9 +4,11 @@
 
 #include "CommandError.h"
 #include "Console.h"
+#include "Counted.h"
 #include "DiskSpace.h"
 #include "MeshReader.h"
 
+#include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
@@ -77,6 +79,40 @@ void WriteObj(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
   Run(writer.Get(), mesh, path, messages);
 }
 
+void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what)
+{
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    const vtkIdType size = cells->GetCellSize(cell);
+    if (size < fewest)
+    {
+      throw CommandError(ExitCode::BadFile,
+        what + " " + std::to_string(cell) + " has " + Counted(size, "point") +
+          ", too few for this file format");
+    }
+  }
+}
+
+/// VTK's writers crash on cells of fewer points than their kind has (.vtp), or write what nothing
+/// can read.
+void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
+{
+  const bool isXml = format == MeshFormat::VTP;
+  if (isXml)
+  {
+    RequireSizes(mesh->GetVerts(), 1, "vert");
+    RequireSizes(mesh->GetStrips(), 3, "strip");
+  }
+  if (isXml || format == MeshFormat::OBJ)
+  {
+    RequireSizes(mesh->GetLines(), 2, "line");
+  }
+  if (isXml || format == MeshFormat::OBJ || format == MeshFormat::STL)
+  {
+    RequireSizes(mesh->GetPolys(), 3, "polygon");
+  }
+}
+
 void WriteUnchecked(
   vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages)
 {
@@ -126,6 +162,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
   std::string difference;
   try
   {
+    RequireStorableCells(mesh, format);
     WriteUnchecked(mesh, path, format, messages);
     const FileMesh written = ReadMesh(path, format, RepeatedPoints::Keep, messages);
     if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))

@@ -178,6 +178,21 @@ class Lost(CommandTest):
             for words in everywhere + more:
                 self.assertIn(words, line)
 
+    def test_cells_of_too_few_points(self):
+        """VTK's .vtp writer crashes on them."""
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+        for size in (0, 1, 2):
+            mesh = make_mesh(points, [(0, 1, 2), tuple(range(size))])
+            path = write_mesh(mesh, self.path("in.vtk"))
+            self.succeed(path, "out.vtk")
+            self.assertEqual(triangles_of(read_mesh(self.path("out.vtk")))[1], tuple(range(size)))
+            for name in ("out.vtp", "out.obj", "out.stl"):
+                self.fail_with(3, path, name, naming=[name, f"polygon 1 has {size} point"])
+        lines = make_mesh(points, [(0, 1, 2)], [(1,)])
+        for name in ("out.vtp", "out.obj"):
+            path = write_mesh(lines, self.path("in.vtk"))
+            self.fail_with(3, path, name, naming=[name, "line 0 has 1 point,"])
+
     def test_nothing_is_said_where_nothing_is_lost(self):
         for extension in FORMATS:
             self.assertEqual(self.losses(bumpy_grid(4, 0), "out" + extension), "")
