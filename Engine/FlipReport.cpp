@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -58,12 +60,43 @@ std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
   return text.str();
 }
 
+namespace
+{
+
+/// What a single one is called, as far as its beginning goes.
+std::string InSingular(const std::string& what)
+{
+  static const std::pair<std::string, std::string> beginnings[] = {
+    { "triangles that turn ", "triangle that turns " },
+    { "triangles that repeat ", "triangle that repeats " },
+    { "triangles ", "triangle " },
+    { "points ", "point " },
+    { "constraint edges that are not edges ", "constraint edge that is not an edge " },
+  };
+  for (const auto& [several, one] : beginnings)
+  {
+    if (what.compare(0, several.size(), several) == 0)
+    {
+      return one + what.substr(several.size());
+    }
+  }
+  return what;
+}
+
+std::string CountDefect(const Defect& defect)
+{
+  return std::to_string(defect.Count) + " " +
+    (defect.Count == 1 ? InSingular(defect.What) : defect.What);
+}
+
+}
+
 std::string DescribeDefects(const std::vector<Defect>& defects)
 {
   std::string text;
   for (const Defect& defect : defects)
   {
-    text += (text.empty() ? "" : "; ") + std::to_string(defect.Count) + " " + defect.What;
+    text += (text.empty() ? "" : "; ") + CountDefect(defect);
     const char* separator = " (first: ";
     for (const std::int64_t id : defect.FirstIds)
     {

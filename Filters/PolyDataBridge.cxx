@@ -18,6 +18,7 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -103,6 +104,9 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
       {
         id = this->Slots.GetCell(id);
       }
+      // Several triangles of a polygon are one cell.
+      defect.FirstIds.erase(
+        std::unique(defect.FirstIds.begin(), defect.FirstIds.end()), defect.FirstIds.end());
     }
   }
 }

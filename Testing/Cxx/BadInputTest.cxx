@@ -172,7 +172,7 @@ TEST(VtkDelaunayFlip, ErrorIsOverWhenTheInputIs)
 TEST(VtkDelaunayFlip, RepeatedIdsWarnAndStay)
 {
   WatchedFilter filter(MakeRhombusAnd({}, { { 1, 1, 2 } }));
-  EXPECT_TRUE(Holds(GetWarning(filter), "1 triangles with a repeated point id"));
+  EXPECT_TRUE(Holds(GetWarning(filter), "1 triangle with a repeated point id"));
   EXPECT_EQ(GetCell(filter->GetOutput(), 2), Cell({ 1, 1, 2 }));
 }
 
@@ -181,7 +181,7 @@ TEST(VtkDelaunayFlip, DuplicateTrianglesWarnAndStay)
   const Points far = { { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } };
   WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6 }, { 6, 5, 4 } }));
   const std::string warning = GetWarning(filter);
-  EXPECT_TRUE(Holds(warning, "repeat another")) << warning;
+  EXPECT_TRUE(Holds(warning, "1 triangle that repeats another")) << warning;
   EXPECT_EQ(GetCell(filter->GetOutput(), 3), Cell({ 6, 5, 4 }));
   EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
 }
@@ -202,6 +202,14 @@ TEST(VtkDelaunayFlip, ZeroAreaWarns)
   WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6 } }));
   EXPECT_TRUE(Holds(GetWarning(filter), "without area"));
   EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+}
+
+TEST(VtkDelaunayFlip, WarningNamesAPolygonOnce)
+{
+  const Points far = { { 10, 0, 0 }, { 11, 0, 0 }, { 12, 0, 0 }, { 13, 0, 0 } };
+  WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6, 7 } }));
+  const std::string warning = GetWarning(filter);
+  EXPECT_TRUE(Holds(warning, "2 triangles without area (first: 2)")) << warning;
 }
 
 TEST(VtkDelaunayFlip, InvertedTrianglesWarn)

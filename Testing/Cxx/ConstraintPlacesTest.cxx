@@ -230,7 +230,7 @@ TEST(ConstraintPlaces, LinesOfTheMeshAndOthersTogether)
     { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 4, 0, 0 } }, { { 0, 1 }, { 0, 2 }, { 2, 3 } });
   WatchedFilter filter(mesh);
   EXPECT_EQ(Constrain(filter, lines), Counts(2, 2));
-  for (const char* text : { "1 constraint edges that are not edges of the mesh",
+  for (const char* text : { "1 constraint edge that is not an edge of the mesh",
          "1 constraint edges of the second input that the mesh does not have" })
   {
     EXPECT_NE(filter.GetWarnings()[0].find(text), std::string::npos) << filter.GetWarnings()[0];
