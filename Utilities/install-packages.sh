@@ -2,10 +2,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: install-packages.sh build|demo|test|paraview
-# Installs the Debian packages that building, the demo, the tests or the ParaView plugin with its
-# tests need; asks nothing, and touches nothing when all of them are there already. ParaView itself
-# is not among them, since it cannot be installed beside python3-vtk9: see get-paraview.sh.
+# Usage: install-packages.sh build|demo|test|paper|paraview
+# Installs the Debian packages that building, the demo, the tests, the reproduction of the paper or
+# the ParaView plugin with its tests need; asks nothing, and touches nothing when all of them are
+# there already. ParaView itself is not among them, since it cannot be installed beside
+# python3-vtk9: see get-paraview.sh.
 set -euo pipefail
 
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
@@ -15,7 +16,9 @@ build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-de
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format-14 clang-format universal-ctags
-  python3-numpy)
+  python3-numpy python3-matplotlib)
+paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
+  python3-numpy python3-matplotlib)
 # What find_package(ParaView) of Debian's paraview-dev asks for without depending on it, and what
 # ParaView's programs load.
 paraview=("${engine[@]}" xvfb xauth
@@ -33,9 +36,10 @@ case "${1:-}" in
   build) wanted=("${build[@]}") ;;
   demo) wanted=("${build[@]}" "${demo[@]}") ;;
   test) wanted=("${build[@]}" "${tests[@]}") ;;
+  paper) wanted=("${paper[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
   *)
-    echo "usage: $0 build|demo|test|paraview" >&2
+    echo "usage: $0 build|demo|test|paper|paraview" >&2
     exit 2
     ;;
 esac

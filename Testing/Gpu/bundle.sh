@@ -16,13 +16,6 @@ build=$root/build-gpu
 output=${1:-delaunay-flip-gpu.tar.gz}
 programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark)
 
-# Usage: list_libraries PROGRAM... - paths of their shared libraries but those of every Linux.
-list_libraries()
-{
-  ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' |
-    grep -v -E '/(libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s)\.so' | sort -u
-}
-
 describe()
 {
   echo "commit: $(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)"
@@ -38,7 +31,7 @@ fill()
   for program in "${programs[@]}"; do
     strip -o "$folder/$program" "$build/bin/$program"
   done
-  list_libraries "${programs[@]/#/$build/bin/}" | while read -r library; do
+  "$root/Utilities/shared_libraries.sh" "${programs[@]/#/$build/bin/}" | while read -r library; do
     cp -L "$library" "$folder/libs/"
   done
   cp "$here/run.sh" "$here/summarize.py" "$root/LICENSE" "$folder/"

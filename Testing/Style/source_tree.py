@@ -10,7 +10,7 @@ SKIPPED = 125  # CTest's SKIP_RETURN_CODE in this project
 
 CPP_SUFFIXES = (".h", ".c", ".cpp", ".cxx", ".cuh", ".cu")
 
-UNTRACKED = (".git", "demo-output", "__pycache__")
+UNTRACKED = (".git", "demo-output", "paper-output", "__pycache__")
 
 
 def list_files(root):

@@ -37,7 +37,7 @@ struct PaperOptions
   int Dimension = 2; ///< 2: by x and y; 3: in space.
 
   /// Of eq. 5, in radians; of InCircle, relative to the magnitude of the determinant's terms.
-  double Epsilon = 5e-4;
+  double Epsilon = 1e-3;
 
   /// In space, edges whose two triangles' normals differ by more than this many degrees stay, as
   /// far as they differ when the edge is tested; 180: none.
