@@ -108,6 +108,8 @@ def draw_chain(results):
     right.set(xlabel="triangles m", ylabel="milliseconds", xscale="log", yscale="log",
               title="Time of all flips")
     show_legend(right)
+    if not right.lines:
+        right.remove()
     return save(figure, results, "fig6")
 
 
@@ -170,7 +172,8 @@ def draw_iterations(results):
         if not points:
             continue
         style = style_of(program)
-        axes.plot(*zip(*points), **{**style, "linestyle": "none"})
+        hollow = {"fillstyle": "none", "markersize": 10} if program == "no-chunks" else {}
+        axes.plot(*zip(*points), **{**style, **hollow, "linestyle": "none"})
         fit = fit_logarithm(points)
         if fit:
             sizes = numpy.geomspace(points[0][0], points[-1][0], 50)

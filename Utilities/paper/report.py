@@ -5,8 +5,11 @@
 import base64
 import html
 import os
+import textwrap
 
-from sections import Table, make_sections, number
+from claims import make_claims
+from sections import make_sections
+from tables import Table
 
 TITLE = "The paper, reproduced"
 INTRODUCTION = (
@@ -28,14 +31,20 @@ dt { font-weight: bold; margin-top: .6em }
 
 
 def write(results):
+    sections, tables = gather(results)
+    with open(os.path.join(results.folder, "report.md"), "w", encoding="utf-8") as file:
+        file.write(make_markdown(sections, tables) + "\n")
+    with open(os.path.join(results.folder, "report.html"), "w", encoding="utf-8") as file:
+        file.write(make_html(sections, tables, results.folder))
+
+
+def gather(results):
+    """All sections, and (title, table) of what comes after them."""
     sections = make_sections(results)
     for section in sections:
         section.plots = [plot for plot in section.plots if plot]
-    tables = [describe_machine(results), list_rivals(results), list_failures(results)]
-    with open(os.path.join(results.folder, "report.md"), "w", encoding="utf-8") as file:
-        file.write(make_markdown(sections, tables))
-    with open(os.path.join(results.folder, "report.html"), "w", encoding="utf-8") as file:
-        file.write(make_html(sections, tables, results.folder))
+    return sections, [("The claims of the paper", make_claims(results)),
+                      describe_machine(results), list_rivals(results), list_failures(results)]
 
 
 def describe_machine(results):
@@ -58,27 +67,23 @@ def list_failures(results):
     return "What did not run to its end", Table(("part", "reason"), rows)
 
 
-def make_markdown(sections, tables):
-    lines = [f"# {TITLE}", "", INTRODUCTION, ""]
+def make_markdown(sections, tables, images="plots"):
+    lines = [f"# {TITLE}", "", *wrap(INTRODUCTION)]
     for section in sections:
-        lines += [f"## {section.title}", "", f"**The paper says:** {section.paper}", "",
-                  f"**Measured here:** {' '.join(section.measured)}", "",
-                  f"**Where we depart, and why:** {section.departures}", ""]
+        lines += [f"## {section.title}", "", *wrap(f"**The paper says:** {section.paper}"),
+                  *wrap(f"**Measured here:** {' '.join(section.measured)}"),
+                  *wrap(f"**Where we depart, and why:** {section.departures}")]
         for plot in section.plots:
-            lines += [f"![{section.title}](plots/{plot}.png)", ""]
+            lines += [f"![{section.title}]({images}/{plot}.png)", ""]
         for table in section.tables:
-            lines += table_in_markdown(table)
+            lines += table.in_markdown()
     for title, table in tables:
-        lines += [f"## {title}", "", *table_in_markdown(table)]
+        lines += [f"## {title}", "", *table.in_markdown()]
     return "\n".join(lines)
 
 
-def table_in_markdown(table):
-    lines = ["| " + " | ".join(table.headers) + " |", "|---" * len(table.headers) + "|"]
-    for row in table.rows:
-        cells = [number(cell).replace("|", "/").replace("\n", " ") for cell in row]
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines + [""]
+def wrap(text):
+    return [*textwrap.wrap(text, 98, break_long_words=False, break_on_hyphens=False), ""]
 
 
 def make_html(sections, tables, folder):
@@ -92,9 +97,9 @@ def make_html(sections, tables, folder):
             parts.append(f"<dt>{term}</dt><dd>{html.escape(text)}</dd>")
         parts.append("</dl>")
         parts += [embed(folder, plot, section.title) for plot in section.plots]
-        parts += [table_in_html(table) for table in section.tables]
+        parts += [table.in_html() for table in section.tables]
     for title, table in tables:
-        parts.append(f"<h2>{title}</h2>{table_in_html(table)}")
+        parts.append(f"<h2>{title}</h2>{table.in_html()}")
     return "\n".join(parts) + "\n</html>\n"
 
 
@@ -102,11 +107,3 @@ def embed(folder, plot, title):
     with open(os.path.join(folder, "plots", plot + ".svg"), "rb") as file:
         data = base64.b64encode(file.read()).decode()
     return f"<p><img alt='{html.escape(title)}' src='data:image/svg+xml;base64,{data}'></p>"
-
-
-def table_in_html(table):
-    head = "".join(f"<th>{html.escape(cell)}</th>" for cell in table.headers)
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{html.escape(number(cell))}</td>" for cell in row) + "</tr>"
-        for row in table.rows)
-    return f"<table><tr>{head}</tr>{rows}</table>"

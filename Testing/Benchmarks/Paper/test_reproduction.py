@@ -36,6 +36,7 @@ TITLES = (
     "Fig. 10, Fig. 11 and Table 2: surfaces",
     "Future work 1: in-circle against opposite angles",
     "Future work 2: surfaces of bad quality",
+    "The claims of the paper",
     "Machine",
     "Other people's programs",
     "What did not run to its end",
