@@ -18,7 +18,7 @@ inline std::int64_t GetSum(const IterationSums& iteration, IterationSum sum)
   return static_cast<std::int64_t>(iteration.Values[static_cast<int>(sum)]);
 }
 
-/// The bad edges of a mesh on a device, by the reason why they do not flip.
+/// How many edges of a mesh on a device are bad or blocked, by kind.
 struct BadEdgeCounts
 {
   std::int64_t Tested = 0, Bad = 0, BlockedByShape = 0, BlockedByEdge = 0;

@@ -37,7 +37,7 @@ struct DeviceMesh
 
   const TriangleMesh& View() const { return this->Mesh; }
 
-  /// Free what the engine has in a form of its own by now.
+  /// Frees the array of which the engine now has its own form.
   void DropPoints()
   {
     this->Floats = Array<float>();
@@ -58,15 +58,15 @@ struct DeviceNumbering
   std::int64_t Total = 0;
 };
 
-/// "For every item do this" on a GPU: the counterpart of ThreadBackend, with the same results.
+/// Runs work for every item on a GPU: the counterpart of ThreadBackend, with the same results.
 /// Calls return before the work is done, except those that return something to the host.
 ///
 /// Every call may throw BackendUnavailable.
 class CudaBackend
 {
 public:
-  /// @param device -1: the current one.
-  /// @param threads of the CPU, for conversions on the way.
+  /// @param device CUDA's number of the GPU; -1: the current one.
+  /// @param threads the number of CPU threads, for conversions of copied data.
   CudaBackend(int device, int threads)
     : Context(ResolveDevice(device)),
       Threads(threads)
@@ -163,7 +163,7 @@ public:
   template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
 
-  /// A device has no other way than the edge table.
+  /// A device always uses the edge table.
   bool PairCorners(EdgeMesh&, std::int64_t, PairSums&, Numbering&) const { return false; }
 
   /// Sets the bytes of `size` values.
@@ -174,7 +174,7 @@ public:
       [&] { return cudaMemsetAsync(values, byte, size * sizeof(T), this->GetStream()); });
   }
 
-  /// Waits until the values are there.
+  /// Waits until the values have arrived.
   template <typename T>
   void Download(const T* values, std::int64_t size, T* host) const
   {
@@ -247,9 +247,9 @@ public:
   }
 
 private:
-  /// Calls put(i, value) on the host for i = 0 .. size - 1. The values come to the host in slices,
-  /// which need little memory: fill(slice) launches a kernel over all triangles that sets the
-  /// values of one slice, while the host still converts the slice before it.
+  /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
+  /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
+  /// slice, while the host still converts the slice before it.
   template <typename Fill, typename Put>
   void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
   {
@@ -277,7 +277,7 @@ private:
 
   static unsigned GridOf(std::int64_t blocks) { return static_cast<unsigned>(blocks); }
 
-  /// Enough blocks for every item, but not more than several waves of them.
+  /// Enough blocks for every item, but at most several waves of blocks.
   int GetBlocks(std::int64_t size) const
   {
     constexpr std::int64_t BlocksPerMultiprocessor = 32;
@@ -347,7 +347,7 @@ inline DeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
   copy.Upload(3 * triangles.Count, local.Triangles.Data(),
     [&](std::int64_t i)
     {
-      // An id that does not fit is invalid, and stays so.
+      // An id that does not fit is invalid, and stays invalid.
       const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
       return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
     });

@@ -14,7 +14,8 @@ namespace delaunayflip
 
 namespace
 {
-/// Contexts without a run. Never destroyed: at the end of the process the driver may be gone first.
+/// Contexts that no run uses. Never destroyed: at the end of the process the driver may already be
+/// unloaded.
 struct IdleContexts
 {
   std::mutex Mutex;
@@ -111,7 +112,7 @@ void DeviceMemory::Free(void* memory, std::size_t) noexcept
   const cudaError_t error = this->Pool ? cudaFreeAsync(memory, this->Stream) : cudaFree(memory);
   if (error != cudaSuccess)
   {
-    cudaGetLastError(); // there is no caller left to report to
+    cudaGetLastError(); // there is no caller to report to
   }
 }
 
@@ -145,7 +146,7 @@ CudaContext::~CudaContext() { this->Close(); }
 
 void CudaContext::Open()
 {
-  cudaGetLastError(); // what others left behind
+  cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
   cudaDeviceProp properties;
   CallCuda("read the device's properties",
@@ -213,7 +214,7 @@ ContextLease::ContextLease(ContextLease&&) noexcept = default;
 
 ContextLease::~ContextLease()
 {
-  // A context in which something failed is of no use to the next run.
+  // A context in which something failed is not kept for the next run.
   if (this->Context && cudaStreamSynchronize(this->Context->Stream) == cudaSuccess)
   {
     IdleContexts::Get().Give(std::move(this->Context));
@@ -222,7 +223,7 @@ ContextLease::~ContextLease()
 
 bool HasCudaDevice()
 {
-  // A driver that is there but too old is worth a warning.
+  // A driver that is installed but too old deserves a warning.
   int devices = 0;
   const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
   cudaGetLastError();

@@ -30,12 +30,12 @@ public:
   void* Allocate(std::size_t bytes) override;
   void Free(void* memory, std::size_t bytes) noexcept override;
 
-  /// The largest number of bytes in use at any time since the last call.
+  /// The most bytes that were in use at any time since the last call.
   std::size_t TakePeak();
 
 private:
   cudaStream_t Stream;
-  cudaMemPool_t Pool = nullptr; ///< Null where the device has none: then cudaMalloc and cudaFree.
+  cudaMemPool_t Pool = nullptr; ///< Null if the device has none; cudaMalloc is used then.
 };
 
 /// What a run needs besides its mesh: a stream, memory, and page-locked buffers for copies between
@@ -44,7 +44,7 @@ class CudaContext
 {
 public:
   static constexpr int StagingSlots = 4;
-  static constexpr std::size_t StagingBytes = std::size_t(8) << 20; ///< Of one slot.
+  static constexpr std::size_t StagingBytes = std::size_t(8) << 20; ///< The size of one slot.
 
   /// @throws BackendUnavailable.
   explicit CudaContext(int device);
@@ -55,7 +55,7 @@ public:
   int Device;
   std::string Name; ///< E.g. "NVIDIA H200".
   int Multiprocessors = 0;
-  std::size_t CacheBytes = 0; ///< Of the second level.
+  std::size_t CacheBytes = 0; ///< Of the second-level cache.
   cudaStream_t Stream = nullptr;
   std::unique_ptr<DeviceMemory> Pool;
   void* Staging[StagingSlots] = {};
@@ -79,7 +79,7 @@ private:
   int Previous = -1;
 };
 
-/// A context for one run. Afterwards it is kept for the next run, unless something failed in it.
+/// A context for one run. Kept afterwards for the next run, unless something failed in it.
 class ContextLease
 {
 public:

@@ -16,19 +16,19 @@ std::atomic<std::int64_t> NumberOfCalls{ 0 };
 std::atomic<std::int64_t> FailingCall{ -1 };
 std::atomic<cudaError_t> InjectedError{ cudaSuccess };
 
-/// What to do about the errors that users meet.
+/// Advice about errors that users may encounter.
 std::string Advise(cudaError_t error)
 {
   switch (error)
   {
     case cudaErrorMemoryAllocation:
-      return "; the mesh is too large for what is free on the GPU";
+      return "; the mesh is too large for the free memory of the GPU";
     case cudaErrorNoDevice:
       return "; does this machine have an NVIDIA GPU?";
     case cudaErrorInvalidDevice:
       return "; CUDA numbers the GPUs of a machine from 0";
     case cudaErrorInsufficientDriver:
-      return HasCudaDriver() ? "; update NVIDIA's driver" : "; no driver of NVIDIA is installed";
+      return HasCudaDriver() ? "; update NVIDIA's driver" : "; no NVIDIA driver is installed";
     case cudaErrorNoKernelImageForDevice:
       return "; this build has no code for this GPU, set CMAKE_CUDA_ARCHITECTURES";
     default:

@@ -14,14 +14,14 @@ namespace delaunayflip
 {
 
 /// Throws a BackendUnavailable that says what was tried and why it failed. Clears the runtime's
-/// last error, so that no other code meets it.
+/// last error, so that no other code sees it.
 [[noreturn]] void ThrowCudaError(cudaError_t error, const char* action);
 
 /// Whether a driver is installed, of any version. Never throws.
 bool HasCudaDriver();
 
-/// For tests: instead of being made, the `calls`-th call of CallCuda from now on (1: the next)
-/// fails with `error`; 0 cancels this.
+/// For tests: the `calls`-th call of CallCuda from now on (1: the next) is not made but fails with
+/// `error`; 0 cancels this.
 void InjectCudaError(std::int64_t calls, cudaError_t error);
 
 /// Counts a call. @returns the error that it must fail with, or cudaSuccess.

@@ -27,7 +27,7 @@ template <typename Rule>
 class CudaFlipLoop : public FlipLoop
 {
 public:
-  /// @param scale power of two that brings the rule's coordinates near 1, for angles.
+  /// @param scale a power of two that brings the rule's coordinates near 1, for angles.
   CudaFlipLoop(
     EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const CudaBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
@@ -51,7 +51,7 @@ public:
     return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
-  // Public because device lambdas ask for them.
+  // Public because device lambdas require it.
 
   /// Chunk c has the edges whose smallest corner it has at first. Edges are numbered in that order.
   void CutIntoChunks()
@@ -140,7 +140,8 @@ protected:
   }
 
 private:
-  /// Share of the second-level cache for a chunk at work: one and a half times what it fills.
+  /// The share of the second-level cache for each chunk that is being worked on: one and a half
+  /// times its size.
   static constexpr std::size_t ChunkBytes = std::size_t(9) << 19;
 
   /// The results of a launch.
@@ -164,7 +165,7 @@ private:
     return perMultiprocessor * this->Backend.GetContext().Multiprocessors;
   }
 
-  /// Only as many blocks as have work: the fewer there are, the shorter are the waits.
+  /// Only as many blocks as have work: with fewer blocks, waits are shorter.
   void PlanGrid()
   {
     const std::int64_t blocks =
@@ -258,13 +259,13 @@ private:
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
       if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
       {
-        this->Detect(); // the kernel left it out
+        this->Detect(); // the kernel did not make it
       }
     }
     return iterations;
   }
 
-  /// Adds so many iterations within chunks.
+  /// Adds the counts of iterations within chunks.
   void LaunchChunks(int iterations, std::vector<IterationCounts>& total)
   {
     this->Prepare();
@@ -290,13 +291,13 @@ private:
   int GridBlocks = 1;
   int Teams = 1;
   int BlocksOfTeam = 1;
-  std::int64_t TestedInChunks = 0; ///< By the last iteration within chunks.
+  std::int64_t TestedInChunks = 0; ///< The edges tested by the last iteration within chunks.
   int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
   DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
-  BadEdgeCounts Edges; ///< As Found, in detail.
+  BadEdgeCounts Edges; ///< The same as Found, in detail.
 };
 
 template <typename Rule>

@@ -8,14 +8,15 @@
 #include <cstdint>
 
 /// @file
-/// The kernels behind "for every item do this" (CudaBackend.cuh).
+/// The kernels of CudaBackend.cuh, which run work for every item.
 
 namespace delaunayflip
 {
 
 constexpr int ThreadsPerBlock = 256;
 
-/// One thread calls work(i) for every i of its stride. What work writes is its own business.
+/// One thread calls work(i) for every i of its stride. The caller makes sure that what different i
+/// write does not conflict.
 template <typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(std::int64_t size, Work work)
 {
@@ -37,7 +38,7 @@ struct Plus
   }
 };
 
-/// As ForEachKernel, with a sum; a block writes its own partial sum.
+/// The same as ForEachKernel, with a sum: every block writes its partial sum.
 template <typename Result, typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock)
   SumKernel(std::int64_t size, Work work, Result* partials)
@@ -64,7 +65,7 @@ __device__ inline std::int64_t GetTileItem()
   return std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
 }
 
-/// One block counts one tile. A thread an item: counting may wait for memory.
+/// One block counts one tile, one item per thread, because counting may wait for memory.
 template <typename CountOf>
 __global__ void __launch_bounds__(ThreadsPerBlock)
   CountKernel(std::int64_t size, CountOf count, std::int64_t* countOfTile)

@@ -17,7 +17,7 @@
 namespace delaunayflip
 {
 
-/// Records the state that a judgement gave. @returns whether the edge is bad.
+/// Records the state of an edge that was judged. @returns whether the edge is bad.
 template <typename Rule>
 __device__ bool NoteState(
   const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
@@ -34,8 +34,8 @@ __device__ bool NoteState(
   return state == EdgeState::Bad;
 }
 
-/// Judges exactly the edges that Detect could not decide and left as candidates. A function of its
-/// own, because it is large and seldom called: inlined into Detect's loop it would take the
+/// Judges exactly the edges that Detect could not decide and left as candidates. A separate
+/// function, because it is large and seldom called: inlined into Detect's loop it would take the
 /// registers of everything else there.
 template <typename Rule, typename Worklist>
 __device__ __noinline__ void ResolveUncertain(
@@ -67,7 +67,7 @@ __device__ __noinline__ void ResolveUncertain(
   team.Add(IterationSum::IsBlockedByShape, isBlockedByShape);
 }
 
-/// What a thread counts while it detects.
+/// The counts of a thread in a detection.
 struct DetectionCounts
 {
   unsigned Tested = 0, WasBad = 0, IsBad = 0, WasBlockedByShape = 0, IsBlockedByShape = 0;
@@ -152,7 +152,7 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
   }
 }
 
-/// Asks the guard again about every edge that is bad or blocked by it: blocks it or frees it.
+/// Checks every edge that is bad or blocked by the guard again, and blocks or frees it.
 template <typename Rule, typename Worklist>
 __device__ void GuardBadEdges(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)

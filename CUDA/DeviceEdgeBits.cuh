@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// Owns the EdgeBits, and does what concerns all edges at once.
+/// Owns the EdgeBits, and has the functions for all edges at once.
 class DeviceEdgeBits
 {
 public:
@@ -39,9 +39,9 @@ public:
   const EdgeBits& View() const { return this->Bits; }
   std::int64_t CountUnits() const { return this->NumberOfWords / (EdgeUnits::UnitSize / 32); }
 
-  // Public because device lambdas ask for them.
+  // Public because device lambdas require it.
 
-  /// Turns the first states into bits; bits behind the last edge are fixed.
+  /// Converts the initial states into bits. Bits after the last edge are fixed.
   void LoadStates(const EdgeMesh& mesh)
   {
     const EdgeBits bits = this->Bits;

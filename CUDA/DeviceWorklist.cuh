@@ -22,8 +22,8 @@ namespace delaunayflip
 /// A lane's eight edges of a unit.
 struct EdgeByte
 {
-  unsigned Index; ///< Of the byte in every array of bits.
-  unsigned Mask; ///< Of the edges that belong to the range.
+  unsigned Index; ///< The index of the byte in every array of bits.
+  unsigned Mask; ///< The edges that belong to the range.
 
   __device__ unsigned Load(const std::uint32_t* bits) const
   {
@@ -50,7 +50,7 @@ struct EdgeByte
   }
 };
 
-/// The units of a range, and how a warp goes through them.
+/// The units of a range, and how warps iterate over them.
 class EdgeUnits
 {
 public:
@@ -103,7 +103,7 @@ protected:
     return unit < cursor.End;
   }
 
-  /// Writes a lane's edges, in order, from `next` on.
+  /// Writes a lane's edges, in order, to `next` and the following places.
   __device__ static void Write(unsigned bits, const EdgeByte& byte, EdgeId* next)
   {
     for (; bits != 0; bits &= bits - 1)
@@ -184,12 +184,12 @@ public:
     }
   }
 
-  /// Whether `own` is true in any of the threads that share a list.
+  /// Whether `own` is true for any of the threads that share a list.
   __device__ static bool IsAny(bool own) { return __any_sync(WholeWarp, own) != 0; }
 
 private:
-  /// With this many edges a warp starts to work instead of looking at one more unit, which is far
-  /// away: what all warps work on should fit the second-level cache.
+  /// With this many edges a warp starts to work instead of visiting one more unit, which is far
+  /// away in memory: what all warps work on should fit into the second-level cache.
   static constexpr int Enough = WarpSize;
 };
 
@@ -200,7 +200,7 @@ public:
   using EdgeUnits::EdgeUnits;
   static constexpr bool MayGuard = false;
 
-  /// As WarpWorklist::Run.
+  /// The same as WarpWorklist::Run.
   template <typename Look, typename Work>
   __device__ void Run(
     const Team& team, const EdgeMeshView& mesh, const Look& look, const Work& work) const

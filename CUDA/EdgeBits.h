@@ -12,12 +12,12 @@
 namespace delaunayflip
 {
 
-/// What a device's loop knows of the edges: the states of EdgeMesh.h as one bit per edge and state,
-/// so that the second-level cache of a GPU holds all of them.
+/// What the loop knows about the edges on a device: the states of EdgeMesh.h, as one bit per edge
+/// and state, so that all of them fit into the second-level cache of a GPU.
 struct EdgeBits
 {
-  std::uint32_t* Fixed; ///< EdgeState::Fixed, and the bits behind the last edge.
-  std::uint32_t* FixedOrDeferred; ///< These edges sit out: their bits in Candidates are ignored.
+  std::uint32_t* Fixed; ///< EdgeState::Fixed, and the bits after the last edge.
+  std::uint32_t* FixedOrDeferred; ///< Edges whose bits in Candidates are ignored.
   std::uint32_t* Candidates;
   std::uint32_t* Bad;
   std::uint32_t* Winners; ///< Bad edges that flip in this iteration.

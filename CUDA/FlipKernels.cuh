@@ -11,20 +11,19 @@
 #include "Team.cuh"
 
 /// @file
-/// The loop on the device: many iterations in a launch.
+/// The loop on the device: many iterations per launch.
 
 namespace delaunayflip
 {
 
-/// Waits per iteration at most: four in RunFlips, where there is a guard, and one in
-/// RunDetection.
+/// The most waits per iteration: four in RunFlips, with a guard, and one in RunDetection.
 constexpr int MostWaits = 5;
 
-/// Iterations per launch of IterateKernel at most: few enough that an observer hears of them and
-/// can stop the run in time.
+/// The most iterations per launch of IterateKernel: few enough for an observer to be called and to
+/// stop the run in time.
 constexpr int MostIterations = 128;
 
-/// Blocks per such launch at most, so that the parts of their news stay within their bits.
+/// The most blocks per such launch, so that the parts of their news stay within their bits.
 constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * MostWaits);
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
@@ -47,7 +46,7 @@ __device__ void RunFlips(
   Confirm(loop, worklist, team);
   team.Wait();
   FlipWinners(loop, worklist, team);
-  // The sums decide whether to go on.
+  // The sums decide whether to continue.
   team.Wait(iteration);
 }
 
@@ -140,7 +139,7 @@ private:
     RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
   }
 
-  /// Whether a detection may follow: not when the guard's table must be rebuilt first.
+  /// Whether a detection may follow: false if the guard's table must be rebuilt first.
   __device__ bool HasRoom(const IterationSums* iteration)
   {
     if (!this->Loop.Guard.Active)
@@ -152,7 +151,7 @@ private:
       LoadSum(*iteration, IterationSum::LostInserts) == 0;
   }
 
-  /// Detects. Lists the bad edges where they are few, and where the last detection did.
+  /// Makes a detection. Lists the bad edges if they are few, or if the last detection listed them.
   __device__ void Detect(IterationSums* iteration)
   {
     const WarpWorklist worklist = this->Loop.GetWorklist();
@@ -169,11 +168,11 @@ private:
     }
     this->Bad = this->Loop.Guard.Active ? LoadSum(*iteration, IterationSum::AllBad)
                                         : this->Limits.Bad + this->Members.GetBadChange();
-    // A list that was too short is tried again when there are half as many bad edges.
+    // After a list was too short, lists are tried again when there are half as many bad edges.
     this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
   }
 
-  /// Whether a device cannot decide some edge. A thread that met one has warned.
+  /// Whether there is an edge that a device cannot decide. The thread that found it has warned.
   __device__ bool IsUncertain(const IterationSums* iteration) const
   {
     return this->Members.IsWarned() && LoadSum(*iteration, IterationSum::Uncertain) > 0;
@@ -189,8 +188,8 @@ private:
   unsigned long long FreshSlots = 0;
 };
 
-/// Iterations on the whole mesh after a detection, each counted in an entry of Sums. The last
-/// detection is missing when the guard's table must be rebuilt before it.
+/// Iterations on the whole mesh after a detection, each counted in an entry of Sums. If the guard's
+/// table must be rebuilt, the last detection is left out.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)

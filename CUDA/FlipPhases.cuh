@@ -32,7 +32,8 @@ __device__ void MarkOuter(const LoopView<Rule>& loop, const OuterHalfEdges& oute
   EdgeBits::Set(loop.Bits.Candidates, EdgeOf(outer.BQ));
 }
 
-/// Whether a bad edge comes before its bad neighbours. Bad does not change meanwhile.
+/// Whether a bad edge has a smaller priority than its bad neighbours. Bad does not change
+/// meanwhile.
 template <typename Rule>
 __device__ bool Wins(const LoopView<Rule>& loop, EdgeId edge, const OuterHalfEdges& outer)
 {
@@ -43,8 +44,8 @@ __device__ bool Wins(const LoopView<Rule>& loop, EdgeId edge, const OuterHalfEdg
   return IsFirst(edge, outer, ap, qa, pb, bq);
 }
 
-/// Chooses among the bad edges and flips the winners, which stay marked as bad until the next
-/// detection, for others to choose by.
+/// Chooses among the bad edges and flips the winners. These stay marked as bad until the next
+/// detection, because other choices depend on it.
 ///
 /// So a thread may examine an edge while a neighbour flips. The edge must lose then, and it does,
 /// whether the thread reads its words and triangles from before that flip or from after it. Before
@@ -84,7 +85,7 @@ __device__ void ChooseAndFlip(
   team.Add(IterationSum::Flipped, flips);
 }
 
-/// Chooses without flipping, where winners must make claims first; sets Winners.
+/// Chooses without flipping, if winners must make claims first; sets Winners.
 template <typename Rule, typename Worklist>
 __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {

@@ -6,7 +6,7 @@
 namespace delaunayflip
 {
 
-/// What an iteration on a device counts. Bad and blocked edges are counted as changes.
+/// The counts of an iteration on a device. Bad and blocked edges are counted as changes.
 enum class IterationSum
 {
   Flipped,
@@ -14,11 +14,11 @@ enum class IterationSum
   LostInserts, ///< New edges that found no room in the guard table.
   Tested,
   Uncertain, ///< Edges that a device cannot decide.
-  WasBad, ///< Of the tested edges, before they were judged; IsBad: after it.
+  WasBad, ///< Tested edges that were bad before; IsBad: that are bad afterwards.
   IsBad,
   WasBlockedByShape,
   IsBlockedByShape,
-  AllBad, ///< All bad edges, where they are counted: with a guard, and in the first detection.
+  AllBad, ///< All bad edges; counted with a guard, and in the first detection.
   AllBlockedByEdge, ///< All edges that the guard blocks.
   AllBlockedByShape, ///< All of EdgeState::BlockedByShape, in the first detection.
   Count

@@ -43,8 +43,8 @@ private:
   int Size = 0; ///< The same in all lanes.
 };
 
-/// As Detect; also lists the bad edges, and warns if the list is too short. Bad edges that are no
-/// candidates are judged again so that they are listed; they do not count as tested.
+/// The same as Detect, but also lists the bad edges, and warns if the list is too short. Bad edges
+/// that are not candidates are judged again to be listed; they do not count as tested.
 template <typename Rule>
 __device__ void DetectAndList(
   const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)

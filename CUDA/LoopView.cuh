@@ -23,7 +23,7 @@ struct DeviceChunk
 template <typename Rule>
 struct LoopView
 {
-  EdgeMeshView Mesh; ///< Its States are those at first.
+  EdgeMeshView Mesh; ///< Its States are the initial ones.
   Rule Decision;
   EdgeGuardView Guard;
   EdgeBits Bits;
@@ -32,7 +32,7 @@ struct LoopView
   DeviceChunk* Chunks;
   int NumberOfChunks;
   TeamState* Teams; ///< Zero before a launch.
-  IterationSums* Sums; ///< One an iteration and one more; zero before a launch.
+  IterationSums* Sums; ///< One per iteration and one more; zero before a launch.
   int* IterationsDone; ///< Iterations of this launch.
 
   __device__ WarpWorklist GetWorklist() const { return { 0, this->NumberOfEdges, this->Splits }; }

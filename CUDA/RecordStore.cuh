@@ -15,16 +15,16 @@
 namespace delaunayflip
 {
 
-// A half of a record may be loaded while another thread stores it, so each access must be atomic:
-// as a number of 128 bits, which PTX has from CUDA 12.3 on. Before, vectors of four words give the
-// same instructions.
+// Half of a record may be loaded while another thread stores it, so each access must be atomic: as
+// a number of 128 bits, which PTX has from CUDA 12.3 on. Before that, vectors of four words give
+// the same instructions.
 #if __CUDACC_VER_MAJOR__ > 12 || (__CUDACC_VER_MAJOR__ == 12 && __CUDACC_VER_MINOR__ >= 3)
 #define DELAUNAYFLIP_HAS_B128 1
 #else
 #define DELAUNAYFLIP_HAS_B128 0
 #endif
 
-/// One instruction for all lanes, in whatever branch their values were chosen.
+/// Stores with one instruction for all lanes, whatever branch chose their values.
 __device__ inline void StoreHalf(uint4* address, const uint4& value)
 {
 #if DELAUNAYFLIP_HAS_B128
@@ -99,7 +99,7 @@ __device__ inline void StorePaired(
   }
 }
 
-/// What a flip writes to its two records, until the whole warp stores them.
+/// Holds what a flip writes to its two records until the whole warp stores them.
 struct FlippedRecords
 {
   TriangleId Triangles[2] = { NoTriangle, NoTriangle };
@@ -132,7 +132,7 @@ __device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
   return { { first.x, first.y, first.z }, first.w, { second.x, second.y, second.z }, second.w };
 }
 
-/// Both triangles of an edge, whole.
+/// The complete records of both triangles of an edge.
 struct RecordPair
 {
   CornerPair Corners;

@@ -16,8 +16,8 @@ namespace delaunayflip
 {
 
 /// Copies between arrays on the host and device memory through page-locked buffers: threads convert
-/// one buffer while others are being copied. Several times as fast as the driver's copies from
-/// ordinary memory.
+/// one buffer while others are being copied. This is several times as fast as the driver's copies
+/// from pageable memory.
 class StagedCopy
 {
 public:
@@ -45,7 +45,7 @@ public:
 
   /// Calls put(i, value) for the values of i = 0 .. size - 1, from an array of `sliceSize` values:
   /// prepare(first) begins to fill it, on the context's stream, with those from `first` on.
-  /// @param sliceSize by GetSliceSize.
+  /// @param sliceSize from GetSliceSize.
   template <typename T, typename Prepare, typename Put>
   void DownloadSlices(std::int64_t size, const T* device, std::int64_t sliceSize,
     const Prepare& prepare, const Put& put) const
@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  /// Parts being copied while one is converted.
+  /// How many parts are being copied while one is converted.
   static constexpr std::int64_t Ahead = CudaContext::StagingSlots - 1;
 
   static int SlotOf(std::int64_t part)

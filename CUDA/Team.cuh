@@ -15,8 +15,8 @@ namespace delaunayflip
 constexpr int WarpSize = 32;
 constexpr unsigned WholeWarp = 0xFFFFFFFFu;
 
-/// Threads per block in the loop's kernels, and blocks per multiprocessor, which leaves 80
-/// registers per thread.
+/// The number of threads per block in the loop's kernels, and of blocks per multiprocessor, which
+/// leaves 80 registers per thread.
 constexpr int LoopThreads = 384;
 constexpr int LoopBlocks = 2;
 
@@ -62,7 +62,7 @@ struct TeamNews
   /// Modulo 2^12, which is more than blocks can be at a time.
   __device__ unsigned GetWarnings() const
   {
-    // A negative number has borrowed from what is above it.
+    // A negative number has borrowed from the bits above it.
     const unsigned borrowed = this->GetBadChange() < 0 ? 1 : 0;
     const auto warnings = static_cast<unsigned>(this->Value >> WarningShift);
     return (warnings + borrowed) & ((1u << WarningBits) - 1);
@@ -208,7 +208,7 @@ public:
     this->WaitForBlocks();
   }
 
-  /// As Wait(), and adds the sums since the last such call to `iteration`, unless that is null.
+  /// The same as Wait(); also adds the sums since the last such call to `iteration`, unless null.
   __device__ void Wait(IterationSums* iteration)
   {
     __syncthreads();
@@ -245,8 +245,8 @@ private:
     unsigned long long* arrivals = &this->State->Arrivals;
     AddRelease(arrivals, own.Value);
     TeamNews news{};
-    // An acquire flushes the first-level cache, which another block may be using. So it waits until
-    // all blocks have arrived.
+    // An acquire flushes the first-level cache, which another block may be using. So this waits
+    // until all blocks have arrived.
     while (!this->HasFewEdges && !news.HasArrived(expected))
     {
       news.Value = AtomicLoad(arrivals);

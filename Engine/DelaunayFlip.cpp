@@ -48,7 +48,7 @@ double ToDegrees(double squaredCotangent)
 }
 }
 
-/// From the caller's arrays to a loop, and from its iterations to a report.
+/// Makes a loop from the caller's arrays, and a report from its iterations.
 class FlipSession::Implementation
 {
 public:
@@ -132,8 +132,7 @@ private:
     return options;
   }
 
-  /// @returns false when the observer stopped it. Then, and when an exception leaves, there is no
-  /// engine.
+  /// @returns false if the observer stopped it. Then, and after an exception, there is no engine.
   bool TryToBuild(const ProgressObserver& observer)
   {
     const BuildProgress progress(
@@ -181,7 +180,7 @@ private:
 
   double MeasureAngle() { return ToDegrees(this->Engine->FindLargestSquaredCotangent()); }
 
-  /// What the input holds, and with nothing to do or no iteration allowed, the end.
+  /// Reports on the input, and ends the run if there is nothing to do or no iteration is allowed.
   void DetectFirst()
   {
     const StopWatch watch;
@@ -209,7 +208,7 @@ private:
 
   bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
 
-  /// Goes on, also after an abort, unless there is nothing to do or no iteration left.
+  /// Continues, even after an abort, unless there is nothing to do or no iteration is left.
   void Resume()
   {
     const auto done = static_cast<std::int64_t>(this->Report.Iterations.size());
@@ -224,7 +223,7 @@ private:
     }
   }
 
-  /// At least one iteration, at most `most`.
+  /// Runs at least one iteration and at most `most`.
   void Iterate(std::int64_t most, const FlipObserver& observer, const ProgressObserver& progress)
   {
     const StopWatch watch;
@@ -250,7 +249,7 @@ private:
     this->Tell(progress);
   }
 
-  /// Tells of the iterations from `first` on, when all of them are in the report.
+  /// Calls the observer for the iterations from `first` on, once all of them are in the report.
   void Tell(const FlipObserver& observer, std::size_t first)
   {
     bool goOn = true;
@@ -290,8 +289,8 @@ private:
     this->Report.TotalBlocked += record.Blocked;
   }
 
-  /// The smallest angle is known at the first and the last iteration, without a pass between. At a
-  /// stop on the way, it takes one where somebody asks for the report.
+  /// The smallest angle is known after the first and the last iteration. If a run stops in between,
+  /// this takes a pass over the mesh, made only when the report is requested.
   void MeasureEnd()
   {
     if (this->IsMeasured)
@@ -307,7 +306,7 @@ private:
     this->FindHarm();
   }
 
-  /// Defects of the input, and at the end what flips have added to them.
+  /// Defects of the input and, at the end of a run, those that flips have caused.
   void FindHarm()
   {
     this->Report.Defects = this->Engine->GetInputReport().Defects;
@@ -320,11 +319,11 @@ private:
 
   TriangleMesh Mesh;
   FlipOptions Options;
-  std::optional<ChosenEngine> Engine; ///< None after an abort while it was built.
+  std::optional<ChosenEngine> Engine; ///< None if its build was aborted.
   RunProgress Progress;
-  StepCounts Found; ///< By the last Detect.
+  StepCounts Found; ///< The counts of the last Detect.
   FlipReport Report;
-  bool IsMeasured = true; ///< MinimumAngleAfter is that of the mesh.
+  bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
 };
 
 FlipSession::FlipSession(

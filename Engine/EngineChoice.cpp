@@ -20,7 +20,7 @@ bool WantsCuda(const TriangleMesh& mesh, const FlipOptions& options)
       HasCudaDevice());
 }
 
-/// Stores into memory of its own first, so that a failure leaves the target as it was.
+/// Stores into a temporary array first, so that the target is unchanged after a failure.
 template <typename Id>
 void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 {

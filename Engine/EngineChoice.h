@@ -17,36 +17,36 @@
 namespace delaunayflip
 {
 
-/// A mesh on the backend of the options. BackendKind::Auto takes the GPU where there is one and the
-/// mesh is large enough for it; where the GPU fails, at any time, the CPU repeats what was done,
-/// which gives the same bits, and goes on.
+/// A mesh on the backend of the options. BackendKind::Auto uses a GPU if there is one and the mesh
+/// is large enough. If the GPU fails, at any time, the CPU repeats what was done, with the same
+/// bits, and continues.
 class ChosenEngine
 {
 public:
-  /// The arrays of `mesh` must stay as they are for as long as this lives.
-  /// @throws BackendUnavailable for BackendKind::CUDA, as every function does.
+  /// The arrays of `mesh` must stay unchanged as long as this object exists.
+  /// @throws BackendUnavailable with BackendKind::CUDA; so do all other functions.
   /// @throws BuildAborted.
   ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
-  /// Why the CPU stands in for a GPU that is there; else empty.
+  /// Why the CPU replaced a GPU that exists; else empty.
   const std::string& GetFallback() const { return this->Fallback; }
 
   const FlipReport& GetInputReport() const { return this->Engine->GetInputReport(); }
 
-  // As FlipLoop's.
+  // The same as FlipLoop's.
   StepCounts Detect();
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);
   StepCounts GetFound() const { return this->Engine->GetLoop().GetFound(); }
   double FindLargestSquaredCotangent();
 
-  // As FlipEngine's. The triangles may be those of the input.
+  // The same as FlipEngine's. The triangles may be those of the input.
   void StoreTriangles(const MutableTriangleArray& triangles);
   void StoreFlipCounts(std::int32_t* counts);
   Defect FindTurnedTriangles();
   void Audit();
 
 private:
-  /// Calls work(engine), and again on the CPU when the GPU failed.
+  /// Calls work(engine), and calls it again on the CPU if the GPU fails.
   template <typename Work>
   auto Run(const Work& work)
   {

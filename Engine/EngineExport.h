@@ -4,8 +4,8 @@
 #define DELAUNAYFLIP_ENGINEEXPORT_H
 
 /// @file
-/// Marks the engine's public functions and classes, which stay visible in the shared library that
-/// the engine is linked into (vtkDelaunayFlipFilters); everything else is hidden there.
+/// Marks the engine's public functions and classes. The shared library into which the engine is
+/// linked (vtkDelaunayFlipFilters) exports them and hides everything else.
 
 #if defined(__GNUC__)
 #define DELAUNAYFLIP_EXPORT __attribute__((visibility("default")))

@@ -10,8 +10,8 @@
 #include <string>
 
 /// @file
-/// The exceptions of the engine. Each message says what was wrong, where, and what to do. Running
-/// out of memory is std::bad_alloc.
+/// The exceptions of the engine. Each message says what is wrong, where, and what to do. If memory
+/// runs out, std::bad_alloc is thrown.
 
 namespace delaunayflip
 {
@@ -30,7 +30,7 @@ public:
   using FlipError::FlipError;
 };
 
-/// A triangle or constraint edge names a point that does not exist. Nothing was dereferenced.
+/// A triangle or constraint edge names a point that does not exist.
 class DELAUNAYFLIP_EXPORT InvalidMesh : public FlipError
 {
 public:
@@ -41,8 +41,8 @@ public:
   {
   }
 
-  std::int64_t Cell; ///< The triangle, or the constraint edge.
-  std::int64_t Point; ///< The id that it names.
+  std::int64_t Cell; ///< The id of the triangle or constraint edge.
+  std::int64_t Point; ///< The point id that it names.
 };
 
 /// More triangles than 32-bit half-edges can number; thrown before anything is allocated.
@@ -52,14 +52,14 @@ public:
   using FlipError::FlipError;
 };
 
-/// The backend asked for cannot run here.
+/// The requested backend cannot run here.
 class DELAUNAYFLIP_EXPORT BackendUnavailable : public FlipError
 {
 public:
   using FlipError::FlipError;
 };
 
-/// The coordinates need exact arithmetic that only the CPU has; the other backend takes over.
+/// The coordinates need exact arithmetic that only the CPU has.
 class DELAUNAYFLIP_EXPORT BeyondDevice : public BackendUnavailable
 {
 public:

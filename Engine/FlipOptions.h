@@ -7,48 +7,48 @@
 #include <tuple>
 
 /// @file
-/// What a caller may choose. The defaults are right for any triangle mesh.
+/// The options of a run. The defaults suit any triangle mesh.
 
 namespace delaunayflip
 {
 
-/// In which space edges are judged.
+/// The space in which edges are judged.
 enum class GeometryKind
 {
-  /// Planar when all used points lie in one plane (within 1e-6 of the bounding box's diagonal).
-  /// Else PlanarXY when the mesh is a height field over x and y, and either z extends further than
-  /// both of them (mixed units) or 95 % of the area in space slopes below 45 degrees: the
-  /// planes of triangles or, of slivers, their edges. A height field: all triangles but at most one
-  /// in 1,000 have area in x and y and turn the same way, and around no point they turn more than
-  /// once. Else Surface. FlipReport::GeometryReason says why.
+  /// Planar if all used points lie in one plane, within 1e-6 of the bounding box's diagonal. Else
+  /// PlanarXY if the mesh is a height field over x and y, and either z extends further than both of
+  /// them (mixed units) or 95 % of the area in space slopes less than 45 degrees; the slope is that
+  /// of a triangle's plane or, for slivers, of the steepest edge. In a height field all triangles,
+  /// except at most one in 1,000, have area in x and y and turn the same way, and the triangles
+  /// around any point turn at most once. Else Surface. FlipReport::GeometryReason says why.
   Auto,
-  Planar, ///< In the plane of the points, whatever its orientation; an error if there is none.
-  PlanarXY, ///< By x and y; z rides along (terrain).
+  Planar, ///< In the plane of the points, in any orientation; an error if there is none.
+  PlanarXY, ///< By x and y alone, for terrain.
   Surface ///< In space, by opposite-angle sums.
 };
 
 /// How an edge is judged.
 enum class CriterionKind
 {
-  InCircle, ///< The exact in-circle predicate. Planar geometry only; surfaces ignore it.
+  InCircle, ///< The exact in-circle predicate. Only in planar geometry; surfaces ignore it.
   OppositeAngles ///< The paper's eq. 5: opposite-angle sum > pi + Tolerance. Surfaces always use
                  ///< it.
 };
 
-/// What happens to an edge whose four points lie on one circle exactly.
+/// What happens to an edge whose four points lie exactly on one circle.
 enum class TieRuleKind
 {
   Keep, ///< It stays: a Delaunay mesh comes back bit-identical.
-  Canonical ///< The result no longer depends on the input's triangles (planar, in-circle).
+  Canonical ///< Makes the result independent of the input's triangles (planar, in-circle).
 };
 
 /// Where the flips run.
 enum class BackendKind
 {
-  Auto, ///< CUDA from SmallestMeshForCuda triangles (CudaDevice.h) on where there is a GPU, else
-        ///< Threads. Where the GPU fails, Threads do the work.
-  CUDA, ///< A GPU; BackendUnavailable if there is none or it fails.
-  Threads ///< Threads of the CPU.
+  Auto, ///< A GPU if there is one and the mesh has at least SmallestMeshForCuda triangles
+  ///< (CudaDevice.h). Otherwise, or if the GPU fails, CPU threads.
+  CUDA, ///< A GPU; throws BackendUnavailable if there is none or it fails.
+  Threads ///< CPU threads.
 };
 
 struct FlipOptions
@@ -58,28 +58,32 @@ struct FlipOptions
   TieRuleKind TieRule = TieRuleKind::Keep;
   BackendKind Backend = BackendKind::Auto;
 
-  /// The paper's epsilon: by how many radians an opposite-angle sum must exceed pi, >= 0 and < 1.
-  /// -1: automatic. Each edge has its own then: what a unit in the last place of the coordinates of
-  /// its four points, as float or double, can do to its sum. So a surface that is Delaunay within
-  /// the precision of its points comes back bit-identical. Used by OppositeAngles only.
+  /// The paper's epsilon: how far an opposite-angle sum may exceed pi before the edge is bad, in
+  /// radians, at least 0 and below 1. -1 (default) is automatic: each edge has its own tolerance,
+  /// the largest change of its sum that one unit in the last place of its points' coordinates
+  /// (float or double) can cause. So a surface that is Delaunay within the precision of its points
+  /// comes back bit-identical. Used by OppositeAngles only.
   double Tolerance = -1.0;
 
-  /// Surfaces: an edge whose two triangles' normals differ by more than this many degrees
-  /// (0 .. 180) in the input stays; 180 fixes none.
+  /// On surfaces, an edge stays if the normals of its two triangles differ by more than this angle
+  /// in the input. In degrees, 0 to 180; 180 fixes no edge.
   double FeatureAngle = 30.0;
 
-  /// -1: until no edge can flip. 0: none. n > 0: at most n. On surfaces, where no theorem ends the
-  /// loop in floating point, -1 means the number of triangles + 1000.
+  /// The most iterations to make: 0 makes none, -1 (default) sets no limit. On surfaces, where with
+  /// a fixed tolerance nothing proves that the loop ends, -1 means the number of triangles + 1000.
   std::int64_t MaximumIterations = -1;
 
-  /// Threads to use; 0: as many as the machine has. At most twice as many are used, or 16 if that
-  /// is more, and fewer if the system cannot start so many. The result does not depend on it.
+  /// The number of threads; 0 (default): as many as the machine has. At most twice as many are used,
+  /// or 16 if that is more, and fewer if the system cannot start so many. The result does not depend
+  /// on it.
   int NumberOfThreads = 0;
 
-  /// CUDA's number of the GPU to use; -1: the one that is current in the calling thread.
+  /// CUDA's number of the GPU to use, 0 or more; -1 (default): the current device of the calling
+  /// thread.
   int Device = -1;
 
-  /// Compute the smallest angle after every iteration (a pass over the mesh each time).
+  /// Compute the smallest angle after every iteration, by one pass over the mesh each. Default off:
+  /// only after the first and the last iteration.
   bool TrackQuality = false;
 };
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 /// @file
-/// What a run did, and what it met in the input.
+/// What a run did, and what it found in the input.
 
 namespace delaunayflip
 {
@@ -20,10 +20,10 @@ namespace delaunayflip
 enum class StopReasonKind
 {
   NotStarted,
-  Converged, ///< An iteration found nothing that it may flip.
+  Converged, ///< An iteration found no edge that may flip.
   IterationLimit, ///< FlipOptions::MaximumIterations, or the safety limit of surfaces.
-  Aborted, ///< The observer said so.
-  Running ///< No end yet: FlipSession::Advance made the iterations that it was to make.
+  Aborted, ///< An observer stopped the run.
+  Running ///< FlipSession::Advance made the requested iterations; there is more to do.
 };
 
 /// One iteration of the loop. NonDelaunay = Flipped + Excluded + Blocked.
@@ -31,16 +31,16 @@ struct IterationRecord
 {
   std::int64_t Iteration = 0; ///< 1, 2, ...
   std::int64_t Tested = 0; ///< Edges judged.
-  std::int64_t NonDelaunay = 0; ///< Bad edges known when the iteration chose (never fixed ones).
+  std::int64_t NonDelaunay = 0; ///< Bad edges when the iteration chose; fixed edges never count.
   std::int64_t Flipped = 0;
-  std::int64_t Excluded = 0; ///< Wanted to flip; a neighbour did, or it lay between chunks.
-  std::int64_t Blocked = 0; ///< Bad, but the flip would fold the mesh or duplicate an edge.
-  double MinimumAngle = 0.0; ///< Degrees, after the iteration; NaN where it was not computed.
+  std::int64_t Excluded = 0; ///< Bad and free, but a neighbour flipped, or between chunks.
+  std::int64_t Blocked = 0; ///< Bad, but the flip would fold the mesh over or repeat an edge.
+  double MinimumAngle = 0.0; ///< In degrees, after the iteration; NaN if not computed.
   double Seconds = 0.0;
 };
 
-/// Edges of the input by kind, each a pair of distinct vertices counted once. An edge may be of
-/// several kinds; FixedEdges counts it once.
+/// Edges of the input by kind. An edge is a pair of distinct vertices and counts once, but may be
+/// of several kinds.
 struct EdgeCounts
 {
   std::int64_t Edges = 0;
@@ -53,19 +53,19 @@ struct EdgeCounts
   std::int64_t Fixed = 0; ///< Edges that never flip, for any reason.
 };
 
-/// What the ids of a defect number.
+/// What the ids of a defect refer to.
 enum class DefectIds
 {
   Triangles, ///< The caller's triangle slots.
   Points
 };
 
-/// A kind of dirt met in the input, with how often and where first.
+/// A kind of defect in the input: how often it occurs, and where first.
 struct Defect
 {
-  std::string What; ///< For people, e.g. "triangles with a repeated point id".
+  std::string What; ///< In words, e.g. "triangles with a repeated point id".
   std::int64_t Count = 0; ///< How many.
-  std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty where ids do not help.
+  std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty if ids would not help.
   DefectIds Ids = DefectIds::Triangles;
 };
 
@@ -74,23 +74,23 @@ struct FlipReport
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   EdgeCounts Edges;
-  std::int64_t UnmatchedConstraints = 0; ///< Given by the caller, and not an edge of the mesh.
+  std::int64_t UnmatchedConstraints = 0; ///< Constraint edges that are not edges of the mesh.
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
-  std::string GeometryReason; ///< Why it was used, for people; also says where
-                              ///< FlipOptions::FeatureAngle has no effect.
-  std::string Tolerance; ///< "automatic", the value asked for (e.g. "1e-09"), or "none" where the
-                         ///< in-circle predicate decides.
+  std::string GeometryReason; ///< Why it was used, in words; also says if
+  ///< FlipOptions::FeatureAngle has no effect.
+  std::string Tolerance; ///< "automatic", the value (e.g. "1e-09"), or "none" if the in-circle
+  ///< predicate decides.
   std::string Backend; ///< E.g. "Threads: 8" or "CUDA: NVIDIA H200".
-  std::string Fallback; ///< Why the CPU stood in for a GPU that is there; else empty.
+  std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
 
   std::vector<IterationRecord> Iterations;
   std::int64_t TotalFlips = 0;
   std::int64_t TotalExcluded = 0;
   std::int64_t TotalBlocked = 0;
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges of the input that are not fixed.
-  std::int64_t NonDelaunayAfter = 0; ///< Bad edges left, flippable or blocked.
+  std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
   double MinimumAngleBefore =
     0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
   double MinimumAngleAfter = 0.0;
@@ -101,21 +101,21 @@ struct FlipReport
   double BuildSeconds = 0.0; ///< From the caller's arrays to the edge mesh.
   double FlipSeconds = 0.0; ///< The loop.
 
-  /// Empty for a clean mesh. The last may be triangles that flips in space have turned over in x
-  /// and y, known when a run has stopped.
+  /// Empty for a clean mesh. The last one may be triangles that flips in space have turned over in
+  /// x and y; it is added when a run has stopped.
   std::vector<Defect> Defects;
 };
 
-/// Called on the calling thread after every iteration; false aborts the run. Where iterations run
-/// together, their calls come one after the other when all of them are done, and an abort takes
-/// effect there: the first 12 of large planar meshes, and on a GPU up to 128, but no more than fit
-/// a tenth of a second.
+/// Called on the calling thread for every iteration; returning false aborts the run. Some
+/// iterations run in batches: the first 12 of large planar meshes, and on a GPU up to 128, but no
+/// more than fit into a tenth of a second. The calls for a batch follow at its end, and an abort
+/// takes effect there.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
 
-/// Called on the calling thread with the share of the work that is done, 0 .. 1, which never falls;
-/// false aborts the run. The share is an estimate of time: the build and the first test of all
-/// edges are half of it, 0.65 on surfaces, and the rest follows the flips made and those expected.
-/// 1 is told when there is nothing more to do.
+/// Called on the calling thread with the share of the work that is done, from 0 to 1, which never
+/// decreases; returning false aborts the run. The share is an estimate of time: the build and the
+/// first test of all edges are half of it (0.65 on surfaces), and the rest is estimated from the
+/// flips made and expected. It is 1 when there is nothing more to do.
 using ProgressObserver = std::function<bool(double)>;
 
 /// "converged", "iteration limit", "aborted", "running" or "not started".

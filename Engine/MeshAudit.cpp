@@ -113,7 +113,7 @@ bool AreFinite(
     ids.begin(), ids.end(), [&](std::int64_t id) { return IsFinitePoint(points, id, geometry); });
 }
 
-/// Says of single edges whether they violate the criterion.
+/// Decides whether single edges violate the criterion.
 class EdgeJudge
 {
 public:
@@ -158,7 +158,7 @@ public:
   }
 
 private:
-  /// By what the caller said of the edge and by its winding.
+  /// Whether neither the caller's options nor the winding fix the edge.
   bool MayFlip(const Side* sides) const
   {
     const std::int64_t t = sides[0].Triangle;

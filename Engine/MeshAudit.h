@@ -11,33 +11,34 @@
 #include <cstdint>
 
 /// @file
-/// The invariants of a triangle mesh as functions, computed from the triangles alone (by sorting
-/// vertex pairs), so that they check the flip engine from outside.
+/// The invariants of a triangle mesh as functions. They are computed from the triangles alone, by
+/// sorting vertex pairs, and so check the flip engine independently.
 
 namespace delaunayflip
 {
 
-/// Edges by the number and direction of their incident triangles; the kinds that depend on options
-/// or on the caller (Feature, Constraint, Region, Fixed) are 0.
+/// Counts edges by the number and direction of their incident triangles. The kinds that depend on
+/// options or on the caller (Feature, Constraint, Region, Fixed) are 0.
 DELAUNAYFLIP_EXPORT EdgeCounts CountEdges(const TriangleArray& triangles);
 
 /// Used points - edges + triangles.
 DELAUNAYFLIP_EXPORT std::int64_t EulerCharacteristic(const TriangleArray& triangles);
 
-/// Vertex pairs that are an edge of `after` more often than of `before` and belong to three or more
-/// triangles there: what flips without a duplicate-edge guard produce. 0 after a correct run.
+/// Counts edges with three or more triangles in `after` and fewer in `before`, such as flips
+/// without a guard would make. 0 after a correct run.
 DELAUNAYFLIP_EXPORT std::int64_t CountDuplicateEdgesGained(
   const TriangleArray& before, const TriangleArray& after);
 
-/// Edges of two consistently wound triangles that violate the criterion: in-circle, exactly, in
-/// planar geometry, the opposite-angle sum on surfaces and with CriterionKind::OppositeAngles.
-/// Constraint, region, frozen and feature edges of `mesh` (judged on `mesh` itself) do not count.
-/// GeometryKind::Auto is resolved as a run does.
+/// Counts bad edges: edges of two consistently wound triangles that violate the criterion, which is
+/// the exact in-circle predicate in planar geometry, and the opposite-angle sum on surfaces and
+/// with CriterionKind::OppositeAngles. Constraint edges, region borders, edges of frozen triangles
+/// and feature edges of `mesh` itself do not count. GeometryKind::Auto chooses as in a run.
 DELAUNAYFLIP_EXPORT std::int64_t CountNonDelaunayEdges(
   const TriangleMesh& mesh, const FlipOptions& options);
 
-/// Smallest angle of any triangle in degrees, in space or (PlanarXY) in the projection; NaN without
-/// triangles, 0 with a degenerate one; triangles with NaN or infinite coordinates do not count.
+/// The smallest angle of all triangles in degrees, in space or, with PlanarXY, in the projection.
+/// NaN without triangles; 0 if a triangle has no area. Triangles with NaN or infinite coordinates
+/// do not count.
 DELAUNAYFLIP_EXPORT double MinimumAngle(const TriangleMesh& mesh, GeometryKind geometry);
 
 }

@@ -5,7 +5,7 @@
 #include "FlipError.h"
 
 /// @file
-/// Stands in for the CUDA backend in a build without it.
+/// Replaces the CUDA backend in a build without it.
 
 namespace delaunayflip
 {

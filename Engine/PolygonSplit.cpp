@@ -19,8 +19,8 @@ namespace
 using SpaceVector = std::array<double, 3>;
 using Triples = EarClipper::Triangles;
 
-/// Twice the area of the polygon's shadow along each axis (Newell), up to a positive factor.
-/// @param offsets of the vertices, from the first of them.
+/// Twice the area of the polygon's projection along each axis (Newell), up to a positive factor.
+/// @param offsets the vertices relative to the first one.
 template <typename Offsets>
 SpaceVector AreaVector(const Offsets& offsets)
 {
@@ -108,7 +108,7 @@ private:
     return Orientation(this->Polygon[a].data(), this->Polygon[b].data(), this->Polygon[c].data());
   }
 
-  /// Through its other diagonal only where that one is valid and 0-2 is not.
+  /// Uses the other diagonal only if that one is valid and 0-2 is not.
   void CutQuad()
   {
     const bool firstIsInside = this->Turn(0, 1, 2) > 0 && this->Turn(0, 2, 3) > 0;
@@ -153,8 +153,8 @@ private:
   const ProgressObserver& Progress;
 };
 
-/// Exactly: whether the triangle's shadow along some axis has an area.
-/// @param first the axis to look along first: where it decides, no other costs exact arithmetic.
+/// Whether the triangle's projection along some axis has an area; exact.
+/// @param first the axis to try first, which usually decides without exact arithmetic.
 bool HasArea(const PointArray& points, const std::int64_t ids[3], int first)
 {
   for (int axis = first; axis < first + 3; ++axis)
@@ -196,7 +196,7 @@ void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double 
   LoadScaledOffsets(points, ids, 3, 3, offsets);
   SpaceVector area = AreaVector(offsets);
   const int axis = DominantAxis(area);
-  // Twice: the first length of a needle's area vector may be so small that it has lost its bits.
+  // Twice, because the area vector of a needle may be so small that its length is inexact at first.
   for (int pass = 0; pass < 2; ++pass)
   {
     const double length = pass == 0 ? std::abs(area[axis]) : std::hypot(area[0], area[1], area[2]);

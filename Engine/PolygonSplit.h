@@ -11,23 +11,24 @@
 #include <vector>
 
 /// @file
-/// Polygons into triangles, without new points.
+/// Splits polygons into triangles, without new points.
 
 namespace delaunayflip
 {
 
 /// Splits one polygon of `count` >= 3 vertices into count - 2 triangles that keep its winding, and
-/// appends their vertex ids, three each, to `triangles`. A quad is cut along its 0-2 diagonal
-/// unless that runs outside it (then along 1-3); a larger polygon is a fan from its first vertex
-/// when it is convex, else its ears are clipped. Works in the plane of the polygon's area vector. A
-/// polygon that crosses itself or has no area still gives count - 2 triangles (a fan).
+/// appends their vertex ids, three each, to `triangles`. A quad is divided along its 0-2 diagonal,
+/// or along 1-3 if 0-2 runs outside it. A larger polygon becomes a fan from its first vertex if it
+/// is convex; else its ears are clipped. Works in the plane of the polygon's area vector. A polygon
+/// that crosses itself or has no area still gives count - 2 triangles (a fan).
 /// @param ids the polygon's vertex ids, valid indices into `points`.
-/// @param progress of this polygon; called about every millisecond while ears are clipped.
-/// @returns false when `progress` returned false; nothing is appended then.
+/// @param progress told the share of this polygon; called about every millisecond while ears are
+/// clipped.
+/// @returns false if `progress` returned false; then nothing is appended.
 DELAUNAYFLIP_EXPORT bool SplitPolygon(const PointArray& points, const std::int64_t* ids,
   std::int64_t count, std::vector<std::int64_t>& triangles, const ProgressObserver& progress = {});
 
-/// Unit normal of a triangle by the right-hand rule; 0, 0, 0 for one without area.
+/// The unit normal of a triangle by the right-hand rule; (0, 0, 0) for a triangle without area.
 DELAUNAYFLIP_EXPORT void TriangleNormal(
   const PointArray& points, const std::int64_t ids[3], double normal[3]);
 

@@ -10,16 +10,16 @@ namespace delaunayflip
 
 namespace
 {
-/// Iterations in chunks are the faster the more of them run together, so observers of large meshes
-/// wait longer: for a share of the time that the build took.
+/// The more iterations in chunks run together, the faster they are. So observers of large meshes
+/// wait longer: for this share of the time that the build took.
 constexpr double LeastSecondsBetweenCalls = 0.1;
 constexpr double BuildsBetweenCalls = 0.5;
 
-/// The first iterations, all over the mesh, take up to three times as long as the test of all
+/// The first iterations that span the mesh take up to this many times as long as the test of all
 /// edges.
 constexpr double TestsPerIteration = 3.0;
 
-/// Iterations that are expected beyond those where bad edges do not become fewer.
+/// If bad edges do not become fewer, this many more iterations are expected than have been made.
 constexpr double SpareIterations = 20.0;
 }
 
@@ -52,9 +52,9 @@ bool RunProgress::Tell(const ProgressObserver& observer, double fraction)
   return !observer || observer(this->Told);
 }
 
-/// Share of all flips that are made. In the mean, bad edges have become fewer by some factor an
-/// iteration; they, and flips with them, are expected to go on so. Every bad edge takes a flip.
-/// Where they do not become fewer, as many more iterations are expected as there have been.
+/// The share of all flips that have been made. Bad edges have decreased by some mean factor per
+/// iteration, and they, and flips with them, are expected to continue so; every bad edge takes a
+/// flip. If they have not decreased, as many more iterations are expected as have been made.
 double RunProgress::EstimateFlipped(const FlipReport& report, std::int64_t badEdges) const
 {
   const auto iterations = static_cast<double>(report.Iterations.size());

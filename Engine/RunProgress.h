@@ -10,25 +10,27 @@
 namespace delaunayflip
 {
 
-/// How far a run is, as a progress observer is told, and how many iterations to make before it is
+/// The progress of a run that its observer is told, and how many iterations to make before it is
 /// told again.
 class RunProgress
 {
 public:
-  /// Tells a fraction of the run, or what was told before if that is more.
-  /// @returns false when the observer wants to stop.
+  /// Tells the observer a fraction of the run, or the last fraction if that is larger.
+  /// @returns false if the observer asks to stop.
   bool Tell(const ProgressObserver& observer, double fraction);
 
-  /// The build is done.
-  /// @param badEdges that may flip. @param buildSeconds without the test that found them.
+  /// Called when the build is done.
+  /// @param badEdges the number of edges that may flip.
+  /// @param buildSeconds the time without the test that found them.
   void StartFlips(std::int64_t badEdges, double buildSeconds, double testSeconds);
 
-  /// @param report of the iterations up to now, at least one. @param badEdges that may flip next.
-  /// @param limit of iterations. @returns as Tell.
+  /// @param report has the iterations up to now, at least one.
+  /// @param badEdges the number of edges that may flip next.
+  /// @param limit the most iterations of the run. @returns the same as Tell.
   bool TellFlips(const ProgressObserver& observer, const FlipReport& report, std::int64_t badEdges,
     std::int64_t limit);
 
-  /// Iterations, at least one, that observers can wait for.
+  /// How many iterations, at least one, observers can wait for.
   std::int64_t GetBatch() const;
 
   void KeepTime(double secondsPerIteration) { this->SecondsPerIteration = secondsPerIteration; }

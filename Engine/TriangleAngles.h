@@ -8,16 +8,17 @@
 #include "TriangleMesh.h"
 
 /// @file
-/// How good single triangles are.
+/// The quality of single triangles.
 
 namespace delaunayflip
 {
 
 /// Writes the smallest angle of every triangle in degrees, 0 to 60: mesh.Triangles.Count numbers.
 /// It is 0 for a triangle without area, and NaN for one with a coordinate that is NaN or infinite.
-/// @param mesh points and triangles; ids must be those of points.
+/// @param mesh the points and triangles; all ids must be valid.
 /// @param geometry PlanarXY measures in the projection, all others in space.
-/// @param threads threads to use; 0: as many as the machine has. The result does not depend on it.
+/// @param threads the number of threads; 0: as many as the machine has. The result does not depend
+/// on it.
 DELAUNAYFLIP_EXPORT void FindSmallestAngles(
   const TriangleMesh& mesh, GeometryKind geometry, int threads, double* degrees);
 

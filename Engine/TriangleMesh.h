@@ -102,21 +102,22 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// A triangle mesh with what the caller knows of its edges. Any mesh is accepted: non-manifold,
-/// open, of mixed winding, with duplicate, degenerate or unused parts.
+/// A triangle mesh, and what the caller knows about its edges. Any mesh is accepted: non-manifold,
+/// open, with mixed winding, with duplicate, degenerate or unused parts.
 struct TriangleMesh
 {
   PointArray Points;
   TriangleArray Triangles;
 
-  /// Edges that must stay: NumberOfConstraintEdges pairs of vertex ids, in any order and direction.
+  /// Edges that must stay: NumberOfConstraintEdges pairs of vertex ids, in any order and direction,
+  /// or null.
   const std::int64_t* ConstraintEdges = nullptr;
   std::int64_t NumberOfConstraintEdges = 0;
 
-  /// One label per triangle, or null: edges between triangles of different labels stay.
+  /// One label per triangle, or null. Edges between triangles with different labels stay.
   const std::int32_t* Regions = nullptr;
 
-  /// One flag per triangle, or null: the edges of triangles with a flag other than 0 stay.
+  /// One flag per triangle, or null. The edges of triangles with a non-zero flag stay.
   const unsigned char* FrozenTriangles = nullptr;
 };
 

@@ -21,7 +21,7 @@
 namespace delaunayflip
 {
 
-/// Sets the ids of a triangle in the caller's slot, if the target has it.
+/// Sets the ids of a triangle in the caller's slot, if the target includes it.
 struct StoreStep
 {
   const TriangleRecord* Triangles;
@@ -41,12 +41,12 @@ struct StoreStep
   }
 };
 
-/// From the caller's arrays to a loop, on a backend.
+/// Makes a loop from the caller's arrays, on a backend.
 template <typename BackendT>
 class BackendEngine : public FlipEngine
 {
 public:
-  /// Keeps nothing of `mesh`.
+  /// Keeps no reference to `mesh`.
   /// @throws BuildAborted.
   BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend,
     const BuildProgress& progress)
@@ -124,8 +124,8 @@ public:
 private:
   using LocalMesh = typename BackendT::LocalMesh;
 
-  /// Planes have no use for the caller's points once they are ordered, surfaces look for feature
-  /// edges first.
+  /// In the plane the caller's points are not needed once they are packed; on surfaces feature
+  /// edges are found first.
   void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
   {
     const PointArray points = local.View().Points;
@@ -134,8 +134,8 @@ private:
     local.DropPoints();
   }
 
-  /// Here memory is fullest, for the caller's triangles and the engine's are both in it; so a
-  /// device goes without what it can make again.
+  /// This is the peak of memory use, with the caller's triangles and the engine's. So a device
+  /// first frees what can be recomputed.
   EdgeMesh LoadTriangles(const EdgeMeshInput& edges, LocalMesh& local)
   {
     if (BackendT::MemoryIsScarce)

@@ -13,11 +13,12 @@ namespace delaunayflip
 {
 
 /// The claims of an iteration on the edges that flips would make. Two flips that share no triangle
-/// may make the same edge; then the smaller priority holds it.
+/// may make the same edge; then the one with the smaller priority holds the claim.
 ///
-/// A hash table of words (tag of the edge, smallest priority). Two neighbouring edges with the same
-/// tag, one pair in billions, count as one edge, which delays one of them by an iteration. All
-/// words are Empty between iterations, because the holder of a claim releases it.
+/// A hash table of words (tag of the edge, smallest priority). If two edges with neighbouring
+/// places have the same tag, which happens to one pair in billions, they count as one edge, which
+/// delays one of them by an iteration. All words are Empty between iterations, because the holder
+/// of a claim releases it.
 struct EdgeClaims
 {
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);

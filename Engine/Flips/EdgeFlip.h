@@ -17,7 +17,7 @@ struct OuterHalfEdges
   HalfEdgeId AP, QA, PB, BQ;
 };
 
-/// Of the half-edges of both triangles.
+/// Reads them from the half-edges of both triangles.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfEdges(
   const HalfEdgeId (&upper)[3], int slotA, const HalfEdgeId (&lower)[3], int slotB)
 {
@@ -33,7 +33,8 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfE
   return GetOuterHalfEdges(upper.HalfEdges, SlotOf(cornerA), lower.HalfEdges, SlotOf(cornerB));
 }
 
-/// Puts `vertex` where the flip takes one away, and the two half-edges that move with it.
+/// Writes `vertex` in the place of the one that the flip removes, and the two half-edges that move
+/// with it.
 DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
   TriangleRecord& triangle, int slot, VertexId vertex, HalfEdgeId facing, HalfEdgeId diagonal)
 {

@@ -22,13 +22,13 @@ struct EdgeGuardView
   EdgeClaims Claims;
 };
 
-/// The edges that exist, where flips could make one twice; empty where they provably cannot.
+/// The table of all edges, if flips could make an edge that exists; empty if they provably cannot.
 class EdgeGuard
 {
 public:
   EdgeGuard() = default;
 
-  /// Takes over a table that holds the vertex pairs of all `edges` edges.
+  /// Takes a table that holds the vertex pairs of all `edges` edges.
   template <typename Backend>
   EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices, const Backend& backend)
     : Table(std::move(table)),
@@ -47,17 +47,17 @@ public:
       { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
   }
 
-  /// Slots that flips may use for the first time before the table must be rebuilt.
+  /// How many slots flips may use for the first time before the table must be rebuilt.
   std::int64_t GetFreshSlotsLeft() const
   {
-    // Share of slots ever used above which searches for absent edges get long.
+    // The share of slots ever used above which searches for absent edges become long.
     constexpr double LargestUse = 0.8;
     return static_cast<std::int64_t>(LargestUse * static_cast<double>(this->Table.GetCapacity())) -
       this->UsedSlots;
   }
 
-  /// Accounts for flips: when too many slots were used or a new edge found none, the table is made
-  /// anew from the mesh.
+  /// Takes flips into account: rebuilds the table from the mesh if too many slots have been used or
+  /// a new edge found none.
   template <typename Backend>
   void Maintain(const StepCounts& flips, EdgeMesh& mesh, const Backend& backend)
   {

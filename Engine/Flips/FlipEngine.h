@@ -15,37 +15,37 @@
 namespace delaunayflip
 {
 
-/// Undoes what a backend did to the calling thread.
+/// Restores the state of the calling thread that a backend has changed.
 class DeviceScope
 {
 public:
   virtual ~DeviceScope() = default;
 };
 
-/// A mesh on a backend, ready to flip: what a session drives. BackendEngine.h makes one.
+/// A mesh on a backend, ready to flip, as used by a session. BackendEngine.h makes one.
 class FlipEngine
 {
 public:
   virtual ~FlipEngine() = default;
 
-  /// Makes the engine's device current in the calling thread for as long as the result is kept;
-  /// null where there is no device. Call it before any other function.
+  /// Makes the engine's device current in the calling thread as long as the result is kept. Null if
+  /// there is no device. Call this before any other function.
   virtual std::unique_ptr<DeviceScope> MakeCurrent() const = 0;
 
   virtual FlipLoop& GetLoop() = 0;
 
-  /// What the input holds, as far as it is known before the first iteration.
+  /// What is known about the input before the first iteration.
   virtual const FlipReport& GetInputReport() const = 0;
 
-  /// As FlipSession's.
+  /// The same as FlipSession's.
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
 
-  /// On a surface that was a height field over x and y, or nearly: triangles that flips have turned
-  /// over in x and y. Else none.
+  /// The triangles that flips have turned over in x and y, on a surface that was a height field or
+  /// nearly one; else none.
   virtual Defect FindTurnedTriangles() const = 0;
 
-  /// Throws std::logic_error when the edge mesh is inconsistent: a fault of ours.
+  /// Throws std::logic_error if the edge mesh is inconsistent, which is a bug of the engine.
   virtual void Audit() const = 0;
 };
 
@@ -54,8 +54,8 @@ std::unique_ptr<FlipEngine> MakeThreadEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 /// @throws BuildAborted.
-/// @throws BackendUnavailable: no GPU, no memory on it, a failure of the driver; or what it was
-/// asked for needs the CPU. The message says why.
+/// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
+/// mesh needs the CPU. The message says why.
 std::unique_ptr<FlipEngine> MakeCudaEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 

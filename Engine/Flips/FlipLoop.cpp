@@ -9,15 +9,16 @@ namespace delaunayflip
 
 namespace
 {
-/// Smaller meshes have no chunks.
+/// The smallest mesh with chunks.
 constexpr std::int64_t SmallestChunkedMesh = std::int64_t(1) << 16; // triangles
 
-/// Iterations within chunks before iterations span the mesh.
+/// How many iterations run within chunks before iterations span the mesh.
 constexpr std::int64_t ChunkIterations = 12;
 
-/// Chunks of 2^16 triangles, with their edges and points, fill 3 MB. Meshes that would have few of
-/// them have smaller ones, so that many threads get one each: 16 threads flip a random bad mesh of
-/// 100,000 points in 11 ms instead of 25, a GPU in the same time (Documentation/performance.md).
+/// A chunk of 2^16 triangles takes 3 MB, with its edges and points. Meshes that would have only a
+/// few chunks have smaller ones, so that more threads have work: 16 threads then flip a random bad
+/// mesh of 100,000 points in 11 ms instead of 25; a GPU takes the same time as before
+/// (Documentation/performance.md).
 int FindChunkBits(std::int64_t triangles)
 {
   constexpr int Most = 16, Fewest = 14;
@@ -56,8 +57,8 @@ std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
   return iterations.empty() ? this->IterateMesh(plan) : iterations;
 }
 
-/// As many iterations within chunks as the plan and the schedule allow; none when no chunk has
-/// anything to flip.
+/// Runs as many iterations within chunks as the plan and the schedule allow; none if no chunk has
+/// an edge to flip.
 std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
 {
   const bool isFirst = this->ChunkIterationsLeft == ChunkIterations;
@@ -72,8 +73,8 @@ std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
   }
   if (isFirst && !iterations.empty())
   {
-    // The detection before the first iteration covered all edges; those between chunks count as
-    // excluded from it.
+    // The detection before the first iteration covered all edges. Bad edges between chunks count as
+    // excluded from that iteration.
     iterations[0].Tested = this->Found.Tested;
     iterations[0].Bad = this->Found.Bad;
     iterations[0].Blocked = this->Found.Blocked;

@@ -15,14 +15,14 @@
 namespace delaunayflip
 {
 
-/// An iteration as counted.
+/// The counts of an iteration.
 struct IterationCounts
 {
   std::int64_t Tested = 0; ///< Edges judged before it chose.
   std::int64_t Bad = 0; ///< Edges known to be bad and free to flip when it chose.
-  std::int64_t Blocked = 0; ///< Bad ones that were not free.
+  std::int64_t Blocked = 0; ///< Bad edges that were not free.
   std::int64_t Flipped = 0;
-  double SquaredCotangent = -INFINITY; ///< After it, of the smallest angle, where asked for.
+  double SquaredCotangent = -INFINITY; ///< Of the smallest angle after it, on request.
 
   IterationCounts& operator+=(const IterationCounts& other)
   {
@@ -35,15 +35,15 @@ struct IterationCounts
   }
 };
 
-/// How far to go.
+/// How many iterations to run, and what to measure.
 struct AdvancePlan
 {
-  std::int64_t Iterations; ///< At most so many, >= 1.
+  std::int64_t Iterations; ///< The most iterations, at least 1.
   bool MeasureFirst; ///< Compute SquaredCotangent after the first of them.
   bool MeasureAll; ///< And after every one.
 };
 
-/// The loop, over what a backend provides. Between calls the mesh is valid.
+/// The loop, on top of what a backend provides. Between calls the mesh is valid.
 ///
 /// An iteration has these passes. Each runs for all its edges at once and ends before the next
 /// begins; the same numbers stand in FlipSteps.h and where the backends run the passes.
@@ -54,17 +54,18 @@ struct AdvancePlan
 ///    free those whose obstacle has gone.
 /// 3. Count the bad and the blocked edges. None bad: the loop has converged.
 /// 4. Choose an independent set of the bad edges by their priorities.
-/// 5. Claim and confirm, with a guard only: of two winners that would make the same edge one waits.
+/// 5. Claim and confirm, only with a guard: of two winners that would make the same edge, one
+/// waits.
 /// 6. Flip the winners. Their outer edges are the candidates of the next iteration.
 ///
 /// Passes 1 to 3 are a detection. The loop keeps what the last one found, so an iteration begins
 /// with pass 4 and ends with the detection for the next.
 ///
-/// The schedule is part of the algorithm, the same for every backend. Where no guard is needed and
+/// The schedule is part of the algorithm and the same for every backend. If no guard is needed and
 /// the mesh has more than 2^16 triangles, the first 12 iterations run within chunks of 2^14 to 2^16
-/// triangles in the engine's order, which fit a cache: edges between two chunks sit out. A chunk
-/// runs all these iterations at once, in cache; the counts are summed over the chunks, iteration by
-/// iteration. After that, iterations span the mesh.
+/// triangles in the engine's order, which fit into a cache; edges between two chunks are deferred.
+/// Each chunk runs all of these iterations at once, in the cache, and the counts are summed over
+/// the chunks, iteration by iteration. After that, iterations span the mesh.
 class FlipLoop
 {
 public:
@@ -73,18 +74,18 @@ public:
   /// The first detection.
   const StepCounts& Detect();
 
-  /// What the last detection found.
+  /// The counts of the last detection.
   const StepCounts& GetFound() const { return this->Found; }
 
   /// Runs one or more iterations, at most as many as planned, after a detection that found bad
   /// edges, and detects again. @returns the iterations.
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);
 
-  /// LargestSquaredCotangent (SurfaceAngles.h) over all triangles.
+  /// The largest LargestSquaredCotangent (SurfaceAngles.h) of all triangles.
   virtual double FindLargestSquaredCotangent() const = 0;
 
 protected:
-  /// @param hasGuard whether flips need a guard, which chunks do without.
+  /// @param hasGuard whether flips need a guard; then there are no chunks.
   FlipLoop(std::int64_t triangles, bool hasGuard);
 
   bool HasChunks() const { return this->NumberOfChunks > 0; }
@@ -95,8 +96,8 @@ protected:
   /// Passes 4 to 6 and a detection, on the whole mesh, once or more. Sets Found.
   virtual std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) = 0;
 
-  /// Runs exactly plan.Iterations iterations within chunks, while the edges between chunks are
-  /// deferred; afterwards these are candidates. Without a detection at the end.
+  /// Runs exactly plan.Iterations iterations within chunks. The edges between chunks are deferred
+  /// meanwhile, and are candidates afterwards. Makes no detection at the end.
   virtual std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) = 0;
 
   int ChunkBits; ///< 2^ChunkBits triangles per chunk.
@@ -109,7 +110,7 @@ private:
   std::int64_t ChunkIterationsLeft;
 };
 
-/// The loop of a backend by a rule: LoopOf<Backend, Rule>::Type.
+/// The type of a backend's loop for a rule: LoopOf<Backend, Rule>::Type.
 template <typename Backend, typename Rule>
 struct LoopOf;
 

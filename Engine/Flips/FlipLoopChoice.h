@@ -25,8 +25,9 @@
 namespace delaunayflip
 {
 
-/// Which coordinates a mesh is judged by. Terrain by angles: those of the projection.
-/// @param asFloat whether the caller's are of type float.
+/// The coordinates by which a mesh is judged. For terrain judged by angles, those of the
+/// projection.
+/// @param asFloat whether the caller's coordinates are of type float.
 inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion, bool asFloat)
 {
   if (survey.Geometry == GeometryKind::Surface)
@@ -42,17 +43,17 @@ inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion
 
 struct FlipLoopInput
 {
-  const PackedPoints& Points; ///< By PlanPacking. The loop reads them; must live as long.
+  const PackedPoints& Points; ///< Packed by PlanPacking. Must live as long as the loop.
   const MeshSurvey& Survey;
   const FlipOptions& Options;
-  const FlipReport& Counts; ///< Of the input's points and edges.
+  const FlipReport& Counts; ///< Has the counts of points and edges of the input.
   EdgeMesh& Mesh; ///< Must live as long as the loop.
 };
 
 struct FlipLoopResult
 {
   std::unique_ptr<FlipLoop> Loop;
-  std::vector<Defect> Defects; ///< Of triangles: without area, turned over.
+  std::vector<Defect> Defects; ///< Triangles without area or turned over.
 };
 
 template <typename Backend>
@@ -90,7 +91,7 @@ PlanarRule<Real, Components> MakeInCircleRule(
   return { coordinates, uniformSide, canonical, input.Survey.FiltersApply };
 }
 
-/// @param uniformSide to which side all triangles turn, if they do (PlanarSurvey).
+/// @param uniformSide the side to which all triangles turn, if they do (PlanarSurvey).
 template <typename Backend>
 std::unique_ptr<FlipLoop> MakePlanarLoop(
   const FlipLoopInput& input, int uniformSide, EdgeGuard guard, const Backend& backend)
@@ -130,9 +131,9 @@ std::unique_ptr<FlipLoop> MakeSurfaceLoop(
         std::move(guard), backend);
 }
 
-/// Makes the loop that suits a mesh. The backend must live as long as it.
-/// @param table the vertex pairs of all edges, if there is one; kept where flips could make an edge
-/// that exists.
+/// Makes the loop that suits a mesh. The backend must live as long as the loop.
+/// @param table the vertex pairs of all edges, or empty; kept if flips could make an edge that
+/// exists.
 template <typename Backend>
 FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const Backend& backend)
 {
@@ -153,7 +154,7 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   {
     guard = MakeGuard(input, std::move(table), backend);
   }
-  table = EdgeTable(); // its memory is needed
+  table = EdgeTable(); // frees its memory
   return { MakePlanarLoop(input, plane.UniformSide, std::move(guard), backend),
     { plane.ZeroAreaTriangles, plane.InvertedTriangles } };
 }

@@ -48,8 +48,8 @@ struct ExactSigns
   }
 };
 
-/// The side to which the two triangles of a quad turn: 1 or -1, 0 when they turn to different sides
-/// or neither has an area, UncertainSign. `strict` tells whether both have an area.
+/// The side to which the two triangles of a quad turn: 1 or -1; 0 if they turn to different sides
+/// or neither has an area; or UncertainSign. `strict` receives whether both have an area.
 template <typename Signs>
 DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4], bool& strict)
 {
@@ -82,25 +82,25 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
   return a.U < b.U || (a.U == b.U && a.V < b.V);
 }
 
-/// The canonical diagonal of four points on a circle is the one that does not hold the
-/// lexicographically largest of them.
+/// The canonical diagonal of four points on a circle is the one without the lexicographically
+/// largest point.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
 {
-  // No reference to the larger one: a device would have to put the points into memory.
+  // Not a reference to the larger one: for that a device would have to store the points in memory.
   const auto isBelow = [&](const PlanePoint& point)
   { return IsLexicographicallyLess(point, apqb[1]) || IsLexicographicallyLess(point, apqb[2]); };
   return isBelow(apqb[0]) && isBelow(apqb[3]);
 }
 
-/// Two coordinates, which a device loads in one instruction.
+/// Two coordinates, which a device loads with one instruction.
 template <typename Real>
 struct alignas(2 * sizeof(Real)) CoordinatePair
 {
   Real U, V;
 };
 
-/// In the plane by the exact in-circle predicate. Components = 2: (u, v); 3: a tilted plane, (u, v,
-/// w).
+/// Judges in the plane, by the exact in-circle predicate. Components = 2: (u, v); 3: (u, v, w) of a
+/// tilted plane.
 template <typename Real, int Components>
 struct PlanarRule
 {
@@ -110,8 +110,8 @@ struct PlanarRule
 
   const Real* Coordinates; ///< Components numbers per vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
-  bool Canonical; ///< Ties are decided, not kept.
-  bool FiltersApply; ///< Coordinates are in the filters' range.
+  bool Canonical; ///< Whether ties are decided instead of kept.
+  bool FiltersApply; ///< Whether coordinates are in the range of the filters.
 
   DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
   {
@@ -142,8 +142,8 @@ struct PlanarRule
   }
 
 private:
-  /// In a plane, in-circle > 0 and one triangle with an area, the other not turned over, imply that
-  /// the quad is strictly convex; a tilted lift does not quite, where points leave the plane.
+  /// In the plane, if in-circle > 0, one triangle has an area, and the other is not turned over,
+  /// the quad is strictly convex. With a tilted lift, points off the plane can break this.
   template <typename Signs>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
   {
@@ -166,8 +166,9 @@ private:
   }
 };
 
-/// For small functions that are called seldom: on the CPU they would take registers from the loop
-/// around them. A device has enough, and would have to put the arguments of a call into memory.
+/// For small functions that are called seldom. On the CPU they would take registers from the loop
+/// around them, so they are not inlined. A device has enough registers, and would have to pass the
+/// arguments of a call in memory.
 #if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
 #define DELAUNAYFLIP_NO_INLINE_ON_HOST __attribute__((noinline))
 #else
@@ -197,7 +198,7 @@ struct AnglePoints
     return { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q), this->Get(quad.B) };
   }
 
-  /// @param points of the quad.
+  /// @param points the points of the quad.
   DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, const QuadPoints& points) const
   {
     const AngleSum sum(points);
@@ -206,8 +207,8 @@ struct AnglePoints
   }
 
 private:
-  /// Loads the points again: as a function of its own it takes no registers from the test of all
-  /// the edges that do not need it.
+  /// Loads the points again. As a separate function it takes no registers from the test of the many
+  /// edges that do not need it.
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
     const Quad& quad, double excess) const
   {
@@ -215,8 +216,8 @@ private:
   }
 };
 
-/// In the plane by the paper's opposite-angle sum; coordinates are u, v, w, and convexity in (u, v)
-/// is exact.
+/// Judges in the plane, by the paper's opposite-angle sum. Coordinates are u, v, w; convexity in
+/// (u, v) is tested exactly.
 struct PlanarAngleRule : AnglePoints<double>
 {
   static constexpr bool MayBlock = true;
@@ -238,7 +239,7 @@ struct PlanarAngleRule : AnglePoints<double>
   }
 };
 
-/// In space by the opposite-angle sum, without folding the surface over.
+/// Judges in space, by the opposite-angle sum; flips must not fold the surface over.
 template <typename Real>
 struct SurfaceRule : AnglePoints<Real>
 {

@@ -17,7 +17,7 @@
 namespace delaunayflip
 {
 
-/// Pass 2: what becomes of an edge that is bad or was blocked by the guard. The guard table does
+/// Pass 2: the new state of an edge that is bad or was blocked by the guard. The guard table does
 /// not change meanwhile.
 DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
   const EdgeTableView& edges, const Quad& quad)
@@ -26,12 +26,12 @@ DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
   return exists ? EdgeState::BlockedByEdge : EdgeState::Bad;
 }
 
-/// Pass 4: which of two bad edges flips first: a bijection of edge ids, so no two are equal (equal
-/// ones would both flip, on a shared triangle), and scattered, so that chains are not served one by
-/// one.
+/// Pass 4: decides which of two bad edges flips first. Priorities are a bijection of edge ids: two
+/// equal ones would both flip, on a shared triangle. They are scattered so that a chain of bad
+/// edges does not flip one by one.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Priority(EdgeId edge) { return Scatter(edge); }
 
-/// Whether an edge comes before those of its quad's outer edges that are bad.
+/// Whether an edge has a smaller priority than all bad outer edges of its quad.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
   EdgeId edge, const OuterHalfEdges& outer, bool ap, bool qa, bool pb, bool bq)
 {

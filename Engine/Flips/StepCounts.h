@@ -10,7 +10,7 @@
 namespace delaunayflip
 {
 
-/// What the steps count.
+/// The counts that the steps make.
 struct StepCounts
 {
   std::int64_t Tested = 0;

@@ -12,8 +12,8 @@ namespace delaunayflip
 {
 
 /// Relaxed atomics on words of 4 and 8 bytes; loads and stores also on bytes. Passes end with a
-/// barrier, so nothing within one needs an order. The CPU takes words of any type; a device has
-/// overloads for certain unsigned types only.
+/// barrier, so no order is needed within a pass. The CPU accepts words of any type; a device has
+/// overloads only for some unsigned types.
 #if DELAUNAYFLIP_ON_DEVICE
 template <std::size_t Size>
 struct DeviceWord;
@@ -90,11 +90,11 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicAdd(std::uint32_t* address, 
 #endif
 }
 
-/// Sets bits. Returns nothing, so that a device need not wait.
+/// Sets bits. Returns nothing, so that a device does not wait.
 DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint32_t bits)
 {
 #if DELAUNAYFLIP_ON_DEVICE
-  // In large kernels the compiler leaves an atomicOr that waits for the old value.
+  // In large kernels the compiler would keep an atomicOr that waits for the old value.
   asm volatile("red.relaxed.gpu.global.or.b32 [%0], %1;"
                :
                : "l"(__cvta_generic_to_global(address)), "r"(bits)

@@ -7,8 +7,8 @@
 #include "FixedPoint.h"
 
 /// @file
-/// Exact signs: by fixed-point integers for coordinates below 2^125 in units of their lowest bit,
-/// which holds for nearly all quads; by integers of any width for the others.
+/// Exact signs: by fixed-point integers if coordinates are below 2^125 in units of their lowest
+/// bit, as for nearly all quads; else by integers of any width.
 
 namespace delaunayflip
 {
@@ -17,7 +17,7 @@ namespace delaunayflip
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 int WideInCircle(const PlanePoint (&points)[4], bool tilted);
 
-/// A point relative to an origin, in units. Lifts and minors are of the next wider integers.
+/// A point relative to an origin, in units. Lifts and minors are integers of twice the width.
 template <typename Integer>
 struct FixedPointOffset
 {
@@ -88,10 +88,10 @@ private:
   const bool Tilted;
 };
 
-/// Turn of a, b, c in (u, v), or UncertainSign where they do not fit. Points come by value, here
-/// and below, because compilers for GPUs put what a call refers to in memory.
+/// The turn of a, b, c in (u, v), or UncertainSign if they do not fit. Here and below points are
+/// passed by value, because compilers for GPUs store what a call refers to in memory.
 ///
-/// Offsets below 2^126 are what Multiply takes; the difference of their products is below 2^253.
+/// Multiply accepts offsets below 2^126; the difference of their products is below 2^253.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation(
   PlanePoint a, PlanePoint b, PlanePoint c)
 {
@@ -136,8 +136,8 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointInCircleIn(
   return SignOf(firstTerm + secondTerm + thirdTerm);
 }
 
-/// Computes in 64 bits where the offsets fit, which takes a third of the time, else in 128;
-/// UncertainSign where neither suffices.
+/// Computes with 64 bits if the offsets fit, which takes a third of the time, else with 128;
+/// UncertainSign if neither suffices.
 DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points)[4], bool tilted)
 {
   const int sign =

@@ -34,7 +34,7 @@ constexpr double LargestFilteredDifference = 1.8092513943330656e75; // 2^250
 /// Coordinates up to here have differences of that size.
 constexpr double LargestFilteredCoordinate = LargestFilteredDifference / 2;
 
-/// Whether the filters may be asked about the point's u and v.
+/// Whether the filters may be used for the point's u and v.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange(const PlanePoint& point)
 {
   return std::fabs(point.U) <= LargestFilteredCoordinate &&

@@ -187,7 +187,7 @@ public:
     this->Exponent = parts.Mantissa != 0 && lastBit < this->Exponent ? lastBit : this->Exponent;
   }
 
-  /// An included value in units where that is below 2^125 in magnitude; others clear `fits`.
+  /// An included value in units, if that is below 2^125 in magnitude; otherwise clears `fits`.
   DELAUNAYFLIP_HOST_DEVICE Integer128 Convert(double value, bool& fits) const
   {
     constexpr int LargestShift = 125 - DoubleParts::MantissaBits;
@@ -195,8 +195,8 @@ public:
     const int shift = parts.Exponent - this->Exponent;
     const bool inRange = shift <= LargestShift;
     fits = fits && inRange;
-    // Down, what falls out is 0, for the value is a multiple. The mask is for zero itself, whose
-    // exponent may lie any distance below.
+    // A shift to the right loses only zeros, because the value is a multiple of the unit. The mask
+    // is for zero itself, whose exponent may be lower by any amount.
     const int down = shift < 0 ? -shift & 63 : 0;
     const int up = shift > 0 && inRange ? shift : 0;
     const auto magnitude = static_cast<Integer128>(Unsigned128(parts.Mantissa >> down) << up);

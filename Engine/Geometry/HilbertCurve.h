@@ -44,17 +44,18 @@ DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes],
   return index;
 }
 
-/// How the plane's Hilbert curve is turned from level to level, all levels at once: bit i of every
-/// word is of level i. A turn exchanges the axes or not, E, and inverts both or not, I; what a
-/// level makes of the turn that it finds is affine over the field of two elements:
+/// How the plane's Hilbert curve is turned from level to level, for all levels at once: bit i of
+/// every word belongs to level i. A turn has two bits: E, whether it exchanges the axes, and I,
+/// whether it inverts both. Each level maps the turn that it finds by an affine map over the field
+/// of two elements:
 ///
 ///     E' = EE E + EI I + E0,  I' = IE E + II I + I0
 struct HilbertTurns
 {
   std::uint32_t EE, EI, E0, IE, II, I0;
 
-  /// What every level makes of the turn at the start, if it does so of that `distance` levels above
-  /// it.
+  /// Composes every level's map with that of the level `distance` above it, so that maps span twice
+  /// the distance.
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE HilbertTurns Follow(int distance) const
   {
     // Levels above the first leave the turn as it is.
@@ -67,7 +68,7 @@ struct HilbertTurns
   }
 };
 
-/// Bit i becomes bit 2 i.
+/// Moves bit i to bit 2 i.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t SpreadBits(std::uint32_t x)
 {
   x = (x | (x << 8)) & 0x00ff00ffu;
@@ -76,7 +77,8 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t SpreadBits(std::uint32_t x)
   return (x | (x << 1)) & 0x55555555u;
 }
 
-/// The same in the plane, by doubling the distance over which turns are known: a third of the time.
+/// The same in the plane, by doubling the distance over which turns are known, in a third of the
+/// time.
 /// @param u, v of at most 16 bits.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
   std::uint32_t u, std::uint32_t v, int bits)
@@ -96,7 +98,7 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
   return (SpreadBits(turnedU) << 1) | SpreadBits(differ);
 }
 
-/// Cell, of 2^bits, of a coordinate in [lower, lower + width]; 0 for what is not in it (NaN).
+/// The cell, of 2^bits, of a coordinate in [lower, lower + width]; 0 if it is not in it or NaN.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t CellOf(double x, double lower, double width, int bits)
 {
   const double cells = static_cast<double>(1u << bits);

@@ -9,22 +9,22 @@
 #include <cmath>
 
 /// @file
-/// Do the two angles opposite an edge sum to more than pi, by more than a tolerance?
+/// Whether the two angles opposite to an edge sum to more than pi plus a tolerance.
 
 namespace delaunayflip
 {
 
-/// By how much an opposite-angle sum must exceed pi.
+/// How far an opposite-angle sum may exceed pi.
 struct AngleTolerance
 {
-  double Sine = 0.0; ///< Of a fixed tolerance.
+  double Sine = 0.0; ///< The sine of a fixed tolerance.
   double Cosine = 1.0;
   double Precision =
     0.0; ///< FloatPrecision or DoublePrecision: automatic, beside a fixed one of 0.
 };
 
-/// The distance of a number of type float or double to the next one is at most this times the
-/// number, unless the number is too small for a normal one.
+/// The distance between a normal number of type float or double and the next one is at most this
+/// times the number.
 constexpr double FloatPrecision = 0x1p-23;
 constexpr double DoublePrecision = 0x1p-52;
 
@@ -54,7 +54,7 @@ struct AngleSum
     return this->Sine * tolerance.Cosine - this->Cosine * tolerance.Sine < 0.0;
   }
 
-  /// Of a sum beyond pi: the sine of what exceeds pi, infinite beyond 3/2 pi.
+  /// For a sum beyond pi: the sine of its excess over pi, infinite beyond 3/2 pi.
   DELAUNAYFLIP_HOST_DEVICE double GetExcess() const
   {
     return this->Cosine > 0.0 ? INFINITY : -this->Sine;
@@ -65,7 +65,7 @@ struct AngleSum
   bool BothObtuse;
 };
 
-/// Distance from the origin of the quad's farthest point.
+/// The distance from the origin of the quad's farthest point.
 DELAUNAYFLIP_HOST_DEVICE inline double FindFarthest(const QuadPoints& quad)
 {
   const double a = Dot(quad.A, quad.A), b = Dot(quad.B, quad.B);
@@ -84,8 +84,8 @@ DELAUNAYFLIP_HOST_DEVICE inline double FindFarthest(const QuadPoints& quad)
 ///     asin(t), t = 2 d (1/|ap| + 1/|aq| + 1/|bp| + 1/|bq|).
 ///
 /// So sin(sum - pi) > t tells that the sum exceeds pi wherever the points are. It is compared here
-/// after a multiplication by the four lengths, which spares divisions and lets a leg without length
-/// be noise. Where t >= 1 all is noise.
+/// after a multiplication by the four lengths, which avoids divisions and makes a leg without
+/// length noise. If t >= 1, any sum is noise.
 /// @param excess AngleSum::GetExcess.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsNoise(
   const QuadPoints& quad, double precision, double excess)

@@ -12,9 +12,9 @@
 namespace delaunayflip
 {
 
-/// Where a polygon's points lie relative to its first, scaled by a power of two such that products
-/// of two offsets neither overflow nor vanish. Offsets are anything indexed [i][axis]; the first
-/// `axes` coordinates are loaded.
+/// The points of a polygon relative to its first one, scaled by a power of two such that products
+/// of two offsets neither overflow nor vanish. Offsets may be of any type indexed by [i][axis]; the
+/// first `axes` coordinates are loaded.
 template <typename Offsets>
 void LoadScaledOffsets(
   const PointArray& points, const std::int64_t* ids, std::int64_t count, int axes, Offsets& offsets)
@@ -41,7 +41,7 @@ void LoadScaledOffsets(
       largest = std::max(largest, std::fabs(offset));
     });
   const int exponent = largest > 0.0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  const double scale = std::scalbn(1.0, -exponent); // infinite where all offsets are subnormal
+  const double scale = std::scalbn(1.0, -exponent); // infinite if all offsets are subnormal
   forEach([&](double& offset, double, double)
     { offset = std::isfinite(scale) ? scale * offset : std::scalbn(offset, -exponent); });
 }

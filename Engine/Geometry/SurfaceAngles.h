@@ -33,8 +33,8 @@ struct QuadPoints
   Vector3 A, P, Q, B;
 };
 
-/// Whether the two triangles' normals differ by more than the angle of that cosine. A triangle
-/// without area has no normal: no.
+/// Whether the normals of the two triangles differ by more than the angle with that cosine. False
+/// if a triangle has no area, and so no normal.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsSharp(const QuadPoints& quad, double cosine)
 {
   const Vector3 upper = AreaVector(quad.A, quad.P, quad.Q);
@@ -43,8 +43,8 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsSharp(const QuadPoints& quad, double cosi
   return lengths > 0.0 && Dot(upper, lower) < cosine * lengths;
 }
 
-/// Whether flipping p-q to a-b would fold the surface over: a new normal does not point to the side
-/// of the quad's vector area, which the flip does not change.
+/// Whether flipping p-q to a-b would fold the surface over: whether a new normal points away from
+/// the quad's vector area, which the flip does not change.
 DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOver(const QuadPoints& quad)
 {
   const Vector3 area = AreaVector(quad.A, quad.P, quad.Q) + AreaVector(quad.B, quad.Q, quad.P);

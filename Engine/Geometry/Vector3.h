@@ -10,7 +10,7 @@
 namespace delaunayflip
 {
 
-/// Neither NaN nor infinite. A difference with itself is 0 for finite numbers only.
+/// Whether a number is neither NaN nor infinite: only then its difference with itself is 0.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(double number) { return number - number == 0.0; }
 
 struct Vector3

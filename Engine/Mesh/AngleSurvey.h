@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// A maximum as a sum.
+/// A maximum, with operator+= so that Sum can compute it.
 struct LargestValue
 {
   double Value = -INFINITY;

@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// Where arrays live. Arrays must not outlive it.
+/// The memory from which arrays are allocated. Arrays must not outlive it.
 class Memory
 {
 public:
@@ -19,7 +19,7 @@ public:
   /// @throws std::bad_alloc.
   virtual void* Allocate(std::size_t bytes) = 0;
 
-  /// @param bytes as it was allocated.
+  /// @param bytes the number of bytes that were allocated.
   virtual void Free(void* memory, std::size_t bytes) noexcept = 0;
 };
 

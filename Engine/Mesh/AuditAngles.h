@@ -9,9 +9,9 @@
 #include <limits>
 
 /// @file
-/// The opposite-angle test and its tolerance for MeshAudit, written without the engine's own
-/// (OppositeAngles.h) and by other means: divisions, hypot and inverse trigonometry. If they shared
-/// their text, a mistake in it would confirm itself.
+/// The opposite-angle test of MeshAudit and its tolerance. It does not use the engine's
+/// OppositeAngles.h and works differently, with divisions, hypot and inverse trigonometry: if both
+/// shared code, a mistake in it would confirm itself.
 
 namespace delaunayflip
 {
@@ -67,12 +67,13 @@ inline bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
   return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
 }
 
-/// The automatic tolerance of a quad in radians, infinite where its points do not tell anything:
-/// how much its angle sum may change when every coordinate moves by a unit in its last place.
-/// @param apqb points of the quad. @param epsilon of the type of the coordinates.
+/// The automatic tolerance of a quad in radians: how much its angle sum may change when every
+/// coordinate moves by a unit in the last place. Infinite if the change has no bound.
+/// @param apqb the points of the quad.
+/// @param epsilon that of the coordinates' type.
 inline double FindTolerance(const std::array<Vector, 4>& apqb, double epsilon)
 {
-  // Of a quarter of the coordinates, no difference nor length is infinite.
+  // Differences and lengths of a quarter of the coordinates are finite.
   std::array<Vector, 4> quarters = apqb;
   double farthest = 0.0;
   for (Vector& point : quarters)
@@ -85,11 +86,11 @@ inline double FindTolerance(const std::array<Vector, 4>& apqb, double epsilon)
   {
     for (int end : { 1, 2 })
     {
-      const double moved = 2.0 * epsilon * farthest; // one end relative to the other
+      const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
       turns += moved / Length(Subtract(quarters[end], quarters[apex]));
     }
   }
-  // The engine's test is rounded, by less than this.
+  // The rounding of the engine's test is less than this.
   turns += 32.0 * std::numeric_limits<double>::epsilon();
   return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
 }

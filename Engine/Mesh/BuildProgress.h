@@ -10,7 +10,7 @@
 namespace delaunayflip
 {
 
-/// What is done of a build, from the caller's arrays to the first iteration.
+/// The steps of a build, from the caller's arrays to the first iteration.
 enum class BuildStep
 {
   Surveyed,
@@ -24,8 +24,9 @@ enum class BuildStep
   Tested ///< All edges have been tested; the loop can begin.
 };
 
-/// Share of a run's time that has passed after a step, 0 .. 1, on one thread. The build is 0.4 to 1
-/// of a run in the plane, 0.65 to 1 on surfaces, which need a guard (Documentation/performance.md).
+/// The share of a run's time, 0 to 1, that has passed after a step, on one thread. The build is 0.4
+/// to 1 of a run in the plane and 0.65 to 1 on surfaces, which need a guard
+/// (Documentation/performance.md).
 inline double GetShareOfRun(GeometryKind geometry, BuildStep step)
 {
   constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.43, 0.45, 0.50 };
@@ -34,16 +35,16 @@ inline double GetShareOfRun(GeometryKind geometry, BuildStep step)
   return geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i];
 }
 
-/// Thrown out of a build when its observer wants to stop.
+/// Thrown during a build when its observer asks to stop.
 struct BuildAborted
 {
 };
 
-/// Tells an observer, between the steps of a build, how much of the run is done.
+/// Tells an observer, between the steps of a build, the share of the run that is done.
 class BuildProgress
 {
 public:
-  /// Without an observer.
+  /// Has no observer.
   BuildProgress() = default;
   explicit BuildProgress(ProgressObserver observer)
     : Observer(std::move(observer))

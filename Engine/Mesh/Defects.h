@@ -39,7 +39,7 @@ struct IdSample
   }
 
 private:
-  /// Inserts an id where `count` are known.
+  /// Inserts an id among `count` known ones.
   DELAUNAYFLIP_HOST_DEVICE void Keep(std::int64_t id, std::int64_t count)
   {
     for (int i = 0; i < Kept; ++i)

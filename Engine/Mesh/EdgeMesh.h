@@ -36,18 +36,18 @@ constexpr CornerId NoCorner = 0xFFFFFFFFu;
 constexpr EdgeId NoEdge = 0xFFFFFFFFu;
 constexpr TriangleId NoTriangle = 0xFFFFFFFFu;
 
-/// What the loop knows of an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
+/// What the loop knows about an edge. Between iterations an edge is Good, Fixed, Candidate, Bad or
 /// blocked.
 enum class EdgeState : std::uint8_t
 {
   Good, ///< Locally Delaunay.
   Fixed, ///< Never flips, never judged.
-  Deferred, ///< Between chunks while these work for themselves; a candidate afterwards.
-  Uncertain, ///< The filter could not tell; exact arithmetic must.
+  Deferred, ///< Between chunks while iterations run within them; a candidate afterwards.
+  Uncertain, ///< The filter could not decide; exact arithmetic must.
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
-  BlockedByEdge, ///< Bad, but the new edge already exists. May clear when others flip.
+  BlockedByEdge, ///< Bad, but the new edge already exists. May become free when others flip.
   Bad, ///< Violates the criterion and may flip.
-  Excluded, ///< A candidate that was bad when a neighbour flipped, while others still choose.
+  Excluded, ///< A bad edge whose neighbour has flipped while other edges still choose.
   Candidate ///< To be judged: new, or an incident triangle changed.
 };
 
@@ -85,7 +85,7 @@ struct alignas(32) TriangleRecord
   VertexId Vertices[3];
   TriangleId InputTriangle; ///< The caller's slot.
   HalfEdgeId HalfEdges[3]; ///< This triangle's side of the edge opposite each slot.
-  std::uint32_t Flips; ///< How many this slot was part of, times OneFlip, and the builder's marks.
+  std::uint32_t Flips; ///< In how many flips it took part, times OneFlip, and the builder's marks.
 };
 
 /// Flips are counted above seven bits of marks (EdgeMeshSteps.h).
@@ -112,7 +112,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void SetAt(
 #endif
 }
 
-/// A triangle to read from or to change and write back: on a device a copy in registers, else the
+/// A triangle to read, or to change and write back: on a device a copy in registers, else the
 /// record itself.
 #if DELAUNAYFLIP_ON_DEVICE
 using TriangleAccess = TriangleRecord;
@@ -196,7 +196,7 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void PrefetchTriangles(
 /// with one side and Fixed.
 struct EdgeMesh
 {
-  /// States are searched so many at a time.
+  /// How many states are searched at a time.
   static constexpr std::int64_t StatePadding = 64;
 
   std::int64_t NumberOfTriangles = 0;

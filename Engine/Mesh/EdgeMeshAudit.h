@@ -24,7 +24,7 @@ struct EdgeMeshInspector
   const EdgeState* States;
   std::int64_t NumberOfTriangles, NumberOfEdges;
 
-  /// Corners of a triangle that their half-edges do not name.
+  /// Counts the corners of a triangle that their half-edges do not name.
   DELAUNAYFLIP_HOST_DEVICE int CountStrayCorners(std::int64_t t) const
   {
     int stray = 0;
@@ -81,9 +81,9 @@ private:
   }
 };
 
-/// Half-edges that break the adjacency: a corner and its half-edge that do not name each other, an
-/// id out of range, two sides of an edge with different end vertices, or, unless the edge is Fixed,
-/// two sides that run the same way or face the same vertex. 0 for a sound mesh.
+/// Counts half-edges that break the adjacency: a corner and its half-edge do not name each other,
+/// an id is out of range, the two sides of an edge have different end vertices, or, unless the edge
+/// is Fixed, they run the same way or face the same vertex. 0 for a consistent mesh.
 template <typename Backend>
 std::int64_t CountInconsistencies(const EdgeMesh& mesh, const Backend& backend)
 {
@@ -98,7 +98,7 @@ std::int64_t CountInconsistencies(const EdgeMesh& mesh, const Backend& backend)
       { sum += inspector.IsSound(e) ? 0 : 1; });
 }
 
-/// Throws std::logic_error when CountInconsistencies is not 0: a fault of the engine.
+/// Throws std::logic_error if CountInconsistencies is not 0, which is a bug of the engine.
 template <typename Backend>
 void RequireConsistent(const EdgeMesh& mesh, const Backend& backend)
 {

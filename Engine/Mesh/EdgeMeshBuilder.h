@@ -18,7 +18,7 @@
 #include <utility>
 
 /// @file
-/// Triangles into an edge mesh, in time linear in their number whatever the vertex degrees.
+/// Makes an edge mesh of triangles, in linear time whatever the vertex degrees.
 
 namespace delaunayflip
 {
@@ -38,7 +38,7 @@ struct PairStep
   {
     TriangleRecord& triangle = this->Triangles[i / 3];
     const std::uint64_t key = KeyOpposite(triangle, static_cast<int>(i % 3));
-    // A table that has failed once is thrown away.
+    // A table that has failed once is discarded.
     if (sums.Failures == 0 && this->Table.Slice.Holds(key))
     {
       this->Pair(
@@ -66,9 +66,9 @@ private:
   }
 };
 
-/// Puts the roles of a triangle's corners and the edges' other corners in the place of table slots,
-/// for the edges of the table's slice.
-/// @returns the number of edges that it leads, as far as roles are known.
+/// Replaces table slots by the roles of a triangle's corners and the edges' other corners, for the
+/// edges of the table's slice.
+/// @returns the number of edges that the triangle leads, as far as roles are known.
 struct RoleStep
 {
   EdgeTableView Table;
@@ -85,7 +85,7 @@ struct RoleStep
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t t) const
   {
     TriangleRecord& triangle = this->Triangles[t];
-    // All three are read before anything is written, so that they are on their way together.
+    // All three are read before anything is written, so that the loads overlap.
     std::uint32_t roles = 0;
     bool known[3];
     CornerId others[3];
@@ -183,8 +183,8 @@ struct LoadStep
   }
 };
 
-/// The triangles in the engine's order, the first part of an edge mesh. Afterwards nothing looks at
-/// the ids of the input any more, nor at the order of its triangles.
+/// Loads the triangles in the engine's order, the first part of an edge mesh. After this the ids of
+/// the input and the order of its triangles are not needed any more.
 template <typename Backend>
 EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
 {
@@ -200,7 +200,7 @@ EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
   return edges;
 }
 
-/// Pairs the corners of a slice by a table for `expected` edges. @returns false when it is too
+/// Pairs the corners of a slice, by a table for `expected` edges. @returns false if that is too
 /// small.
 template <typename Backend>
 bool TryPairSlice(
@@ -210,7 +210,7 @@ bool TryPairSlice(
   result.Table = EdgeTable(expected, slice, true, backend);
   const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
     PairStep{ result.Table.View(), result.Edges.Triangles.Data() });
-  // Above this share of slots in use, later searches would be long.
+  // With a larger share of slots in use, later searches would be long.
   constexpr double LargestFill = 0.8;
   result.Counts.Edges += sums.Edges;
   result.Counts.NonManifold += sums.NonManifold;
@@ -218,8 +218,8 @@ bool TryPairSlice(
   return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
 }
 
-/// Pairs the corners slice by slice. @returns whether all tables were large enough; the numbering
-/// is then that of the edges.
+/// Pairs the corners slice by slice, and numbers the edges. @returns whether all tables were large
+/// enough.
 template <typename Backend>
 bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t slices,
   std::int64_t expected, typename Backend::Numbering& numbering, const Backend& backend)
@@ -247,8 +247,9 @@ bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t s
 }
 
 /// Finds the other corner of every corner's edge, and the roles, by the edge table.
-/// @param slices of the vertices, with a table each, one after the other, which saves memory; one
-/// table is for all if some slice has more edges than its share.
+/// @param slices into how many slices the vertices are divided. Their tables are used one after the
+/// other, which saves memory. If some slice has more edges than its share, one table is used for
+/// all.
 /// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairByTable(
@@ -270,13 +271,13 @@ typename Backend::Numbering PairByTable(
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
-/// Whether the builder will look edges up. A guard makes a table of its own, which needs no words.
+/// Whether the builder will search for edges. A guard makes its own table, which needs no words.
 inline bool NeedsTable(const EdgeMeshInput& input)
 {
   return input.Input.Caller.NumberOfConstraintEdges > 0;
 }
 
-/// Finds the other corner of every corner's edge, in the way that the backend prefers.
+/// Finds the other corner of every corner's edge, in the way that suits the backend.
 /// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairCorners(
@@ -294,14 +295,14 @@ typename Backend::Numbering PairCorners(
     result.Counts.NonManifold = sums.NonManifold;
     return numbering;
   }
-  // In slices the table takes a quarter of the memory, and every triangle is looked at four times.
+  // With slices the table takes a quarter of the memory, and every triangle is visited four times.
   constexpr std::int64_t Slices = 4;
   constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
   const bool inSlices = Backend::MemoryIsScarce && result.Edges.NumberOfTriangles >= SmallestSliced;
   numbering = PairByTable(input, result, inSlices ? Slices : 1, backend);
   if (Backend::MemoryIsScarce)
   {
-    result.Table = EdgeTable(); // its memory is what the rest of the mesh takes
+    result.Table = EdgeTable(); // frees its memory for the rest of the mesh
   }
   return numbering;
 }
@@ -328,13 +329,13 @@ void NumberEdges(
     NumberStep{ mesh });
 }
 
-/// Pairs the triangles' sides through an EdgeTable and fixes the edges that must stay: boundary,
-/// non-manifold and wrongly wound ones, those of frozen, repeated-id, duplicate and non-finite
-/// triangles, region borders, feature edges, constraints. All others are candidates.
+/// Pairs the corners of triangles and fixes the edges that must stay: boundary, non-manifold and
+/// wrongly wound edges, edges of triangles that are frozen, duplicate, not finite or have repeated
+/// ids, region borders, feature edges and constraints. All others are candidates.
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
 /// @param loaded made by LoadTriangles.
-/// @throws InvalidMesh for a constraint that names no point, BuildAborted.
+/// @throws InvalidMesh if a constraint names a point that does not exist; BuildAborted.
 template <typename Backend>
 EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const Backend& backend,
   const BuildProgress& progress = BuildProgress())

@@ -10,8 +10,8 @@
 
 /// @file
 /// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
-/// hold the table slot of the edge opposite each corner, later the edge's other corner. Its Flips
-/// get the roles of its corners, two bits each, and keep them.
+/// hold first the table slot of the edge opposite to each corner, then the edge's other corner. Its
+/// Flips hold the roles of its corners, two bits each, from then on.
 
 namespace delaunayflip
 {
@@ -22,7 +22,7 @@ constexpr CornerId ManyCorners = 0xFFFFFFFEu;
 /// Bit of Flips: no edge of this triangle may flip.
 constexpr std::uint32_t UntouchableBit = 1u << 6;
 
-/// What pairing counts. Loops (IsLoop) are no edges.
+/// The counts of pairing. Loops (IsLoop) are not edges.
 struct PairSums
 {
   std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
@@ -36,7 +36,7 @@ struct PairSums
   }
 };
 
-/// What a corner is to its edge.
+/// The role of a corner for its edge.
 enum class CornerRole : std::uint32_t
 {
   Follower, ///< The other corner numbers the edge.
@@ -56,8 +56,8 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int 
   return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
 }
 
-/// Adds a corner to its edge's table entry; the corner that inserted the entry has the first word
-/// to itself. @returns whether the edge became non-manifold by it.
+/// Adds a corner to the table entry of its edge. The first word belongs to the corner that inserted
+/// the entry. @returns whether this made the edge non-manifold.
 DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
   const EdgeTableView& table, std::uint32_t slot, CornerId corner, bool inserted)
 {
@@ -70,7 +70,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
     AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
 }
 
-/// @param other becomes the other corner of an edge of two, NoCorner for the rest.
+/// @param other receives the other corner of an edge with two triangles, else NoCorner.
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
   const EdgeTableView& table, std::uint32_t slot, CornerId corner, CornerId& other)
 {
@@ -94,7 +94,7 @@ DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangl
   return static_cast<CornerRole>((triangle.Flips >> (2 * slot)) & 3);
 }
 
-/// How many edges a triangle's corners lead.
+/// The number of edges that the corners of a triangle lead.
 DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
 {
   int leaders = 0;
@@ -105,7 +105,7 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
   return leaders;
 }
 
-/// Gives an edge its number; `other` is its other corner or NoCorner.
+/// Numbers an edge; `other` is its other corner or NoCorner.
 DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(
   const EdgeMeshView& mesh, CornerId corner, CornerId other, EdgeId edge)
 {

@@ -54,8 +54,8 @@ struct VertexSlice
 /// Plain pointers to an EdgeTable, for functions of both backends.
 ///
 /// A search for a key begins near the place that its smaller vertex has in the order of vertices,
-/// so that neighbours in the mesh share cache lines. When NearProbes slots there are taken (at a
-/// vertex of very many edges), it continues at places given by a hash of the whole pair. So
+/// so that neighbours in the mesh share cache lines. If NearProbes slots there are taken (at a
+/// vertex with very many edges), it continues at places given by a hash of the whole pair. So
 /// searches are short whatever the vertex degrees.
 struct EdgeTableView
 {
@@ -103,7 +103,7 @@ struct EdgeTableView
       }
       slot = slot + 1 < this->Capacity ? slot + 1 : 0;
     }
-    // Scattered places: vertices of many edges fill stretches of thousands of slots.
+    // Scattered places, because vertices with many edges fill thousands of consecutive slots.
     for (std::uint32_t i = 0; i < FarSlots; ++i)
     {
       scattered = Scatter(scattered + 0x9e3779b9u);
@@ -140,8 +140,8 @@ struct EdgeTableView
     return seen == key ? slot : NoSlot;
   }
 
-  /// @returns the slot that holds `key` from now on, NoSlot when the table is too full. `inserted`
-  /// tells whether this call put it there.
+  /// @returns the slot that now holds `key`, or NoSlot if the table is too full. `inserted`
+  /// receives whether this call inserted it.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindOrInsert(std::uint64_t key, bool& inserted) const
   {
     inserted = false;
@@ -149,7 +149,7 @@ struct EdgeTableView
       [&](std::uint32_t candidate)
       {
 #if DELAUNAYFLIP_ON_DEVICE
-        // One access to memory, whether the key is there or not.
+        // A single access to memory, whether the key is there or not.
         std::uint64_t seen = Empty;
 #else
         std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
@@ -163,8 +163,8 @@ struct EdgeTableView
       });
   }
 
-  /// Takes the first free slot for a `key` that is not in the table. @returns whether there was
-  /// one; `fresh` tells whether the slot had never been used.
+  /// Uses the first free slot for a `key` that is not in the table. @returns whether there was one;
+  /// `fresh` receives whether the slot had never been used.
   DELAUNAYFLIP_HOST_DEVICE bool InsertNew(std::uint64_t key, bool& fresh) const
   {
     const std::uint32_t slot = this->Search(key,

@@ -22,7 +22,7 @@
 #include <vector>
 
 /// @file
-/// Which edges stay, decided once, while the edge mesh is built.
+/// Decides which edges stay; done once, while the edge mesh is built.
 
 namespace delaunayflip
 {
@@ -44,8 +44,8 @@ struct EdgeMeshResult
   std::int64_t MissingConstraints = 0;
 };
 
-/// Whether the caller, a repeated id or a coordinate that is not finite forbid all flips. `uses`
-/// may be null where all coordinates are finite.
+/// Whether no edge of a triangle may flip: by request of the caller, because of a repeated id, or
+/// because a coordinate is not finite. `uses` may be null if all coordinates are finite.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
   const TriangleMesh& mesh, const PointUse* uses, TriangleId inputTriangle)
 {
@@ -59,7 +59,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
         uses[r] == PointUse::NotFinite));
 }
 
-/// Why edges were fixed. Every count is of edges, a non-manifold one once.
+/// Why edges were fixed. Edges are counted, a non-manifold one once.
 struct FixedSums
 {
   std::int64_t Boundary = 0, WronglyWound = 0, Feature = 0, Region = 0, Fixed = 0;
@@ -79,7 +79,7 @@ struct FixedSums
   }
 };
 
-/// Fixes what topology, the caller and the input's shape ask for, and counts it: for one edge.
+/// Fixes one edge if topology, the caller or the shape of the input demand it, and counts it.
 struct FixEdgeStep
 {
   EdgeMeshView Mesh;
@@ -101,7 +101,7 @@ struct FixEdgeStep
     const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
     if (IsLoop(triangle, SlotOf(corner)))
     {
-      // Of a triangle with a repeated id; no edge, not counted.
+      // A loop of a triangle with a repeated id is not an edge, and not counted.
       this->Mesh.States[edge] = EdgeState::Fixed;
       return;
     }
@@ -144,7 +144,7 @@ private:
   }
 };
 
-/// @returns whether a triangle may repeat the points of another one.
+/// @returns whether a triangle may have the same points as another one.
 template <typename Backend>
 bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
@@ -163,8 +163,8 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
   return counts.NonManifold > 0 || sums.Duplicate > 0 || input.Survey.RepeatedIds.Count > 0;
 }
 
-/// Whether every edge of a triangle joins more triangles than two, or two on the same three points,
-/// as all edges of a triangle that another one repeats do.
+/// Whether every edge of a triangle has more than two triangles, or two on the same three points.
+/// This holds for every triangle with a duplicate.
 DELAUNAYFLIP_HOST_DEVICE inline bool MayBeRepeated(const EdgeMeshView& mesh, std::int64_t t)
 {
   const TriangleRecord& triangle = mesh.Triangles[t];
@@ -182,7 +182,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool MayBeRepeated(const EdgeMeshView& mesh, std
   return may;
 }
 
-/// Triangles that another one may repeat, in any order: none in a clean mesh.
+/// Lists the triangles that may have a duplicate, in any order: none in a clean mesh.
 template <typename Backend>
 std::vector<TriangleRecord> FindSuspects(EdgeMesh& edges, const Backend& backend)
 {
@@ -212,7 +212,7 @@ std::vector<TriangleRecord> FindSuspects(EdgeMesh& edges, const Backend& backend
   return suspects;
 }
 
-/// Those that repeat the points of one with a smaller slot.
+/// The triangles with the same points as one in a smaller slot.
 inline Defect FindDuplicates(std::vector<TriangleRecord> suspects)
 {
   const auto pointsOf = [](const TriangleRecord& t)
@@ -264,7 +264,7 @@ struct ConstraintSums
   }
 };
 
-/// Fixes the edge between two points, if there is one. A constraint given twice counts once.
+/// Fixes the edge between two points, if there is one. A repeated constraint counts once.
 DELAUNAYFLIP_HOST_DEVICE inline void FixConstraint(const EdgeTableView& table,
   const EdgeMeshView& mesh, VertexId a, VertexId b, ConstraintSums& sums)
 {

@@ -14,12 +14,12 @@
 #include <string>
 
 /// @file
-/// In which space the edges of a mesh are judged, and why.
+/// Chooses the space in which the edges of a mesh are judged, and says why.
 
 namespace delaunayflip
 {
 
-/// Whether a bounding box is higher than wide: x and y in degrees, say, and z in metres.
+/// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
 inline bool IsHigherThanWide(const BoundingBox& box)
 {
   // Half of each number, so that a box as wide as the range of double does not overflow.
@@ -27,7 +27,7 @@ inline bool IsHigherThanWide(const BoundingBox& box)
   return extent(2) > extent(0) && extent(2) > extent(1);
 }
 
-/// Percent of the area that slope below 45 degrees, rounded down; 0 without area.
+/// How many percent of the area slope less than 45 degrees, rounded down; 0 without area.
 inline int GetGentlePercent(const TurnSums& sums)
 {
   const Integer128 all = sums.All.Get();
@@ -53,7 +53,7 @@ inline std::string DescribeStrays(const TurnCounts& turns)
     " triangles";
 }
 
-/// Sets a survey's geometry, its reason, and what belongs to it.
+/// Sets a survey's geometry, the reason, and what depends on the geometry.
 template <typename Backend>
 class GeometryChoice
 {
@@ -65,17 +65,17 @@ public:
   {
   }
 
-  /// @throws InvalidOptions for GeometryKind::Planar without a plane.
+  /// @throws InvalidOptions for GeometryKind::Planar if the points lie in no plane.
   void Choose(GeometryKind requested)
   {
     const HeightFieldSurvey<Backend> heights(this->Input, this->Survey, this->Engine);
     if (requested == GeometryKind::PlanarXY)
     {
-      this->Take(requested, AskedFor);
+      this->Take(requested, AsRequested);
     }
     else if (requested == GeometryKind::Surface)
     {
-      this->Take(requested, AskedFor);
+      this->Take(requested, AsRequested);
       this->Survey.Turns = CountTurns(heights.SumTurns());
     }
     else if (!this->TakePlane(requested))
@@ -85,7 +85,7 @@ public:
   }
 
 private:
-  static constexpr const char* AskedFor = "as asked for";
+  static constexpr const char* AsRequested = "as requested";
   static constexpr int MostlyGentle = 95; ///< Percent of the area.
 
   void Take(GeometryKind geometry, const std::string& reason)
@@ -111,13 +111,13 @@ private:
       projection.AxisW = axis;
       projection.Tilted = this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis];
       this->Take(GeometryKind::Planar,
-        requested == GeometryKind::Planar ? AskedFor : "all points lie in one plane");
+        requested == GeometryKind::Planar ? AsRequested : "all points lie in one plane");
       return true;
     }
     if (requested == GeometryKind::Planar)
     {
       throw InvalidOptions(
-        "geometry 'planar' was asked for, but the points do not lie in one plane: point " +
+        "geometry 'planar' was requested, but the points do not lie in one plane: point " +
         std::to_string(finder.FarthestOff()) +
         " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' "
         "for terrain");
@@ -125,9 +125,9 @@ private:
     return false;
   }
 
-  /// PlanarXY for what can only be terrain, else Surface. To flip terrain as a surface turns
-  /// triangles over in x and y where units are mixed or slopes are steep; to flip steep surfaces by
-  /// their projection ruins them.
+  /// Chooses PlanarXY for what can only be terrain, else Surface. Flipping terrain as a surface
+  /// turns triangles over in x and y if units are mixed or slopes are steep; flipping steep
+  /// surfaces by their projection ruins them.
   void TakeSpace(const HeightFieldSurvey<Backend>& heights)
   {
     const TurnSums sums = heights.SumTurns();
@@ -143,7 +143,7 @@ private:
     else if (!suits)
     {
       this->Take(GeometryKind::Surface,
-        this->DescribeField() + ", but only " + slopes + "; if it is terrain, ask for planar-xy");
+        this->DescribeField() + ", but only " + slopes + "; if it is terrain, use planar-xy");
     }
     else if (!this->RefuseOverlaps(heights))
     {
@@ -155,25 +155,25 @@ private:
   std::string DescribeField() const
   {
     const TurnCounts& turns = this->Survey.Turns;
-    return "a height field over x, y" +
+    return "a height field over x and y" +
       (turns.GetStrays() > 0 ? " but for " + DescribeStrays(turns) : std::string());
   }
 
-  /// @param suits whether the mesh would suit PlanarXY were it a height field.
+  /// @param suits whether the mesh would suit PlanarXY if it were a height field.
   void RefuseStrays(const TurnSums& sums, bool suits)
   {
     const TurnCounts& turns = this->Survey.Turns;
     this->Take(GeometryKind::Surface,
       turns.Side == 0
-        ? "no triangle has area in x, y"
-        : DescribeStrays(turns) + " turn the other way in x, y or have no area there");
+        ? "no triangle has area in x and y"
+        : DescribeStrays(turns) + " turn the other way in x and y or have no area there");
     if (suits && turns.AreNearlyUniform())
     {
       IdSample strays = turns.Side > 0 ? sums.Right : sums.Left;
       strays += sums.Flat;
       this->Survey.NearlyHeightField = MakeDefect(
-        "triangles that turn the other way in x, y or have no area there, for which what is "
-        "nearly a height field is flipped as a surface; if it is terrain, ask for planar-xy",
+        "triangles that turn the other way in x and y or have no area there, so the mesh, "
+        "nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
         strays);
     }
   }
@@ -187,11 +187,11 @@ private:
       return false;
     }
     this->Take(GeometryKind::Surface,
-      "triangles overlap in x, y around " + std::to_string(overlaps.Count) +
+      "triangles overlap in x and y around " + std::to_string(overlaps.Count) +
         (overlaps.Count == 1 ? " point" : " points"));
-    this->Survey.NearlyHeightField = MakeDefect(
-      "points whose triangles overlap in x, y, for which what is nearly a height field is flipped "
-      "as a surface; if it is terrain, ask for planar-xy",
+    this->Survey.NearlyHeightField = MakeDefect("points whose triangles overlap in x and y, so "
+                                                "the mesh, nearly a height field, is flipped "
+                                                "as a surface; if it is terrain, use planar-xy",
       overlaps, DefectIds::Points);
     return true;
   }

@@ -19,14 +19,14 @@
 #include <cstdint>
 
 /// @file
-/// Is a mesh a height field over x and y, and how steep is it? Asked before there are edges. All
-/// that is summed up are integers, so that both backends come to the same answer.
+/// Whether a mesh is a height field over x and y, and how steep it is. Decided before edges are
+/// known. Only integers are summed, so that both backends come to the same answer.
 
 namespace delaunayflip
 {
 
-/// Turn of a, b, c in x and y; 0 also where the filter finds next to no area and fixed-point
-/// integers do not suffice, for a device has no others.
+/// The turn of a, b, c in x and y. Also 0 if the filter finds almost no area and fixed-point
+/// integers do not suffice, because a device has no wider ones.
 DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b, const Vector3& c)
 {
   const PlanePoint p{ a.X, a.Y, 0.0 }, q{ b.X, b.Y, 0.0 }, r{ c.X, c.Y, 0.0 };
@@ -135,7 +135,7 @@ struct ScaledTriangles
   }
 };
 
-/// Looks at the turn, area and slope of a triangle.
+/// Adds up the turn, area and slope of a triangle.
 struct TurnStep
 {
   ScaledTriangles Triangles;
@@ -163,19 +163,19 @@ struct TurnStep
   }
 };
 
-/// Adds the angles of a triangle's corners, in x and y, to what its points have.
+/// Adds the angles of a triangle's corners, in x and y, to the sums of its points.
 ///
-/// An angle is the difference of two directions. Both triangles of an edge find the same number for
-/// its direction, so that the angles around an inner point add up to a whole number of turns
-/// exactly, and at the border to within the two directions' rounding. Triangles that are turned
-/// over count below 0.
+/// An angle is the difference of two directions. Both triangles of an edge compute the same number
+/// for its direction. So the angles around an inner point add up exactly to a whole number of
+/// turns; at the boundary, to within the rounding of two directions. Triangles that are turned over
+/// count as negative.
 struct StarStep
 {
   static constexpr std::uint32_t QuarterTurn = 1u << 22;
   static constexpr std::uint32_t FullTurn = 4 * QuarterTurn;
 
   ScaledTriangles Triangles;
-  std::uint32_t* Angles; ///< One a point, modulo 2^32: stars of up to 128 turns.
+  std::uint32_t* Angles; ///< One sum per point, modulo 2^32, for stars of up to 128 turns.
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
@@ -209,8 +209,8 @@ struct StarStep
   }
 
 private:
-  /// From 0 (along x) to FullTurn, growing with the angle; b to a is half a turn from a to b,
-  /// exactly.
+  /// From 0 (along x) to FullTurn, increasing with the angle. The directions from a to b and from b
+  /// to a differ by exactly half a turn.
   DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindDirection(const Vector3& a, const Vector3& b)
   {
     const double x = b.X - a.X;
@@ -225,8 +225,8 @@ private:
     return x < 0.0 ? 2 * QuarterTurn + part : FullTurn - part;
   }
 
-  /// Of the corner between the directions to the next point and from the previous one: up to half a
-  /// turn to the side to which the triangle turns. Rounding may take it a little beyond both ends.
+  /// The angle of a corner, from the directions to the next point and from the previous one: up to
+  /// half a turn, to the side to which the triangle turns. Rounding may exceed this range a little.
   DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindAngle(
     std::uint32_t toNext, std::uint32_t fromPrevious, int turn)
   {
@@ -241,7 +241,7 @@ private:
   }
 };
 
-/// Asks, in this order, how triangles turn and whether stars overlap, on a backend.
+/// Finds how triangles turn, then whether stars overlap, on a backend.
 template <typename Backend>
 class HeightFieldSurvey
 {
@@ -254,7 +254,7 @@ public:
     const BoundingBox& box = survey.Box;
     const Vector3 diagonal = this->Triangles.Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
       this->Triangles.Scale(box.Lower[0], box.Lower[1], box.Lower[2]);
-    // The square of the factor must not overflow; areas of smaller boxes vanish anyway.
+    // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
     constexpr int SmallestExponent = -500;
     const double length = Length(diagonal);
     this->Factor =
@@ -267,11 +267,11 @@ public:
       this->Triangles.Mesh.Triangles.Count, TurnStep{ this->Triangles, this->Factor });
   }
 
-  /// Points around which triangles turn more than once.
-  /// @param side to which most triangles turn.
+  /// The points around which triangles turn more than once.
+  /// @param side the side to which most triangles turn.
   IdSample FindOverlaps(int side) const
   {
-    // Directions at both ends of an open fan are rounded.
+    // At both ends of an open fan, directions are rounded.
     constexpr std::int64_t Slack = 8;
     const std::int64_t points = this->Triangles.Mesh.Points.Count;
     Array<std::uint32_t> angles = this->Engine.template MakeArray<std::uint32_t>(points);

@@ -12,8 +12,8 @@ namespace delaunayflip
 
 namespace
 {
-/// 4 * triangle + slot, and 2 * edge + side with at most 3 edges per triangle, must stay below
-/// 2^32.
+/// The largest mesh for which 4 * triangle + slot, and 2 * edge + side with at most 3 edges per
+/// triangle, stay below 2^32.
 constexpr std::int64_t LargestMesh = ((std::int64_t(1) << 32) - 2) / 6;
 constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
 }

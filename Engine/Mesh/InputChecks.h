@@ -12,10 +12,10 @@ namespace delaunayflip
 /// @throws InvalidOptions for values out of range.
 void CheckOptions(const FlipOptions& options);
 
-/// @throws InvalidOptions where the geometry has no ties to decide.
+/// @throws InvalidOptions if the tie rule does not apply to the geometry.
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
-/// Throws MeshTooLarge when 32-bit half-edges cannot number the mesh. Allocates nothing.
+/// Throws MeshTooLarge if the mesh has too many triangles for 32-bit half-edges. Allocates nothing.
 void CheckMeshSize(const TriangleMesh& mesh);
 
 }

@@ -15,8 +15,8 @@
 #include <string>
 
 /// @file
-/// The first look at an input: are its ids valid, which points are used, in which space do edges
-/// live. MeshSurveyBuilder.h makes it.
+/// The first examination of an input: whether its ids are valid, which points are used, and in
+/// which space edges are judged. Made by MeshSurveyBuilder.h.
 
 namespace delaunayflip
 {
@@ -25,7 +25,7 @@ namespace delaunayflip
 struct MeshInput
 {
   const TriangleMesh& Caller; ///< The caller's arrays, in the host's memory.
-  TriangleMesh Local; ///< The same in the backend's memory; of the constraints the caller's.
+  TriangleMesh Local; ///< The same in the backend's memory; constraints are the caller's.
 };
 
 /// Which coordinates decide in planar geometry: U and V span the plane's projection along its
@@ -60,14 +60,14 @@ struct BoundingBox
 /// How the finite triangles of a mesh turn when seen along z.
 struct TurnCounts
 {
-  int Side = 0; ///< To which most turn: 1 or -1; 0 where no triangle has area in x and y.
+  int Side = 0; ///< The side to which most turn: 1 or -1; 0 if no triangle has area in x and y.
   std::int64_t Triangles = 0;
   std::int64_t Others = 0; ///< Turned to the other side.
   std::int64_t Flat = 0; ///< Without area in x and y.
 
-  /// All but at most one triangle in 1,000 turn to one side.
+  /// Whether all triangles, except at most one in 1,000, turn to one side.
   bool AreUniform() const { return this->Side != 0 && 1000 * this->GetStrays() <= this->Triangles; }
-  /// All but less than one in 100.
+  /// Whether all do, except fewer than one in 100.
   bool AreNearlyUniform() const
   {
     return this->Side != 0 && 100 * this->GetStrays() < this->Triangles;
@@ -79,9 +79,9 @@ struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   std::string GeometryReason; ///< As FlipReport's.
-  TurnCounts Turns; ///< Of surfaces, and where Auto has looked.
+  TurnCounts Turns; ///< For surfaces, and if Auto needed them.
   PlaneProjection Projection; ///< For the planar kinds.
-  Array<PointUse> Uses; ///< One a point, in the backend's memory.
+  Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;
   BoundingBox Box; ///< Of the used, finite points.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
@@ -89,10 +89,10 @@ struct MeshSurvey
   double Precision = DoublePrecision; ///< Of the caller's coordinates, by their type.
   Defect NonFinitePoints;
   Defect RepeatedIds;
-  Defect NearlyHeightField; ///< What kept Auto from PlanarXY, where it was little.
+  Defect NearlyHeightField; ///< What kept Auto from PlanarXY, if it was little.
 };
 
-/// "x, y and z" of a point is finite; only the first two matter for PlanarXY.
+/// Whether x, y and z of a point are finite; for PlanarXY only x and y matter.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(
   const PointArray& points, std::int64_t point, GeometryKind geometry)
 {

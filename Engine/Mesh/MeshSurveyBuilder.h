@@ -38,7 +38,7 @@ namespace delaunayflip
 
 struct IdSurvey
 {
-  IdSample Invalid; ///< Triangles that name no point.
+  IdSample Invalid; ///< Triangles that name a point that does not exist.
   IdSample Repeated;
 
   DELAUNAYFLIP_HOST_DEVICE IdSurvey& operator+=(const IdSurvey& part)
@@ -49,7 +49,7 @@ struct IdSurvey
   }
 };
 
-/// Most points are marked already, and to look costs less than to store.
+/// Most points are marked already, and a load costs less than a store.
 DELAUNAYFLIP_HOST_DEVICE inline void MarkUsed(PointUse& use)
 {
   if (AtomicLoad(&use) != PointUse::Used)
@@ -58,7 +58,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void MarkUsed(PointUse& use)
   }
 }
 
-/// Looks at the ids of a triangle and marks its points as used.
+/// Checks the ids of a triangle and marks its points as used.
 DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
   const TriangleMesh& mesh, PointUse* uses, std::int64_t t, IdSurvey& survey)
 {
@@ -127,7 +127,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, Geome
   }
 }
 
-/// Range of the coordinates, and what follows from it.
+/// Finds the range of the coordinates, and what follows from it.
 inline void ResolveRange(MeshSurvey& survey)
 {
   double largest = 0.0;
@@ -137,7 +137,7 @@ inline void ResolveRange(MeshSurvey& survey)
       std::max({ largest, std::fabs(survey.Box.Lower[axis]), std::fabs(survey.Box.Upper[axis]) });
   }
   survey.FiltersApply = largest <= LargestFilteredDifference / 2;
-  // Products of six lengths must neither overflow nor vanish where surfaces are judged.
+  // To judge surfaces, products of six lengths must neither overflow nor vanish.
   constexpr int UsualExponent = 100;
   const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
   survey.Scale = std::abs(exponent) > UsualExponent ? std::scalbn(1.0, -exponent) : 1.0;
@@ -160,7 +160,7 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }
 
-/// @param geometry tells which coordinates matter.
+/// @param geometry decides which coordinates matter.
 template <typename Backend>
 void SurveyPoints(
   MeshSurvey& survey, const MeshInput& input, GeometryKind geometry, const Backend& backend)
@@ -181,8 +181,8 @@ void SurveyPoints(
   }
 }
 
-/// @throws InvalidMesh for an id that is not a point, InvalidOptions for GeometryKind::Planar
-/// without a plane.
+/// @throws InvalidMesh for an id that is not a point; InvalidOptions for GeometryKind::Planar if
+/// the points lie in no plane.
 template <typename Backend>
 MeshSurvey BuildMeshSurvey(const MeshInput& input, GeometryKind requested, const Backend& backend)
 {

@@ -9,19 +9,19 @@
 #include <cstdint>
 
 /// @file
-/// Where a backend writes results: the caller's array as a whole, or a slice of it at a time, as
-/// scarce device memory demands.
+/// Where a backend writes results: the caller's whole array, or one slice of it at a time, to save
+/// device memory.
 
 namespace delaunayflip
 {
 
-/// Values [First, Last) of an output of 32-bit numbers, in an array of their own.
+/// Values [First, Last) of an output of 32-bit numbers, in a separate array.
 struct OutputSlice
 {
   std::uint32_t* Values;
   std::int64_t First, Last;
 
-  /// Sets value i if it is one of the slice.
+  /// Sets value i if it is in the slice.
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t i, std::uint32_t value) const
   {
     if (i >= this->First && i < this->Last)
@@ -42,7 +42,7 @@ struct IdSlice
   }
 };
 
-/// Whether a target has some id of a triangle.
+/// Whether a target includes some id of a triangle.
 DELAUNAYFLIP_HOST_DEVICE inline bool HasTriangle(const IdSlice& slice, std::int64_t triangle)
 {
   return 3 * triangle + 2 >= slice.Ids.First && 3 * triangle < slice.Ids.Last;

@@ -116,7 +116,7 @@ struct PackStep
   }
 };
 
-/// Packs all points, also unused ones and those that are not finite, which no rule will read.
+/// Packs all points, including unused and non-finite ones, which no rule reads.
 template <typename Backend>
 PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
   const PackingPlan& plan, const Backend& backend)

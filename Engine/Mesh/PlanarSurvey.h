@@ -14,19 +14,19 @@
 #include <cstdint>
 
 /// @file
-/// What exact orientations tell of a planar mesh before the first flip.
+/// Properties of a planar mesh before the first flip, from exact orientations.
 
 namespace delaunayflip
 {
 
 struct PlanarSurvey
 {
-  /// 1 or -1 when every triangle strictly turns to that side; flips keep it so. Else 0.
+  /// 1 or -1 if every triangle strictly turns to that side, which flips do not change; else 0.
   int UniformSide = 0;
 
   /// Whether the triangles around every vertex cover no direction twice. Then no two edges at a
   /// vertex point the same way, flips cannot make an edge that exists, and no guard is needed.
-  /// Flips keep it so, for they keep the angle around a vertex.
+  /// Flips do not change this, because they keep the angle around a vertex.
   bool StarsAreSimple = false;
 
   Defect ZeroAreaTriangles;
@@ -36,7 +36,7 @@ struct PlanarSurvey
 struct OrientationSums
 {
   IdSample Left, Right, None;
-  std::int64_t Uncertain = 0; ///< A device cannot tell.
+  std::int64_t Uncertain = 0; ///< Orientations that a device cannot decide.
 
   DELAUNAYFLIP_HOST_DEVICE OrientationSums& operator+=(const OrientationSums& part)
   {
@@ -110,8 +110,8 @@ struct PlaneStep
   }
 };
 
-/// Triangles with a coordinate that is not finite, which never flip, do not count.
-/// @param examineStars else the sums of stars mean nothing.
+/// Triangles with a non-finite coordinate, which never flip, do not count.
+/// @param examineStars if false, the sums of stars mean nothing.
 template <typename Backend>
 PlaneSums SumPlane(
   EdgeMesh& mesh, const PackedPoints& points, bool examineStars, const Backend& backend)
@@ -133,10 +133,10 @@ PlaneSums SumPlane(
   return sums;
 }
 
-/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges or triangles with a
-/// coordinate that is not finite; then StarsAreSimple is not examined and false.
-/// @param usedPoints vertices of triangles.
-/// @throws BeyondDevice where a device cannot tell an orientation.
+/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges, or triangles with a
+/// non-finite coordinate; then StarsAreSimple is false without examination.
+/// @param usedPoints the number of vertices of triangles.
+/// @throws BeyondDevice if a device cannot decide an orientation.
 template <typename Backend>
 PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans,
   std::int64_t usedPoints, const Backend& backend)
@@ -162,7 +162,7 @@ PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBro
   return survey;
 }
 
-/// Triangles of a surface without area.
+/// Finds the triangles of a surface that have no area.
 template <typename Backend>
 Defect FindZeroAreaTriangles(
   const EdgeMesh& mesh, const PackedPoints& packed, const Backend& backend)

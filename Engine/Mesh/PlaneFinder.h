@@ -34,8 +34,8 @@ struct Farthest
   }
 };
 
-/// What to maximise: squared distance from an origin, squared area with a vector, or distance from
-/// a plane times the length of its normal.
+/// The measure to maximise: squared distance from an origin, squared area with a vector, or
+/// distance from a plane times the length of its normal.
 struct DistanceFrom
 {
   Vector3 Origin;
@@ -90,7 +90,7 @@ public:
     {
       return true;
     }
-    // The first point: all of them are equally far from nothing.
+    // This finds the first used point: the measure is the same for all.
     const std::int64_t first = this->ArgMax(HeightAbove{});
     if (first < 0)
     {
@@ -119,7 +119,7 @@ public:
 
   std::int64_t FarthestOff() const { return this->Off; }
 
-  /// The used point of the largest measure; public because device lambdas ask for it.
+  /// The used point with the largest measure. Public because device lambdas require it.
   template <typename Measure>
   std::int64_t ArgMax(const Measure& measure) const
   {

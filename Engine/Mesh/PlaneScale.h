@@ -13,8 +13,8 @@
 namespace delaunayflip
 {
 
-/// A power of two, by repeated scaling, that brings the largest coordinate to 1 .. 2: lengths
-/// neither overflow nor underflow to nothing then. The same on every backend.
+/// Scales by a power of two, in two steps, so that the largest coordinate is in 1 .. 2 and lengths
+/// neither overflow nor vanish. The same on every backend.
 struct PlaneScale
 {
   double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.

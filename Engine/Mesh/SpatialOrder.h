@@ -10,17 +10,17 @@
 #include "TriangleMesh.h"
 
 /// @file
-/// The order in which the engine keeps vertices and triangles: along a Hilbert curve, so that
-/// neighbours in the mesh are neighbours in memory. The order is part of the algorithm: edge ids,
-/// and with them the choice among competing flips, follow it, on every backend.
+/// The order in which the engine stores vertices and triangles: along a Hilbert curve, so that
+/// neighbours in the mesh are neighbours in memory. The order is part of the algorithm on every
+/// backend: edge ids, and so the choice among competing flips, depend on it.
 
 namespace delaunayflip
 {
 
-/// Smaller meshes fit a second-level cache in any order.
+/// Smaller meshes fit into a second-level cache in any order.
 constexpr std::int64_t SmallestOrderedMesh = 1 << 14; // triangles
 
-/// Bits of the keys that vertices and triangles are sorted by.
+/// The number of bits of the keys by which vertices and triangles are sorted.
 constexpr int SortKeyBits = 22;
 
 /// Plain pointers to a SpatialOrder, for functions of both backends.
@@ -75,7 +75,7 @@ struct SpatialOrder
     return { this->RankOfVertex.Data(), this->VertexOfRank.Data(), this->TriangleOfRank.Data() };
   }
 
-  /// Gives VertexOfRank back until RestoreVertices makes it again out of RankOfVertex.
+  /// Frees VertexOfRank until RestoreVertices recomputes it from RankOfVertex.
   void DropVertices() { this->VertexOfRank = Array<VertexId>(); }
 
   template <typename Backend>
@@ -88,7 +88,7 @@ struct SpatialOrder
   }
 };
 
-/// Where keys come from.
+/// How keys are computed.
 struct OrderingFrame
 {
   BoundingBox Box;
@@ -119,7 +119,7 @@ struct OrderingFrame
   }
 };
 
-/// The key of a triangle: where its first vertex is.
+/// The key of a triangle: the smallest rank of its vertices.
 struct TriangleKey
 {
   TriangleArray Triangles;

@@ -17,7 +17,7 @@
 namespace delaunayflip
 {
 
-/// What is found at vertices.
+/// The counts at vertices.
 struct StarSums
 {
   std::int64_t SeveralFans = 0;
@@ -33,19 +33,19 @@ struct StarSums
   }
 };
 
-/// Three points and the vertices that they are.
+/// Three points and their vertex ids.
 struct CornerPoints
 {
   const VertexId* Vertices;
   PlanePoint Points[3];
 };
 
-/// Whether the stars of a mesh whose triangles all turn to one side cover no direction twice.
+/// Finds whether the stars of a mesh whose triangles all turn to one side cover no direction twice.
 ///
-/// Around an inner vertex the triangles turn a whole number of times: as often as the direction +u
-/// is crossed, which comparisons of coordinates tell. At the boundary the direction of the fan's
-/// first edge must be covered once only. So every vertex of a triangle has one corner or more that
-/// cover its direction, and one each when there are as many such corners as vertices.
+/// Around an inner vertex the triangles turn a whole number of times: as often as they cross the
+/// direction +u, which comparisons of coordinates decide. At the boundary, the direction of the
+/// fan's first edge must be covered only once. So every used vertex has at least one corner that
+/// covers its direction. It is exactly one for each if there are as many such corners as vertices.
 struct StarSurvey
 {
   static constexpr VertexId NoVertex = 0xFFFFFFFFu;
@@ -68,7 +68,7 @@ struct StarSurvey
     sums.SeveralFans += AtomicExchange(&this->FanStarts[from], to) == NoVertex ? 0 : 1;
   }
 
-  /// @param side to which the triangle turns, not 0.
+  /// @param side the side to which the triangle turns, not 0.
   DELAUNAYFLIP_HOST_DEVICE void NoteTriangle(
     const CornerPoints& corners, int side, StarSums& sums) const
   {
@@ -103,8 +103,8 @@ private:
     return side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
   }
 
-  /// Whether a corner of a triangle covers +u, which one of them does at most: two of three edges
-  /// that go round it go up, or two go down.
+  /// Whether a corner of a triangle covers +u. At most one of them does: of its three directed
+  /// edges, two go up or two go down.
   DELAUNAYFLIP_HOST_DEVICE static bool CoverPositiveU(const PlanePoint (&p)[3], int side)
   {
     const int up =

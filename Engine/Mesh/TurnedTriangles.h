@@ -19,7 +19,7 @@ namespace delaunayflip
 struct TurnedSums
 {
   std::int64_t All = 0;
-  IdSample Flipped; ///< Those that flips have made.
+  IdSample Flipped; ///< Triangles that flips have made.
 
   DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
   {
@@ -29,12 +29,12 @@ struct TurnedSums
   }
 };
 
-/// Looks whether a triangle turns to the less common side in x and y.
+/// Counts a triangle that turns to the less common side in x and y.
 struct TurnedStep
 {
   const TriangleRecord* Triangles;
   PackedPointsView Points;
-  int Side; ///< To which most triangles turned at first.
+  int Side; ///< The side to which most triangles turned at first.
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
@@ -49,7 +49,7 @@ struct TurnedStep
     const Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
     const Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
     const Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
-    const bool isFinite = Length(AreaVector(a, b, c)) < INFINITY; // not with NaN
+    const bool isFinite = Length(AreaVector(a, b, c)) < INFINITY; // false for NaN
     if (isFinite && FindTurn(a, b, c) == -this->Side)
     {
       ++sums.All;
@@ -61,16 +61,16 @@ struct TurnedStep
   }
 };
 
-/// By how many there are more triangles of the less common side than at first.
-/// @param points in space.
+/// How many more triangles turn to the less common side than at first.
+/// @param points the points in space.
 template <typename Backend>
 Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
   const TurnCounts& before, const Backend& backend)
 {
   const TurnedSums sums = backend.template Sum<TurnedSums>(
     mesh.NumberOfTriangles, TurnedStep{ mesh.Triangles.Data(), points.View(), before.Side });
-  Defect defect = MakeDefect("triangles that flips in space have turned over in x, y, where the "
-                             "input was a height field or nearly; if it is terrain, ask for "
+  Defect defect = MakeDefect("triangles that flips in space have turned over in x and y, although "
+                             "the input was a height field or nearly one; if it is terrain, use "
                              "planar-xy",
     sums.Flipped);
   defect.Count = std::max<std::int64_t>(0, sums.All - before.Others);

@@ -16,16 +16,16 @@
 #include <vector>
 
 /// @file
-/// Which corners face the same edge, on threads: corners are dealt out by the smaller vertex of
-/// their edge to buckets of vertices, and each bucket pairs its own in a table that fits a cache
-/// and that no other thread knows. The edge table (EdgeTable.h), all of it in memory and shared, is
-/// needed only by those who look edges up later.
+/// Finds which corners face the same edge, on threads. Corners are distributed to buckets of
+/// vertices, by the smaller vertex of their edge. A thread pairs the corners of a bucket in a table
+/// of its own that fits into a cache. The shared table of all edges (EdgeTable.h) is needed only to
+/// search for edges later.
 
 namespace delaunayflip
 {
 
-/// Puts the roles of a triangle's corners into Flips, where HalfEdges hold the edges' other
-/// corners: NoCorner of a boundary edge, ManyCorners of a non-manifold one, which becomes NoCorner.
+/// Writes the roles of a triangle's corners into Flips. HalfEdges hold the edges' other corners:
+/// NoCorner for a boundary edge, and for a non-manifold one ManyCorners, which becomes NoCorner.
 /// @returns the number of edges that the triangle leads.
 struct OtherCornerStep
 {
@@ -68,14 +68,14 @@ public:
     this->CountCorners();
   }
 
-  /// Whether no bucket has so many corners that a thread would be long alone with it: one vertex
-  /// may have most of the edges.
+  /// Whether no bucket has so many corners that one thread would still work on it long after the
+  /// others: one vertex may have most of the edges.
   bool IsEven(std::uint32_t mostCorners = 1u << 20) const
   {
     return this->GetLargest(0, this->CountBuckets()) <= mostCorners;
   }
 
-  /// Sets HalfEdges to other corners, as OtherCornerStep expects them.
+  /// Sets HalfEdges to the other corners, as OtherCornerStep expects.
   PairSums Run()
   {
     this->DealCorners();
@@ -103,7 +103,7 @@ private:
   /// A corner of an edge is counted in the upper half of a word.
   static constexpr std::uint64_t OneCorner = std::uint64_t(1) << 32;
 
-  /// A table for the edges of `corners` corners, and the places that these have in it.
+  /// A table for the edges of `corners` corners, and their places in it.
   struct Scratch
   {
     Scratch(std::uint32_t corners, const ThreadBackend& backend)
@@ -113,7 +113,7 @@ private:
     {
     }
 
-    /// A power of two that leaves half of it free even if no two corners share an edge.
+    /// A power of two, so large that half of it stays free even if no two corners share an edge.
     static std::uint32_t GetCapacity(std::uint32_t corners)
     {
       std::uint32_t capacity = 2;
@@ -137,7 +137,7 @@ private:
       this->BucketBits;
   }
 
-  /// How many corners of triangles [begin, end) every bucket gets.
+  /// Counts how many corners of triangles [begin, end) every bucket gets.
   void CountIn(std::int64_t begin, std::int64_t end, std::vector<std::uint32_t>& counts) const
   {
     for (std::int64_t t = begin; t < end; ++t)
@@ -170,7 +170,7 @@ private:
     }
   }
 
-  /// Lists every bucket's corners, in an order that decides nothing.
+  /// Lists the corners of every bucket. Their order does not affect the result.
   void DealCorners()
   {
     this->Corners = this->Backend.MakeArray<CornerId>(this->Starts.back());
@@ -236,7 +236,7 @@ private:
       std::uint32_t place =
         static_cast<std::uint32_t>((((key * 0x9e3779b97f4a7c15u) >> 32) * capacity) >> 32);
       std::uint64_t seen = keys[place];
-      // Both tests in one branch: whether an edge is new cannot be predicted.
+      // Both tests in one branch, because whether an edge is new cannot be predicted.
       while (std::min(seen ^ key, seen ^ Empty) != 0)
       {
         place = (place + 1) & (capacity - 1);
@@ -257,8 +257,9 @@ private:
   std::int64_t NumberOfTriangles;
   const ThreadBackend& Backend;
   int BucketBits = 9;
-  std::vector<std::uint32_t> Starts; ///< Of the buckets in Corners, and the end.
-  std::vector<std::vector<std::uint32_t>> CountsOfRange; ///< What buckets get of each range.
+  std::vector<std::uint32_t> Starts; ///< Where buckets begin in Corners, and the end.
+  std::vector<std::vector<std::uint32_t>>
+    CountsOfRange; ///< How many corners of each range buckets get.
   Array<CornerId> Corners;
 };
 

@@ -14,10 +14,10 @@
 #include <vector>
 
 /// @file
-/// The worklist of a range of edges: segments of 1024, a flag for every segment that holds
-/// something to do. A detection looks at flagged segments only and finds its candidates by their
-/// states, in order, each once, so it costs what is active in it. It lists what is bad; the rest of
-/// an iteration goes by these lists, one per task.
+/// The worklist of a range of edges: segments of 1024 edges, with a flag for every segment that may
+/// contain work. A detection visits only flagged segments, and finds its candidates by their
+/// states, in order, so its cost depends only on what is active. It lists the bad edges, one list
+/// per task; the rest of an iteration uses these lists.
 
 namespace delaunayflip
 {
@@ -37,15 +37,14 @@ public:
   {
   }
 
-  /// Where steps flag the segments of edges that they make candidates.
+  /// The flags, which steps set for the segments of edges that they make candidates.
   SegmentFlags GetFlags() { return { this->Flags.data(), this->FirstSegment }; }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Runs steps, all of them on some segments before the next, on the candidates of flagged
-  /// segments: for steps that write nothing which another edge's step reads. Then lists and counts
-  /// what is bad; segments in which an edge is bad or blocked stay flagged. @returns what was
-  /// counted.
+  /// Runs steps on the candidates of flagged segments: all steps on a few segments, then on the
+  /// next. So no step may write what another edge's step reads. Then lists and counts the bad
+  /// edges. Segments with a bad or blocked edge stay flagged. @returns the counts.
   template <typename... Steps>
   StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
   {
@@ -53,7 +52,7 @@ public:
     return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
   }
 
-  /// The same on the calling thread, as are the others without a backend.
+  /// The same on the calling thread, as all functions without a backend.
   template <typename... Steps>
   StepCounts Detect(const Steps&... steps)
   {
@@ -61,22 +60,22 @@ public:
     return this->Tasks.empty() ? StepCounts{} : this->DetectIn(this->Tasks[0], steps...);
   }
 
-  /// Takes edges for which the step is false off the lists.
+  /// Removes edges for which the step returns false from the lists.
   template <typename Step>
   void Filter(const ThreadBackend& backend, const Step& step)
   {
     this->ForTasks(backend, [&](Task& task) { return FilterTask(task, step); });
   }
 
-  /// Runs a step on the edges of the lists. @returns what it counted.
+  /// Runs a step on the edges of the lists. @returns its counts.
   template <typename Step>
   StepCounts Run(const ThreadBackend& backend, const Step& step)
   {
     return this->ForTasks(backend, [&](Task& task) { return RunOnTask(step, task); });
   }
 
-  /// Filters by the step's choice and runs it on the winners, a few edges at a time, so that what
-  /// the choice has read is still near. On the calling thread.
+  /// Filters the lists by the step's choice and runs the step on the winners, a few edges at a
+  /// time, so that what the choice has read is still in the cache. On the calling thread.
   StepCounts ChooseAndFlip(const ChooseAndFlipStep& step)
   {
     StepCounts counts;
@@ -96,18 +95,18 @@ private:
   static constexpr std::int64_t PrefetchDistance = 16;
   /// Winners that wait for their flips.
   static constexpr int ChoicesAtOnce = 32;
-  /// Room behind lists, for edges that are asked for and not worked on.
+  /// Room at the end of lists, for edges that are prefetched but not worked on.
   static constexpr std::int64_t Padding = 3 * PrefetchDistance;
 
-  /// Some of the gathered segments.
+  /// A task: some of the gathered segments.
   struct Task
   {
     std::int64_t Begin, End;
     std::vector<EdgeId> Edges; ///< In order, and Padding.
-    std::int64_t Size = 0; ///< Without it.
+    std::int64_t Size = 0; ///< Without padding.
   };
 
-  /// Cuts the flagged segments into tasks.
+  /// Divides the flagged segments into tasks.
   void Gather(std::int64_t segmentsPerTask)
   {
     this->Segments.clear();
@@ -160,9 +159,8 @@ private:
     return counts;
   }
 
-  /// Calls work(i, item) with what the step loads for the edges, and three requests ahead of every
-  /// edge: its words, then its triangles, then what their contents lead to. Writes to the padding
-  /// behind them.
+  /// Calls work(i, item) with what the step loads for each edge. Before that, prefetches the edge's
+  /// words, then its triangles, then what those refer to. Writes to the padding at the end.
   template <typename Step, typename Work>
   static void ForEdges(const Step& step, EdgeId* edges, std::int64_t size, const Work& work)
   {
@@ -282,7 +280,7 @@ private:
     batch.Finish(edges, size, counts);
   }
 
-  /// Exact arithmetic is asked for seldom.
+  /// Not inlined, because exact arithmetic is seldom needed.
   template <typename Rule>
   void RunOnSegments(
     const ResolveStep<Rule>& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
@@ -293,7 +291,7 @@ private:
     }
   }
 
-  /// Lists what is bad in a segment and counts it.
+  /// Lists and counts the bad edges of a segment.
   void ListBad(std::int64_t segment, std::vector<EdgeId>& list, StepCounts& counts)
   {
     EdgeId edges[SegmentSize];
@@ -307,7 +305,7 @@ private:
     this->Flags[segment - this->FirstSegment] = bad + blocked > 0;
   }
 
-  /// Find for the gathered segments [begin, end).
+  /// Calls Find for the gathered segments [begin, end).
   std::int64_t FindAll(StateRange wanted, std::int64_t begin, std::int64_t end, EdgeId* found) const
   {
     std::int64_t size = 0;
@@ -344,7 +342,7 @@ private:
   std::int64_t LastEdge;
   std::int64_t FirstSegment;
   std::vector<std::uint8_t> Flags;
-  std::vector<std::int64_t> Segments; ///< That were flagged.
+  std::vector<std::int64_t> Segments; ///< The flagged segments.
   std::vector<Task> Tasks;
 };
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-// AddressSanitizer guards the ends of blocks from the heap only.
+// AddressSanitizer guards the ends of heap allocations only.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 #define DELAUNAYFLIP_MAPS_MEMORY
 #include <sys/mman.h>

@@ -10,9 +10,9 @@
 namespace delaunayflip
 {
 
-/// Memory of this process. Large blocks are asked for as huge pages, because scattered accesses to
-/// gigabytes otherwise miss the TLB every time, and go back to the system when they are freed. May
-/// be used by several threads.
+/// Memory of this process. Large allocations use huge pages, because otherwise almost every
+/// scattered access to gigabytes misses the TLB; when freed, they are returned to the system.
+/// Thread-safe.
 class HostMemory : public Memory
 {
 public:

@@ -16,8 +16,8 @@
 namespace delaunayflip
 {
 
-/// JudgeStep in the plane, where all triangles turn to one side: collects the points of several
-/// edges and judges these together, in the lanes of vector registers.
+/// JudgeStep in the plane if all triangles turn to one side: collects the points of several edges
+/// and judges the edges together, in the lanes of vector registers.
 template <typename Real>
 class InCircleBatch
 {
@@ -32,7 +32,7 @@ public:
 
   static bool Suits(const Rule& rule) { return rule.UniformSide != 0 && rule.FiltersApply; }
 
-  /// A triangle in any order that turns to the same side, and the vertex opposite it.
+  /// A triangle, with its vertices in any order of the same turn, and the vertex opposite to it.
   struct Vertices
   {
     VertexId Ids[4];
@@ -54,7 +54,7 @@ public:
     }
   }
 
-  /// Adds the i-th of the edges, in order from 0, and judges a batch when it is full.
+  /// Adds edge i, counted from 0, and judges the batch when it is full.
   void Add(const EdgeId* edges, std::int64_t i, const Vertices& vertices, StepCounts& counts)
   {
     const std::int64_t lane = i % Size;
@@ -69,7 +69,7 @@ public:
     }
   }
 
-  /// Judges the edges that are left over, of `size` in all.
+  /// Judges the remaining edges, of `size` in all.
   void Finish(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
     this->Judge(edges + size / Size * Size, size % Size, counts);
@@ -86,7 +86,7 @@ private:
 
   void Judge(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
-    // As wide as the numbers that decide, so that results stay in their lanes.
+    // As wide as double, so that results stay in their lanes.
     std::int64_t states[Size];
     const auto side = static_cast<double>(this->Decision.UniformSide);
     for (int i = 0; i < Size; ++i)

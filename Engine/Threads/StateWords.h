@@ -22,8 +22,8 @@ constexpr std::int64_t StatesPerSet = 64;
 
 #if defined(DELAUNAYFLIP_STATES_BY_SSE2)
 
-/// Which of 64 states are wanted. Other threads may change some of them meanwhile, as long as the
-/// caller does not look at their bits.
+/// Which of 64 states are wanted. Other threads may change states meanwhile whose bits the caller
+/// ignores.
 inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
 {
   const __m128i first = _mm_set1_epi8(static_cast<char>(wanted.First));
@@ -55,7 +55,8 @@ inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
   {
     const std::uint64_t word =
       __atomic_load_n(reinterpret_cast<const Word*>(states) + i, __ATOMIC_RELAXED);
-    // States are below 16, so bytes do not carry: their top bits tell.
+    // States are below 16, so bytes do not carry into each other, and their top bits have the
+    // answer.
     const std::uint64_t matches = (word + first) & ~(word + last) & (0x80 * EveryByte);
     // The product gathers bit 0 of the eight bytes in the last byte.
     set |= (((matches >> 7) * 0x0102040810204080u) >> 56) << (8 * i);

@@ -161,8 +161,8 @@ public:
   int Size;
 
 private:
-  /// oneTBB starts threads when there is work, when the mesh may have left no room for them. It
-  /// keeps those that it has.
+  /// Starts all threads now. oneTBB starts threads only when there is work, when the mesh may have
+  /// left no memory for them, and keeps those that it has.
   void StartAll()
   {
     using Clock = std::chrono::steady_clock;
@@ -179,7 +179,7 @@ private:
       });
   }
 
-  tbb::global_control Allowance; // lets a caller ask for more threads than cores
+  tbb::global_control Allowance; // allows more threads than cores
   tbb::task_arena Arena;
 };
 

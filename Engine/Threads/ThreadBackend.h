@@ -23,23 +23,24 @@
 namespace delaunayflip
 {
 
-/// More threads than this are used only where there are more than half as many cores: they would
-/// cost memory and help nobody.
+/// More threads than this are used only on machines with more than half as many cores; elsewhere
+/// they would only cost memory.
 constexpr int MostThreads = 16;
 
-/// Number of the first item of every piece of a range, and of all items (ForEachNumbered).
+/// The number of the first item of every piece of a range, and the number of items
+/// (ForEachNumbered).
 struct ThreadNumbering
 {
   std::vector<std::int64_t> FirstOfPiece;
   std::int64_t Total = 0;
 };
 
-/// "For every item do this" on threads of the CPU. The one place that knows the thread library
-/// (oneTBB; std::thread under ThreadSanitizer, which cannot see into the packaged oneTBB).
+/// Runs work for every item on CPU threads. Only this class uses the thread library: oneTBB, or
+/// std::thread under ThreadSanitizer, which cannot see into the packaged oneTBB.
 ///
-/// A backend is what the algorithms are templates of: ForEach, Sum, Count with ForEachNumbered,
-/// SortIndices, and arrays in its own memory. Work is cut into pieces whose borders depend on the
-/// problem alone, so no result depends on the number of threads.
+/// A backend is the parameter of the algorithms' templates. It has ForEach, Sum, Count with
+/// ForEachNumbered, SortIndices, and arrays in its own memory. Work is divided into pieces whose
+/// bounds depend only on the problem, so no result depends on the number of threads.
 class ThreadBackend
 {
 public:
@@ -53,14 +54,14 @@ public:
   /// Threads have no device.
   std::unique_ptr<DeviceScope> MakeCurrent() const { return nullptr; }
 
-  /// Whether to spend time on what saves memory.
+  /// Whether to save memory at the cost of time.
   static constexpr bool MemoryIsScarce = false;
 
   /// E.g. "Threads: 8".
   std::string GetName() const;
 
-  /// Calls work(task) for task = 0 .. count - 1 and returns when all are done. An exception of a
-  /// call is thrown again here.
+  /// Calls work(task) for task = 0 .. count - 1 and returns when all are done. Rethrows an
+  /// exception of a call.
   void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const;
 
   /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
@@ -71,7 +72,7 @@ public:
       [&](std::int64_t piece) { work(piece * grain, std::min(size, (piece + 1) * grain)); });
   }
 
-  /// Sum, by operator+=, of work(begin, end) over pieces of [0, size), in their order.
+  /// The sum, by operator+=, of work(begin, end) over pieces of [0, size), in their order.
   template <typename Result, typename Work>
   Result SumRanges(std::int64_t size, const Work& work, std::int64_t grain = DefaultGrain) const
   {
@@ -160,8 +161,8 @@ public:
 
   /// Finds the other corner of every corner's edge without a table of all edges
   /// (CornerPairing.h), and numbers the edges.
-  /// @returns false where one vertex has so many edges that the shared table is faster; nothing is
-  /// changed then.
+  /// @returns false if one vertex has so many edges that the shared table is faster; then nothing
+  /// is changed.
   bool PairCorners(
     EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const;
 
@@ -183,7 +184,7 @@ public:
     std::copy_n(host, size, values);
   }
 
-  /// The caller's arrays are in reach as they are.
+  /// Threads can read the caller's arrays directly.
   struct LocalMesh
   {
     TriangleMesh Mesh;
@@ -195,8 +196,8 @@ public:
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 
-  /// Calls store(t, target) for every triangle, to set its ids in the caller's slot, of which a
-  /// device's target may hold some only.
+  /// Calls store(t, target) for every triangle, to set its ids in the caller's slot. On a device, a
+  /// target may include only some of them.
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
   {
@@ -237,8 +238,8 @@ private:
   {
   };
 
-  /// Calls call(i) for i = begin .. end - 1, and ahead of it work.Prefetch(i) and, still earlier,
-  /// work.PrefetchFar(i), if there are such.
+  /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i) and, still earlier,
+  /// work.PrefetchFar(i), if they exist.
   template <typename Work, typename Call>
   static void Loop(std::int64_t begin, std::int64_t end, const Work& work, const Call& call)
   {

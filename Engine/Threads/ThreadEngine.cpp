@@ -19,7 +19,7 @@ std::unique_ptr<FlipEngine> MakeThreadEngine(
 
 namespace
 {
-/// Vertex ids of the edges that are Fixed and join two triangles.
+/// The vertex ids of the fixed edges with two triangles.
 std::vector<std::int64_t> ListFixedEdges(EdgeMesh& edges, const SpatialOrderView& order)
 {
   const EdgeMeshView mesh = edges.View();

@@ -25,7 +25,7 @@ template <typename Rule>
 class ThreadFlipLoop : public FlipLoop
 {
 public:
-  /// @param scale power of two that brings the rule's coordinates near 1, for angles.
+  /// @param scale a power of two that brings the rule's coordinates near 1, for angles.
   ThreadFlipLoop(
     EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const ThreadBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
@@ -86,8 +86,8 @@ protected:
   }
 
 private:
-  /// Triangles [FirstTriangle, LastTriangle) and the edges whose smallest corner they held at
-  /// first. As long as only chunks have flipped, every edge within the chunk is among these.
+  /// Triangles [FirstTriangle, LastTriangle), and the edges whose smallest corner was in them at
+  /// first. While flips happen only within chunks, these include every edge within the chunk.
   struct Chunk
   {
     std::int64_t FirstTriangle, LastTriangle;
@@ -135,7 +135,7 @@ private:
     return flips;
   }
 
-  /// All iterations of a chunk, on the calling thread.
+  /// Runs all iterations of a chunk, on the calling thread.
   std::vector<IterationCounts> RunChunk(Chunk& chunk, const AdvancePlan& plan) const
   {
     const EdgeMeshView mesh = this->Mesh.View();

@@ -15,9 +15,9 @@
 
 /// @file
 /// The steps that a worklist of threads runs, each for one edge. Steps of passes 1 and 2 say which
-/// states they want; the others take the bad edges and, of these, the winners. All edges of a step
-/// may run at once; each step says what it writes that others may read at the same time. Load(edge)
-/// reads what a step begins with, and Prefetch requests what operator() will read, one level of
+/// states they want; the others run on the bad edges or on the winners. A step may run for all
+/// edges at once; its comment says what it writes that others may read at the same time. Load(edge)
+/// reads what a step needs first, and Prefetch requests what operator() will read, one level of
 /// indirection ahead.
 
 namespace delaunayflip
@@ -42,7 +42,7 @@ struct SegmentFlags
   }
 };
 
-/// What steps on quads share.
+/// The base of steps on quads.
 struct QuadStep
 {
   EdgeMeshView Mesh;
@@ -102,7 +102,7 @@ struct GuardStep : QuadStep
   }
 };
 
-/// Pass 4: chooses an independent set: a bad edge wins when no bad edge of its two triangles has a
+/// Pass 4: chooses an independent set: a bad edge wins if no bad edge of its two triangles has a
 /// smaller priority. Reads the states of neighbours, which do not change meanwhile.
 struct ChooseStep
 {
@@ -126,7 +126,7 @@ struct ChooseStep
     // All four loads are issued before any result is used.
     const bool ap = this->IsBad(outer.AP), qa = this->IsBad(outer.QA);
     const bool pb = this->IsBad(outer.PB), bq = this->IsBad(outer.BQ);
-    // Most edges have no bad neighbour, so a branch pays.
+    // Most edges have no bad neighbour, so a branch is worth it.
     const bool alone = (int(ap) | int(qa) | int(pb) | int(bq)) == 0;
     return alone || IsFirst(edge, outer, ap, qa, pb, bq);
   }
@@ -162,7 +162,7 @@ struct ConfirmStep : QuadStep
 };
 
 /// Pass 6: flips the winners, which share no triangle, and makes their outer edges candidates. Two
-/// flips may mark the same outer edge, both with the same value; an edge that sits out keeps its
+/// flips may mark the same outer edge, both with the same value. A fixed or deferred edge keeps its
 /// state.
 struct FlipStep : QuadStep
 {
@@ -186,7 +186,7 @@ protected:
     ChooseStep{ this->Mesh }.Prefetch(outer);
   }
 
-  /// @param excluded what becomes of outer edges that are bad.
+  /// @param excluded the new state of outer edges that are bad.
   DELAUNAYFLIP_ALWAYS_INLINE void FlipAndMark(
     EdgeId edge, const Quad& quad, StepCounts& counts, EdgeState excluded) const
   {
@@ -221,10 +221,10 @@ private:
   }
 };
 
-/// Passes 4 and 6 in one, for a single thread: the same flips as by ChooseStep for all edges and
-/// FlipStep after it. A bad edge next to one that has flipped becomes Excluded, which still counts
-/// as bad when its neighbours choose. So choices go by the states before the first flip; and
-/// nothing that the choice of an edge reads changes before it, unless the edge is excluded.
+/// Passes 4 and 6 in one, for a single thread. Makes the same flips as ChooseStep for all edges
+/// followed by FlipStep. A bad edge next to one that has flipped becomes Excluded, which still
+/// counts as bad when its neighbours choose. So choices depend on the states before the first flip,
+/// and nothing that the choice of an edge reads changes before it, unless the edge is excluded.
 struct ChooseAndFlipStep : FlipStep
 {
   DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const

@@ -88,7 +88,7 @@ TEST(GeometryChoice, APlaneIsPlanar)
   ExpectChoice(MakeGridMesh(5, 5), GeometryKind::Planar, "all points lie in one plane");
 }
 
-TEST(GeometryChoice, WhatWasAskedForIsTaken)
+TEST(GeometryChoice, ARequestIsHonoured)
 {
   const OwnedMesh<double> mesh = MakeGridMesh(5, 5);
   for (GeometryKind geometry :
@@ -96,7 +96,7 @@ TEST(GeometryChoice, WhatWasAskedForIsTaken)
   {
     const FlipReport report = Survey(mesh, geometry);
     EXPECT_EQ(geometry, report.GeometryUsed);
-    EXPECT_EQ(0u, report.GeometryReason.find("as asked for")) << report.GeometryReason;
+    EXPECT_EQ(0u, report.GeometryReason.find("as requested")) << report.GeometryReason;
     FlipOptions options;
     options.Geometry = geometry;
     EXPECT_EQ(geometry, FindGeometry(mesh.View(), options));
@@ -111,7 +111,7 @@ TEST(GeometryChoice, UtmTerrainIsPlanarXY)
   for (int winding = 0; winding < 2; ++winding)
   {
     ExpectChoice(mesh, GeometryKind::PlanarXY,
-      "a height field over x, y, and 100 % of its area slopes below 45 degrees");
+      "a height field over x and y, and 100 % of its area slopes below 45 degrees");
     ExpectNoDefects(mesh);
     ReverseTriangles(mesh.Triangles);
   }
@@ -133,8 +133,8 @@ OwnedMesh<double> MakeDegreesAndMetres()
 TEST(GeometryChoice, DegreesAndMetresArePlanarXY)
 {
   const OwnedMesh<double> mesh = MakeDegreesAndMetres();
-  ExpectChoice(
-    mesh, GeometryKind::PlanarXY, "a height field over x, y, and z extends further than x and y");
+  ExpectChoice(mesh, GeometryKind::PlanarXY,
+    "a height field over x and y, and z extends further than x and y");
   const FlipResult result = Flip(mesh.View());
   EXPECT_EQ(0, CountRight(mesh, result.Triangles));
   EXPECT_EQ(0, result.Report.NonDelaunayAfter);
@@ -174,7 +174,7 @@ TEST(GeometryChoice, ADomeScanIsASurface)
 {
   const OwnedMesh<double> dome = MakeDome();
   ExpectChoice(dome, GeometryKind::Surface,
-    "a height field over x, y, but only 29 % of its area slopes below 45 degrees");
+    "a height field over x and y, but only 29 % of its area slopes below 45 degrees");
   ExpectNoDefects(dome);
 }
 
@@ -278,7 +278,7 @@ TEST(GeometryChoice, ABoxWithoutFloorIsASurface)
     Append(box, MakeSide(2, 0, place));
   }
   ExpectChoice(box, GeometryKind::Surface,
-    "128 of 160 triangles turn the other way in x, y or have no area there");
+    "128 of 160 triangles turn the other way in x and y or have no area there");
   ExpectNoDefects(box);
 }
 
@@ -292,7 +292,7 @@ TEST(GeometryChoice, AnOpenCylinderIsASurface)
     cylinder.Points[i + 2] = cylinder.Points[i + 1];
     cylinder.Points[i + 1] = std::sin(angle);
   }
-  ExpectChoice(cylinder, GeometryKind::Surface, "no triangle has area in x, y");
+  ExpectChoice(cylinder, GeometryKind::Surface, "no triangle has area in x and y");
   ExpectNoDefects(cylinder);
 }
 
@@ -311,7 +311,7 @@ TEST(GeometryChoice, TwoStackedHorizonsArePlanarXY)
 {
   OwnedMesh<double> horizons = MakeHeights(30, 30, Wave);
   Append(horizons, MakeHeights(30, 30, [](double x, double y) { return 5.0 + Wave(y, x); }));
-  ExpectChoice(horizons, GeometryKind::PlanarXY, "a height field over x, y, and ");
+  ExpectChoice(horizons, GeometryKind::PlanarXY, "a height field over x and y, and ");
   ExpectNoDefects(horizons);
 }
 
@@ -333,7 +333,7 @@ TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
 {
   const OwnedMesh<double> globe = MakeGlobe(200, 20);
   ExpectChoice(globe, GeometryKind::Surface,
-    "40 of 8000 triangles turn the other way in x, y or have no area there");
+    "40 of 8000 triangles turn the other way in x and y or have no area there");
   const FlipReport report = Survey(globe);
   ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
   EXPECT_EQ(40, report.Defects[0].Count);
@@ -346,7 +346,7 @@ TEST(GeometryChoice, AThinAntimeridianIsLeftAsItIs)
 {
   const OwnedMesh<double> globe = MakeGlobe(1000, 8);
   ExpectChoice(
-    globe, GeometryKind::PlanarXY, "a height field over x, y but for 16 of 16000 triangles");
+    globe, GeometryKind::PlanarXY, "a height field over x and y but for 16 of 16000 triangles");
   const FlipResult result = Flip(globe.View());
   EXPECT_EQ(16, CountRight(globe, globe.Triangles));
   EXPECT_EQ(16, CountRight(globe, result.Triangles));
@@ -409,7 +409,7 @@ OwnedMesh<double> MakeStaircase(int count, double turns, bool closed)
 
 TEST(GeometryChoice, StarsThatOverlapMakeASurface)
 {
-  const char* const overlap = "triangles overlap in x, y around 1 point";
+  const char* const overlap = "triangles overlap in x and y around 1 point";
   ExpectChoice(MakeStaircase(24, 2.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 3.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 1.01, false), GeometryKind::Surface, overlap);
@@ -451,7 +451,7 @@ TEST(GeometryChoice, ThinTrianglesDoNotAddUpToMoreThanATurn)
         mesh.Triangles.end(), { corners[slot], corners[(slot + 1) % 3], inserted });
     }
   }
-  ExpectChoice(mesh, GeometryKind::PlanarXY, "a height field over x, y, and 100 % of its area");
+  ExpectChoice(mesh, GeometryKind::PlanarXY, "a height field over x and y, and 100 % of its area");
 }
 
 /// The choice must not depend on the order of triangles, on threads or on scale.

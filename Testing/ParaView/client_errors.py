@@ -8,7 +8,7 @@ Played by test_client.py.
 from ClientTesting import Panel, expect, idle, load_plugin, play, start_filter
 from paraview import simple
 
-REASON = "failed: geometry 'planar' was asked for"
+REASON = "failed: geometry 'planar' was requested"
 
 
 def count_cells(flip):

@@ -209,7 +209,7 @@ class Options(Viewer):
     def test_geometry_that_does_not_fit(self):
         hill = self.write("hill.vtp", self.make_hill())
         self.expect_failure(2, hill, "--geometry", "planar", "--frames", self.prefix,
-                            saying="error: geometry 'planar' was asked for")
+                            saying="error: geometry 'planar' was requested")
 
     def test_help(self):
         result = self.run_viewer("--help")
