@@ -19,10 +19,11 @@
  *   members; so a program that was compiled with an older header works with a newer library.
  *   Newer headers only add members at the end. Enumerations are passed as int32_t.
  * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
- *   reads the arrays of its mesh as long as it lives.
+ *   reads the arrays of its mesh as long as it exists.
  * - Different sessions may be used by different threads at the same time; one session by one thread
  *   at a time.
- * - Same mesh and options, same result, bit for bit, for any number of threads and any backend.
+ * - The same mesh and options give the same result, bit for bit, with any number of threads and on
+ *   any backend.
  */
 
 #if defined(__GNUC__)

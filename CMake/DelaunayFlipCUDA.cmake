@@ -4,7 +4,7 @@
 # Resolves DELAUNAYFLIP_ENABLE_CUDA into DELAUNAYFLIP_HAS_CUDA and enables the language.
 set(DELAUNAYFLIP_HAS_CUDA OFF)
 if(DELAUNAYFLIP_ENABLE_CUDA STREQUAL "OFF" OR DELAUNAYFLIP_SANITIZER)
-  return() # sanitizers of the CPU know nothing of a GPU
+  return() # the CPU's sanitizers do not support device code
 endif()
 
 include(CheckLanguage)
@@ -22,8 +22,8 @@ set(CMAKE_CUDA_STANDARD 17)
 set(CMAKE_CUDA_STANDARD_REQUIRED ON)
 set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
 set(CMAKE_CUDA_VISIBILITY_PRESET hidden)
-# Enabling the language would store the compiler's own default in the cache, and the next run of CMake
-# would take it for the user's choice: some value must be there before.
+# Enabling the language would store the compiler's default in the cache, and the next run of CMake
+# would mistake it for the user's choice. So a value must be set first.
 set(delaunayflip_choose_architectures OFF)
 if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
   set(delaunayflip_choose_architectures ON)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What every target shares: language level, output folders, build type, sanitizers.
+# Settings of all targets: language level, output folders, build type, sanitizers.
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 17)
@@ -18,18 +18,18 @@ set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 if(PROJECT_IS_TOP_LEVEL)
   option(BUILD_SHARED_LIBS "Build the VTK module as a shared library" ON)
 elseif(NOT DEFINED BUILD_SHARED_LIBS)
-  set(BUILD_SHARED_LIBS ON) # not in the cache, which is that of the project around this one
+  set(BUILD_SHARED_LIBS ON) # not in the cache, which belongs to the parent project
 endif()
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
-# Meshes of other people that are too big, or not ours, to ship; tests that use them skip without.
+# Real meshes that this project cannot ship. Tests that need them are skipped without them.
 set(DELAUNAYFLIP_DATA_DIR "${CMAKE_CURRENT_SOURCE_DIR}/../shared/data" CACHE PATH
   "Folder of real meshes for the real-data tests")
 
-# Usage: delaunayflip_instrument(TARGET) - warnings and the sanitizer of DELAUNAYFLIP_SANITIZER.
+# Usage: delaunayflip_instrument(TARGET) - adds warnings and the sanitizer DELAUNAYFLIP_SANITIZER.
 function(delaunayflip_instrument target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wall -Wextra -Wshadow>)

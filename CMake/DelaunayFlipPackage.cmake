@@ -15,9 +15,9 @@ install(TARGETS DelaunayFlipC EXPORT DelaunayFlipC
 install(EXPORT DelaunayFlipC NAMESPACE DelaunayFlip:: FILE DelaunayFlip-c-targets.cmake
   DESTINATION "${delaunayflip_cmake}")
 
-# What DelaunayFlipConfig.cmake.in is filled with.
+# The values for DelaunayFlipConfig.cmake.in.
 string(REPLACE "DelaunayFlip::" "" delaunayflip_vtk_components "${delaunayflip_modules}")
-set(delaunayflip_packages_of_engine TBB) # its library is static: who links it links these
+set(delaunayflip_packages_of_engine TBB) # the library is static, so its users link these
 if(DELAUNAYFLIP_HAS_CUDA)
   list(APPEND delaunayflip_packages_of_engine CUDAToolkit)
 endif()

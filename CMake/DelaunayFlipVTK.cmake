@@ -1,19 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The VTK modules DelaunayFlip::Filters and, where VTK can draw, DelaunayFlip::Rendering; their Python
-# package and their install rules.
+# The VTK modules DelaunayFlip::Filters and, if VTK can draw, DelaunayFlip::Rendering; their Python
+# wrapping and their install rules.
 
 option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it draws with" ON)
 
-# All that any folder uses is looked for here: VTK makes its targets where it is found first, and
-# what those link to must be known there.
-set(delaunayflip_vtk_drawing "") # what DelaunayFlip::Rendering and, in tests, its example need
+# All VTK modules that any folder uses are found here: VTK defines its targets in the folder that
+# finds it first, and what those link to must be known there.
+set(delaunayflip_vtk_drawing "") # for DelaunayFlip::Rendering and its example
 if(DELAUNAYFLIP_BUILD_RENDERING)
   set(delaunayflip_vtk_drawing FiltersCore FiltersVerdict IOImage RenderingAnnotation RenderingCore
     RenderingFreeType)
   if(DELAUNAYFLIP_BUILD_TESTING)
-    enable_language(C) # below InteractionStyle a VTK with MPI, as Debian's, links MPI for C
+    enable_language(C) # a VTK with MPI, such as Debian's, needs MPI for C
     list(APPEND delaunayflip_vtk_drawing InteractionStyle RenderingUI)
   endif()
 endif()
@@ -30,7 +30,7 @@ find_package(VTK 9.1 REQUIRED
   OPTIONAL_COMPONENTS ${delaunayflip_vtk_optional})
 
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
-set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # that users need
+set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
 set(DELAUNAYFLIP_RENDERING ${DELAUNAYFLIP_BUILD_RENDERING}) # whether the live view is built
 foreach(component IN LISTS delaunayflip_vtk_drawing)
   if(NOT TARGET VTK::${component})

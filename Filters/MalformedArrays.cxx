@@ -15,7 +15,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Names each array of `data` that has less than `tuples` tuples.
+/// The names of the arrays of `data` with fewer than `tuples` tuples.
 std::vector<std::string> FindShortArrays(vtkDataSetAttributes* data, vtkIdType tuples)
 {
   std::vector<std::string> names;
@@ -30,7 +30,7 @@ std::vector<std::string> FindShortArrays(vtkDataSetAttributes* data, vtkIdType t
   return names;
 }
 
-/// Quoted, as many as a warning has room for.
+/// The names in quotes, as many as fit into a warning.
 std::string List(const std::vector<std::string>& names)
 {
   constexpr std::size_t Most = 3;
@@ -50,7 +50,7 @@ void AddShortArrays(const std::string& kind, const char* fate,
   {
     const std::string what = kind + (names.size() == 1 ? " array" : " arrays");
     defects.push_back({ what + " with too few tuples " + fate + ": " + List(names),
-      static_cast<std::int64_t>(names.size()) });
+      static_cast<std::int64_t>(names.size()), {} });
   }
 }
 
@@ -81,7 +81,7 @@ void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& 
   vtkAbstractArray* ghosts = cells->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
   if (ghosts && !vtkArrayDownCast<vtkUnsignedCharArray>(ghosts))
   {
-    defects.push_back({ "ghost array that is not of type unsigned char ignored", 1 });
+    defects.push_back({ "ghost array that is not of type unsigned char ignored", 1, {} });
   }
 }
 

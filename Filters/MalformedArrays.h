@@ -15,12 +15,12 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// The cell arrays of a mesh that have a tuple for every cell. The others would be read past their
-/// end where cells are split.
+/// The cell arrays of a mesh that have a tuple for every cell. If cells are split, others would be
+/// read past their end.
 vtkSmartPointer<vtkCellData> TakeWholeArrays(vtkPolyData* mesh);
 
-/// What to warn of: arrays of points and cells with too few tuples, and ghosts of a wrong type.
-/// @param cellsStay whether no cell changes its place, so that all cell arrays pass.
+/// Defects to warn of: point and cell arrays with too few tuples, and ghost arrays of a wrong type.
+/// @param cellsStay whether all cells keep their positions, so that all cell arrays pass.
 void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects);
 
 }

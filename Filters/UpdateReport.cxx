@@ -125,7 +125,7 @@ void AddDefects(std::vector<Defect>& sum, const std::vector<Defect>& more)
   {
     const auto same = std::find_if(
       sum.begin(), sum.end(), [&defect](const Defect& one) { return one.What == defect.What; });
-    Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ defect.What });
+    Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ defect.What, 0, {} });
     target.Count += defect.Count;
   }
 }

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing (Debian), builds the ParaView plugin in build-paraview/, for the ParaView
-# in ParaView_DIR, the one installed with paraview-dev, or Debian's unpacked into
-# build-paraview-sdk/, and tells how to start that ParaView with it.
+# Installs missing packages (Debian), builds the ParaView plugin in build-paraview/, and prints how
+# to start ParaView with it. Uses the ParaView in ParaView_DIR, else the one installed with
+# paraview-dev, else Debian's packages, unpacked into build-paraview-sdk/.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -13,8 +13,8 @@ build="$root/build-paraview"
 "$root/Utilities/install-packages.sh" paraview
 config=$("$root/Utilities/get-paraview.sh")
 options=()
-# A new build with a CUDA compiler takes one architecture, a quarter of the work: newer ones run its
-# PTX. An existing one keeps its options.
+# A new build with a CUDA compiler is for one architecture, which takes a quarter of the time; newer
+# GPUs run its PTX. An existing build keeps its options.
 [ -f "$build/CMakeCache.txt" ] ||
   options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
 cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 \

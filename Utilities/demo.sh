@@ -2,9 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing (Debian), builds command, VTK modules and Python package in build/, gives
-# the command a badly triangulated terrain and draws what it made of it. What it writes is in
-# demo-output/.
+# Installs missing packages (Debian), builds the command, the VTK modules and the Python package in
+# build/, flips badly triangulated terrain, and draws the result. Writes to demo-output/.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -18,8 +17,8 @@ step()
   printf '\n== %s\n' "$1"
 }
 
-# Keeps the options of an existing build. A new one is without tests, whose packages it does not ask
-# for, and with a CUDA compiler for one architecture, a quarter of the work: newer ones run its PTX.
+# An existing build keeps its options. A new one has no tests, which need more packages. With a CUDA
+# compiler it is for one architecture, which takes a quarter of the time; newer GPUs run its PTX.
 build_all()
 {
   local options=()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what the demo did: a terrain mesh before and after, and the flips of every iteration."""
+"""Draws the result of the demo: a terrain mesh before and after, and the flips per iteration."""
 
 import argparse
 import csv
@@ -66,7 +66,7 @@ def smallest_angles(points, triangles):
 
 
 def shaded_colors(points, triangles):
-    """An RGBA colour a triangle: height tints under a sun in the north-west."""
+    """An RGBA colour per triangle: height tints, with the sun in the north-west."""
     a, b, c = (points[triangles[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     normals /= np.linalg.norm(normals, axis=1)[:, None] + 1e-300
@@ -78,7 +78,7 @@ def shaded_colors(points, triangles):
 
 
 def roughest_window(points):
-    """A square (x, y, side) round the highest point, inside the map."""
+    """A square (x, y, side) around the highest point, inside the map."""
     extent = points[:, :2].max(axis=0)
     side = WINDOW * extent[0]
     peak = points[np.argmax(points[:, 2]), :2]
@@ -165,7 +165,7 @@ def draw_iterations(path, rows):
 
 
 def save(figure, path):
-    """Writes a PNG of 128 colours, a quarter of the size of one with all of them."""
+    """Writes a PNG of 128 colours, which is a quarter of the size of a full one."""
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     image.quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)

@@ -4,7 +4,7 @@
 """Usage: draw_live_view.py PICTURE.png
 
 Draws three frames of Examples/Python/live_flip.py side by side, as in the README. Needs what the
-example needs, a display among it (xvfb-run makes one).
+example needs, including a display (xvfb-run makes one).
 """
 import os
 import subprocess

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What draw_paraview.sh runs in ParaView's client: takes its pictures into DELAUNAYFLIP_FOLDER.
+"""Run by draw_paraview.sh in ParaView's client: takes pictures of it into DELAUNAYFLIP_FOLDER.
 
 paraview.png: after Apply on the terrain before.vtp there, with the chart of its iterations.
-paraview_live.png: a live update on its way.
+paraview_live.png: during a live update.
 """
 
 import os
@@ -15,7 +15,7 @@ from PyQt5.QtWidgets import QDockWidget
 
 
 def arrange(client):
-    """A window in which the Properties panel has room for all of the filter."""
+    """A window in which the Properties panel has room for all properties of the filter."""
     client.window.resize(1500, 1000)
     docks = {dock.windowTitle(): dock for dock in client.window.findChildren(QDockWidget)}
     panel = [docks["Properties"], docks["Pipeline Browser"]]

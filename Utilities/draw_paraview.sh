@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: draw_paraview.sh [FOLDER] - takes the README's pictures of ParaView's client into FOLDER
-# (default: Documentation/images), on a display of its own. Needs the plugin (preset paraview, in
-# build-paraview/) and python3-pyqt5, which looks at the client's widgets.
+# (default: Documentation/images), on a virtual display. Needs the plugin (preset paraview, in
+# build-paraview/) and python3-pyqt5, to find the client's widgets.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -3,11 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: get-paraview.sh [FOLDER]
-# Prints the folder for ParaView_DIR: the one in the environment, else that of paraview-dev where it
-# is installed, else that of Debian's three packages unpacked into FOLDER (default
-# build-paraview-sdk/), which this fetches when they are not there yet. Unpacked aside they do not
-# conflict with python3-vtk9 and need no root. Exit status 1, with the reason on standard error, where
-# none is to be had.
+# Prints the folder for ParaView_DIR: the one in the environment; else that of paraview-dev, if
+# installed; else that of three Debian packages, which are downloaded if necessary and unpacked into
+# FOLDER (default build-paraview-sdk/). Unpacked there they do not conflict with python3-vtk9 and
+# need no root. If there is no ParaView, the exit status is 1 and standard error has the reason.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -34,19 +33,20 @@ fail()
   exit 1
 }
 
-# Beside the folder, and renamed when complete: an interrupted run leaves none that looks whole.
+# Unpacked beside the folder and renamed at the end, so that an interrupted run leaves no incomplete
+# folder.
 unpack()
 {
   local partial="$folder.partial" package
   rm -rf "$partial"
   mkdir -p "$partial"
   (cd "$partial" && apt-get -qq -o APT::Sandbox::User= download "${packages[@]}") >&2 ||
-    fail "apt-get cannot download ${packages[*]}; if it never ran here: apt-get update"
+    fail "apt-get cannot download ${packages[*]}; first run apt-get update if you never have"
   for package in "$partial"/*.deb; do
     dpkg -x "$package" "$partial"
     rm "$package"
   done
-  find_config "$partial/usr" >/dev/null || fail "the packages hold no CMake files"
+  find_config "$partial/usr" >/dev/null || fail "the packages contain no CMake files"
   rm -rf "$folder"
   mv "$partial" "$folder"
 }
@@ -59,7 +59,7 @@ if dpkg-query -W -f='${db:Status-Status}' paraview-dev 2>/dev/null | grep -qx in
   find_config /usr && exit 0
 fi
 if ! find_config "$folder/usr"; then
-  command -v apt-get >/dev/null || fail "no apt-get here; set ParaView_DIR to the CMake files of your own"
+  command -v apt-get >/dev/null || fail "no apt-get here; set ParaView_DIR to your ParaView's CMake files"
   unpack
   find_config "$folder/usr"
 fi

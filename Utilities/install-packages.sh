@@ -3,15 +3,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: install-packages.sh build|demo|test|paper|paraview
-# Installs the Debian packages that building, the demo, the tests, the reproduction of the paper or
-# the ParaView plugin with its tests need; asks nothing, and touches nothing when all of them are
-# there already. ParaView itself is not among them, since it cannot be installed beside
-# python3-vtk9: see get-paraview.sh.
+# Installs the Debian packages for building, the demo, the tests, the reproduction of the paper, or
+# the ParaView plugin with its tests. Asks no questions, and changes nothing if all are installed
+# already. ParaView itself is not included, since it cannot be installed beside python3-vtk9; see
+# get-paraview.sh.
 set -euo pipefail
 
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
-# What find_package(VTK) of Debian's libvtk9-dev asks for comes with that package, except for the
-# headers of Python and of OpenGL.
+# Debian's libvtk9-dev depends on everything that its find_package(VTK) needs, except the headers of
+# Python and of OpenGL.
 build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-dev
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
@@ -19,7 +19,7 @@ tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format-14 clang-format univ
   python3-numpy python3-matplotlib)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)
-# What find_package(ParaView) of Debian's paraview-dev asks for without depending on it, and what
+# What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
 # ParaView's programs load.
 paraview=("${engine[@]}" xvfb xauth
   qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev
@@ -45,7 +45,7 @@ case "${1:-}" in
 esac
 
 if ! command -v apt-get >/dev/null; then
-  echo "No apt-get here. Make sure you have the equivalents of: ${wanted[*]}" >&2
+  echo "No apt-get here. Install the equivalents of these packages: ${wanted[*]}" >&2
   exit 0
 fi
 

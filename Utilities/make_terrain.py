@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a terrain as surveyors deliver it, triangulated badly.
+"""Writes terrain from survey points, badly triangulated.
 
 Fractal mountains, sampled at scattered points that are denser where the relief is rougher, with
 coordinates in metres and an offset like that of UTM. The triangles come from plain insertion: every
-point, in random order, splits the triangle that holds it (Navarro, Hitschfeld and Scheihing,
+point, in random order, splits the triangle that contains it (Navarro, Hitschfeld and Scheihing,
 Fig. 7); no edge is ever flipped, so most triangles are slivers. The same arguments give the same
 file.
 """
@@ -73,7 +73,7 @@ def survey_points(random, count, grid):
 
 
 def interior(random, count, grid):
-    """`count` points inside, denser on slopes; no two in one cell of a fine raster."""
+    """`count` points inside, denser on slopes, no two of them in one cell of a fine raster."""
     cell = 0.35 * np.sqrt(WIDTH * HEIGHT / max(count, 1))
     slope = np.hypot(*np.gradient(grid))
     steep = np.quantile(slope, 0.9)
@@ -108,8 +108,8 @@ def orientation(a, b, c):
 def insert_all(points):
     """Triangles (m x 3 ids) of inserting `points` in order into the rectangle of the first four.
 
-    Works in rounds: in each, every triangle that still holds points takes the first of them, which
-    gives the same triangles as one point after the other.
+    Works in steps. In each, every triangle that contains points is split at the first of them.
+    This gives the same triangles as inserting one point after the other.
     """
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
     waiting = np.arange(4, len(points))
@@ -137,7 +137,7 @@ def three_children(parents, apexes):
 
 
 def locate(points, ids, candidates):
-    """Which of its candidate triangles (n x k x 3 ids) holds each point of `ids`."""
+    """Which of its candidate triangles (n x k x 3 ids) contains each point of `ids`."""
     corners = points[candidates]
     point = points[ids][:, None]
     inside = np.min(

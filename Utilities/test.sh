@@ -3,16 +3,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: test.sh [--long]
-# Installs what is missing (Debian), builds everything and runs every test: the whole project in
+# Installs missing packages (Debian), builds everything and runs every test: the whole project in
 # build/, the ParaView plugin in build-paraview/, the engine under AddressSanitizer and
-# UndefinedBehaviorSanitizer in build-asan/, and under ThreadSanitizer in build-tsan/. The exit status
-# is 0 only when all of them pass; without ParaView the plugin counts as one skipped test.
+# UndefinedBehaviorSanitizer in build-asan/, and under ThreadSanitizer in build-tsan/. The exit
+# status is 0 only if all of them pass; without ParaView the plugin counts as one skipped test.
 #
-# Under the sanitizers tests take meshes a tenth as large and fewer cases. --long runs them at full
-# size, which takes hours instead of minutes.
+# Under the sanitizers tests use smaller meshes, a tenth of the size, and fewer cases. --long runs
+# them at full size, which takes hours instead of minutes.
 #
-# JOBS in the environment is how many jobs run at a time (default 2). ccache is used where it is
-# installed.
+# JOBS in the environment is the number of jobs that run at a time (default 2). ccache is used if it
+# is installed.
 set -euo pipefail
 
 long=OFF timeout=1500 # seconds a test may take
@@ -31,7 +31,7 @@ passed=0 failed=0 skipped=0
 broken=() absent=()
 export PYTHONDONTWRITEBYTECODE=1
 if command -v ccache >/dev/null; then
-  # A launcher that the caller has chosen stays.
+  # Keeps a launcher that the caller has chosen.
   export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
   export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
   export CMAKE_CUDA_COMPILER_LAUNCHER=${CMAKE_CUDA_COMPILER_LAUNCHER-ccache}
@@ -60,7 +60,7 @@ configure_build_test()
       --no-tests=error --timeout "$timeout" --output-junit "$build/junit.xml"
 }
 
-# ParaView's packages are fetched where apt-get can; see get-paraview.sh.
+# ParaView's packages are downloaded if apt-get can; see get-paraview.sh.
 check_plugin()
 {
   local paraview
@@ -74,7 +74,7 @@ check_plugin()
   fi
 }
 
-# Usage: count_results JUNIT_FILE - adds its tests to the totals; no file, nothing ran.
+# Usage: count_results JUNIT_FILE - adds its tests to the totals; without a file, none ran.
 count_results()
 {
   [ -f "$1" ] || return 0
@@ -95,18 +95,18 @@ attribute()
 "$root/Utilities/install-packages.sh" test
 
 launcher=()
-# With a CUDA compiler, for one architecture, in a quarter of the time that all take: its PTX runs on
-# every newer one.
+# With a CUDA compiler, builds for one architecture, in a quarter of the time for all; newer GPUs
+# run its PTX.
 check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DCMAKE_CUDA_ARCHITECTURES=75
-# After build, whose command gives the meshes that the plugin must give.
+# After build, whose command makes the meshes with which those of the plugin are compared.
 check_plugin
 # Without NDEBUG, so that the edge mesh is audited after every iteration.
 check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
   -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address \
   -DDELAUNAYFLIP_LONG_TESTS=$long
 
-# ThreadSanitizer of GCC 12 finds no place for its shadow memory where the kernel randomises
-# addresses strongly (Linux 6.6 and newer); the build runs the tests too, to list them.
+# ThreadSanitizer of GCC 12 finds no room for its shadow memory if the kernel randomises addresses
+# strongly (Linux 6.6 and newer). This also affects the build, which runs the tests to list them.
 if setarch --addr-no-randomize true 2>/dev/null; then
   launcher=(setarch --addr-no-randomize)
 fi

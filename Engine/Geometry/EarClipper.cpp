@@ -40,7 +40,7 @@ EarClipper::Triangles EarClipper::Clip()
   return std::move(this->Cut);
 }
 
-/// Asks the observer after some time.
+/// Calls the observer from time to time.
 bool EarClipper::MayGoOn()
 {
   constexpr std::int64_t VisitsBetweenCalls = std::int64_t(1) << 15; // about a millisecond
@@ -53,7 +53,7 @@ bool EarClipper::MayGoOn()
   return !this->Stopped;
 }
 
-/// The first ear from a vertex on, once around; the vertex itself where there is none.
+/// The first ear from a vertex on, all the way around; the vertex itself if there is none.
 std::int64_t EarClipper::FindEar(std::int64_t from)
 {
   while (!this->Candidates.empty() && this->MayGoOn())
@@ -89,7 +89,7 @@ bool EarClipper::IsEar(std::int64_t vertex)
   return false;
 }
 
-/// @returns the vertex beyond the next, where the walk goes on.
+/// @returns the vertex after the next one, where the walk continues.
 std::int64_t EarClipper::CutOff(std::int64_t vertex)
 {
   const std::int64_t previous = this->Previous[vertex];

@@ -14,25 +14,25 @@
 namespace delaunayflip
 {
 
-/// Clips the ears of a polygon, one by one, in an order that the polygon alone decides: the walk
-/// around it clips the next ear that it meets and goes on beyond the neighbour, for rounder
-/// triangles than a fan's. A vertex is an ear where it turns left and no other vertex lies in its
-/// triangle, but for those at the same place as a corner. Where a full round meets no ear the
-/// polygon crosses itself, or has no area, and the vertex at which the round began is cut off.
+/// Clips the ears of a polygon, one by one, in an order that depends only on the polygon: a walk
+/// around it clips the next ear that it finds and continues beyond the neighbour, which makes
+/// rounder triangles than a fan. A vertex is an ear if it turns left and no other vertex lies in
+/// its triangle, except at the place of a corner. If the walk goes all the way around without an
+/// ear, the polygon crosses itself or has no area, and the vertex at which it began is cut off.
 ///
-/// Not every vertex is looked at in every round. One that is no ear becomes one only when a
-/// neighbour is clipped or, where another vertex lies in its triangle, when that one is. So there
-/// are few looks, and each is a search in a tree: usually n log n in all.
+/// Not every vertex is tested each time. A vertex that is not an ear can become one only when a
+/// neighbour is clipped or, if another vertex lies in its triangle, when that one is clipped. So
+/// there are few tests, and each is a search in a tree: usually n log n steps in all.
 class EarClipper
 {
 public:
   using Triangles = std::vector<std::array<std::int64_t, 3>>;
 
-  /// @param polygon counter-clockwise, of at least three vertices. Must live as long.
-  /// @param progress of this polygon; may be empty. Must live as long.
+  /// @param polygon counter-clockwise, with at least three vertices. Must live as long as this.
+  /// @param progress told the share of this polygon; may be empty. Must live as long as this.
   EarClipper(const std::vector<PlaneVector>& polygon, const ProgressObserver& progress);
 
-  /// @returns triples of positions in the polygon, in order of the cuts; none when the observer
+  /// @returns triples of positions in the polygon, in the order of the cuts; none if the observer
   /// stopped it.
   Triangles Clip();
 
@@ -46,11 +46,12 @@ private:
   const std::vector<PlaneVector>& Polygon;
   const ProgressObserver& Progress;
   PlaceTree Tree;
-  std::int64_t Left; ///< Vertices.
-  std::vector<std::int64_t> Next; ///< Vertex; -1 for one that was cut off.
+  std::int64_t Left; ///< The number of vertices left.
+  std::vector<std::int64_t> Next; ///< The next vertex; -1 for a vertex that was cut off.
   std::vector<std::int64_t> Previous;
   std::set<std::int64_t> Candidates; ///< Vertices that may be ears.
-  std::vector<std::vector<std::int64_t>> BlockedBy; ///< By place: vertices, no ears because of it.
+  std::vector<std::vector<std::int64_t>>
+    BlockedBy; ///< By place: the vertices that it keeps from being ears.
   Triangles Cut;
   std::int64_t VisitsTold = 0; ///< When the observer was last asked.
   bool Stopped = false;

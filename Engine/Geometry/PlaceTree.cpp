@@ -125,7 +125,7 @@ void PlaceTree::Scale()
   }
 }
 
-/// Halves the places across the longer side of their box, again and again.
+/// Divides the places in halves across the longer side of their box, recursively.
 void PlaceTree::Order(const NodeRange& range, std::vector<std::int64_t>& order) const
 {
   if (range.IsLeaf())
@@ -207,7 +207,7 @@ void PlaceTree::Fit(const NodeRange& range)
   }
 }
 
-/// Makes the hull a rectangle along the line from `first` to `last` where that is slim.
+/// Makes the hull a rectangle along the line from `first` to `last` if that is slim.
 void PlaceTree::FitSlimRectangle(
   const NodeRange& range, const PlanePoint& first, const PlanePoint& last)
 {
@@ -250,7 +250,7 @@ bool PlaceTree::Remove(std::int64_t point)
   return wasLast;
 }
 
-/// Fits leaves anew, and other nodes when half of their places are gone: n log^2 n steps in all.
+/// Fits leaves again, and other nodes when half of their places are gone: n log^2 n steps in all.
 void PlaceTree::RemovePlace(std::int64_t place)
 {
   NodeRange range = this->GetRoot();
@@ -308,8 +308,8 @@ std::int64_t PlaceTree::Search(const NodeRange& range, const Triangle& triangle)
                           : this->Search(right ? range.GetLeft() : range.GetRight(), triangle);
 }
 
-/// A place of a node that is left: another one at every call, so that what is picked first is not
-/// what goes next.
+/// A remaining place of a node: a different one at every call, so that the one found first is not
+/// the one removed next.
 std::int64_t PlaceTree::PickPlace(NodeRange range) const
 {
   std::uint64_t scattered = this->Scatter();
@@ -352,7 +352,7 @@ bool PlaceTree::IsInside(std::int64_t place, const Triangle& triangle) const
   return turn(a, b) >= 0 && turn(b, c) >= 0 && turn(c, a) >= 0;
 }
 
-/// Partly also where that cannot be told by filters.
+/// Also returns Partly if the filters cannot decide.
 PlaceTree::Meeting PlaceTree::Meet(const Node& node, const Triangle& triangle) const
 {
   ++this->Visits;

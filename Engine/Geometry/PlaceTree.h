@@ -14,15 +14,15 @@ namespace delaunayflip
 
 using PlaneVector = std::array<double, 2>;
 
-/// Points of the plane that are taken away one by one, and a search for one of them in a triangle.
+/// Points of the plane that are removed one by one, and a search for one of them in a triangle.
 ///
-/// Points with equal coordinates share a place, so that however many there are a search passes them
-/// once. All points with a NaN or infinite coordinate share one more place, which lies in every
+/// Points with equal coordinates share a place, so a search visits them once, however many there
+/// are. All points with a NaN or infinite coordinate share one more place, which lies in every
 /// triangle.
 ///
-/// A k-d tree that is balanced from the start. A node has the box of the places that are left and,
-/// where these are nearly in line, a slim rectangle in that direction: long thin triangles along
-/// thin chains meet most boxes. Both are fitted anew as places go.
+/// A k-d tree that is balanced from the start. A node has the bounding box of the places that are
+/// left and, if these are nearly in line, a slim rectangle in that direction, because long thin
+/// triangles along thin chains meet most boxes. Both are fitted again as places are removed.
 class PlaceTree
 {
 public:
@@ -39,11 +39,11 @@ public:
   bool Remove(std::int64_t point);
 
   /// A place that has points left and lies in the closed triangle but not at a corner, or NoPlace.
-  /// Of several any, scattered, so that it seldom is the next to go.
+  /// If there are several, one of them, scattered so that it is seldom the next to be removed.
   /// @param corners three points that turn left.
   std::int64_t FindInside(const std::array<std::int64_t, 3>& corners) const;
 
-  /// Nodes that all searches have visited: a measure of time.
+  /// The number of nodes that all searches have visited, as a measure of time.
   std::int64_t GetVisits() const { return this->Visits; }
 
 private:
@@ -58,8 +58,8 @@ private:
   struct Node
   {
     Box Bounds;
-    bool IsSlim; ///< Whether it has
-    Rectangle Hull; ///< a rectangle much slimmer than the box.
+    bool IsSlim; ///< Whether it has a Hull.
+    Rectangle Hull; ///< A rectangle that is much slimmer than the box.
     std::int64_t PlacesLeft;
     std::int64_t PlacesAtFit; ///< Places that were left when it was fitted.
   };
@@ -82,7 +82,7 @@ private:
     Box Bounds;
   };
 
-  /// How the places of a node lie to a triangle.
+  /// Where the places of a node lie relative to a triangle.
   enum class Meeting
   {
     Outside,

@@ -38,7 +38,7 @@ int main(void)
   callbacks.progress = PrintProgress;
   delaunayflip_report_init(&report);
 
-  /* The result goes into the array that it came from. */
+  /* The result replaces the input. */
   if (delaunayflip_flip(&mesh, &options, &callbacks, triangles, &report) != DELAUNAYFLIP_OK)
   {
     fprintf(stderr, "%s\n", delaunayflip_error_message());

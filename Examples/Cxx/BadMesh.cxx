@@ -15,10 +15,10 @@ namespace
 using Point = std::array<double, 2>;
 using Triangle = std::array<vtkIdType, 3>;
 
-constexpr int Rim = 3; // points a side
+constexpr int Rim = 3; // points per side
 constexpr std::size_t Splits = 300;
 
-/// A square with points along its rim, all joined to one within.
+/// A square with points along its boundary, all joined to one inside.
 void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
 {
   const double sides[4][4] = { { 0, 0, 1, 0 }, { 1, 0, 0, 1 }, { 1, 1, -1, 0 }, { 0, 1, 0, -1 } };
@@ -38,7 +38,7 @@ void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
 
 }
 
-/// The fan, each of its triangles split into three again and again: slivers.
+/// The fan, with its triangles split into three again and again, which makes slivers.
 vtkSmartPointer<vtkPolyData> MakeBadMesh()
 {
   std::vector<Point> points;

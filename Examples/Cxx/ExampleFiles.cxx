@@ -42,19 +42,19 @@ std::string CheckExtension(const std::string& file)
 
 std::optional<int> ExampleFiles::ReadArguments(int argc, char* argv[])
 {
-  CLI::App app("Shows in a window how a mesh flips its way to Delaunay; the window names the keys.",
-    "LiveFlip");
+  CLI::App app(
+    "Shows in a window how flips make a mesh Delaunay. The window explains the keys.", "LiveFlip");
   app.footer("Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.");
   app
     .add_option(
-      "MESH", this->Mesh, "File to read: .vtk .vtp .ply .stl .obj (default: a bad mesh made here)")
+      "MESH", this->Mesh, "File to read: .vtk .vtp .ply .stl .obj (default: a generated bad mesh)")
     ->check(CheckExtension);
   app
     .add_option("--geometry", this->Geometry,
       "Where edges are judged; planar-xy: by x and y, for terrain (default: auto)")
     ->check(CLI::IsMember(Geometries));
   app.add_option("--frames", this->FramePrefix,
-    "Instead of opening a window write every step, as FRAMES0000.png, FRAMES0001.png and so on, "
+    "Open no window, but write every step as FRAMES0000.png, FRAMES0001.png and so on, "
     "and the last mesh as FRAMES.vtp");
   try
   {

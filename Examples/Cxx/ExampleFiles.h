@@ -13,7 +13,7 @@ class vtkAlgorithmOutput;
 class vtkDelaunayFlipLiveView;
 class vtkRenderWindow;
 
-/// The exit statuses of delaunay-flip that LiveFlip has too.
+/// The exit statuses that LiveFlip has in common with delaunay-flip.
 enum ExitStatus
 {
   Done = 0,
@@ -25,27 +25,27 @@ enum ExitStatus
 class ExampleFiles
 {
 public:
-  /// Prints the help or what was wrong, where it has to.
-  /// @returns the exit status when there is nothing left to do.
+  /// Prints the help or an error message if necessary.
+  /// @returns the exit status if there is nothing left to do.
   std::optional<int> ReadArguments(int argc, char* argv[]);
 
-  /// The mesh of the file, null after an error message; without a file MakeBadMesh().
+  /// The mesh in the file, or null after an error message; MakeBadMesh() if no file was given.
   vtkSmartPointer<vtkPolyData> ReadMesh() const;
 
   /// One of vtkDelaunayFlip::GeometryType.
   int GetGeometry() const;
 
-  /// Empty where a window is wanted.
+  /// The prefix of the frames; empty to show a window.
   const std::string& GetFramePrefix() const { return this->FramePrefix; }
 
-  /// Runs the view to its end, off screen; writes every step and the last mesh.
+  /// Runs the view to the end, off screen; writes every step and the last mesh.
   /// @returns the exit status.
   int WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* window) const;
 
 private:
   int WriteMesh(vtkAlgorithmOutput* mesh) const;
 
-  std::string Mesh; ///< Empty: one that is made here.
+  std::string Mesh; ///< The file; empty: a generated mesh.
   std::string Geometry = "auto";
   std::string FramePrefix;
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Usage: FlipArrays
 ///
-/// The engine without VTK: flips a mesh in plain arrays. The mesh is the bad case of the
+/// The engine without VTK: flips a mesh in plain arrays. The mesh is the worst case of the
 /// literature: two rows of points, one far to the right of the other, joined by slivers.
 #include <DelaunayFlip.h>
 
@@ -64,7 +64,7 @@ int main()
               << report.NonDelaunayAfter << " bad edges left\n";
     return report.Converged() ? 0 : 1;
   }
-  catch (const std::exception& error) // those of FlipError.h
+  catch (const std::exception& error) // see FlipError.h
   {
     std::cerr << "error: " << error.what() << "\n";
     return 3;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Usage: FlipTerrain [FOLDER]
 ///
-/// Makes a terrain of bad triangles, flips it, and writes to FOLDER (default: here) terrain.vtp,
-/// the Delaunay mesh, and terrain.png, before (left) and after (right), each triangle coloured by
-/// its smallest angle.
+/// Makes badly triangulated terrain, flips it, and writes to FOLDER (default: the current one)
+/// terrain.vtp, the Delaunay mesh, and terrain.png, a picture of the mesh before (left) and after
+/// (right), with triangles coloured by their smallest angles.
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -54,7 +54,7 @@ bool IsLeft(vtkPoints* points, vtkIdType a, vtkIdType b, vtkIdType p)
   return (v[0] - u[0]) * (w[1] - u[1]) > (v[1] - u[1]) * (w[0] - u[0]);
 }
 
-/// A fan from the middle of a square to the points along its rim.
+/// A fan from the middle of a square to the points along its boundary.
 std::vector<Triangle> MakeFan(vtkPoints* points, int pointsPerSide)
 {
   const auto addPoint = [points](double x, double y)
@@ -76,8 +76,8 @@ std::vector<Triangle> MakeFan(vtkPoints* points, int pointsPerSide)
   return triangles;
 }
 
-/// Random points, each joined to the corners of the triangle that it falls into: long thin
-/// triangles.
+/// Random points, each joined to the corners of the triangle that contains it, which makes long
+/// thin triangles.
 vtkSmartPointer<vtkPolyData> MakeTerrain(int numberOfPoints)
 {
   vtkNew<vtkPoints> points;
@@ -114,7 +114,7 @@ vtkSmartPointer<vtkPolyData> MakeTerrain(int numberOfPoints)
   return mesh;
 }
 
-/// One half of the picture. Red: a smallest angle of 0; blue: of 60 degrees.
+/// One half of the picture. Red is a smallest angle of 0, blue of 60 degrees.
 vtkSmartPointer<vtkRenderer> MakeView(vtkAlgorithmOutput* mesh, double left)
 {
   vtkNew<vtkMeshQuality> quality;
@@ -179,10 +179,10 @@ int main(int argc, char* argv[])
 {
   std::string folder = ".";
   CLI::App app(
-    "Flips a terrain of bad triangles; writes FOLDER/terrain.vtp and FOLDER/terrain.png.",
+    "Flips badly triangulated terrain; writes FOLDER/terrain.vtp and FOLDER/terrain.png.",
     "FlipTerrain");
   app.footer("Exit status: 0 done; 2 wrong usage; 3 a file cannot be written.");
-  app.add_option("FOLDER", folder, "Where to write (default: here)");
+  app.add_option("FOLDER", folder, "Where to write (default: the current folder)");
   try
   {
     app.parse(argc, argv);
@@ -194,11 +194,10 @@ int main(int argc, char* argv[])
 
   vtkNew<vtkDelaunayFlip> flip;
   flip->SetInputData(MakeTerrain(900));
-  flip->SetGeometryToPlanarXY(); // a terrain: x and y decide, heights ride along
+  flip->SetGeometryToPlanarXY(); // terrain: only x and y decide
   flip->Update();
   std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfIterations()
-            << " iterations, " << flip->GetNumberOfNonDelaunayEdges()
-            << " edges left that are not Delaunay\n";
+            << " iterations, " << flip->GetNumberOfNonDelaunayEdges() << " bad edges left\n";
 
   const bool isWritten = WriteMesh(flip, folder + "/terrain.vtp");
   if (!isWritten || !WritePicture(flip, folder + "/terrain.png"))

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Usage: LiveFlip [MESH] [--geometry auto|planar|planar-xy|surface] [--frames PREFIX]
 ///
-/// Shows in a window how a mesh, by default a bad one made here, flips its way to Delaunay; the
-/// window names the keys. With --frames no window opens: every step is written as PREFIX0000.png,
+/// Shows in a window how flips make a mesh Delaunay, by default a generated bad one. The window
+/// explains the keys. With --frames no window opens: every step is written as PREFIX0000.png,
 /// PREFIX0001.png and so on, and the last mesh as PREFIX.vtp.
 #include "ExampleFiles.h"
 

@@ -34,7 +34,7 @@ vtkSmartPointer<vtkAlgorithm> Make(const std::string& file)
   return reader;
 }
 
-/// One point a place: vtkOBJReader repeats a point for every normal and texture coordinate.
+/// Merges coincident points: vtkOBJReader repeats them for every normal and texture coordinate.
 vtkSmartPointer<vtkAlgorithm> MakeObjReader(const std::string& file)
 {
   auto clean = vtkSmartPointer<vtkCleanPolyData>::New();
@@ -59,7 +59,8 @@ vtkPolyData* GetMesh(vtkAlgorithm* reader)
   return vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
 }
 
-/// Whether the reader gets through the file: some that were cut off crash it, here in a child.
+/// Whether the reader can read the file. It runs in a child process, because some truncated files
+/// crash it.
 bool Survives(vtkAlgorithm* reader)
 {
   const pid_t child = fork();
@@ -73,7 +74,7 @@ bool Survives(vtkAlgorithm* reader)
   return status == 0;
 }
 
-/// Collects the messages of VTK while it lives.
+/// Collects the messages of VTK during its lifetime.
 class Messages
 {
 public:
@@ -90,7 +91,8 @@ public:
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
 
-  /// The second line: the first one names a file of VTK. Empty where there are none.
+  /// The second line of the messages, since the first one names a source file of VTK; empty if
+  /// there are none.
   std::string GetFirst()
   {
     const std::string all = this->Window->GetOutput();
@@ -102,13 +104,13 @@ private:
   vtkNew<vtkStringOutputWindow> Window;
 };
 
-/// What is wrong; empty: nothing.
+/// What is wrong, or empty.
 std::string Update(vtkAlgorithm* reader)
 {
   Messages messages;
   if (!Survives(reader))
   {
-    return "VTK's reader crashed; the file is probably cut off or corrupt";
+    return "VTK's reader crashed; the file is probably truncated or corrupt";
   }
   reader->Update();
   const std::string complaint = messages.GetFirst();
@@ -125,7 +127,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& file)
   if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ) ||
     vtksys::SystemTools::FileIsDirectory(file))
   {
-    throw std::runtime_error(file + ": no such file, or it may not be read");
+    throw std::runtime_error(file + ": no such file, or no permission to read it");
   }
   const auto reader = MakeReader(file);
   const std::string complaint = Update(reader);

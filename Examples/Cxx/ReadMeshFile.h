@@ -11,8 +11,8 @@
 /// Whether the extension is one of .vtk, .vtp, .ply, .stl and .obj, in upper or lower case.
 bool HasKnownExtension(const std::string& file);
 
-/// The mesh of a file.
-/// @throws std::runtime_error that names the file and says what is wrong with it.
+/// Reads the mesh in a file.
+/// @throws std::runtime_error with the file and what is wrong with it.
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& file);
 
 #endif

@@ -1,11 +1,11 @@
 #!/usr/bin/env pvpython
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the frames of a run, one per iteration, to FOLDER/flip.0000.png and following, each triangle
-coloured by how often it was part of a flip so far.
+"""Writes the frames of a run, one per iteration, to FOLDER/flip.0000.png and so on. Triangles are
+coloured by the number of flips in which they have taken part.
 
-The plugin is found by PV_PLUGIN_PATH. A movie is what a video encoder makes of the frames, or give
-SaveAnimation the name of an .avi or .ogv file.
+The plugin is found by PV_PLUGIN_PATH. To make a movie, use a video encoder, or give SaveAnimation
+the name of an .avi or .ogv file.
 """
 import argparse
 import os
@@ -26,10 +26,10 @@ def read_arguments():
         usage="pvpython flip_movie.py [-h] [--geometry GEOMETRY] FOLDER [MESH]",
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.")
-    parser.add_argument("folder", metavar="FOLDER", help="where to write; is made if need be")
+    parser.add_argument("folder", metavar="FOLDER", help="where to write; created if necessary")
     parser.add_argument(
         "mesh", nargs="?", metavar="MESH",
-        help=f"file to read: {' '.join(FORMATS)} (default: a bad mesh made here)")
+        help=f"file to read: {' '.join(FORMATS)} (default: a generated bad mesh)")
     parser.add_argument(
         "--geometry", choices=GEOMETRIES, default="auto", metavar="GEOMETRY",
         help="where edges are judged: auto, planar, planar-xy (by x and y, for terrain), or surface "
@@ -51,7 +51,7 @@ def is_left(a, b, p):
 
 
 def write_bad_mesh(file, number_of_points=250):
-    """Random points in a square, each joined to the corners of the triangle that it falls into."""
+    """Random points in a square, each joined to the corners of the triangle that contains it."""
     generator = random.Random(5)
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     triangles = [(0, 1, 2), (0, 2, 3)]
@@ -77,7 +77,7 @@ def write_bad_mesh(file, number_of_points=250):
 
 
 def count_iterations(flip):
-    """How many iterations the whole run takes."""
+    """The number of iterations of the whole run."""
     flip.UpdatePipeline()
     flip.SMProxy.UpdatePipelineInformation()
     return int(flip.NumberOfIterations)
@@ -108,7 +108,7 @@ def animate(flip, iterations):
     scene.PlayMode = "Sequence"
     scene.NumberOfFrames = iterations + 1
     track = simple.GetAnimationTrack("MaximumIterations", proxy=flip)
-    # Half a step more, since the property takes whole numbers and drops what is behind the point.
+    # Half a step more, because the property is an integer and the value is truncated.
     track.KeyFrames = [
         simple.CompositeKeyFrame(KeyTime=0.0, KeyValues=[0.5]),
         simple.CompositeKeyFrame(KeyTime=1.0, KeyValues=[iterations + 0.5])]
@@ -117,7 +117,7 @@ def animate(flip, iterations):
 
 def read_mesh(file):
     if not os.path.isfile(file) or not os.access(file, os.R_OK):
-        fail(f"{file}: no such file, or it may not be read")
+        fail(f"{file}: no such file, or no permission to read it")
     reader = simple.OpenDataFile(file)
     reader.UpdatePipeline()
     if reader.GetDataInformation().GetNumberOfCells() == 0:

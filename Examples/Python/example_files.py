@@ -29,7 +29,7 @@ RIM, SPLITS = 3, 300
 
 
 def make_bad_mesh():
-    """A fan in a square, each of its triangles split into three again and again: slivers."""
+    """A fan in a square, with its triangles split into three again and again: slivers."""
     points = [(0.44, 0.53)]
     for x, y, dx, dy in ((0, 0, 1, 0), (1, 0, 0, 1), (1, 1, -1, 0), (0, 1, 0, -1)):
         points += [(x + dx * i / RIM, y + dy * i / RIM) for i in range(RIM)]
@@ -60,7 +60,7 @@ def read_arguments(description):
         epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used.")
     parser.add_argument(
         "mesh", nargs="?", metavar="MESH",
-        help=f"file to read: {' '.join(READERS)} (default: a bad mesh made here)")
+        help=f"file to read: {' '.join(READERS)} (default: a generated bad mesh)")
     parser.add_argument(
         "--geometry", choices=GEOMETRIES, default="auto",
         help="where edges are judged; planar-xy: by x and y, for terrain (default: auto)")
@@ -79,26 +79,26 @@ def fail(status, message):
 
 
 def complaints_of(reader):
-    """Lets a reader of VTK read. Returns what was wrong; "" where nothing was."""
-    # Some files that were cut off crash the reader: a child process tries first.
+    """Makes a reader of VTK read. Returns what was wrong, or ""."""
+    # Some truncated files crash the reader, so a child process tries first.
     child = multiprocessing.get_context("fork").Process(target=reader.Update)
     child.start()
     child.join()
     if child.exitcode != 0:
-        return "VTK's reader crashed; the file is probably cut off or corrupt"
+        return "VTK's reader crashed; the file is probably truncated or corrupt"
     reader.Update()
     messages = vtkOutputWindow.GetInstance().GetOutput().splitlines()
     if messages:
-        return messages[1].split("): ")[-1]  # the first line names a file of VTK
+        return messages[1].split("): ")[-1]  # the first line names a source file of VTK
     return "" if reader.GetOutput().GetNumberOfCells() else "no mesh in it"
 
 
 def read_mesh(file):
-    """The mesh of a file; for None a square of 612 triangles, most of them slivers."""
+    """The mesh in a file; for None, a square of 612 triangles, most of them slivers."""
     if not file:
         return make_bad_mesh()
     if not os.path.isfile(file) or not os.access(file, os.R_OK):
-        fail(BAD_FILE, f"{file}: no such file, or it may not be read")
+        fail(BAD_FILE, f"{file}: no such file, or no permission to read it")
     reader = READERS[get_extension(file)]()
     reader.SetFileName(file)
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
@@ -113,7 +113,7 @@ def read_mesh(file):
 
 
 def join_points(reader):
-    """One point a place: vtkOBJReader repeats a point for every normal and texture coordinate."""
+    """Merges coincident points: vtkOBJReader repeats them for normals and texture coordinates."""
     clean = vtkCleanPolyData()
     clean.SetInputConnection(reader.GetOutputPort())
     clean.SetTolerance(0.0)
@@ -122,7 +122,7 @@ def join_points(reader):
 
 
 def write_frames(view, window, prefix):
-    """Runs the view to its end, off screen; writes every step and the last mesh."""
+    """Runs the view to the end, off screen; writes every step and the last mesh."""
     window.OffScreenRenderingOn()
     window.SetMultiSamples(0)
     window.SetSize(360, 360)

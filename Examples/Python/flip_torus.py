@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a torus of bad triangles, flips it, and writes to FOLDER torus.vtp, the Delaunay mesh, and
-torus.png, before (left) and after (right), each triangle coloured by its smallest angle.
+"""Makes a badly triangulated torus, flips it, and writes to FOLDER torus.vtp, the Delaunay mesh,
+and torus.png, a picture of the mesh before (left) and after (right), with triangles coloured by
+their smallest angles.
 """
 import argparse
 import math
 import random
 import sys
 
-# These register what draws with the classes that are used for drawing.
+# These modules register the rendering backend.
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from delaunayflip import vtkDelaunayFlip
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
@@ -24,7 +25,7 @@ ROUND, ACROSS = 64, 28
 
 
 def make_torus():
-    """Rings of jittered points, joined askew: each ring to the next one, two points further on."""
+    """Rings of jittered points. Each is joined to the next one, shifted by two points."""
     generator = random.Random(1)
     points = vtkPoints()
     for ring in range(ROUND):
@@ -49,7 +50,7 @@ def make_torus():
 
 
 def make_view(mesh, left):
-    """One half of the picture. Red: a smallest angle of 0; blue: of 60 degrees."""
+    """One half of the picture. Red is a smallest angle of 0, blue of 60 degrees."""
     quality = vtkMeshQuality()
     quality.SetInputConnection(mesh)
     quality.SetTriangleQualityMeasureToMinAngle()
@@ -108,15 +109,15 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, epilog="Exit status: 0 done; 2 wrong usage; 3 a file cannot be written.")
     parser.add_argument("folder", nargs="?", default=".", metavar="FOLDER",
-                        help="where to write (default: here)")
+                        help="where to write (default: the current folder)")
     folder = parser.parse_args().folder
 
     flip = vtkDelaunayFlip()
     flip.SetInputData(make_torus())
-    flip.SetFeatureAngle(180.0)  # a smooth surface: what looks like a crease is a bad triangle
+    flip.SetFeatureAngle(180.0)  # a smooth surface: sharp edges are due to bad triangles
     flip.Update()
     print(flip.GetTotalFlips(), "flips in", flip.GetNumberOfIterations(), "iterations,",
-          flip.GetNumberOfNonDelaunayEdges(), "edges left that are not Delaunay")
+          flip.GetNumberOfNonDelaunayEdges(), "bad edges left")
 
     if not (write_mesh(flip, folder + "/torus.vtp") and write_picture(flip, folder + "/torus.png")):
         print(f"error: {folder}: cannot be written to", file=sys.stderr)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows in a window how a mesh flips its way to Delaunay; the window names the keys.
+"""Shows in a window how flips make a mesh Delaunay. The window explains the keys.
 
 With --frames no window opens: every step is written as PREFIX0000.png, PREFIX0001.png and so on,
 and the last mesh as PREFIX.vtp.

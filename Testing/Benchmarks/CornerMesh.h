@@ -9,8 +9,7 @@
 namespace delaunayflip
 {
 
-/// Triangles with neighbours, as the textbooks have them. A corner stands for the edge opposite to
-/// it.
+/// Triangles with neighbours, as in textbooks. A corner stands for the edge opposite to it.
 struct CornerMesh
 {
   /// Finds the twins by sorting vertex pairs.
@@ -50,9 +49,9 @@ struct CornerMesh
     this->Link(p, qOfB);
   }
 
-  std::vector<std::int32_t> Vertices; ///< One a corner, three corners a triangle.
+  std::vector<std::int32_t> Vertices; ///< One per corner, three corners per triangle.
 
-  /// The corner across the edge; -1 where that has one triangle, three or more, or two that run
+  /// The corner across the edge; -1 if the edge has one triangle, three or more, or two that run
   /// through it the same way.
   std::vector<std::int32_t> Twins;
 

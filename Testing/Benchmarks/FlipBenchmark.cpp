@@ -75,7 +75,7 @@ void BenchmarkEngine(benchmark::State& state)
     state.counters["flips"] = static_cast<double>(report.TotalFlips);
     if (report.NonDelaunayAfter != 0)
     {
-      state.SkipWithError("the engine left violations");
+      state.SkipWithError("the engine left bad edges");
     }
   }
 }
@@ -90,7 +90,7 @@ void BenchmarkCgal(benchmark::State& state)
     state.SetIterationTime(time.Seconds);
     if (time.Triangles != mesh.NumberOfTriangles())
     {
-      state.SkipWithError("CGAL found another number of triangles");
+      state.SkipWithError("CGAL found a different number of triangles");
     }
   }
 }
@@ -111,7 +111,7 @@ void BenchmarkLawson(benchmark::State& state)
     result.Triangles = lawson.GetTriangles();
     if (FlipSession(result.View(), MakeOptions(1)).GetReport().NonDelaunayBefore != 0)
     {
-      state.SkipWithError("the sequential Lawson left violations");
+      state.SkipWithError("the sequential Lawson left bad edges");
     }
     state.ResumeTiming();
   }
@@ -244,7 +244,7 @@ void PrintMemory(const MemoryTable& table)
 int main(int argc, char** argv)
 {
   using namespace delaunayflip;
-  // Repetitions take turns, so that who else is at work on the machine slows all programs alike.
+  // Repetitions of the programs alternate, so that other work on the machine slows all of them.
   std::string interleave = "--benchmark_enable_random_interleaving=true";
   std::vector<char*> arguments(argv, argv + argc);
   arguments.insert(arguments.begin() + 1, interleave.data());

@@ -8,7 +8,7 @@
 namespace delaunayflip
 {
 
-/// CPU, cores, compiler and build type in one line.
+/// Describes CPU, cores, compiler and build type in one line.
 std::string DescribeMachine();
 
 }

@@ -9,8 +9,8 @@
 namespace delaunayflip
 {
 
-/// Largest resident memory of a whole run above that of its input and output arrays, in bytes; -1
-/// where the system does not tell.
+/// The peak resident memory of a whole run above that of its input and output arrays, in bytes; -1
+/// if the system does not report it.
 ///
 /// A forked child, which shares the input and has filled its output array already, reads its
 /// resident size (VmRSS), runs, and reads the peak since the fork (VmHWM). Threads do not survive a

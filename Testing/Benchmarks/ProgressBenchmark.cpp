@@ -12,10 +12,10 @@
 #include <vector>
 
 /// @file
-/// delaunay-flip-progress: how honest the engine's progress is, and how long an abort may have to
-/// wait. Usage: delaunay-flip-progress [TRIANGLES], 1,000,000 without an argument. For several
-/// meshes of about that many triangles, on one thread and two, it prints the longest time between
-/// two calls of a progress observer, and which progress is told when a tenth, two tenths, ... of
+/// delaunay-flip-progress: measures how accurate the engine's progress is, and how long an abort
+/// may have to wait. Usage: delaunay-flip-progress [TRIANGLES], by default 1,000,000. For several
+/// meshes of about that many triangles, on one thread and on two, it prints the longest time
+/// between two calls of a progress observer, and the progress when one tenth, two tenths, ... of
 /// the time have passed.
 
 using namespace delaunayflip;
@@ -69,7 +69,7 @@ double FindLongestWait(const std::vector<Call>& calls)
   return longest;
 }
 
-/// What the last call before `seconds` said.
+/// The progress in the last call before `seconds`.
 double GetFraction(const std::vector<Call>& calls, double seconds)
 {
   const auto next = std::upper_bound(calls.begin(), calls.end(), seconds,
@@ -77,7 +77,7 @@ double GetFraction(const std::vector<Call>& calls, double seconds)
   return std::prev(next)->Fraction;
 }
 
-/// Share of the time in which progress is at most 15 points off the time.
+/// The share of the time in which progress is off by at most 15 percentage points.
 double MeasureHonesty(const std::vector<Call>& calls)
 {
   constexpr int Samples = 1000;
@@ -92,7 +92,7 @@ double MeasureHonesty(const std::vector<Call>& calls)
   return static_cast<double>(honest) / Samples;
 }
 
-/// The run whose longest wait is the shortest: others may be at work on the machine.
+/// The run with the shortest longest wait, because other programs may slow the machine.
 std::vector<Call> WatchBestRun(const TriangleMesh& mesh, const FlipOptions& options)
 {
   constexpr int Runs = 5;
@@ -126,7 +126,7 @@ void Print(const Case& mesh, int threads)
   std::fflush(stdout);
 }
 
-/// A Delaunay mesh whose points have been moved since by up to `share` of their mean distance.
+/// A Delaunay mesh whose points have been moved by up to `share` of their mean distance.
 OwnedMesh<double> MoveDelaunayPoints(OwnedMesh<double> mesh, double share)
 {
   FlipToDelaunay(
@@ -141,7 +141,7 @@ OwnedMesh<double> MoveDelaunayPoints(OwnedMesh<double> mesh, double share)
   return mesh;
 }
 
-/// Hills under the points of a plane.
+/// The points of a plane, raised to hills.
 OwnedMesh<double> Raise(OwnedMesh<double> mesh)
 {
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)

@@ -13,10 +13,10 @@
 namespace delaunayflip
 {
 
-/// The textbook way: a stack of edges to look at, one flip at a time.
-/// @param mesh becomes one in which no edge is bad.
+/// The textbook algorithm: a stack of edges to test, one flip at a time.
+/// @param mesh has no bad edges afterwards.
 /// @param isBad whether the edge of a corner with a twin is bad.
-/// @param maximumFlips at which to stop, for tests that may go round in circles.
+/// @param maximumFlips where to stop, for criteria with which flips may never end.
 /// @returns the number of flips.
 template <typename IsBad>
 std::int64_t RunLawson(CornerMesh& mesh, const IsBad& isBad, std::int64_t maximumFlips)

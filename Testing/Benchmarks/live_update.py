@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an update of a live run costs beyond its iterations. Prints, never judges.
+"""Prints what an update of a live run costs beyond its iterations.
 
     PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/live_update.py [POINTS]
 
-POINTS: of the mesh, some 200,000 if not given. Each row is a live run of one mesh, one iteration an
-update: the first update, which builds the edges, and of the others the median and the slowest, all
-in milliseconds; `rest` is what the iterations themselves did not take.
+POINTS: the size of the mesh, by default about 200,000. Each row is a live run of one mesh with one
+iteration per update. It has the time of the first update, which builds the edges, and the median
+and the slowest of the others, in milliseconds; `rest` is the time outside the iterations.
 """
 import statistics
 import sys
@@ -21,7 +21,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 
 def make_mesh(points, with_normals):
-    """A jittered lattice with diagonals at random, sheared: nearly every edge is bad."""
+    """A jittered lattice with random diagonals, sheared: nearly every edge is bad."""
     random = numpy.random.default_rng(1)
     side = int(points ** 0.5)
     x, y = numpy.meshgrid(numpy.arange(side), numpy.arange(side))

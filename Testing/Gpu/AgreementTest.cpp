@@ -9,7 +9,7 @@
 #include <utility>
 
 /// @file
-/// The GPU's mesh is the CPU's, bit for bit, and so are its statistics.
+/// The GPU's mesh and statistics are the CPU's, bit for bit.
 
 namespace delaunayflip
 {
@@ -42,13 +42,13 @@ OwnedMesh<double> MakeTiltedPlane()
   return Transform(MakeRandomBadMeshDouble(50000, 15), map);
 }
 
-/// A grid whose points are lattice points far from the origin, cut at random: ties and violations.
+/// A grid of lattice points far from the origin, with random diagonals: ties and bad edges.
 OwnedMesh<double> MakeFarPlane()
 {
   return Transform(MakeRandomBadMeshDouble(30000, 16), ScaleAndMove(1000.0, 1e7));
 }
 
-/// A wave, so that planes fold over themselves and edges would double.
+/// A wave that folds planes over themselves, so that flips could repeat edges.
 OwnedMesh<double> MakeFoldedPlane()
 {
   OwnedMesh<double> mesh = MakeBadSphere(200, 100, 17);
@@ -59,8 +59,8 @@ OwnedMesh<double> MakeFoldedPlane()
   return mesh;
 }
 
-/// Hills on which Auto judges by x and y where they are gentle, in space where they are steep, and
-/// in space with a warning where a few triangles are turned over.
+/// Hills that Auto judges by x and y if they are gentle, in space if they are steep, and in space
+/// with a warning if a few triangles are turned over.
 OwnedMesh<double> MakeHills(double height)
 {
   OwnedMesh<double> mesh = MakeGridMesh(300, 200);
@@ -193,7 +193,7 @@ class FloatAgreementTest : public GpuTest
 {
 };
 
-// Ids and counts of flips come down in parts of two million numbers, each in a slice of its own.
+// Ids and flip counts are copied in parts of two million numbers, each in a separate slice.
 TEST_F(FloatAgreementTest, OutputsOfSeveralSlicesAreWhole)
 {
   const OwnedMesh<float> mesh = MakeRandomBadMesh(1100000, 22);
@@ -213,8 +213,8 @@ TEST_F(FloatAgreementTest, TheGpuGivesTheCpusBits)
   ExpectSameResult(expected, Flip(mesh.View(), surface));
 }
 
-// On ties, near and far from the origin, each edge's own tolerance decides; that of floats holds
-// where a plane packs them as doubles, too.
+// Each edge's own tolerance decides ties, near the origin and far from it. The precision is that of
+// float even if points of a plane are packed as doubles.
 TEST_F(FloatAgreementTest, TolerancesAgree)
 {
   for (double offset : { 0.0, 1000.0, 1e6 })
@@ -227,7 +227,7 @@ TEST_F(FloatAgreementTest, TolerancesAgree)
     {
       FlipOptions options = MakeOptions(BackendKind::CUDA);
       options.Tolerance = tolerance;
-      options.MaximumIterations = 200; // of a tolerance of 0
+      options.MaximumIterations = 200; // for a tolerance of 0
       ExpectGpuAgrees(mesh.View(), options);
       options.Criterion = CriterionKind::OppositeAngles;
       ExpectGpuAgrees(plane.View(), options);

@@ -3,8 +3,7 @@
 #include "GpuTestSupport.h"
 
 /// @file
-/// Iterations of the GPU come in batches: an observer hears of a whole batch at its end, and an
-/// abort acts there.
+/// A GPU runs iterations in batches: observers are called, and aborts act, at the end of a batch.
 
 namespace delaunayflip
 {
@@ -51,7 +50,7 @@ TEST_F(BatchTest, AnAbortActsAtItsEnd)
   EXPECT_GE(3 + LargestBatch, done);
   EXPECT_LT(0, session.GetReport().NonDelaunayAfter);
 
-  // The mesh and the statistics are those after `done` iterations, and the run may go on.
+  // The mesh and the statistics are those after `done` iterations, and the run can continue.
   FlipOptions options;
   options.Backend = BackendKind::Threads;
   options.MaximumIterations = done;

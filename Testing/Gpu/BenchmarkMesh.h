@@ -13,12 +13,12 @@
 namespace delaunayflip
 {
 
-/// What a program hands to the engine: coordinates in single precision (in double for some real
-/// meshes) and triangles of 64-bit ids, which is what VTK has.
+/// The input of the engine: coordinates in single precision (in double for some real meshes) and
+/// triangles with 64-bit ids, as in VTK.
 struct BenchmarkMesh
 {
   std::string Name;
-  std::vector<float> Floats; ///< Of Floats and Doubles one is empty.
+  std::vector<float> Floats; ///< Either Floats or Doubles is empty.
   std::vector<double> Doubles;
   std::vector<std::int64_t> Ids;
   std::vector<std::int64_t> ConstraintEdges;
@@ -33,7 +33,7 @@ struct BenchmarkMesh
   TriangleMesh View() const;
 };
 
-/// Points up to which a random bad mesh is made as one; beyond, in tiles.
+/// The largest random bad mesh, in points, that is made in one piece; larger ones are tiled.
 constexpr std::int64_t LargestUntiledMesh = 5000000;
 
 BenchmarkMesh MakeRandomMesh(std::int64_t points);
@@ -41,7 +41,8 @@ BenchmarkMesh MakeRandomMesh(std::int64_t points);
 /// About `points` points of a square lattice: every edge is a tie or clearly good.
 BenchmarkMesh MakeLatticeMesh(std::int64_t points);
 
-/// The paper's Fig. 6: an even number of triangles, of which a quarter flips at a time in the mean.
+/// The paper's Fig. 6: an even number of triangles; on average a quarter of them flips per
+/// iteration.
 BenchmarkMesh MakeChainMesh(std::int32_t triangles);
 
 /// The real meshes of a folder that are large enough to time, height fields both by x and y and in

@@ -120,7 +120,7 @@ BenchmarkRow TimeCgal(const BenchmarkMesh& mesh, const RepetitionPlan& plan)
           return 1e3 * time.Seconds;
         });
       row.Total = GetMedian(times);
-      row.Note = row.HasFailed ? "FAILED: another number of triangles" : "from the points alone";
+      row.Note = row.HasFailed ? "FAILED: different number of triangles" : "from the points alone";
     });
   return row;
 }

@@ -15,7 +15,7 @@ struct Column
   const char* Key; ///< In JSON.
   const char* Heading;
   int Width;
-  int Digits; ///< Behind the point.
+  int Digits; ///< After the decimal point.
   double (*Get)(const BenchmarkRow& row); ///< NaN where it does not apply.
 };
 

@@ -10,7 +10,7 @@
 #include <string>
 
 /// @file
-/// FlipOptions::Device: which GPU does the work, whichever is current.
+/// FlipOptions::Device: which GPU does the work, regardless of the current one.
 
 namespace delaunayflip
 {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 /// @file
-/// Every call of the CUDA runtime fails once: what is left is the right mesh from the CPU, or an
-/// error that says why, and no memory is lost.
+/// Every call of the CUDA runtime fails once. The result is the right mesh from the CPU, or an
+/// error that says why, and no memory leaks.
 
 namespace delaunayflip
 {
@@ -44,7 +44,7 @@ TEST_P(FailureTest, AnyCallMayFail)
   options.Backend = BackendKind::Threads;
   const FlipResult expected = Flip(mesh.View(), options);
   options.Backend = BackendKind::Auto;
-  Flip(mesh.View(), options); // what the runtime loads once is not a leak
+  Flip(mesh.View(), options); // what the runtime loads at first is not a leak
   const std::size_t freeBefore = GetFreeMemory();
   std::int64_t failures = 0;
   for (std::int64_t call = 1;; ++call)

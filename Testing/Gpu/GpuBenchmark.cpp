@@ -17,10 +17,10 @@
 #include <thread>
 
 /// @file
-/// delaunay-flip-gpu-benchmark: whole runs on the GPU beside the threads of the CPU and CGAL, from
-/// the caller's arrays to the caller's arrays. Google Benchmark, which repeats what takes
-/// microseconds until its mean settles, has nothing to add to runs of many milliseconds: here each
-/// is timed on its own, and the median of a few stands.
+/// delaunay-flip-gpu-benchmark: compares whole runs on the GPU with CPU threads and CGAL, from the
+/// caller's arrays to the caller's arrays. Google Benchmark is for runs of microseconds, which it
+/// repeats until the mean is stable. Runs here take many milliseconds: each is timed separately,
+/// and the median of a few is reported.
 
 namespace delaunayflip
 {
@@ -32,7 +32,7 @@ bool Holds(const std::vector<std::int64_t>& values, std::int64_t value)
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// Bytes of memory that this machine has left; no limit where it does not tell.
+/// The free memory of this machine in bytes; no limit if that is unknown.
 double GetFreeMemory()
 {
   std::ifstream file("/proc/meminfo");
@@ -88,13 +88,13 @@ public:
   const std::vector<BenchmarkRow>& GetRows() const { return this->Rows; }
 
 private:
-  /// Whether anything here measures random bad meshes of this size.
+  /// Whether some program is measured on random bad meshes of this size.
   bool IsMeasured(std::int64_t size) const
   {
     return this->HasGpu || Holds(this->Arguments.CpuSizes, size);
   }
 
-  /// Meshes that one thread must make are made side by side, before the first is timed.
+  /// Meshes that a single thread makes are made in parallel, before the first is timed.
   void StartMeshes()
   {
     for (const std::int64_t size : this->Arguments.Sizes)
@@ -113,7 +113,7 @@ private:
   void RunSize(std::int64_t size)
   {
     constexpr double BytesPerPoint =
-      160.0; // the mesh as it is made, as it is given, and its result
+      160.0; // the mesh as generated, as given to the program, and the result
     if (!this->IsMeasured(size))
     {
       this->SkipSize(size, "skipped: no GPU");
@@ -166,7 +166,7 @@ private:
     }
   }
 
-  /// The GPU beside all threads of the CPU.
+  /// Compares the GPU with all threads of the CPU.
   void RunBeside(const BenchmarkMesh& mesh)
   {
     this->RunCuda(mesh);
@@ -197,7 +197,7 @@ private:
     this->CudaTotal = row.Total;
     this->Add(row);
 #if defined(DELAUNAYFLIP_HAS_VTK)
-    ReleaseCudaMemory(); // the module has an engine, and memory, of its own
+    ReleaseCudaMemory(); // the module has its own engine and memory
     this->Add(TimeFilter(mesh, this->Arguments.Plan));
 #endif
   }
@@ -213,14 +213,14 @@ private:
     }
   }
 
-  /// Prints a row at once: the next may take long. Every backend must take the same flips.
+  /// Prints a row at once, because the next may take long. All backends must make the same flips.
   void Add(BenchmarkRow row)
   {
     row.TimesCuda = row.Total / this->CudaTotal;
     if (row.TotalFlips >= 0 && this->TotalFlips >= 0 && row.TotalFlips != this->TotalFlips)
     {
       row.HasFailed = true;
-      row.Note = "FAILED: another number of flips";
+      row.Note = "FAILED: different number of flips";
     }
     this->TotalFlips = row.TotalFlips >= 0 ? row.TotalFlips : this->TotalFlips;
     std::printf("%s\n", FormatRow(row).c_str());
@@ -234,8 +234,8 @@ private:
   std::map<std::int64_t, std::future<BenchmarkMesh>> Meshes;
   BenchmarkMesh Delaunay; ///< The largest untiled mesh after its flips.
   std::vector<std::int64_t> Output;
-  double CudaTotal = NAN; ///< Of the mesh at hand.
-  std::int64_t TotalFlips = -1; ///< Of the mesh at hand.
+  double CudaTotal = NAN; ///< Of the current mesh.
+  std::int64_t TotalFlips = -1; ///< Of the current mesh.
   std::vector<BenchmarkRow> Rows;
 };
 

@@ -11,7 +11,7 @@
 namespace delaunayflip
 {
 
-/// Tests of it are skipped where there is no GPU.
+/// Its tests are skipped if there is no GPU.
 class GpuTest : public testing::Test
 {
 protected:
@@ -25,7 +25,7 @@ protected:
 };
 
 /// Flips the mesh on the CPU and on the GPU, reports a failure for every bit that differs, and
-/// gives the GPU's result.
+/// returns the GPU's result.
 inline FlipResult ExpectGpuAgrees(const TriangleMesh& mesh, FlipOptions options)
 {
   options.Backend = BackendKind::Threads;

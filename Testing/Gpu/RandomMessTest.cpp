@@ -4,7 +4,7 @@
 #include "GpuTestSupport.h"
 
 /// @file
-/// Thousands of small meshes of every kind of dirt: the GPU's bits are the CPU's.
+/// Thousands of small meshes with every kind of defect: the GPU's bits are the CPU's.
 
 namespace delaunayflip
 {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 /// @file
-/// Real meshes, which do not belong to this project: the folder that DELAUNAYFLIP_MESH_DIR names
-/// holds what export_meshes.py wrote; skipped without.
+/// Real meshes, which are not part of this project. export_meshes.py writes them to the folder
+/// DELAUNAYFLIP_MESH_DIR; without it these tests are skipped.
 
 namespace delaunayflip
 {
@@ -22,7 +22,7 @@ std::string GetFolder()
   return folder ? folder : "";
 }
 
-/// The path of a mesh, or nothing where the folder lacks it.
+/// The path of a mesh; empty if it is not in the folder.
 std::string FindMesh(const std::string& name)
 {
   const std::string end = "/" + name + ".dfmesh";
@@ -72,8 +72,8 @@ TEST_F(RealDataTest, TheGpuGivesTheCpusBits)
   }
 }
 
-/// What is known of a mesh from other programs. Where several orders of flips lead to the end,
-/// their number is known but for a share.
+/// What is known about a mesh from other programs. If the number of flips depends on their order,
+/// it is known only approximately.
 struct KnownAnswer
 {
   const char* Mesh;
@@ -130,7 +130,7 @@ std::string GetName(const KnownAnswer& known)
 
 void PrintTo(const KnownAnswer& known, std::ostream* stream) { *stream << GetName(known); }
 
-/// Every mesh is a test of its own, which is skipped where that mesh is not there.
+/// Every mesh is a separate test, which is skipped if the mesh is missing.
 class KnownAnswerTest
   : public RealDataTest
   , public testing::WithParamInterface<KnownAnswer>
@@ -148,7 +148,7 @@ TEST_P(KnownAnswerTest, Holds)
   const FileMesh mesh = ReadMeshFile(path);
   FlipOptions options = WithGeometry(known.Geometry);
   options.Backend = BackendKind::CUDA;
-  options.Tolerance = 1e-9; // coordinates as they are, whatever their precision
+  options.Tolerance = 1e-9; // takes coordinates as exact
   const FlipReport report = Flip(mesh.View(), options).Report;
   EXPECT_TRUE(report.Converged());
   ExpectAbout(known.Bad, report.NonDelaunayBefore, known.Share);

@@ -13,7 +13,7 @@
 #include <vector>
 
 /// @file
-/// What all timings of rows share.
+/// Helpers for the timings of rows.
 
 namespace delaunayflip
 {
@@ -41,8 +41,8 @@ inline double GetMedian(std::vector<double> values)
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// Calls run() to warm up, then as often as planned; run() returns milliseconds and whether they
-/// count by `isWarm`. @returns how often they count.
+/// Calls run() once to warm up, then as often as planned. run() returns milliseconds, and by
+/// `isWarm` whether they count. @returns how many of them count.
 template <typename Run>
 int Repeat(const RepetitionPlan& plan, const Run& run)
 {
@@ -57,8 +57,8 @@ int Repeat(const RepetitionPlan& plan, const Run& run)
   return done;
 }
 
-/// Calls work() and makes a row's note of what it throws. Too little memory is no failure of a
-/// machine that is smaller than others.
+/// Calls work() and turns an exception into the note of a row. Running out of memory does not count
+/// as a failure: some machines are too small.
 template <typename Work>
 void Try(BenchmarkRow& row, const Work& work)
 {

@@ -6,11 +6,11 @@
 namespace delaunayflip
 {
 
-/// Prints how many sectors of 32 bytes a second the current GPU serves at random places of its
-/// memory, which is the measure of what flips could take: loads, stores of four bytes and atomic
-/// "or"s that nobody waits for, within a range that the second-level cache holds and within one as
-/// large as the edge mesh of 10 M triangles. Says "no GPU: skipped" without one.
-/// @throws BackendUnavailable where a call of the CUDA runtime fails.
+/// Prints how many sectors of 32 bytes per second the current GPU serves at random places of its
+/// memory, which limits the speed of flips. Measures loads, stores of four bytes, and atomic "or"s
+/// without a result, within a range that fits into the second-level cache and within one as large
+/// as the edge mesh of 10 M triangles. Prints "no GPU: skipped" if there is none.
+/// @throws BackendUnavailable if a call of the CUDA runtime fails.
 void PrintSectorRates();
 
 }

@@ -4,8 +4,8 @@
 #include "RandomMess.h"
 
 /// @file
-/// One small mesh of each kind: what run.sh gives to compute-sanitizer, under which every step
-/// takes a hundred times as long.
+/// One small mesh of each kind. run.sh runs these tests under compute-sanitizer, which makes every
+/// step take a hundred times as long.
 
 namespace delaunayflip
 {

@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: build.sh BUILD_FOLDER - what run.sh and bundle.sh share: builds the engine, its tests and the
-# GPU benchmark, which times the VTK filter too where there is VTK, and writes the real meshes of
-# DELAUNAYFLIP_DATA_DIR (default: as CMake's) to BUILD_FOLDER/meshes where they and VTK's Python
-# package are there. JOBS: how many compilers at a time; CUDA_ARCHITECTURES: CMake's list of them.
+# Usage: build.sh BUILD_FOLDER - used by run.sh and bundle.sh: builds the engine, its tests and the
+# GPU benchmark, which also times the VTK filter if there is VTK. Writes the real meshes in
+# DELAUNAYFLIP_DATA_DIR (default: as CMake's) to BUILD_FOLDER/meshes, if they and VTK's Python
+# package exist. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES: CMake's list of them.
 set -euo pipefail
 
 build=$1
@@ -25,7 +25,7 @@ if [ ! -f "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
   options+=(-G Ninja)
 fi
 if ! cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then
-  echo "no VTK to build with: the benchmarks will be those of the engine alone"
+  echo "no VTK found: only the engine will be benchmarked"
   cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=OFF
 fi
 cmake --build "$build" --parallel "${JOBS:-2}" \

@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: bundle.sh [OUTPUT.tar.gz or FOLDER] (default: delaunay-flip-gpu.tar.gz)
-# Builds in build-gpu/ and packs what a machine with a GPU needs to run run.sh, without development
-# packages there: programs, the shared libraries that not every Linux has, real meshes. Unpack it,
-# then run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than
-# this one's and python3; compute-sanitizer is used where it is there. CUDA_ARCHITECTURES chooses
-# other GPUs than the project's default, JOBS the number of compilers at a time.
+# Builds in build-gpu/ and packs what run.sh needs on a machine with a GPU and without development
+# packages: programs, shared libraries that not every Linux has, and real meshes. Unpack it there
+# and run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than
+# this one's, and python3; compute-sanitizer is used if installed. CUDA_ARCHITECTURES chooses other
+# GPUs than the project's default, JOBS the number of compilers at a time.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -42,7 +42,7 @@ fill()
 }
 
 "$here/build.sh" "$build"
-# Not in the cache where it is the project's default.
+# Not in the cache if it is the project's default.
 architectures=$(sed -n 's/^CMAKE_CUDA_ARCHITECTURES:[A-Z]*=//p' "$build/CMakeCache.txt")
 architectures=${architectures:-the default of the project}
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Usage: cmake -DSOURCE=... -DBINARY=... -DCOMPILER=... -P configure_twice.cmake
-# CMake run again builds for the same GPUs, and not for those of the compiler's default.
+# Checks that a second run of CMake still builds for the same GPUs, not for the compiler's default.
 file(REMOVE_RECURSE "${BINARY}")
 foreach(run first second)
   execute_process(

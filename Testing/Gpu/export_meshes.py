@@ -5,8 +5,8 @@
 
 Writes every mesh of DATA_DIR and of its folder small/ that VTK can read to OUT_DIR/NAME.dfmesh, for
 machines without VTK; Testing/Meshes/MeshFile.h describes the files. Polygons are split into fans,
-images become height fields of two triangles a cell, lines become constraint edges. Needs VTK's
-Python package and numpy (Debian: python3-vtk9).
+images become height fields with two triangles per cell, and lines become constraint edges. Needs
+VTK's Python package and numpy (Debian: python3-vtk9).
 """
 
 import glob
@@ -22,7 +22,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 
 
 def read(path):
-    """A file's data set; of STL with every triangle's own three points."""
+    """The dataset in a file; for STL, every triangle has its own three points."""
     suffix = os.path.splitext(path)[1].lower()
     readers = {
         ".vtk": vtkDataSetReader,
@@ -39,7 +39,7 @@ def read(path):
 
 
 def merge_points(points, triangles):
-    """Points of equal coordinates joined, in the order of first appearance."""
+    """Merges points with equal coordinates, in the order of first appearance."""
     _, first, inverse = numpy.unique(points, axis=0, return_index=True, return_inverse=True)
     rank = numpy.empty(len(first), dtype=numpy.int64)
     rank[numpy.argsort(first)] = numpy.arange(len(first))
@@ -75,7 +75,7 @@ def segments(array):
 
 
 def image_mesh(image):
-    """Points and triangles of an image: its first array is the height, which stays as it is."""
+    """Points and triangles of an image, whose first array is the height."""
     columns, rows, _ = image.GetDimensions()
     (x0, y0, _), (dx, dy, _) = image.GetOrigin(), image.GetSpacing()
     points = numpy.empty((rows, columns, 3))

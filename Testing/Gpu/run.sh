@@ -2,11 +2,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Everything that needs a GPU, in one command: the tests of the CUDA backend, the engine's whole test
-# suite on the GPU, compute-sanitizer, and benchmarks beside the CPU. In a source tree it builds into
-# build-gpu/ first; in a bundle (bundle.sh) it runs the programs beside it. results.txt and
-# results.json in the output folder hold what came out. The exit status is 0 only when nothing
-# failed; what cannot run here is reported as skipped, and a machine without a GPU passes nothing.
+# Runs everything that needs a GPU: the tests of the CUDA backend, the engine's whole test suite on
+# the GPU, compute-sanitizer, and benchmarks against the CPU. In a source tree it first builds into
+# build-gpu/; in a bundle (bundle.sh) it runs the programs beside it. The results are in results.txt
+# and results.json in the output folder. The exit status is 0 only if nothing failed. What cannot
+# run here is reported as skipped; without a GPU nothing passes.
 set -euo pipefail
 
 usage()
@@ -77,13 +77,13 @@ output=$(cd "$output" && pwd)
 has_gpu=yes
 if grep -q '"gpu": null' "$output/machine.json"; then
   has_gpu=no
-  echo "no GPU: what needs one is skipped"
+  echo "no GPU: everything that needs one is skipped"
 fi
 
 # Usage: note STEP STATUS [REASON] - STATUS is an exit status, or "skipped" for REASON.
 note() { printf '%s\t%s\t%s\n' "$1" "$2" "${3:-}" >>"$output/steps.tsv"; }
 
-# Usage: run_step NAME COMMAND... - the output goes to NAME.log and, where it matters, to the screen.
+# Usage: run_step NAME COMMAND... - writes the output to NAME.log and, if it matters, to the screen.
 run_step()
 {
   local name=$1 status=0
@@ -119,7 +119,7 @@ find_sanitizer()
   done
 }
 
-# Small meshes: every access of every kernel is watched. racecheck sees shared memory only.
+# Small meshes, because every memory access is checked. racecheck checks shared memory only.
 run_sanitizer()
 {
   local sanitizer tool

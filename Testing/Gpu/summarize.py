@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Usage: summarize.py FOLDER
 
-Makes results.json and results.txt of what run.sh left in FOLDER and prints a summary; the table of
-the benchmarks has been on the screen already. Exits with 0 when nothing failed, else with 1.
+Makes results.json and results.txt from the files that run.sh left in FOLDER, and prints a summary
+without the table of the benchmarks, which has been printed already. Exits with 0 if nothing failed,
+else with 1.
 """
 
 import json
@@ -13,12 +14,12 @@ import platform
 import subprocess
 import sys
 
-SANITIZER_FINDINGS = 86  # the exit status that run.sh asks compute-sanitizer for
+SANITIZER_FINDINGS = 86  # the exit status that run.sh sets for compute-sanitizer
 TIMED_OUT = 124
 
 
 def load(folder, name):
-    """A JSON file's content, or None where it is missing or torn."""
+    """The content of a JSON file, or None if it is missing or incomplete."""
     try:
         with open(os.path.join(folder, name), encoding="utf-8") as file:
             return json.load(file)
@@ -54,7 +55,7 @@ def count_tests(report, status):
             else:
                 counts["skipped"] += 1
     if status != "0" and counts["failed"] == 0:
-        counts["failed"] = 1  # it ended before it could say more
+        counts["failed"] = 1  # it ended before it could report more
         counts["failed_tests"].append(f"the program ended with status {status}")
     return counts
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""summarize.py calls nothing passed that was skipped, and nothing skipped that failed."""
+"""summarize.py must not report skipped steps as passed, nor failed steps as skipped."""
 
 import json
 import os
@@ -37,7 +37,7 @@ def report(*results):
 
 class Summary(unittest.TestCase):
     def summarize(self, gpu, steps, **files):
-        """Exit status, results and last line for what run.sh would have left."""
+        """Exit status, results and last line for the files that run.sh would have left."""
         with tempfile.TemporaryDirectory() as folder:
             files["machine"] = {"machine": "A CPU", "cores": 2, "gpu": gpu}
             for name, content in files.items():

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// A driver that is too old for every CUDA runtime of today: what there is of it tells its version.
+/// A driver that is too old for any current CUDA runtime. It only reports its version.
 
 extern "C" __attribute__((visibility("default"))) int cuDriverGetVersion(int* version)
 {

@@ -13,5 +13,5 @@ def read(path):
 
 
 def snippets(language):
-    """The blocks of code in a language, in their order."""
+    """The code snippets in a language, in order."""
     return re.findall(rf"^```{language}\n(.*?)^```$", read("README.md"), re.DOTALL | re.MULTILINE)

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Projects that use an installed build, or this folder as a subproject: they are configured, built
-and run.
+"""Configures, builds and runs projects that use an installed build, or this folder as a subproject.
 
 DELAUNAYFLIP_BUILD in the environment is the build, DELAUNAYFLIP_CMAKE the program cmake.
 """
@@ -88,7 +87,7 @@ find_package(DelaunayFlip 0.1 REQUIRED COMPONENTS Engine)
 add_executable(consumer "{EXAMPLE}")
 target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
 if(TARGET DelaunayFlip::Filters)
-  message(FATAL_ERROR "nobody asked for VTK")
+  message(FATAL_ERROR "VTK was not requested")
 endif()
 """)
         self.build(NO_VTK)
@@ -97,7 +96,7 @@ endif()
         self.assertIsNone(self.read_option("VTK_DIR"))
 
     def test_headers(self):
-        """Each public header is installed and stands alone; no other one of the engine is there."""
+        """Each public header is installed and compiles alone; no other header of the engine is."""
         installed = os.listdir(f"{self.prefix}/include/delaunayflip")
         headers = list_public_headers() + ["delaunayflip_c.h"]
         self.assertEqual(sorted(name for name in installed if not name.startswith("vtk")),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The README's snippets do what it says. Those of CMake and C++ are built by test_package.py."""
+"""The README's snippets work. Those in CMake and C++ are built by test_package.py."""
 import os
 import subprocess
 import sys

@@ -3,7 +3,7 @@
 """Drives ParaView's Qt client from inside, as a user would: menus, the Apply button, waiting.
 
 For scripts that the client runs by --script. The script's session is a generator: it yields a
-function wherever the client is to go on by itself until that function returns true.
+function where the client is to continue until that function returns true.
 """
 
 import os
@@ -18,7 +18,7 @@ from PyQt5.QtWidgets import (
 
 FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 PATIENCE = 60  # seconds, for one wait
-TICK = 20  # milliseconds between two looks
+TICK = 20  # milliseconds between two checks
 
 
 class Client:
@@ -41,7 +41,7 @@ class Client:
         self.find_actions(text)[menu].trigger()
 
     def choose_beginning(self, menu, beginning):
-        """Clicks the action of a menu whose text begins so."""
+        """Clicks the action of a menu whose text begins with this."""
         titles = {menu_.title().replace("&", ""): menu_
                   for menu_ in self.window.menuBar().findChildren(QMenu)}
         next(action for action in titles[menu].actions()
@@ -89,7 +89,7 @@ class Panel:
         return any(widget.isVisible() for widget in self.find_all(name))
 
     def read(self, name):
-        """The text of a property that is read back."""
+        """The text of an information property."""
         return self.find(name, QLabel).text()
 
     def write(self, name, text):
@@ -118,7 +118,7 @@ def load_plugin():
 
 
 def start_filter(client, source, menu_entry="Delaunay Flip"):
-    """Chooses a filter of the plugin for a source, from the menu; the filter, not applied yet."""
+    """Chooses a filter of the plugin for a source, from the menu. Returns it, not applied yet."""
     before = simple.GetActiveSource()
     simple.Show(source)
     simple.ResetCamera()
@@ -131,7 +131,7 @@ def start_filter(client, source, menu_entry="Delaunay Flip"):
 
 
 def idle(seconds):
-    """Something to wait for: nothing but time."""
+    """A function to wait for that returns true after some time."""
     end = time.monotonic() + seconds
     return lambda: time.monotonic() > end
 
@@ -151,7 +151,7 @@ class _Player:
         self.deadline = time.monotonic() + PATIENCE
 
     def look(self):
-        self.timer.stop()  # what follows may take events itself
+        self.timer.stop()  # the following may process events itself
         try:
             if self.condition():
                 self.go_on()
@@ -179,6 +179,6 @@ _players = []
 
 
 def play(session):
-    """Plays session(client) when the script has ended; the client's exit status tells how it went.
+    """Plays session(client) after the script has ended; the client's exit status is the result.
     """
     _players.append(_Player(session(Client())))

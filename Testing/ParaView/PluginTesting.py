@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the plugin share: loading it, meshes in files, and what came out.
+"""Helpers for the tests of the plugin: load it, write meshes to files, and read results.
 
-Run by pvpython, with the plugin's library in DELAUNAYFLIP_PLUGIN. Meshes go through files, as a
-user's do, so that a server reads them as well.
+Run by pvpython, with the plugin's library in DELAUNAYFLIP_PLUGIN. Meshes are passed in files, as a
+user's are, so that a server can read them too.
 """
 
 import os
@@ -28,9 +28,9 @@ def make_cells(cells):
 
 
 def make_fan(number_of_points):
-    """Points on a parabola, all joined to the last one: the worst there is, n^2 / 2 flips or so.
+    """Points on a parabola, all joined to the last one: the worst case, with about n^2 / 2 flips.
 
-    Its cell array Side tells the triangles of the left half from those of the right.
+    Its cell array Side distinguishes the triangles of the left half from those of the right.
     """
     points = vtkPoints()
     for i in range(number_of_points):
@@ -49,7 +49,7 @@ def make_fan(number_of_points):
 
 
 def make_line(mesh, start, end):
-    """A constraint edge between two points of a mesh, with points of its own."""
+    """A constraint edge between two points of a mesh, with its own points."""
     line = vtkPolyData()
     line.SetPoints(vtkPoints())
     line.GetPoints().SetDataType(mesh.GetPoints().GetDataType())
@@ -74,12 +74,12 @@ def get_edges(mesh):
 
 
 def fetch(proxy, port=0):
-    """A copy of what a filter or one of its ports puts out, on the client."""
+    """A copy of the output of a filter or of one of its ports, on the client."""
     return servermanager.Fetch(proxy, idx=port)
 
 
 def refresh(proxy):
-    """Updates a filter, and its read-back properties as the Properties panel does."""
+    """Updates a filter, and its information properties, as the Properties panel does."""
     proxy.UpdatePipeline()
     proxy.SMProxy.UpdatePipelineInformation()
 
@@ -102,7 +102,7 @@ class Messages:
 
 
 class PluginTest(unittest.TestCase):
-    """A session of its own with the plugin loaded, and a folder for files."""
+    """A separate session with the plugin loaded, and a folder for files."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -115,7 +115,7 @@ class PluginTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def save(self, mesh, name="mesh.vtp"):
-        """Writes a vtkPolyData; its path."""
+        """Writes a vtkPolyData. Returns the path."""
         writer = vtkXMLPolyDataWriter()
         writer.SetDataModeToBinary()  # ParaView 5.11 with a newer expat fails on appended data
         writer.SetFileName(self.path(name))
@@ -128,7 +128,7 @@ class PluginTest(unittest.TestCase):
         return simple.XMLPolyDataReader(FileName=[self.save(mesh, name)])
 
     def flip(self, source, **properties):
-        """The filter, applied without a message."""
+        """Applies the filter, and expects no message. Returns it."""
         with Messages() as messages:
             flip = simple.DelaunayFlip(Input=source, **properties)
             refresh(flip)

@@ -16,7 +16,7 @@ def get_chart():
 
 
 def get_lines():
-    """{label: [(x, y), ...]} of what the chart draws."""
+    """The lines of the chart, as {label: [(x, y), ...]}."""
     lines = {}
     for plot in map(get_chart().GetPlot, range(get_chart().GetNumberOfPlots())):
         if plot.GetVisible() and plot.GetInput():
@@ -52,7 +52,7 @@ def watch_live(client, panel, flip):
     yield lambda: flip.NumberOfIterations == 1
     yield from plot(client, flip)
     row = get_columns(flip, "Iteration", "Flipped")
-    expect(get_lines() == {"Flipped": 2 * row}, get_lines())  # one point alone is no line
+    expect(get_lines() == {"Flipped": 2 * row}, get_lines())  # a single point is not a line
     client.save_picture("chart_one_row.png")
     client.select("DelaunayFlip1")
     yield idle(0.3)
@@ -79,7 +79,7 @@ def get_display():
 
 
 def choose_lines(client):
-    """Others than flips, also on a logarithmic axis, which has no place for 0."""
+    """Other lines than flips, also on a logarithmic axis, which cannot show 0."""
     names = ["Flipped", "Excluded", "Blocked", "MinimumAngle"]
     get_display().SeriesVisibility = names
     simple.Render()

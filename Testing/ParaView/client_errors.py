@@ -16,7 +16,7 @@ def count_cells(flip):
 
 
 def fail(client, panel, flip, limit):
-    """Apply gives nothing to see, and the panel says why at once."""
+    """Apply shows nothing, and the panel says why at once."""
     panel.choose("Geometry", "Planar")
     panel.write("MaximumIterations", str(limit))
     client.apply()

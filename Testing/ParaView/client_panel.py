@@ -19,14 +19,14 @@ QUIET = 1.5  # seconds: many times the interval of polls
 
 
 def count_edges(flip, edge):
-    """How many triangles of the output have an edge."""
+    """The number of triangles of the output with this edge."""
     polys = servermanager.Fetch(flip).GetPolys().GetConnectivityArray()
     ids = [int(polys.GetTuple1(i)) for i in range(polys.GetNumberOfTuples())]
     return sum(edge <= set(ids[i:i + 3]) for i in range(0, len(ids), 3))
 
 
 def read_results(panel, flip):
-    """What is read back is text, whole numbers without a point, and cannot be edited."""
+    """Results are text that cannot be edited, and whole numbers have no decimal point."""
     for name in RESULTS:
         expect(panel.read(name) == str(flip.GetPropertyValue(name)), f"{name}: {panel.read(name)}")
         for widget in panel.find_all(name):
@@ -38,7 +38,7 @@ def read_results(panel, flip):
 
 
 def use_buttons(client, panel, flip):
-    """Pause holds the run, Step makes one step, Restart begins again, Pause lets it go on."""
+    """Pause pauses the run, Step makes one step, Restart starts again, Pause continues."""
     expect(not panel.is_shown("Step"), "buttons are shown without live update")
     panel.click("LiveUpdate")
     yield idle(0.2)
@@ -68,7 +68,7 @@ def use_buttons(client, panel, flip):
 
 
 def step_pauses(client, panel, flip):
-    """Step holds a run that goes on."""
+    """Step pauses a running run."""
     panel.click("LiveUpdate")
     client.apply()
     yield lambda: flip.NumberOfIterations >= 2
@@ -84,7 +84,7 @@ def step_pauses(client, panel, flip):
 
 
 def choose_constraints(client, panel, flip):
-    edge = {15, 29}  # of the input's fan; flipped unless it is asked for
+    edge = {15, 29}  # of the input's fan; flipped unless it is a constraint
     expect(count_edges(flip, edge) == 0, "the edge is there without constraints")
     choices = panel.find("Constraints", QComboBox)
     texts = [choices.itemText(i) for i in range(choices.count())]
@@ -105,7 +105,7 @@ def choose_constraints(client, panel, flip):
 
 
 def offer_no_loop(panel, flip):
-    """What comes after the filter, which would be a loop, is not among the constraints."""
+    """The list of constraints leaves out what is downstream of the filter, a loop."""
     simple.SetActiveSource(flip)
     later = simple.Transform(registrationName="Later", Input=flip)
     last = simple.FeatureEdges(registrationName="Last", Input=later)
@@ -130,7 +130,7 @@ def get_color_choices(flip):
 
 
 def look_at_color_by(flip):
-    """The filter's field data are not among the choices, whatever the user hides beside them."""
+    """Color By does not offer the filter's field data, whatever else the user hides."""
     information = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
     expect(information.GetArrayInformation("DelaunayFlip:TotalFlips"), "no field data")
     settings = servermanager._getPyProxy(

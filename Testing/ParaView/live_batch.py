@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What test_live.py runs in pvbatch: flips the mesh of a file, live update on; says how it ended."""
+"""Run by test_live.py in pvbatch: flips the mesh of a file with live update on; prints the end."""
 
 import os
 import sys

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What test_parallel.py runs in pvbatch with two ranks: each rank has meshes of its own.
+"""Run by test_parallel.py in pvbatch with two ranks, each of which has its own meshes.
 
-Prints one line of JSON for each case of which it is told the name: what the filter said.
+Prints one line of JSON for each case that is named: the messages and results of the filter.
 """
 
 import json
@@ -13,7 +13,7 @@ from paraview import simple
 
 from PluginTesting import Messages, fetch, refresh
 
-# Runs on every rank; "meshes" is what the rank has: the sizes of its fans, by their blocks.
+# Runs on every rank. "meshes" has the sizes of the rank's fans, by their blocks.
 SOURCE = """
 import sys
 sys.path.insert(0, {here!r})
@@ -40,7 +40,7 @@ elif meshes:
 """
 PIECES = "self.GetOutputInformation(0).Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)"
 
-# By the name of the case: the sizes of the fans of rank 0 and of rank 1; a negative one is broken.
+# By case: the sizes of the fans of rank 0 and of rank 1. Negative sizes make broken fans.
 CASES = {
     "pieces": ({0: 20}, {0: 30}),
     "one empty": ({}, {0: 20}),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The client's side of test_remote.py: uses the plugin on the server whose port it is given."""
+"""The client's side of test_remote.py: uses the plugin on the server at the given port."""
 
 import sys
 
@@ -28,7 +28,7 @@ class Client(PluginTest):
         self.assertRegex(flip.BackendUsed, "^Threads: [0-9]+$")
 
     def expect_error(self):
-        """What goes wrong on the server is read on the client."""
+        """Errors on the server are reported on the client."""
         with Messages() as messages:
             refresh(simple.DelaunayFlip(Input=simple.Sphere(), TieRule="Canonical"))
         self.assertIn("tie rule", messages.text)

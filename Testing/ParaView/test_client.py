@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin in ParaView's Qt client: menu, Apply, panel, undo, live runs, errors and charts.
 
-The scripts client_*.py are what happens inside. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
+The scripts client_*.py run inside it. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
 """
 
 import glob
@@ -20,7 +20,7 @@ PATIENCE = 240  # seconds
 
 
 def find_client():
-    """The client's path; exits as skipped where it, or Python's Qt, is not there."""
+    """The client's path. Exits as skipped if the client or Python's Qt is missing."""
     client = os.path.join(os.path.dirname(os.environ["DELAUNAYFLIP_PVPYTHON"]), "paraview")
     if not os.path.exists(client):
         print("skipped: no ParaView client", client)
@@ -34,10 +34,10 @@ def find_client():
 
 
 class Client(PluginTest):
-    """Each test is a client of its own, whose script plays a session."""
+    """Each test starts a client, whose script plays a session."""
 
     def play(self, name):
-        """Runs a script in a client; what it wrote. Its pictures go to DELAUNAYFLIP_PICTURES."""
+        """Runs a script in a client, with pictures in DELAUNAYFLIP_PICTURES. Returns its output."""
         self.save(make_fan(14))
         self.save(make_fan(30), "long.vtp")  # 17 iterations
         self.save(make_line(make_fan(30), 15, 29), "lines.vtp")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What went wrong reaches the user, in words, and leaves the session alive."""
+"""Errors are reported to the user in words, and the session continues."""
 
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkCellArray
@@ -10,7 +10,7 @@ from PluginTesting import Messages, PluginTest, fetch, main, make_cells, make_fa
 
 class Errors(PluginTest):
     def fail_with(self, words, source, **properties):
-        """Applies the filter, expects an error that says so and no mesh; the filter."""
+        """Applies the filter, and expects this error and no mesh. Returns the filter."""
         with Messages() as messages:
             flip = simple.DelaunayFlip(Input=source, **properties)
             refresh(flip)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs that are surfaces but no vtkPolyData, and those that are none."""
+"""Inputs that are surfaces but not vtkPolyData, and inputs that are not surfaces."""
 
 from paraview import simple
 from vtkmodules.vtkCommonCore import (
@@ -20,7 +20,7 @@ MIXED = [(VTK_TRIANGLE, (0, 1, 2)), (VTK_PIXEL, (2, 3, 8, 4)), (VTK_LINE, (0, 8)
 
 
 def number_cells(data):
-    """Gives every cell a number, to know it again."""
+    """Gives every cell a number, to recognise it."""
     numbers = vtkIdTypeArray()
     numbers.SetName("Number")
     for i in range(data.GetNumberOfCells()):
@@ -79,7 +79,7 @@ class UnstructuredGrids(InputTest):
         self.assertEqual(get_numbers(fetch(flip)), get_numbers(from_mesh))
 
     def test_mixed_cells(self):
-        """Vertices, lines, polygons and strips come out in this order, each with its data."""
+        """The output has vertices, lines, polygons and strips, in this order, with their data."""
         grid = make_grid(make_fan(9).GetPoints(), MIXED)
         flip = simple.DelaunayFlip(Input=self.read_grid(grid), Triangulate=0)
         refresh(flip)
@@ -95,7 +95,7 @@ class UnstructuredGrids(InputTest):
         self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
 
     def test_live(self):
-        """Steps go on from the last one, though the surface is extracted."""
+        """Steps continue from the last one, although the surface is extracted."""
         mesh = make_fan(20)
         grid = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)] +
                          [(VTK_EMPTY_CELL, ())])
@@ -120,7 +120,7 @@ class UnstructuredGrids(InputTest):
 
 
 class Grids(InputTest):
-    """Structured data of two dimensions."""
+    """Two-dimensional structured data."""
 
     def make_image(self):
         return simple.Wavelet(WholeExtent=[0, 7, 0, 5, 0, 0])
@@ -213,7 +213,7 @@ class Blocks(InputTest):
 
 
 class Malformed(InputTest):
-    """Grids that no reader gives, but a programmable filter may."""
+    """Grids that no reader returns, but a programmable filter may."""
 
     def apply(self, data):
         producer = simple.TrivialProducer()

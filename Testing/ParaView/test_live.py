@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Live update where nobody polls: scripts step by themselves; pvbatch and several ranks do not."""
+"""Live update without polling: scripts make the steps; pvbatch and several ranks do not."""
 
 import os
 import shutil
@@ -43,7 +43,7 @@ class Live(PluginTest):
 
 
 class Batch(PluginTest):
-    """live_batch.py in pvbatch: told to be live, it must come to the end at once."""
+    """live_batch.py in pvbatch: even with LiveUpdate, it must reach the end at once."""
 
     def expect_the_end(self, *launcher):
         pvbatch = os.path.join(os.path.dirname(os.environ["DELAUNAYFLIP_PVPYTHON"]), "pvbatch")

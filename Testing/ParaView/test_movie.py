@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/ParaView/flip_movie.py: a frame per iteration, three of them compared with baselines,
-what it reads, and what it says when something is wrong.
+"""Examples/ParaView/flip_movie.py: one frame per iteration, of which three are compared with
+baselines, the formats that it reads, and its messages in case of an error.
 
-The pictures may differ by TOLERANCE in the measure of vtkImageDifference, which is what VTK's own
-image tests allow: other drivers draw the edges' pixels a little differently.
+The pictures may differ by TOLERANCE, an error of vtkImageDifference that VTK's own image tests
+allow, because drivers draw edges a little differently.
 """
 
 import os
@@ -63,7 +63,7 @@ class Movie(unittest.TestCase):
             compare(self.path(frames[0]), self.path(frames[-1])), 10 * TOLERANCE)
 
     def test_a_file_of_another_format(self):
-        """A roof whose ridge must flip as seen from above; in space it is a feature edge."""
+        """A roof whose ridge must flip in x and y; in space it is a feature edge."""
         file = self.path("roof.obj")
         with open(file, "w", encoding="ascii") as roof:
             roof.write("v -3 0 1\nv 0 -1 0\nv 3 0 1\nv 0 1 0\nvn 0 1 1\nvn 0 -1 1\n"

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two ranks, which have different pieces and blocks: what the panel says is true of all of them.
+"""Two ranks with different pieces and blocks: the panel has the sums over all of them.
 
-parallel_batch.py runs in pvbatch; its table of cases is what is compared here with the same meshes
-in one process.
+parallel_batch.py runs in pvbatch. Its cases are compared here with the same meshes in one process.
 """
 
 import ast
@@ -18,7 +17,7 @@ from PluginTesting import PluginTest, fetch, main, make_fan
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPT = os.path.join(HERE, "parallel_batch.py")
-PATIENCE = 200  # seconds: a rank that waits for another one must not wait for ever
+PATIENCE = 200  # seconds: a rank must not wait for another one for ever
 
 
 def read_cases():
@@ -33,7 +32,7 @@ CASES = read_cases()
 
 
 def find_launcher():
-    """What starts two ranks; exits as skipped where that is not there."""
+    """The command that starts two ranks. Exits as skipped if it is missing."""
     pvbatch = os.path.join(os.path.dirname(os.environ["DELAUNAYFLIP_PVPYTHON"]), "pvbatch")
     if not os.path.exists(pvbatch) or not shutil.which("mpirun"):
         print("skipped: no pvbatch or no mpirun")
@@ -42,7 +41,7 @@ def find_launcher():
 
 
 def run_cases():
-    """What the filter said, by the case."""
+    """The messages and results of the filter, by case."""
     # pvpython is a run of MPI itself, within which mpirun would start no other.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
@@ -68,7 +67,7 @@ class Parallel(PluginTest):
         cls.said = run_cases()
 
     def flip_alone(self, size):
-        """The flips of every iteration of one fan."""
+        """The number of flips in every iteration of one fan."""
         table = fetch(self.flip(self.read(make_fan(size), f"{size}.vtp"), TieRule="Canonical"), 1)
         column = table.GetRowData().GetArray("Flipped")
         return [int(column.GetTuple1(i)) for i in range(column.GetNumberOfTuples())]

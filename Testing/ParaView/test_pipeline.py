@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter in ParaView's pipelines: what goes in, what comes out."""
+"""The filter in ParaView's pipelines: inputs and outputs."""
 
 import math
 
@@ -25,7 +25,7 @@ class Inputs(PluginTest):
     def test_sphere(self):
         flip = self.flip(simple.Sphere(ThetaResolution=60, PhiResolution=40))
         self.assertEqual(flip.GeometryUsed, "surface")
-        self.assertEqual(flip.TotalFlips, 0)  # what could flip is noise of single precision
+        self.assertEqual(flip.TotalFlips, 0)  # only rounding noise could flip
         flip.Tolerance = 1e-9
         refresh(flip)
         self.assertGreater(flip.TotalFlips, 0)
@@ -141,7 +141,7 @@ class Outputs(PluginTest):
             self.assertEqual(get_rows(table, column), get_rows(iterations, column))
 
     def test_plot_on_a_logarithmic_scale(self):
-        """Counts of 0 are left out; the smallest angle has an axis of its own."""
+        """Counts of 0 are left out; the smallest angle has its own axis."""
         plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1), LogScale=1)
         self.assertTrue(all(math.isnan(count) for count in get_rows(fetch(plot), "Blocked")))
         self.assertGreater(get_rows(fetch(plot), "MinimumAngle")[0], 0)
@@ -173,7 +173,7 @@ class Outputs(PluginTest):
 
 
 class Progress(PluginTest):
-    """What observers of the filter's object see; the client's progress bar is one of them."""
+    """The events for observers of the filter's object, such as the client's progress bar."""
 
     def setUp(self):
         super().setUp()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""PV_PLUGIN_PATH alone, which names the plugin's folder, brings the filter."""
+"""The filter is available if only PV_PLUGIN_PATH names the plugin's folder."""
 
 import unittest
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the menu and the Properties panel are made of."""
+"""The contents of the menu and of the Properties panel."""
 
 import os
 import re
@@ -20,7 +20,7 @@ def get_hints(proxy):
 
 
 def list_properties():
-    """What the class lets callers both set and get, by its header."""
+    """The properties with both a setter and a getter in the class's header."""
     with open(HEADER, encoding="utf-8") as file:
         header = file.read().split("\nprotected:")[0]
 
@@ -32,7 +32,7 @@ def list_properties():
 
 
 def describe_class():
-    """{property: value as text} of a new vtkDelaunayFlip that no proxy has touched."""
+    """{property: value as text} of a new vtkDelaunayFlip, without a proxy."""
     interpreter = vtkClientServerInterpreterInitializer.GetGlobalInterpreter()
     text = str(interpreter.NewInstance("vtkDelaunayFlip"))
     own = text[text.index("  Geometry: "):]

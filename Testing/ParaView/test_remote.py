@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A client and a pvserver on the loopback, with the plugin loaded on both sides.
 
-Both run as programs of their own, so that the end of the one can be seen to end the other.
+Both run as separate programs, to check that the end of one ends the other.
 """
 
 import os
@@ -23,7 +23,7 @@ def find_free_port():
 
 
 def wait_for_text(stream, text):
-    """Reads what a program prints until `text` is among it; what it has printed."""
+    """Reads the output of a program until it contains `text`. Returns the output."""
     printed, deadline = "", time.monotonic() + PATIENCE
     while text not in printed and time.monotonic() < deadline:
         if select.select([stream], [], [], 1.0)[0]:
@@ -36,7 +36,7 @@ def wait_for_text(stream, text):
 
 class Remote(unittest.TestCase):
     def start(self, *command):
-        """Starts a program that does not outlive the test, whatever happens."""
+        """Starts a program that never outlives the test."""
         program = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT)
         self.addCleanup(program.stdout.close)

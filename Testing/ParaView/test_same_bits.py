@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin's meshes are those of the command, which another configuration built on another VTK.
+"""The plugin's meshes equal those of the command, which is built with another VTK.
 
 Skipped where that command, DELAUNAYFLIP_COMMAND, does not exist.
 """
@@ -20,7 +20,7 @@ if not os.path.exists(COMMAND):
 
 
 def get_plain_environment():
-    """The variables without those that lead programs to ParaView's libraries."""
+    """The environment without the variables that point to ParaView's libraries."""
     return {name: value for name, value in os.environ.items()
             if name not in ("LD_LIBRARY_PATH", "PYTHONPATH")}
 

@@ -56,7 +56,7 @@ class Session(PluginTest):
         simple.Render(self.view)
 
     def snapshot(self):
-        """(settings, triangles, picture) of the session as it is."""
+        """(settings, triangles, picture) of the current session."""
         flip = simple.FindSource("Flip")
         refresh(flip)
         settings = {name: flip.GetPropertyValue(name) for name in SETTINGS}
@@ -69,7 +69,7 @@ class Session(PluginTest):
         self.assertIsNone(simple.FindSource("Flip"))
 
     def expect_again(self, before, restore):
-        """Clears the session, lets `restore` bring it back, and compares."""
+        """Clears the session, restores it by `restore`, and compares."""
         self.start_again()
         restore()
         self.assertEqual(self.snapshot(), before)
@@ -106,12 +106,12 @@ class Session(PluginTest):
         settings, triangles, _ = self.snapshot()
         self.start_again()
         run_script(script)
-        # A trace has what was given on creation, not how displays were changed after it.
+        # A trace has the settings at creation, not later changes of displays.
         self.assertEqual(self.snapshot()[:2], (settings, triangles))
 
 
 class Chart(PluginTest):
-    """A chart of the iterations, with what a script sees of it."""
+    """A chart of the iterations, and its properties in a script."""
 
     def build(self):
         flip = simple.DelaunayFlip(Input=self.read(make_fan(30)))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors in a pipeline that only a view updates, as in the client: the view must not stop to ask."""
+"""Errors in a pipeline that only a view updates, as in the client: later updates must work."""
 
 from paraview import simple
 

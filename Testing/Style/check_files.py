@@ -77,7 +77,7 @@ def check_markdown(root):
 
 
 def blank(pattern, text):
-    """The text without what matches, with all its line breaks."""
+    """The text without the matches, but with all line breaks."""
     return pattern.sub(lambda match: "\n" * match.group().count("\n"), text)
 
 

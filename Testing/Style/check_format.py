@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Usage: check_format.py ROOT
 
-C++ files look as clang-format 14 writes them with the project's .clang-format. Skipped without that
-version: others differ in details.
+C++ files are formatted as by clang-format 14 with the project's .clang-format. Skipped without that
+version, since others differ in details.
 """
 
 import os

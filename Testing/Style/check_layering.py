@@ -18,7 +18,7 @@ from source_tree import CPP_SUFFIXES, finish, list_files, read
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 PUBLIC = "the engine's public headers"
-CHOICE = "Engine"  # what stands at its root, except the public headers
+CHOICE = "Engine"  # the files at its root, except the public headers
 
 # Layers above the engine, and what they may include.
 ABOVE = {
@@ -61,7 +61,7 @@ class Layers:
 
 
 def violations(layers, path, name, home):
-    """What is wrong with file `path` including `name`; `home` maps header names to layers."""
+    """Problems with `path` including `name`; `home` maps header names to layers."""
     layer, header = layers.of(path), os.path.basename(name)
     below = layers.below(layer)
     if below is None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the style checks share: the files of the project, and how a check ends."""
+"""Helpers for the style checks: the files of the project, and how a check ends."""
 
 import os
 import subprocess
@@ -25,7 +25,7 @@ def list_files(root):
 
 
 def walk(root):
-    """The same without git, e.g. in an unpacked archive: everything but built folders."""
+    """The same without git, e.g. in an unpacked archive: everything except build folders."""
     for folder, subfolders, names in os.walk(root):
         subfolders[:] = [name for name in subfolders if not is_built(name)]
         for name in names:
@@ -42,7 +42,7 @@ def read(root, path):
 
 
 def finish(what, problems):
-    """Prints the problems, one a line, and ends the process: 1 with any, 0 with none."""
+    """Prints the problems, one per line, and ends the process: 1 with any, 0 with none."""
     for problem in problems:
         print(problem)
     print(f"{what}: {len(problems)} problems")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The style checks pass on a small clean tree and fail on each fault planted in it."""
+"""The style checks pass on a small clean tree and fail for each fault that is planted in it."""
 
 import os
 import subprocess
@@ -70,7 +70,7 @@ class StyleChecks(unittest.TestCase):
         return result.returncode, result.stdout + result.stderr
 
     def check_notices(self, check, path, text, expected):
-        """The check passes before `path` holds `text`, and names the fault after."""
+        """The check passes, then names the fault once `path` contains `text`."""
         status, output = self.run_check(*check)
         self.assertEqual(status, 0, output)
         self.write(path, text)
