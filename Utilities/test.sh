@@ -9,7 +9,8 @@
 # status is 0 only if all of them pass; without ParaView the plugin counts as one skipped test.
 #
 # Under the sanitizers tests use smaller meshes, a tenth of the size, and fewer cases. --long runs
-# them at full size, which takes hours instead of minutes.
+# them at full size, which takes hours instead of minutes, and also builds and tests the engine by
+# Clang in build-clang/.
 #
 # JOBS in the environment is the number of jobs that run at a time (default 2). ccache is used if it
 # is installed.
@@ -74,6 +75,20 @@ check_plugin()
   fi
 }
 
+# The engine by Clang, with its tests.
+check_clang()
+{
+  if command -v clang++ >/dev/null; then
+    check build-clang -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+      -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF \
+      -DDELAUNAYFLIP_ENABLE_CUDA=OFF
+  else
+    echo "no clang++ (Debian: clang)"
+    absent+=(build-clang)
+    skipped=$((skipped + 1))
+  fi
+}
+
 # Usage: count_results JUNIT_FILE - adds its tests to the totals; without a file, none ran.
 count_results()
 {
@@ -104,6 +119,10 @@ check_plugin
 check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
   -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address \
   -DDELAUNAYFLIP_LONG_TESTS=$long
+
+if [ $long = ON ]; then
+  check_clang
+fi
 
 # ThreadSanitizer of GCC 12 finds no room for its shadow memory if the kernel randomises addresses
 # strongly (Linux 6.6 and newer). This also affects the build, which runs the tests to list them.

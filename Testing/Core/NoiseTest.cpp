@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
+#include "LongVector.h"
 #include "MeshAudit.h"
 
 #include <gtest/gtest.h>
@@ -18,27 +19,6 @@ namespace delaunayflip
 namespace
 {
 
-using Vector = std::array<long double, 3>;
-
-Vector Subtract(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-long double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-long double AngleAt(const Vector& apex, const Vector& p, const Vector& q)
-{
-  const Vector u = Subtract(p, apex);
-  const Vector v = Subtract(q, apex);
-  const Vector n = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-    u[0] * v[1] - u[1] * v[0] };
-  return std::atan2(std::sqrt(Dot(n, n)), Dot(u, v));
-}
-
 /// Coordinates of a, p, q, b.
 template <typename Real>
 using QuadCoordinates = std::array<Real, 12>;
@@ -47,8 +27,8 @@ using QuadCoordinates = std::array<Real, 12>;
 template <typename Real>
 long double FindExcess(const QuadCoordinates<Real>& x)
 {
-  const auto get = [&](int i) { return Vector{ x[3 * i], x[3 * i + 1], x[3 * i + 2] }; };
-  return AngleAt(get(0), get(1), get(2)) + AngleAt(get(3), get(1), get(2)) - std::acos(-1.0L);
+  const auto get = [&](int i) { return LongVector{ x[3 * i], x[3 * i + 1], x[3 * i + 2] }; };
+  return FindAngle(get(0), get(1), get(2)) + FindAngle(get(3), get(1), get(2)) - std::acos(-1.0L);
 }
 
 /// Judges the edge by the engine and by the audit.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
+#include "LongVector.h"
 #include "MeshAudit.h"
 
 #include <gtest/gtest.h>
@@ -13,32 +14,6 @@ namespace delaunayflip
 {
 namespace
 {
-
-using Vector = std::array<long double, 3>;
-
-Vector Subtract(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-long double Dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Twice the area vector of a triangle.
-Vector Normal(const Vector& a, const Vector& b, const Vector& c)
-{
-  const Vector u = Subtract(b, a);
-  const Vector v = Subtract(c, a);
-  return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
-}
-
-long double AngleAt(const Vector& apex, const Vector& p, const Vector& q)
-{
-  const Vector n = Normal(apex, p, q);
-  return std::atan2(std::sqrt(Dot(n, n)), Dot(Subtract(p, apex), Subtract(q, apex)));
-}
 
 /// Finds edges that should have been flipped, by inverse trigonometry and a map of edges.
 class SurfaceReferee
@@ -74,7 +49,7 @@ public:
   }
 
 private:
-  Vector Get(std::int32_t id) const
+  LongVector Get(std::int32_t id) const
   {
     return { this->Mesh.Points[3 * id], this->Mesh.Points[3 * id + 1],
       this->Mesh.Points[3 * id + 2] };
@@ -84,21 +59,21 @@ private:
   bool ShouldFlip(const std::array<std::int32_t, 4>& quad) const
   {
     constexpr long double Margin = 1e-8L;
-    const Vector a = this->Get(quad[0]);
-    const Vector p = this->Get(quad[1]);
-    const Vector q = this->Get(quad[2]);
-    const Vector b = this->Get(quad[3]);
+    const LongVector a = this->Get(quad[0]);
+    const LongVector p = this->Get(quad[1]);
+    const LongVector q = this->Get(quad[2]);
+    const LongVector b = this->Get(quad[3]);
     const bool exists = this->Opposites.count({ quad[0], quad[3] }) != 0 ||
       this->Opposites.count({ quad[3], quad[0] }) != 0;
-    if (exists || AngleAt(a, p, q) + AngleAt(b, p, q) <= std::acos(-1.0L) + Margin)
+    if (exists || FindAngle(a, p, q) + FindAngle(b, p, q) <= std::acos(-1.0L) + Margin)
     {
       return false;
     }
-    const Vector upper = Normal(a, p, q);
-    const Vector lower = Normal(b, q, p);
-    const Vector area = { upper[0] + lower[0], upper[1] + lower[1], upper[2] + lower[2] };
+    const LongVector upper = FindNormal(a, p, q);
+    const LongVector lower = FindNormal(b, q, p);
+    const LongVector area = { upper[0] + lower[0], upper[1] + lower[1], upper[2] + lower[2] };
     const long double small = Margin * Dot(area, area);
-    return Dot(Normal(a, p, b), area) > small && Dot(Normal(b, q, a), area) > small;
+    return Dot(FindNormal(a, p, b), area) > small && Dot(FindNormal(b, q, a), area) > small;
   }
 
   const OwnedMesh<double>& Mesh;
