@@ -73,9 +73,9 @@ struct FlipOptions
   /// a fixed tolerance nothing proves that the loop ends, -1 means the number of triangles + 1000.
   std::int64_t MaximumIterations = -1;
 
-  /// The number of threads; 0 (default): as many as the machine has. At most twice as many are used,
-  /// or 16 if that is more, and fewer if the system cannot start so many. The result does not depend
-  /// on it.
+  /// The number of threads; 0 (default): as many as the machine has. At most twice as many are
+  /// used, or 16 if that is more, and fewer if the system cannot start so many. The result does not
+  /// depend on it.
   int NumberOfThreads = 0;
 
   /// CUDA's number of the GPU to use, 0 or more; -1 (default): the current device of the calling
