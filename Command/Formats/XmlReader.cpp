@@ -187,7 +187,9 @@ protected:
 private:
   static bool IsText(vtkXMLDataElement* element)
   {
-    return !element->GetAttribute("offset") && AttributeOf(element, "format") != "binary";
+    // VTK tries the first value of an empty array too.
+    return !element->GetAttribute("offset") && AttributeOf(element, "format") != "binary" &&
+      AttributeOf(element, "NumberOfTuples") != "0";
   }
 
   /// What is between the tag of an element and the next tag.

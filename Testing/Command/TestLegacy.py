@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Legacy .vtk files are read as VTK reads them: all versions, encodings and kinds of arrays."""
+"""VTK's own files are read as VTK reads them: all versions, encodings and kinds of arrays."""
 
 import unittest
 
-from CommandTesting import cells_of, make_mesh, points_of, triangles_of, write_mesh
+from CommandTesting import cells_of, make_mesh, points_of, read_mesh, triangles_of, write_mesh
 from TestBadFiles import BadFileTest
 from vtkmodules import vtkCommonCore as core
 from vtkmodules.vtkCommonCore import vtkLookupTable
@@ -156,6 +156,58 @@ class AsVtkReads(BadFileTest):
             ):
                 self.same_data(one, other, name)
                 self.same_attributes(one, other, name)
+
+    def test_every_array_of_xml(self):
+        mesh = rich_mesh()
+        for data in (mesh.GetPointData(), mesh.GetCellData()):
+            data.RemoveArray("vtkBitArray %x")  # VTK cannot read it back
+        for mode in ("Ascii", "Binary", "Appended"):
+            write_mesh(mesh, self.path("in.vtp"), **{f"SetDataModeTo{mode}": ()})
+            self.succeed("in.vtp", "out.vtp")
+            expected, found = read_mesh(self.path("in.vtp")), read_mesh(self.path("out.vtp"))
+            self.assertEqual(points_of(expected), points_of(found), mode)
+            for one, other in (
+                (expected.GetPointData(), found.GetPointData()),
+                (expected.GetCellData(), found.GetCellData()),
+            ):
+                self.same_data(one, other, mode)
+                self.same_attributes(one, other, mode)
+
+    def test_pieces_of_xml(self):
+        piece = (
+            '<Piece NumberOfPoints="3" NumberOfPolys="1"><PointData><DataArray type="Int32" '
+            'Name="n" format="ascii"> {0}1 {0}2 {0}3 </DataArray></PointData><Points>'
+            '<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 {0} 1 0 {0} 0 1 {0}'
+            '</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity" '
+            'format="ascii">0 1 2</DataArray><DataArray type="Int64" Name="offsets" '
+            'format="ascii">3</DataArray></Polys></Piece>'
+        )
+        self.write(
+            "in.vtp",
+            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>'
+            + piece.format(4)
+            + piece.format(7)
+            + "</PolyData></VTKFile>",
+        )
+        self.succeed("in.vtp", "out.vtk")
+        found = read_all(self.path("out.vtk"))
+        flat = [(0, 0), (1, 0), (0, 1)]
+        self.assertEqual(points_of(found), [(x, y, z) for z in (4, 7) for x, y in flat])
+        self.assertEqual(triangles_of(found), [(0, 1, 2), (3, 4, 5)])
+        numbers_found = [found.GetPointData().GetArray("n").GetTuple1(i) for i in range(6)]
+        self.assertEqual(numbers_found, [41, 42, 43, 71, 72, 73])
+
+    def test_levels_of_ghosts(self):
+        """As VTK wrote them before it had types of ghosts."""
+        self.write(
+            "in.vtk",
+            "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+            "0 0 0 1 0 0 1 1 0 0 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\nCELL_DATA 2\n"
+            "FIELD f 1\nvtkGhostLevels 1 2 unsigned_char\n0 2\n",
+        )
+        self.succeed("in.vtk", "out.vtk")
+        ghosts = read_all(self.path("out.vtk")).GetCellData().GetArray("vtkGhostType")
+        self.assertEqual([ghosts.GetTuple1(i) for i in range(2)], [0, 1])
 
     def test_every_kind_of_cell(self):
         mesh = make_mesh([(x, y, 0) for x in range(4) for y in range(2)], [(0, 2, 3, 1)])
