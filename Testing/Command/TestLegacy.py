@@ -59,7 +59,8 @@ def strings(name, values):
 def add_attributes(data, tuples):
     """One of each kind, and one more of some."""
     for kind in TYPES:
-        data.AddArray(numbers(kind, kind.__name__ + " %x", tuples, 2))
+        components = 1 if kind is core.vtkBitArray else 2  # VTK loses the bits of more
+        data.AddArray(numbers(kind, kind.__name__ + " %x", tuples, components))
     named = numbers(core.vtkDoubleArray, "named", tuples, 3, 1 / 3)
     named.SetComponentName(0, "a b")
     named.SetComponentName(2, "c")
@@ -114,8 +115,11 @@ class AsVtkReads(BadFileTest):
         self.assertEqual(one.GetClassName(), other.GetClassName(), label)
         counts = (one.GetNumberOfComponents(), one.GetNumberOfTuples())
         self.assertEqual(counts, (other.GetNumberOfComponents(), other.GetNumberOfTuples()), label)
-        for i in range(one.GetNumberOfValues()):
-            self.assertEqual(one.GetVariantValue(i), other.GetVariantValue(i), (label, i))
+        for i in range(one.GetNumberOfTuples()):
+            if one.IsNumeric():
+                self.assertEqual(one.GetTuple(i), other.GetTuple(i), (label, i))
+            else:
+                self.assertEqual(one.GetValue(i), other.GetValue(i), (label, i))
         for i in range(one.GetNumberOfComponents()):
             self.assertEqual(one.GetComponentName(i), other.GetComponentName(i), label)
 
