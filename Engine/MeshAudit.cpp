@@ -206,10 +206,18 @@ private:
 
   bool HasLargeAngles(const std::array<std::int64_t, 4>& quad) const
   {
-    const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
     const double tolerance = this->GetTolerance(quad);
     return tolerance < Pi &&
-      audit::IsSumAbovePi(Angle(x[0], x[1], x[2]), Angle(x[3], x[1], x[2]), tolerance);
+      audit::IsSumAbovePi(this->FindAngle(quad[0], quad[1], quad[2]),
+        this->FindAngle(quad[3], quad[1], quad[2]), tolerance);
+  }
+
+  /// Each angle relative to its own apex: a short leg would drown in the distance of another one.
+  Angle FindAngle(std::int64_t apex, std::int64_t p, std::int64_t q) const
+  {
+    const auto x =
+      GetScaledPoints(this->Mesh.Points, std::array<std::int64_t, 3>{ apex, p, q }, this->Geometry);
+    return Angle(x[0], x[1], x[2]);
   }
 
   double GetTolerance(const std::array<std::int64_t, 4>& quad) const

@@ -264,5 +264,19 @@ TEST(Report, AgreesWithTheAudit)
   }
 }
 
+/// b is off the line p-q by more than it looks like from a, half a unit away.
+TEST(MeshAudit, SeesShortLegsBesideLongOnes)
+{
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0.5, 0.5, 0.0, -0x1p-52, 0.0, 0.0, 0x1p-52, 0.0, 0.0, 0.0, -1e-17, 0.0 };
+  mesh.Triangles = { 0, 1, 2, 3, 2, 1 };
+  FlipOptions options;
+  options.Geometry = GeometryKind::PlanarXY;
+  options.Criterion = CriterionKind::OppositeAngles;
+  options.Tolerance = 0.0;
+  EXPECT_EQ(0, CountNonDelaunayEdges(mesh.View(), options));
+  EXPECT_EQ(0, Flip(mesh.View(), options).Report.NonDelaunayAfter);
+}
+
 }
 }
