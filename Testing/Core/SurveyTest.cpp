@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeMeshBuilder.h"
+#include "GeneratedMeshes.h"
+#include "MeshSurveyBuilder.h"
+#include "PlanarSurvey.h"
+#include "PlaneFinder.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
+#include "ThreadBackend.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// What is found out about a mesh before the first flip, part by part.
+
+namespace
+{
+using namespace delaunayflip;
+
+PlanarSurvey Survey(const OwnedMesh<double>& owned)
+{
+  const ThreadBackend backend(1);
+  const TriangleMesh mesh = owned.View();
+  const MeshInput input{ mesh, mesh };
+  const MeshSurvey survey = BuildMeshSurvey(input, GeometryKind::PlanarXY, backend);
+  const SpatialOrder order = OrderMesh(input, survey, backend);
+  const EdgeMeshInput edges{ input, survey, order, 180.0 };
+  EdgeMeshResult result = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
+  const PackingPlan plan{ { 0, 1, 2 }, 2, false, true, 1.0 };
+  const PackedPoints points = PackPoints(mesh.Points, order.View(), plan, backend);
+  return SurveyPlane(result.Edges, points, false, survey.UsedPoints, backend);
+}
+
+/// `count` triangles around point 0, each an eighth of a turn from `start` eighths on, open.
+OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
+{
+  constexpr int Ring[8][2] = { { 2, 0 }, { 2, 2 }, { 0, 2 }, { -2, 2 }, { -2, 0 }, { -2, -2 },
+    { 0, -2 }, { 2, -2 } };
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0 };
+  for (int i = 0; i <= count; ++i)
+  {
+    const int* place = Ring[(start + i) % 8];
+    mesh.Points.insert(mesh.Points.end(), { double(place[0]), double(place[1]), 0.0 });
+  }
+  for (std::int32_t i = 1; i <= count; ++i)
+  {
+    mesh.Triangles.insert(
+      mesh.Triangles.end(), { 0, clockwise ? i + 1 : i, clockwise ? i : i + 1 });
+  }
+  return mesh;
+}
+
+TEST(PlanarSurvey, FansOfLessThanATurnAreSimple)
+{
+  for (int start = 0; start < 8; ++start)
+  {
+    for (int count = 1; count < 8; ++count)
+    {
+      for (const bool clockwise : { false, true })
+      {
+        const PlanarSurvey survey = Survey(MakeFan(start, count, clockwise));
+        EXPECT_TRUE(survey.StarsAreSimple) << start << " " << count << " " << clockwise;
+        EXPECT_EQ(clockwise ? -1 : 1, survey.UniformSide);
+      }
+    }
+  }
+}
+
+TEST(PlanarSurvey, FansOfMoreThanATurnAreNot)
+{
+  for (int start = 0; start < 8; ++start)
+  {
+    for (int count = 9; count < 16; ++count)
+    {
+      EXPECT_FALSE(Survey(MakeFan(start, count, false)).StarsAreSimple) << start << " " << count;
+      EXPECT_FALSE(Survey(MakeFan(start, count, true)).StarsAreSimple) << start << " " << count;
+    }
+  }
+}
+
+TEST(PlanarSurvey, LatticesAreSimpleAndTouchingCornersAreNot)
+{
+  EXPECT_TRUE(Survey(MakeGridMesh(5, 4)).StarsAreSimple);
+  OwnedMesh<double> bowTie;
+  bowTie.Points = { 0, 0, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0 };
+  bowTie.Triangles = { 0, 1, 2, 0, 3, 4 };
+  EXPECT_FALSE(Survey(bowTie).StarsAreSimple);
+}
+
+TEST(PlaneFinder, TakesTheFirstOfTheFarthest)
+{
+  Farthest farthest;
+  farthest += { 7, 2.0 };
+  EXPECT_EQ(7, farthest.Point);
+  farthest += { 3, 1.0 };
+  EXPECT_EQ(7, farthest.Point);
+  farthest += { 9, 2.0 };
+  EXPECT_EQ(7, farthest.Point);
+  farthest += { 4, 2.0 };
+  EXPECT_EQ(4, farthest.Point);
+  farthest += { 8, 3.0 };
+  EXPECT_EQ(8, farthest.Point);
+}
+
+TEST(PlaneScale, BringsTheLargestCoordinateToOneToTwo)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double extent : { 5e-324, 1e-200, 3.0, 1.7e308 })
+    {
+      BoundingBox box;
+      box.Lower[axis] = -extent;
+      const Vector3 scaled = PlaneScale(box)(extent, extent, extent);
+      EXPECT_GE(scaled.X, 1.0) << extent;
+      EXPECT_LT(scaled.X, 2.0) << extent;
+    }
+  }
+  const Vector3 same = PlaneScale(BoundingBox())(3.0, 4.0, 5.0);
+  EXPECT_EQ(3.0, same.X);
+  EXPECT_EQ(5.0, same.Z);
+}
+
+TEST(SurfaceAngles, TheSmallestAngleCountsAtAnyCorner)
+{
+  const Vector3 corners[] = { { 0, 0, 1 }, { 10, 0, 1 }, { 10, 1, 2 } };
+  const double cotangent = 10.0 / std::sqrt(2.0);
+  for (int first = 0; first < 3; ++first)
+  {
+    const Vector3& a = corners[first];
+    const Vector3& b = corners[(first + 1) % 3];
+    const Vector3& c = corners[(first + 2) % 3];
+    EXPECT_NEAR(cotangent * cotangent, LargestSquaredCotangent(a, b, c), 1e-9);
+    EXPECT_NEAR(cotangent * cotangent, LargestSquaredCotangent(a, c, b), 1e-9);
+  }
+}
+
+/// A new triangle that stands upright on the quad's vector area, exactly, would be the first step
+/// of a fold.
+TEST(SurfaceAngles, FlipsMustNotSetATriangleUpright)
+{
+  const Vector3 origin = { 0, 0, 0 };
+  EXPECT_TRUE(FoldsOver({ { 0, -3, -2 }, origin, { 3, -3, -3 }, { -1, -3, -1 } }));
+  EXPECT_TRUE(FoldsOver({ { 3, 2, 2 }, origin, { 3, 1, 2 }, { 1, 1, 1 } }));
+  EXPECT_FALSE(FoldsOver({ { 1, 2, 0 }, origin, { 3, 0, 0 }, { 1, -2, 0 } }));
+}
+
+}
