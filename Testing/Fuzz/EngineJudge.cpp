@@ -167,6 +167,18 @@ void ExpectRightRest(const EngineCase& drawn, const TriangleMesh& after, const F
   }
 }
 
+/// The smallest angle as the audit measures it.
+void ExpectRightAngle(const EngineCase& drawn, const TriangleMesh& after, const FlipReport& report)
+{
+  const bool isFinite = std::all_of(
+    drawn.Points.begin(), drawn.Points.end(), [](double x) { return std::isfinite(x); });
+  const double measured = MinimumAngle(after, report.GeometryUsed);
+  if (isFinite && IsModerate(drawn) && after.Triangles.Count > 0)
+  {
+    EXPECT_NEAR(measured, report.MinimumAngleAfter, 1e-6);
+  }
+}
+
 /// A triangulation that nothing holds back.
 void ExpectDelaunay(const EngineCase& drawn, const TriangleMesh& after, const FlipResult& result)
 {
@@ -279,6 +291,7 @@ void JudgeEngineCase(const EngineCase& drawn)
   after.ConstraintEdges = constraints.data();
   after.NumberOfConstraintEdges = static_cast<std::int64_t>(constraints.size()) / 2;
   ExpectRightRest(drawn, after, result->Report);
+  ExpectRightAngle(drawn, after, result->Report);
   ExpectDelaunay(drawn, after, *result);
   ExpectLawsonsMesh(drawn, after, *result);
   ExpectSameWhenDoubled(drawn, *result);
