@@ -29,7 +29,7 @@ endif()
 set(DELAUNAYFLIP_DATA_DIR "${CMAKE_CURRENT_SOURCE_DIR}/../shared/data" CACHE PATH
   "Folder of real meshes for the real-data tests")
 
-# Usage: delaunayflip_instrument(TARGET) - adds warnings and the sanitizer DELAUNAYFLIP_SANITIZER.
+# Usage: delaunayflip_instrument(TARGET) - adds warnings and what DELAUNAYFLIP_SANITIZER names.
 function(delaunayflip_instrument target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wall -Wextra -Wshadow>)
@@ -37,6 +37,8 @@ function(delaunayflip_instrument target)
     set(flags -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   elseif(DELAUNAYFLIP_SANITIZER STREQUAL "thread")
     set(flags -fsanitize=thread -fno-omit-frame-pointer)
+  elseif(DELAUNAYFLIP_SANITIZER STREQUAL "coverage")
+    set(flags --coverage -fprofile-update=atomic)
   else()
     return()
   endif()

@@ -2,11 +2,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: install-packages.sh build|demo|test|paper|paraview
-# Installs the Debian packages for building, the demo, the tests, the reproduction of the paper, or
-# the ParaView plugin with its tests. Asks no questions, and changes nothing if all are installed
-# already. ParaView itself is not included, since it cannot be installed beside python3-vtk9; see
-# get-paraview.sh.
+# Usage: install-packages.sh build|demo|test|proof|paper|paraview
+# Installs the Debian packages for building, the demo, the tests, the measurements of the tests
+# (coverage, planted faults, fuzzing), the reproduction of the paper, or the ParaView plugin with its
+# tests. Asks no questions, and changes nothing if all are installed already. ParaView itself is not
+# included, since it cannot be installed beside python3-vtk9; see get-paraview.sh.
 set -euo pipefail
 
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
@@ -17,6 +17,7 @@ build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-de
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format-14 clang-format universal-ctags
   python3-numpy python3-matplotlib)
+proof=(clang libclang-rt-14-dev python3-clang-14 gcovr)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)
 # What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
@@ -35,11 +36,12 @@ paraview=("${engine[@]}" xvfb xauth
 case "${1:-}" in
   build) wanted=("${build[@]}") ;;
   demo) wanted=("${build[@]}" "${demo[@]}") ;;
+  proof) wanted=("${build[@]}" "${tests[@]}" "${proof[@]}") ;;
   test) wanted=("${build[@]}" "${tests[@]}") ;;
   paper) wanted=("${paper[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
   *)
-    echo "usage: $0 build|demo|test|paper|paraview" >&2
+    echo "usage: $0 build|demo|test|proof|paper|paraview" >&2
     exit 2
     ;;
 esac
