@@ -53,6 +53,8 @@ void SetFlips(delaunayflip_report& c, const FlipReport& report)
   c.total_blocked = report.TotalBlocked;
   c.non_delaunay_before = report.NonDelaunayBefore;
   c.non_delaunay_after = report.NonDelaunayAfter;
+  c.blocked_by_shape = report.BlockedByShape;
+  c.blocked_by_edge = report.BlockedByEdge;
   c.minimum_angle_before = report.MinimumAngleBefore;
   c.minimum_angle_after = report.MinimumAngleAfter;
   c.build_seconds = report.BuildSeconds;

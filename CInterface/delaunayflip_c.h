@@ -180,6 +180,8 @@ extern "C"
     int64_t total_blocked;
     int64_t non_delaunay_before; /**< Bad edges of the input that are not fixed. */
     int64_t non_delaunay_after; /**< Bad edges left, flippable or blocked. */
+    int64_t blocked_by_shape; /**< Of these, such whose flip would fold the mesh over. */
+    int64_t blocked_by_edge; /**< And such whose flip would make an edge that exists. */
     int64_t edges;
     int64_t boundary_edges;
     int64_t non_manifold_edges;

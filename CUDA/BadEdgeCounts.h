@@ -28,7 +28,8 @@ struct BadEdgeCounts
     StepCounts counts;
     counts.Tested = this->Tested;
     counts.Bad = this->Bad;
-    counts.Blocked = this->BlockedByShape + this->BlockedByEdge;
+    counts.BlockedByShape = this->BlockedByShape;
+    counts.BlockedByEdge = this->BlockedByEdge;
     return counts;
   }
 

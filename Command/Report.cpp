@@ -37,6 +37,8 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["total_blocked"] = flip.TotalBlocked;
   json["non_delaunay_before"] = flip.NonDelaunayBefore;
   json["non_delaunay_after"] = flip.NonDelaunayAfter;
+  json["blocked_by_shape"] = flip.BlockedByShape;
+  json["blocked_by_edge"] = flip.BlockedByEdge;
   json["min_angle_before_deg"] = flip.MinimumAngleBefore;
   json["min_angle_after_deg"] = flip.MinimumAngleAfter;
   json["converged"] = flip.Converged();
@@ -99,6 +101,23 @@ std::string DescribeGeometry(const FlipReport& flip)
   return flip.GeometryReason.empty() ? name : name + ": " + flip.GeometryReason;
 }
 
+/// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
+std::string DescribeLeft(const FlipReport& flip)
+{
+  const std::string left = Grouped(flip.NonDelaunayAfter);
+  const std::int64_t blocked = flip.BlockedByShape + flip.BlockedByEdge;
+  std::string reasons;
+  if (flip.BlockedByEdge > 0)
+  {
+    reasons = Grouped(flip.BlockedByEdge) + " would duplicate an edge";
+  }
+  if (flip.BlockedByShape > 0)
+  {
+    reasons += (reasons.empty() ? "" : ", ") + Grouped(flip.BlockedByShape) + " would fold";
+  }
+  return blocked > 0 ? left + " (" + Grouped(blocked) + " blocked: " + reasons + ")" : left;
+}
+
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -115,8 +134,8 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
          << Grouped(flip.Edges.Fixed) << " fixed)\n"
          << "geometry        " << DescribeGeometry(flip) << '\n'
-         << "bad edges       " << Grouped(flip.NonDelaunayBefore) << " -> "
-         << Grouped(flip.NonDelaunayAfter) << '\n'
+         << "bad edges       " << Grouped(flip.NonDelaunayBefore) << " -> " << DescribeLeft(flip)
+         << '\n'
          << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
          << Degrees(flip.MinimumAngleAfter) << " degrees\n"
          << "flips           " << Grouped(flip.TotalFlips) << " in "

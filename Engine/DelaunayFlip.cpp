@@ -185,14 +185,16 @@ private:
   {
     const StopWatch watch;
     this->Detected(this->Engine->Detect());
-    this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.Blocked;
+    this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.GetBlocked();
     this->Report.FlipSeconds = watch.GetSeconds();
   }
 
   void Detected(const StepCounts& found)
   {
     this->Found = found;
-    this->Report.NonDelaunayAfter = found.Bad + found.Blocked;
+    this->Report.NonDelaunayAfter = found.Bad + found.GetBlocked();
+    this->Report.BlockedByShape = found.BlockedByShape;
+    this->Report.BlockedByEdge = found.BlockedByEdge;
   }
 
   std::int64_t GetIterationLimit() const

@@ -91,6 +91,8 @@ struct FlipReport
   std::int64_t TotalBlocked = 0;
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges of the input that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
+  std::int64_t BlockedByShape = 0; ///< Of these, those whose flip would fold the mesh over.
+  std::int64_t BlockedByEdge = 0; ///< And those whose flip would create an edge that exists.
   double MinimumAngleBefore =
     0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
   double MinimumAngleAfter = 0.0;

@@ -133,6 +133,7 @@ void Visit(Archive& archive, UpdateReport& report)
   archive(report.Backend, report.Fallback);
   archive(report.Iterations, report.TotalFlips, report.TotalExcluded, report.TotalBlocked);
   archive(report.NonDelaunayBefore, report.NonDelaunayAfter);
+  archive(report.BlockedByShape, report.BlockedByEdge);
   archive(report.MinimumAngleBefore, report.MinimumAngleAfter);
   archive(report.StopReason, report.BuildSeconds, report.FlipSeconds, report.Defects);
 }

@@ -86,6 +86,8 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   writer.AddValue<vtkStringArray>("StopReason", ToString(report.StopReason));
   writer.AddValue<vtkIdTypeArray>("TotalFlips", report.TotalFlips);
   writer.AddValue<vtkIdTypeArray>("NonDelaunayEdges", report.NonDelaunayAfter);
+  writer.AddValue<vtkIdTypeArray>("BlockedByShape", report.BlockedByShape);
+  writer.AddValue<vtkIdTypeArray>("BlockedByEdge", report.BlockedByEdge);
   writer.AddValue<vtkIdTypeArray>("FixedEdges", report.Edges.Fixed);
   writer.AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold);
   writer.AddValue<vtkIdTypeArray>("ConstraintEdges", report.Edges.Constraint);

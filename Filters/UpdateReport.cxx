@@ -152,6 +152,8 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
   this->TotalBlocked += other.TotalBlocked;
   this->NonDelaunayBefore += other.NonDelaunayBefore;
   this->NonDelaunayAfter += other.NonDelaunayAfter;
+  this->BlockedByShape += other.BlockedByShape;
+  this->BlockedByEdge += other.BlockedByEdge;
   this->BuildSeconds = JoinSeconds(this->BuildSeconds, other.BuildSeconds, timing);
   this->FlipSeconds = JoinSeconds(this->FlipSeconds, other.FlipSeconds, timing);
   if (GetSeverity(other.StopReason) > GetSeverity(this->StopReason))

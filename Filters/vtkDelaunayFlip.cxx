@@ -174,6 +174,16 @@ vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
   return this->Report->NonDelaunayAfter;
 }
 
+vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByShape() const
+{
+  return this->Report->BlockedByShape;
+}
+
+vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByEdge() const
+{
+  return this->Report->BlockedByEdge;
+}
+
 bool vtkDelaunayFlip::GetConverged() const
 {
   return this->Failure == FAILURE_NONE && this->Report->Converged();
@@ -237,6 +247,9 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Paused: " << this->Paused << "\n";
   os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
   os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
+  os << indent << "NumberOfNonDelaunayEdges: " << this->GetNumberOfNonDelaunayEdges() << "\n";
+  os << indent << "NumberOfEdgesBlockedByShape: " << this->GetNumberOfEdgesBlockedByShape() << "\n";
+  os << indent << "NumberOfEdgesBlockedByEdge: " << this->GetNumberOfEdgesBlockedByEdge() << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "GeometryUsed: " << this->GetGeometryUsedAsString() << "\n";
   os << indent << "GeometryReason: " << this->GetGeometryReason() << "\n";

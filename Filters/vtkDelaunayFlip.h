@@ -27,11 +27,11 @@
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
- * Converged, StopReason, TotalFlips, NonDelaunayEdges, FixedEdges, NonManifoldEdges,
- * ConstraintEdges, UnmatchedConstraintEdges, GeometryUsed, GeometryReason, Tolerance ("automatic",
- * the value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
- * begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short
- * names pass.
+ * Converged, StopReason, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByEdge, FixedEdges,
+ * NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, GeometryUsed, GeometryReason,
+ * Tolerance ("automatic", the value, or "none" if the in-circle predicate decides) and Backend. In
+ * the field data each name begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input
+ * arrays with the short names pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
@@ -178,8 +178,9 @@ public:
   /**
    * What happens to an edge whose four points lie exactly on one circle. KEEP (default) leaves it,
    * so that a Delaunay mesh comes back bit-identical. CANONICAL makes the result independent of the
-   * input's triangles. It needs planar geometry and the in-circle criterion; otherwise the update
-   * fails.
+   * input's triangles if nothing overlaps and no edge is left blocked; only flat triangles along
+   * fixed edges may differ. It needs planar geometry and the in-circle criterion; otherwise the
+   * update fails.
    */
   enum TieRuleType
   {
@@ -440,6 +441,15 @@ public:
    * over blocks and pieces.
    */
   vtkIdType GetNumberOfNonDelaunayEdges() const;
+
+  ///@{
+  /**
+   * Why such edges are left: those whose flip would fold the mesh over, and those whose flip would
+   * make an edge that exists already. The rest, if any, could still flip: the update ended early.
+   */
+  vtkIdType GetNumberOfEdgesBlockedByShape() const;
+  vtkIdType GetNumberOfEdgesBlockedByEdge() const;
+  ///@}
 
   /**
    * Whether the last update ended because an iteration found no edge that may flip.

@@ -77,7 +77,7 @@ std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
     // excluded from that iteration.
     iterations[0].Tested = this->Found.Tested;
     iterations[0].Bad = this->Found.Bad;
-    iterations[0].Blocked = this->Found.Blocked;
+    iterations[0].Blocked = this->Found.GetBlocked();
   }
   return iterations;
 }

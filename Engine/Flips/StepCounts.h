@@ -16,17 +16,21 @@ struct StepCounts
   std::int64_t Tested = 0;
   std::int64_t Uncertain = 0;
   std::int64_t Bad = 0;
-  std::int64_t Blocked = 0;
+  std::int64_t BlockedByShape = 0;
+  std::int64_t BlockedByEdge = 0;
   std::int64_t Flipped = 0;
   std::int64_t FreshSlots = 0; ///< Slots of the guard table used for the first time.
   std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
+
+  std::int64_t GetBlocked() const { return this->BlockedByShape + this->BlockedByEdge; }
 
   DELAUNAYFLIP_HOST_DEVICE StepCounts& operator+=(const StepCounts& other)
   {
     this->Tested += other.Tested;
     this->Uncertain += other.Uncertain;
     this->Bad += other.Bad;
-    this->Blocked += other.Blocked;
+    this->BlockedByShape += other.BlockedByShape;
+    this->BlockedByEdge += other.BlockedByEdge;
     this->Flipped += other.Flipped;
     this->FreshSlots += other.FreshSlots;
     this->LostInserts += other.LostInserts;

@@ -297,12 +297,15 @@ private:
     EdgeId edges[SegmentSize];
     const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, segment, edges);
     list.insert(list.end(), edges, edges + bad);
-    const std::int64_t blocked = this->MayBlock
-      ? this->Find({ EdgeState::BlockedByShape, EdgeState::BlockedByEdge }, segment, edges)
-      : 0;
+    const auto count = [&](EdgeState state) {
+      return this->MayBlock ? this->Find({ state, state }, segment, edges) : 0;
+    };
+    const std::int64_t byShape = count(EdgeState::BlockedByShape);
+    const std::int64_t byEdge = count(EdgeState::BlockedByEdge);
     counts.Bad += bad;
-    counts.Blocked += blocked;
-    this->Flags[segment - this->FirstSegment] = bad + blocked > 0;
+    counts.BlockedByShape += byShape;
+    counts.BlockedByEdge += byEdge;
+    this->Flags[segment - this->FirstSegment] = bad + byShape + byEdge > 0;
   }
 
   /// Calls Find for the gathered segments [begin, end).

@@ -61,7 +61,7 @@ protected:
     const StepCounts flips = this->FlipOnce();
     const double angle =
       plan.MeasureFirst || plan.MeasureAll ? this->FindLargestSquaredCotangent() : -INFINITY;
-    const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.Blocked,
+    const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.GetBlocked(),
       flips.Flipped, angle };
     this->Detect();
     return { iteration };
@@ -146,7 +146,7 @@ private:
     for (std::int64_t i = 0; i < plan.Iterations; ++i)
     {
       const StepCounts flips = worklist.ChooseAndFlip(flip);
-      counts[i] = { chunk.Tested, found.Bad, found.Blocked, flips.Flipped, -INFINITY };
+      counts[i] = { chunk.Tested, found.Bad, found.GetBlocked(), flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && i == 0))
       {
         counts[i].SquaredCotangent =

@@ -83,6 +83,8 @@ class Report(ctypes.Structure):
         ("total_blocked", c_int64),
         ("non_delaunay_before", c_int64),
         ("non_delaunay_after", c_int64),
+        ("blocked_by_shape", c_int64),
+        ("blocked_by_edge", c_int64),
         ("edges", c_int64),
         ("boundary_edges", c_int64),
         ("non_manifold_edges", c_int64),

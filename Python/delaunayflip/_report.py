@@ -27,6 +27,8 @@ class Report:
     total_blocked: int
     non_delaunay_before: int  #: Bad edges of the input.
     non_delaunay_after: int  #: Bad edges left, flippable or blocked.
+    blocked_by_shape: int  #: Of these, those whose flip would fold the mesh over.
+    blocked_by_edge: int  #: And those whose flip would create an edge that exists.
     edges: int
     boundary_edges: int
     non_manifold_edges: int

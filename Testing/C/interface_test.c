@@ -123,6 +123,7 @@ static void TestFlipsSquare(void)
   CHECK(report.geometry_used == DELAUNAYFLIP_GEOMETRY_PLANAR);
   CHECK(report.total_flips == 1);
   CHECK(report.non_delaunay_before == 1 && report.non_delaunay_after == 0);
+  CHECK(report.blocked_by_shape == 0 && report.blocked_by_edge == 0);
   CHECK(report.edges == 5 && report.boundary_edges == 4 && report.euler_characteristic == 1);
   CHECK(report.minimum_angle_after > report.minimum_angle_before);
   CHECK(strlen(report.geometry_reason) > 0 && strlen(report.backend) > 0);

@@ -40,6 +40,17 @@ class Summary(CommandTest):
         self.assertRegex(text, r"time            read [\d.]+ s, edges [\d.]+ s, flips [\d.]+ s")
         self.assertLessEqual(len(text.splitlines()), 8)
 
+    def test_why_edges_are_left(self):
+        """A tetrahedron, of which every flip would repeat an edge, beside a folded sheet."""
+        points = [(-2, 0, 0), (2, 0, 0), (0, -1, 0.1), (0, 1, 0.1),
+                  (-4, 9, 0), (4, 9, 0), (-3, 11, 0), (3, 12, 1)]
+        triangles = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2), (6, 4, 5), (7, 5, 4)]
+        text = self.succeed(
+            write_mesh(make_mesh(points, triangles), self.path("in.vtk")), "out.vtk",
+            "--geometry", "surface", "--feature-angle", 180).stdout
+        self.assertIn("bad edges       2 -> 2 (2 blocked: 1 would duplicate an edge, "
+                      "1 would fold)\n", text)
+
     def test_thousands(self):
         text = self.succeed(write_mesh(bumpy_grid(40, 0), self.path("in.vtk")), "out.vtk").stdout
         self.assertIn("1,600 points, 3,042 triangles", text)

@@ -24,7 +24,8 @@ KEYS = [
     *("constraint_edges", "unmatched_constraint_edges"),
     *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
-    *("non_delaunay_before", "non_delaunay_after", "min_angle_before_deg", "min_angle_after_deg"),
+    *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape", "blocked_by_edge"),
+    *("min_angle_before_deg", "min_angle_after_deg"),
     *("converged", "stop_reason", "seconds"),
 ]
 COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"

@@ -220,8 +220,8 @@ void ExpectSameRows(const std::vector<IterationRecord>& a, const std::vector<Ite
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, euler, geometry, reason, tolerance, backend,
-    fallback, iterations, flips, excluded, blocked, badBefore, badAfter, angleBefore, angleAfter,
-    stopReason, buildSeconds, flipSeconds, defects] = b;
+    fallback, iterations, flips, excluded, blocked, badBefore, badAfter, byShape, byEdge,
+    angleBefore, angleAfter, stopReason, buildSeconds, flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
   static_cast<void>(buildSeconds);
@@ -240,6 +240,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.TotalBlocked, blocked);
   EXPECT_EQ(a.NonDelaunayBefore, badBefore);
   EXPECT_EQ(a.NonDelaunayAfter, badAfter);
+  EXPECT_EQ(a.BlockedByShape, byShape);
+  EXPECT_EQ(a.BlockedByEdge, byEdge);
   ExpectSameAngle(a.MinimumAngleBefore, angleBefore);
   ExpectSameAngle(a.MinimumAngleAfter, angleAfter);
   EXPECT_EQ(a.StopReason, stopReason);

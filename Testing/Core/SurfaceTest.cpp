@@ -140,6 +140,8 @@ TEST(Surface, TetrahedraStayAsTheyAre)
   const FlipResult result = FlipSurface(mesh);
   EXPECT_EQ(mesh.Triangles, result.Triangles);
   EXPECT_EQ(1, result.Report.NonDelaunayAfter);
+  EXPECT_EQ(1, result.Report.BlockedByEdge);
+  EXPECT_EQ(0, result.Report.BlockedByShape);
 }
 
 /// A sheet folded almost flat onto itself: the angles sum to more than pi, but the new triangles
@@ -152,6 +154,8 @@ TEST(Surface, FlipsThatFoldItOverAreBlocked)
   EXPECT_EQ(folded.Triangles, result.Triangles);
   EXPECT_EQ(1, result.Report.NonDelaunayBefore);
   EXPECT_EQ(1, result.Report.NonDelaunayAfter);
+  EXPECT_EQ(1, result.Report.BlockedByShape);
+  EXPECT_EQ(0, result.Report.BlockedByEdge);
   // Unfolded, the same two triangles may flip.
   const OwnedMesh<double> opened = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, -3, 1 },
     { 2, 0, 1, 3, 1, 0 } };

@@ -126,6 +126,23 @@ TEST(Composite, ReadBackSumsBlocks)
   EXPECT_EQ(std::string(filter->GetBackendUsed()).find(','), std::string::npos);
 }
 
+TEST(Composite, BlockedEdgesAreSums)
+{
+  const delaunayflip::OwnedMesh<double> tetrahedron = {
+    { -2, 0, 0, 2, 0, 0, 0, -1, 0.1, 0, 1, 0.1 }, { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 }
+  };
+  const delaunayflip::OwnedMesh<double> folded = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, 3, 1 },
+    { 2, 0, 1, 3, 1, 0 } };
+  CompositeFilter filter(
+    MakeBlocks({ ToPolyData(tetrahedron), ToPolyData(folded), ToPolyData(tetrahedron) }));
+  filter->SetGeometryToSurface();
+  filter->SetFeatureAngle(180.0);
+  filter.Update();
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 3);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByEdge(), 2);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByShape(), 1);
+}
+
 TEST(Composite, OneTableSumsBlocks)
 {
   auto blocks = MakeBlocks({ MakeWorstCase(4), MakeBadPlane(), MakeRhombus() });

@@ -24,7 +24,8 @@ const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped",
   "Blocked", "MinimumAngle", "Seconds" };
 
 const char* const Totals[] = { "Converged", "StopReason", "TotalFlips", "NonDelaunayEdges",
-  "FixedEdges", "NonManifoldEdges", "GeometryUsed", "GeometryReason", "Tolerance", "Backend" };
+  "BlockedByShape", "BlockedByEdge", "FixedEdges", "NonManifoldEdges", "GeometryUsed",
+  "GeometryReason", "Tolerance", "Backend" };
 
 /// Adds field data.
 void AddText(vtkPolyData* mesh, const std::string& name)
@@ -119,6 +120,24 @@ TEST(VtkDelaunayFlip, TotalsAreFieldData)
     "all points lie in one plane; the feature angle has no effect");
   EXPECT_EQ(GetText(output, "Tolerance"), "none"); // in-circle
   EXPECT_EQ(GetText(output, "Backend"), filter->GetReport().Backend);
+}
+
+/// A tetrahedron, of which every flip would repeat an edge, and a sheet folded on itself, whose
+/// flip would fold it over, beside each other.
+TEST(VtkDelaunayFlip, TellsWhyEdgesAreLeft)
+{
+  const delaunayflip::OwnedMesh<double> mesh = { { -2, 0, 0, 2, 0, 0, 0, -1, 0.1, 0, 1, 0.1, -4, 9,
+                                                   0, 4, 9, 0, -3, 11, 0, 3, 12, 1 },
+    { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 6, 4, 5, 7, 5, 4 } };
+  WatchedFilter filter(ToPolyData(mesh));
+  filter->SetGeometryToSurface();
+  filter->SetFeatureAngle(180.0);
+  auto output = RunCleanly(filter);
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 2);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByEdge(), 1);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByShape(), 1);
+  EXPECT_EQ(GetTotal(output, "BlockedByEdge"), 1.0);
+  EXPECT_EQ(GetTotal(output, "BlockedByShape"), 1.0);
 }
 
 TEST(VtkDelaunayFlip, FieldDataTellTheTolerance)

@@ -12,7 +12,8 @@ from ClientTesting import FOLDER, Panel, expect, idle, load_plugin, play, start_
 from paraview import servermanager, simple
 from PyQt5.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton
 
-RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges", "StopReason",
+RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
+           "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge", "StopReason",
            "NumberOfConstraintEdges", "NumberOfUnmatchedConstraintEdges", "GeometryUsed",
            "BackendUsed"]
 QUIET = 1.5  # seconds: many times the interval of polls

@@ -106,7 +106,8 @@ class Proxy(PluginTest):
         self.assertEqual(set(basic), {
             "Geometry", "FeatureAngle", "RegionArray", "MaximumIterations", "LiveUpdate",
             "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
-            "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfConstraintEdges",
+            "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfEdgesBlockedByShape",
+            "NumberOfEdgesBlockedByEdge", "NumberOfConstraintEdges",
             "NumberOfUnmatchedConstraintEdges", "StopReason", "GeometryUsed", "GeometryReason",
             "BackendUsed"})
 
