@@ -39,7 +39,10 @@ enum class CriterionKind
 enum class TieRuleKind
 {
   Keep, ///< It stays: a Delaunay mesh comes back bit-identical.
-  Canonical ///< Makes the result independent of the input's triangles (planar, in-circle).
+  /// Planar, in-circle: where nothing overlaps and no edge is left blocked, all triangles with an
+  /// area are the same for every triangulation with the same fixed edges. Triangles without area
+  /// are left only along fixed edges, cut as the input has them. An error on surfaces.
+  Canonical
 };
 
 /// Where the flips run.

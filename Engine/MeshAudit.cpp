@@ -151,10 +151,15 @@ public:
     {
       return !this->IsFeature(quad) && this->HasLargeAngles(quad);
     }
-    const int side = this->Turn(quad[0], quad[1], quad[2]) + this->Turn(quad[3], quad[2], quad[1]);
-    return this->Options.Criterion == CriterionKind::InCircle
-      ? side * this->JudgeInCircle(quad) > 0
-      : side != 0 && this->HasLargeAngles(quad);
+    const int upper = this->Turn(quad[0], quad[1], quad[2]);
+    const int lower = this->Turn(quad[3], quad[2], quad[1]);
+    const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
+    if (upper == 0 && lower == 0)
+    {
+      return this->SpansOpposite(quad) && (!byAngles || this->HasLargeAngles(quad));
+    }
+    return byAngles ? upper + lower != 0 && this->HasLargeAngles(quad)
+                    : (upper + lower) * this->JudgeInCircle(quad) > 0;
   }
 
 private:
@@ -202,6 +207,23 @@ private:
     const Vector b = this->Project(quad[3]);
     return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
                                    : InCircle(a.data(), p.data(), q.data(), b.data());
+  }
+
+  /// Of a quad without area: whether its edge runs from end to end of it, and further than the edge
+  /// that a flip would make.
+  bool SpansOpposite(const std::array<std::int64_t, 4>& quad) const
+  {
+    using Place = std::pair<double, double>;
+    std::array<Place, 4> apqb;
+    std::transform(quad.begin(), quad.end(), apqb.begin(),
+      [this](std::int64_t point)
+      {
+        const Vector projected = this->Project(point);
+        return Place(projected[0], projected[1]);
+      });
+    const std::pair<Place, Place> edge = std::minmax({ apqb[1], apqb[2] });
+    const std::pair<Place, Place> made = std::minmax({ apqb[0], apqb[3] });
+    return edge.first <= made.first && made.second <= edge.second && edge != made;
   }
 
   bool HasLargeAngles(const std::array<std::int64_t, 4>& quad) const

@@ -82,6 +82,23 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
   return a.U < b.U || (a.U == b.U && a.V < b.V);
 }
 
+/// Of the quad of two triangles without area, whose points lie in one line: whether the edge p-q
+/// spans both opposite vertices, so that the flip shortens it. Either may lie at an end of it.
+DELAUNAYFLIP_HOST_DEVICE inline bool SpansOpposite(const PlanePoint (&apqb)[4])
+{
+  // Along a line the lexicographic order is that of the points on it.
+  const bool forward = IsLexicographicallyLess(apqb[1], apqb[2]);
+  const PlanePoint first = forward ? apqb[1] : apqb[2];
+  const PlanePoint last = forward ? apqb[2] : apqb[1];
+  const bool sorted = IsLexicographicallyLess(apqb[0], apqb[3]);
+  const PlanePoint lower = sorted ? apqb[0] : apqb[3];
+  const PlanePoint upper = sorted ? apqb[3] : apqb[0];
+  const bool startsLater = IsLexicographicallyLess(first, lower);
+  const bool endsEarlier = IsLexicographicallyLess(upper, last);
+  return !IsLexicographicallyLess(lower, first) && !IsLexicographicallyLess(last, upper) &&
+    (startsLater || endsEarlier);
+}
+
 /// The canonical diagonal of four points on a circle is the one without the lexicographically
 /// largest point.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
@@ -158,7 +175,11 @@ private:
     }
     // A selection instead of a branch, which would be mispredicted half of the time.
     EdgeState state = inCircle * side > 0 ? EdgeState::Bad : EdgeState::Good;
-    if (inCircle == 0 && this->Canonical && strict && side != 0)
+    if (side == 0)
+    {
+      return !strict && SpansOpposite(apqb) ? EdgeState::Bad : EdgeState::Good;
+    }
+    if (inCircle == 0 && this->Canonical && strict)
     {
       state = EdgeHoldsLargest(apqb) ? EdgeState::Bad : EdgeState::Good;
     }
@@ -198,10 +219,16 @@ struct AnglePoints
     return { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q), this->Get(quad.B) };
   }
 
-  /// @param points the points of the quad.
-  DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, const QuadPoints& points) const
+  /// @param points of the quad; enlarged where they lie so close to the origin that products of
+  /// lengths vanish.
+  DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, QuadPoints& points) const
   {
-    const AngleSum sum(points);
+    AngleSum sum(points);
+    if (sum.MayVanish)
+    {
+      points = this->GetEnlarged(quad);
+      sum = AngleSum(points);
+    }
     return sum.ExceedsPi(this->Tolerance) &&
       !(this->Tolerance.Precision > 0.0 && this->IsNoise(quad, sum.GetExcess()));
   }
@@ -212,7 +239,13 @@ private:
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
     const Quad& quad, double excess) const
   {
-    return delaunayflip::IsNoise(this->Get(quad), this->Tolerance.Precision, excess);
+    return delaunayflip::IsNoise(Enlarge(this->Get(quad)), this->Tolerance.Precision, excess);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST QuadPoints GetEnlarged(
+    const Quad& quad) const
+  {
+    return Enlarge(this->Get(quad));
   }
 };
 
@@ -225,7 +258,8 @@ struct PlanarAngleRule : AnglePoints<double>
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    return this->ExceedsPi(quad, this->Get(quad)) ? EdgeState::Uncertain : EdgeState::Good;
+    QuadPoints points = this->Get(quad);
+    return this->ExceedsPi(quad, points) ? EdgeState::Uncertain : EdgeState::Good;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -235,7 +269,11 @@ struct PlanarAngleRule : AnglePoints<double>
       { points.Q.X, points.Q.Y, 0.0 }, { points.B.X, points.B.Y, 0.0 } };
     bool strict = true;
     const int side = FindSide<ExactSigns>(apqb, strict);
-    return side == 0 ? EdgeState::Good : CheckConvex<ExactSigns>(apqb, side);
+    if (side == 0)
+    {
+      return !strict && SpansOpposite(apqb) ? EdgeState::Bad : EdgeState::Good;
+    }
+    return CheckConvex<ExactSigns>(apqb, side);
   }
 };
 
@@ -249,7 +287,7 @@ struct SurfaceRule : AnglePoints<Real>
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    const QuadPoints points = this->Get(quad);
+    QuadPoints points = this->Get(quad);
     if (!this->ExceedsPi(quad, points))
     {
       return EdgeState::Good;

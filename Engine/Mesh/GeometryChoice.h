@@ -86,6 +86,7 @@ public:
 
 private:
   static constexpr const char* AsRequested = "as requested";
+  static constexpr const char* Advice = "; if it is terrain, use planar-xy";
   static constexpr int MostlyGentle = 95; ///< Percent of the area.
 
   void Take(GeometryKind geometry, const std::string& reason)
@@ -138,12 +139,12 @@ private:
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
     if (!this->Survey.Turns.AreUniform())
     {
-      this->RefuseStrays(sums, suits);
+      this->RefuseStrays(sums);
     }
     else if (!suits)
     {
-      this->Take(GeometryKind::Surface,
-        this->DescribeField() + ", but only " + slopes + "; if it is terrain, use planar-xy");
+      this->Take(GeometryKind::Surface, this->DescribeField() + ", but only " + slopes + Advice);
+      this->WarnOfStrays(sums);
     }
     else if (!this->RefuseOverlaps(heights))
     {
@@ -159,15 +160,22 @@ private:
       (turns.GetStrays() > 0 ? " but for " + DescribeStrays(turns) : std::string());
   }
 
-  /// @param suits whether the mesh would suit PlanarXY if it were a height field.
-  void RefuseStrays(const TurnSums& sums, bool suits)
+  void RefuseStrays(const TurnSums& sums)
   {
     const TurnCounts& turns = this->Survey.Turns;
     this->Take(GeometryKind::Surface,
       turns.Side == 0
         ? "no triangle has area in x and y"
-        : DescribeStrays(turns) + " turn the other way in x and y or have no area there");
-    if (suits && turns.AreNearlyUniform())
+        : DescribeStrays(turns) + " turn the other way in x and y or have no area there" +
+          (turns.AreNearlyUniform() ? Advice : ""));
+    this->WarnOfStrays(sums);
+  }
+
+  /// Where they are few, and all that keeps the mesh from being a height field.
+  void WarnOfStrays(const TurnSums& sums)
+  {
+    const TurnCounts& turns = this->Survey.Turns;
+    if (turns.GetStrays() > 0 && turns.AreNearlyUniform())
     {
       IdSample strays = turns.Side > 0 ? sums.Right : sums.Left;
       strays += sums.Flat;

@@ -88,6 +88,21 @@ TEST(GeometryChoice, APlaneIsPlanar)
   ExpectChoice(MakeGridMesh(5, 5), GeometryKind::Planar, "all points lie in one plane");
 }
 
+/// One point stands off the plane of the others by a share of the bounding box's diagonal.
+TEST(GeometryChoice, APlaneHoldsPointsWithinAMillionthOfTheDiagonal)
+{
+  const double diagonal = std::hypot(10.0, 10.0);
+  const auto makeBumped = [&](double share)
+  {
+    return MakeHeights(
+      10, 10, [=](double x, double y) { return x == 4.0 && y == 5.0 ? share * diagonal : 0.0; });
+  };
+  EXPECT_EQ(GeometryKind::Planar, Survey(makeBumped(0.99e-6), GeometryKind::Planar).GeometryUsed);
+  ExpectChoice(makeBumped(0.99e-6), GeometryKind::Planar, "all points lie in one plane");
+  ExpectChoice(makeBumped(1.01e-6), GeometryKind::PlanarXY, "a height field");
+  EXPECT_THROW(Survey(makeBumped(1.01e-6), GeometryKind::Planar), InvalidOptions);
+}
+
 TEST(GeometryChoice, ARequestIsHonoured)
 {
   const OwnedMesh<double> mesh = MakeGridMesh(5, 5);
@@ -340,6 +355,25 @@ TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
   EXPECT_EQ((std::vector<std::int64_t>{ 398, 399, 798 }), report.Defects[0].FirstIds);
   EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
   EXPECT_TRUE(Survey(globe, GeometryKind::Surface).Defects.empty());
+}
+
+/// Too steep for Auto, and one point lies so far aside that a few triangles are turned over: more
+/// than one in 1,000 of the first mesh, fewer of the second.
+TEST(GeometryChoice, SteepTerrainWithAFewTrianglesTurnedIsWarnedOf)
+{
+  for (const std::int32_t size : { 20, 60 })
+  {
+    OwnedMesh<double> mesh =
+      MakeHeights(size, size, [=](double x, double) { return 1.5 * std::fabs(x - 0.5 * size); });
+    EXPECT_TRUE(Survey(mesh).Defects.empty());
+    mesh.Points[3 * (5 * (size + 1) + 5)] += 1.25;
+    ExpectChoice(mesh, GeometryKind::Surface, "if it is terrain, use planar-xy");
+    const FlipReport report = Survey(mesh);
+    ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
+    EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
+    EXPECT_LT(0, report.Defects[0].Count);
+    EXPECT_EQ(size == 20, 1000 * report.Defects[0].Count > report.Triangles);
+  }
 }
 
 TEST(GeometryChoice, AThinAntimeridianIsLeftAsItIs)

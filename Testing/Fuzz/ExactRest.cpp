@@ -222,8 +222,12 @@ private:
       return this->Angles.Judge(apqb);
     }
     const auto& [a, p, q, b] = apqb;
-    // 0 where the triangles turn to different sides, or both have no area.
-    const int turn = RationalTurn(a, p, q) + RationalTurn(b, q, p);
+    const int upper = RationalTurn(a, p, q), lower = RationalTurn(b, q, p);
+    if (upper == 0 && lower == 0)
+    {
+      return this->JudgeFlat(apqb);
+    }
+    const int turn = upper + lower; // 0 where the triangles turn to different sides
     if (this->Options.Criterion == CriterionKind::OppositeAngles)
     {
       return turn == 0 ? std::make_pair(false, false) : this->Angles.Judge(apqb);
@@ -234,6 +238,18 @@ private:
       ? std::max(a, b) < std::max(p, q)
       : turn * inCircle > 0;
     return { isBad, isBad };
+  }
+
+  /// Of a quad without area: bad where the flip would make a shorter edge within the edge.
+  std::pair<bool, bool> JudgeFlat(const QuadCorners& apqb) const
+  {
+    const auto edge = std::minmax(apqb[1], apqb[2]);
+    const auto made = std::minmax(apqb[0], apqb[3]);
+    const bool spans = edge.first <= made.first && made.second <= edge.second && edge != made;
+    const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
+    const auto [certain, possible] =
+      byAngles ? this->Angles.Judge(apqb) : std::make_pair(true, true);
+    return { spans && certain, spans && possible };
   }
 
   const TriangleMesh& Mesh;

@@ -1,0 +1,377 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CgalReference.h"
+#include "FlipTestSupport.h"
+#include "MeshAudit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+/// @file
+/// Triangles without area, from points in line: all triangulations of small point sets that have
+/// them, judged by integers.
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+/// What is inside of what, in integers, for points with small whole coordinates.
+class Judge
+{
+public:
+  explicit Judge(const OwnedMesh<double>& mesh)
+    : Points(mesh.Points)
+  {
+  }
+
+  std::int64_t GetNumberOfPoints() const
+  {
+    return static_cast<std::int64_t>(this->Points.size() / 3);
+  }
+  std::int64_t X(std::int64_t i) const { return static_cast<std::int64_t>(this->Points[3 * i]); }
+  std::int64_t Y(std::int64_t i) const
+  {
+    return static_cast<std::int64_t>(this->Points[3 * i + 1]);
+  }
+
+  /// Twice the area.
+  std::int64_t GetArea(std::int64_t a, std::int64_t b, std::int64_t c) const
+  {
+    return (X(b) - X(a)) * (Y(c) - Y(a)) - (Y(b) - Y(a)) * (X(c) - X(a));
+  }
+
+  /// Of a triangle that turns left.
+  bool IsInCircle(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) const
+  {
+    const auto lift = [&](std::int64_t i)
+    { return (X(i) - X(d)) * (X(i) - X(d)) + (Y(i) - Y(d)) * (Y(i) - Y(d)); };
+    return lift(a) * GetArea(d, b, c) + lift(b) * GetArea(d, c, a) + lift(c) * GetArea(d, a, b) > 0;
+  }
+
+  /// Of points in line.
+  bool IsWithin(std::int64_t i, std::int64_t p, std::int64_t q) const
+  {
+    return (X(p) - X(i)) * (X(q) - X(i)) + (Y(p) - Y(i)) * (Y(q) - Y(i)) <= 0;
+  }
+  std::int64_t GetSquaredLength(std::int64_t p, std::int64_t q) const
+  {
+    return (X(p) - X(q)) * (X(p) - X(q)) + (Y(p) - Y(q)) * (Y(p) - Y(q));
+  }
+
+private:
+  const std::vector<double>& Points;
+};
+
+/// The third vertex of the triangle that runs along an edge.
+std::map<Edge, std::int64_t> FindOpposites(const TriangleSet& triangles)
+{
+  std::map<Edge, std::int64_t> opposites;
+  for (const auto& [a, b, c] : triangles)
+  {
+    opposites[{ a, b }] = c;
+    opposites[{ b, c }] = a;
+    opposites[{ c, a }] = b;
+  }
+  return opposites;
+}
+
+/// Edges that are bad: the opposite vertex of one triangle lies inside the circle of the other, or
+/// both have no area and the edge spans their opposite vertices.
+std::int64_t CountBadEdges(const Judge& judge, const TriangleSet& triangles)
+{
+  std::int64_t bad = 0;
+  const std::map<Edge, std::int64_t> opposites = FindOpposites(triangles);
+  for (const auto& [edge, a] : opposites)
+  {
+    const auto [p, q] = edge;
+    const auto twin = opposites.find({ q, p });
+    if (p > q || twin == opposites.end())
+    {
+      continue;
+    }
+    const std::int64_t b = twin->second;
+    const bool upper = judge.GetArea(a, p, q) > 0, lower = judge.GetArea(b, q, p) > 0;
+    const bool spans = judge.IsWithin(a, p, q) && judge.IsWithin(b, p, q) &&
+      judge.GetSquaredLength(a, b) < judge.GetSquaredLength(p, q);
+    bad += upper ? judge.IsInCircle(a, p, q, b) : (lower ? judge.IsInCircle(b, q, p, a) : spans);
+  }
+  return bad;
+}
+
+TriangleSet GetFlipped(
+  const TriangleSet& triangles, const Edge& edge, std::int64_t a, std::int64_t b)
+{
+  const auto [p, q] = edge;
+  std::vector<std::int32_t> flipped;
+  for (const auto& triangle : triangles)
+  {
+    const bool hasP = std::count(triangle.begin(), triangle.end(), p) > 0;
+    const bool hasQ = std::count(triangle.begin(), triangle.end(), q) > 0;
+    if (!(hasP && hasQ))
+    {
+      flipped.insert(flipped.end(), triangle.begin(), triangle.end());
+    }
+  }
+  for (const std::int64_t id : { a, p, b, b, q, a })
+  {
+    flipped.push_back(static_cast<std::int32_t>(id));
+  }
+  return ToTriangleSet(flipped);
+}
+
+/// Triangulations that a flip leads to, whose triangles turn left or have no area.
+std::vector<TriangleSet> ListNeighbours(const Judge& judge, const TriangleSet& triangles)
+{
+  std::vector<TriangleSet> neighbours;
+  const std::map<Edge, std::int64_t> opposites = FindOpposites(triangles);
+  for (const auto& [edge, a] : opposites)
+  {
+    const auto [p, q] = edge;
+    const auto twin = opposites.find({ q, p });
+    if (p > q || twin == opposites.end())
+    {
+      continue;
+    }
+    const std::int64_t b = twin->second;
+    const bool exists = opposites.count({ a, b }) + opposites.count({ b, a }) > 0;
+    if (a != b && !exists && judge.GetArea(a, p, b) >= 0 && judge.GetArea(b, q, a) >= 0)
+    {
+      neighbours.push_back(GetFlipped(triangles, edge, a, b));
+    }
+  }
+  return neighbours;
+}
+
+/// All triangulations of a boundary, up to a number.
+std::set<TriangleSet> ListTriangulations(const Judge& judge, const TriangleSet& first)
+{
+  constexpr std::size_t Most = 4000 / Reduction;
+  std::set<TriangleSet> known = { first };
+  std::vector<TriangleSet> open = { first };
+  while (!open.empty() && known.size() < Most)
+  {
+    const TriangleSet next = open.back();
+    open.pop_back();
+    for (const TriangleSet& neighbour : ListNeighbours(judge, next))
+    {
+      if (known.insert(neighbour).second)
+      {
+        open.push_back(neighbour);
+      }
+    }
+  }
+  return known;
+}
+
+/// Covers pairs of boundary edges in line by triangles without area, so that the longer edge is on
+/// the boundary, as long as there are such pairs.
+void CoverBoundary(OwnedMesh<double>& mesh)
+{
+  const Judge judge(mesh);
+  for (bool goOn = true; goOn;)
+  {
+    goOn = false;
+    const std::map<Edge, std::int64_t> opposites = FindOpposites(ToTriangleSet(mesh.Triangles));
+    std::map<std::int64_t, std::int64_t> next;
+    for (const auto& [edge, opposite] : opposites)
+    {
+      if (opposites.count({ edge.second, edge.first }) == 0)
+      {
+        next[edge.first] = edge.second;
+      }
+    }
+    for (const auto& [p, m] : next)
+    {
+      const std::int64_t q = next[m];
+      if (!goOn && judge.GetArea(p, m, q) == 0)
+      {
+        for (const std::int64_t id : { m, p, q })
+        {
+          mesh.Triangles.push_back(static_cast<std::int32_t>(id));
+        }
+        goOn = true;
+      }
+    }
+  }
+}
+
+TriangleSet DropFlat(const Judge& judge, const TriangleSet& triangles)
+{
+  TriangleSet kept;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(kept),
+    [&](const auto& t) { return judge.GetArea(t[0], t[1], t[2]) != 0; });
+  return kept;
+}
+
+/// Whether no point lies inside the circle of a triangle with an area.
+bool AreCirclesEmpty(const Judge& judge, const TriangleSet& triangles)
+{
+  for (const auto& [a, b, c] : DropFlat(judge, triangles))
+  {
+    for (std::int64_t d = 0; d < judge.GetNumberOfPoints(); ++d)
+    {
+      if (judge.IsInCircle(a, b, c, d))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void SetTriangles(OwnedMesh<double>& mesh, const TriangleSet& triangles)
+{
+  mesh.Triangles.clear();
+  for (const auto& triangle : triangles)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), triangle.begin(), triangle.end());
+  }
+}
+
+struct PointSet
+{
+  const char* Name;
+  std::vector<std::array<double, 2>> Points;
+};
+
+void PrintTo(const PointSet& set, std::ostream* stream) { *stream << set.Name; }
+
+const PointSet PointSets[] = {
+  { "FourInLineBelowOne", { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 3, 0 }, { 1, 3 } } },
+  { "FourInLineBetweenTwo", { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 4, 0 }, { 2, 3 }, { 1, -2 } } },
+  { "FiveInLineBetweenTwo",
+    { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 4, 0 }, { 5, 0 }, { 2, 3 }, { 1, -2 } } },
+  { "TwoLinesOfThree", { { 0, 0 }, { 2, 0 }, { 4, 0 }, { 0, 2 }, { 1, 2 }, { 4, 2 }, { 2, 1 } } },
+  { "Cross",
+    { { -2, 0 }, { -1, 0 }, { 0, 0 }, { 1, 0 }, { 2, 0 }, { 0, 3 }, { 0, 1 }, { 0, -2 } } },
+  { "ThreeByThree",
+    { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 0, 1 }, { 1, 1 }, { 2, 1 }, { 0, 2 }, { 1, 2 }, { 2, 2 } } },
+  { "Askew", { { 0, 0 }, { 2, 1 }, { 4, 2 }, { 6, 3 }, { 1, 4 }, { 5, -3 }, { 3, 3 } } },
+};
+
+class FlatTriangles : public testing::TestWithParam<PointSet>
+{
+protected:
+  /// Calls check(mesh, triangulation) for all triangulations, of the convex hull and, where points
+  /// of its sides are in line, of the hull with long sides.
+  template <typename Check>
+  void ForTriangulations(const Check& check) const
+  {
+    OwnedMesh<double> swept = MakeSweptMesh(GetParam().Points);
+    OwnedMesh<double> covered = swept;
+    CoverBoundary(covered);
+    for (OwnedMesh<double>& mesh : { std::ref(swept), std::ref(covered) })
+    {
+      const Judge judge(mesh);
+      for (const TriangleSet& triangulation :
+        ListTriangulations(judge, ToTriangleSet(mesh.Triangles)))
+      {
+        SetTriangles(mesh, triangulation);
+        check(mesh);
+        ASSERT_FALSE(this->HasFailure()) << testing::PrintToString(triangulation);
+      }
+    }
+  }
+};
+
+FlipResult FlipPlanar(const OwnedMesh<double>& mesh, TieRuleKind rule)
+{
+  FlipOptions options;
+  options.Geometry = GeometryKind::PlanarXY;
+  options.TieRule = rule;
+  options.NumberOfThreads = 1;
+  return Flip(mesh.View(), options);
+}
+
+/// Every bad edge is counted, before and after. Where none is left the circles of all triangles are
+/// empty; where some are, their flips would make edges that exist.
+/// @returns how many are left.
+std::int64_t CheckFlips(const OwnedMesh<double>& mesh)
+{
+  const Judge judge(mesh);
+  const FlipResult result = FlipPlanar(mesh, TieRuleKind::Keep);
+  const FlipReport& report = result.Report;
+  const TriangleSet after = ToTriangleSet(result.Triangles);
+  EXPECT_TRUE(report.Converged());
+  EXPECT_EQ(CountBadEdges(judge, ToTriangleSet(mesh.Triangles)), report.NonDelaunayBefore);
+  EXPECT_EQ(CountBadEdges(judge, after), report.NonDelaunayAfter);
+  EXPECT_EQ(report.NonDelaunayAfter, report.BlockedByEdge);
+  EXPECT_TRUE(report.NonDelaunayAfter > 0 || AreCirclesEmpty(judge, after));
+  FlipOptions options;
+  options.Geometry = GeometryKind::PlanarXY;
+  EXPECT_EQ(report.NonDelaunayAfter,
+    CountNonDelaunayEdges(WithTriangles(mesh.View(), result.Triangles), options));
+  ExpectSameTopology(mesh.View().Triangles, result.Triangles, report);
+  return report.NonDelaunayAfter;
+}
+
+TEST_P(FlatTriangles, LeaveNoBadEdgeUncounted)
+{
+  std::int64_t meshes = 0, left = 0;
+  this->ForTriangulations(
+    [&](const OwnedMesh<double>& mesh)
+    {
+      ++meshes;
+      left += CheckFlips(mesh) > 0 ? 1 : 0;
+    });
+  EXPECT_LT(8, meshes);
+  EXPECT_LE(left, meshes / 7);
+}
+
+/// Longer walks from one triangulation to the next, on larger lattices.
+TEST(FlatTrianglesOfLattices, LeaveNoBadEdgeUncounted)
+{
+  std::mt19937 random(17);
+  for (int i = 0; i < 300 / Reduction; ++i)
+  {
+    std::set<std::array<double, 2>> points;
+    for (int k = 0; k < 8 + i % 10; ++k)
+    {
+      points.insert({ double(DrawIndex(random, 6)), double(DrawIndex(random, 4)) });
+    }
+    OwnedMesh<double> mesh = MakeSweptMesh({ points.begin(), points.end() });
+    if (i % 2 == 0)
+    {
+      CoverBoundary(mesh);
+    }
+    const Judge judge(mesh);
+    for (int step = 0; step < 60; ++step)
+    {
+      const std::vector<TriangleSet> neighbours =
+        ListNeighbours(judge, ToTriangleSet(mesh.Triangles));
+      if (!neighbours.empty())
+      {
+        SetTriangles(
+          mesh, neighbours[DrawIndex(random, static_cast<std::int64_t>(neighbours.size()))]);
+      }
+    }
+    CheckFlips(mesh);
+    ASSERT_FALSE(testing::Test::HasFailure()) << i;
+  }
+}
+
+TEST_P(FlatTriangles, CanonicalTrianglesWithAreaAreTheSame)
+{
+  std::map<std::size_t, TriangleSet> results;
+  this->ForTriangulations(
+    [&](const OwnedMesh<double>& mesh)
+    {
+      const FlipResult result = FlipPlanar(mesh, TieRuleKind::Canonical);
+      const TriangleSet kept = DropFlat(Judge(mesh), ToTriangleSet(result.Triangles));
+      const auto first = results.emplace(mesh.Triangles.size(), kept).first; // by the boundary
+      EXPECT_TRUE(result.Report.NonDelaunayAfter > 0 || first->second == kept);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, FlatTriangles, testing::ValuesIn(PointSets),
+  [](const auto& test) { return std::string(test.param.Name); });
+
+}
+}
