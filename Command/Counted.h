@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// "1 point", "2 points".
+/// A number and its unit, e.g. "1 point" or "2 points".
 inline std::string Counted(std::int64_t count, const std::string& noun)
 {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

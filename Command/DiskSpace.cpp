@@ -14,7 +14,7 @@ namespace delaunayflip
 
 std::string ExplainFailedWrite(const std::string& path)
 {
-  constexpr std::uintmax_t least = 1 << 20; // what file systems keep back, or round to
+  constexpr std::uintmax_t least = 1 << 20; // file systems keep some space back, or round sizes
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);

@@ -8,8 +8,8 @@
 namespace delaunayflip
 {
 
-/// What may have kept a file from being written whole, as the end of a message: a full disk or a
-/// limit on the size of files; empty where there is neither.
+/// Why a file may not have been written completely, as the end of a message: a full disk or a file
+/// size limit; empty if there is neither.
 std::string ExplainFailedWrite(const std::string& path);
 
 }

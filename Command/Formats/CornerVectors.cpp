@@ -23,7 +23,7 @@ namespace
 
 constexpr std::int64_t None = CornerVectors::None;
 
-/// An array of `size` vectors by their numbers; NaN where there is none.
+/// An array of `size` vectors, given by their numbers; NaN if a number is None.
 vtkSmartPointer<vtkDoubleArray> Gathered(
   const char* name, const CornerVectors& vectors, const std::vector<std::int64_t>& numbers)
 {
@@ -60,7 +60,7 @@ void ForEachCorner(vtkCellArray* cells, const Function& visit)
   }
 }
 
-/// Finds a point for every corner, of those with the same place one with the same texture.
+/// Finds a point for every corner: among the points at its place, one with the same texture.
 class SeamSplitter
 {
 public:
@@ -135,9 +135,9 @@ private:
 
   vtkPolyData* Mesh;
   const CornerVectors& Texture;
-  std::vector<std::int64_t> OfPoint; ///< The texture coordinates of a point, by their number.
-  std::vector<std::int64_t> Copies; ///< The next point of the same place.
-  std::vector<vtkIdType> CopyOf; ///< What the points after the first `Originals` are copies of.
+  std::vector<std::int64_t> OfPoint; ///< The number of each point's texture coordinates.
+  std::vector<std::int64_t> Copies; ///< The next point at the same place.
+  std::vector<vtkIdType> CopyOf; ///< The originals of the points after the first `Originals`.
   vtkIdType Originals;
 };
 

@@ -21,21 +21,21 @@ struct CornerVectors
 {
   std::vector<double> Values;
   int Components = 0;
-  std::vector<std::int64_t> OfCorner; ///< The number of its vector; None where it has none.
+  std::vector<std::int64_t> OfCorner; ///< The number of its vector, or None.
 
   static constexpr std::int64_t None = -1;
 
-  /// Whether two corners have the same vector; one that has none agrees with any.
+  /// Whether two corners have the same vector. A corner without one agrees with any.
   bool Agree(std::int64_t first, std::int64_t second) const;
 };
 
-/// Makes texture coordinates data of the points. A point whose corners have different ones, on a
-/// seam of the texture, is repeated at the end of the points, so that each has its own: edges on
-/// seams become boundary edges, and nothing flips across them. A note says how many.
+/// Turns texture coordinates into point data. A point on a seam of the texture, whose corners have
+/// different ones, is repeated at the end of the points. So edges on seams become boundary edges,
+/// which never flip. A note says how many points were repeated.
 void AttachTexture(FileMesh& file, const std::string& name, const CornerVectors& texture);
 
-/// Makes normals data of the points where all corners of each point agree, data of the polygons
-/// where all corners of each polygon do, and else leaves them out, with a note.
+/// Turns normals into point data if all corners of each point agree, into data of the polygons if
+/// all corners of each polygon agree; otherwise leaves them out, with a note.
 void AttachNormals(FileMesh& file, const std::string& name, const CornerVectors& normals);
 
 }

@@ -12,7 +12,7 @@
 namespace delaunayflip
 {
 
-/// A surface mesh as its file has it.
+/// A surface mesh that was read from a file.
 struct FileMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
@@ -20,7 +20,7 @@ struct FileMesh
   std::vector<std::string> Warnings; ///< What may be wrong with the file.
 };
 
-/// What a reader does with points that a format has to repeat.
+/// What a reader does with points that a format repeats.
 enum class RepeatedPoints
 {
   Keep,

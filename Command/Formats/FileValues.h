@@ -11,13 +11,13 @@
 #include <cstring>
 
 /// @file
-/// The numbers of a file one after the other, as text or binary, behind one interface: Next,
-/// StartRow and EndRow around what belongs together, and Fail, which says where.
+/// Reads the numbers of a file one by one, in text or binary, by one interface: Next; StartRow and
+/// EndRow around a row of numbers; and Fail, which says where.
 
 namespace delaunayflip
 {
 
-/// Numbers as text, a row a line.
+/// Numbers as text, one row per line.
 class TextValues
 {
 public:
@@ -44,7 +44,7 @@ public:
 
   std::size_t GetBytesLeft() const { return this->Cursor.GetBytesLeft(); }
 
-  /// How much there is behind the last row, blanks apart.
+  /// How much there is after the last row, except blanks.
   std::size_t Finish()
   {
     this->Cursor.SkipSpace();
@@ -57,7 +57,7 @@ private:
   TextCursor Cursor;
 };
 
-/// Binary numbers, of this machine's byte order or the other.
+/// Binary numbers, in this machine's byte order or the opposite one.
 template <bool Swapped>
 class BinaryValues
 {

@@ -127,7 +127,7 @@ void InputFile::Map()
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0)
   {
-    return; // nothing that could be mapped
+    return; // nothing to map
   }
   void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, this->Descriptor, 0);
   if (bytes == MAP_FAILED)

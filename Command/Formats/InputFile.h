@@ -9,11 +9,11 @@
 namespace delaunayflip
 {
 
-/// The bytes of a file, in memory while this lives. A pipe is read to its end first.
+/// The bytes of a file, in memory as long as this exists. A pipe is read to its end first.
 class InputFile
 {
 public:
-  /// @throws CommandError (BadFile) that names the file and the reason.
+  /// @throws CommandError (BadFile) with the file and the reason.
   explicit InputFile(const std::string& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -21,16 +21,16 @@ public:
 
   std::string_view GetBytes() const { return this->Bytes; }
 
-  /// What the user calls it.
+  /// The name that the user gave.
   const std::string& GetName() const { return this->Name; }
 
-  /// Where VTK's readers can open it: for a pipe, a copy of what came through it.
+  /// A path that VTK's readers can open: for a pipe, a copy of its contents.
   const std::string& GetPath() const { return this->Path; }
 
   /// @throws CommandError (BadFile): the name and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
 
-  /// The same with the number of the line that `place`, within the bytes, is on.
+  /// The same, with the number of the line that contains `place`, a pointer into the bytes.
   [[noreturn]] void FailAt(const char* place, const std::string& reason) const;
 
 private:

@@ -41,7 +41,7 @@ std::string LowerCase(std::string_view word)
   return lower;
 }
 
-/// The format writes every letter that is not a plain one as % and two hexadecimal digits.
+/// Decodes special characters, which the format writes as % and two hexadecimal digits.
 std::string Decoded(std::string_view word)
 {
   std::string decoded;
@@ -165,7 +165,7 @@ vtkSmartPointer<vtkAbstractArray> LegacyArrays::ReadPlain(vtkIdType tuples, int 
   return array;
 }
 
-/// Ids are written as int.
+/// Ids are stored as int.
 vtkSmartPointer<vtkAbstractArray> LegacyArrays::ReadIds(vtkIdType tuples, int components)
 {
   this->RequireBytes(tuples * components, sizeof(std::int32_t));
@@ -197,7 +197,7 @@ void LegacyArrays::ReadValues(T* values, vtkIdType count)
   }
 }
 
-/// Eight to a byte in binary files, the first in the highest place.
+/// Binary files have eight bits per byte, the first in the highest place.
 vtkSmartPointer<vtkAbstractArray> LegacyArrays::ReadBits(vtkIdType tuples, int components)
 {
   const vtkIdType count = tuples * components;
@@ -214,7 +214,7 @@ vtkSmartPointer<vtkAbstractArray> LegacyArrays::ReadBits(vtkIdType tuples, int c
   return array;
 }
 
-/// A line each as text; a length and bytes in binary files.
+/// One line per string in text files; a length and bytes in binary files.
 vtkSmartPointer<vtkAbstractArray> LegacyArrays::ReadStrings(vtkIdType tuples, int components)
 {
   if (static_cast<std::size_t>(tuples * components) > this->Cursor.GetBytesLeft())
@@ -249,7 +249,7 @@ std::string LegacyArrays::NextString()
   return { this->Cursor.NextBytes(length), length };
 }
 
-/// The highest two bits of the length say how many bytes it takes: 1, 2, 4 or 8.
+/// The highest two bits of the length give its size: 1, 2, 4 or 8 bytes.
 std::size_t LegacyArrays::NextStringLength()
 {
   this->RequireBytes(1, 1);
@@ -265,7 +265,8 @@ std::size_t LegacyArrays::NextStringLength()
   return static_cast<std::size_t>(length);
 }
 
-/// Binary values take their size, values of a text a digit and, but for the last, a blank.
+/// A binary value takes its size; a value in text takes at least a digit and, except the last, a
+/// blank.
 void LegacyArrays::RequireBytes(vtkIdType count, std::size_t size) const
 {
   const std::size_t left = this->Cursor.GetBytesLeft();
@@ -277,7 +278,7 @@ void LegacyArrays::RequireBytes(vtkIdType count, std::size_t size) const
   }
 }
 
-/// The bytes behind the end of the line.
+/// The bytes after the end of the line.
 const char* LegacyArrays::NextBytes(std::size_t size)
 {
   if (size == 0)
@@ -289,7 +290,7 @@ const char* LegacyArrays::NextBytes(std::size_t size)
   return this->Cursor.NextBytes(size);
 }
 
-/// Goes to the blank line that ends it.
+/// Skips to the blank line at the end.
 void LegacyArrays::ReadMetaData(vtkAbstractArray* array)
 {
   const TextCursor before = this->Cursor;

@@ -26,13 +26,13 @@ public:
   void SetBinary() { this->IsBinary = true; }
   bool GetBinary() const { return this->IsBinary; }
 
-  /// The next word in lower case, in this line or another; empty at the end of the file.
+  /// The next word in lower case, in this line or a later one; empty at the end of the file.
   std::string NextKeyword();
 
-  /// The next word, which may have %20 for a blank.
+  /// The next word, decoded: a blank is written as %20.
   std::string NextName();
 
-  /// The next word as a number that is not negative.
+  /// The next word as a non-negative number.
   vtkIdType NextCount();
 
   /// Whether the next word begins with a digit.
@@ -41,13 +41,13 @@ public:
   /// @throws CommandError (BadFile): the file, the line and the reason.
   [[noreturn]] void Fail(const std::string& reason) const { this->Cursor.Fail(reason); }
 
-  /// Reads an array of a type, in the words of the format, and the names of its components if they
-  /// follow. What else may follow, such as ranges, is not used.
-  /// @throws CommandError (BadFile), before it asks for memory where the file is too short.
+  /// Reads an array of a type, named as in the format, and the names of its components if they
+  /// follow. Other information that follows, such as ranges, is ignored.
+  /// @throws CommandError (BadFile); if the file is too short, before it allocates memory.
   vtkSmartPointer<vtkAbstractArray> Read(
     const std::string& type, vtkIdType tuples, vtkIdType components);
 
-  /// The same for a type of numbers only.
+  /// The same, only for types of numbers.
   vtkSmartPointer<vtkDataArray> ReadNumbers(
     const std::string& type, vtkIdType tuples, vtkIdType components);
 

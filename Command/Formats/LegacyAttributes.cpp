@@ -16,7 +16,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Colors of a text go from 0 to 1.
+/// Colours in text files go from 0 to 1.
 unsigned char ToByte(float color)
 {
   const double level = 255.0 * color + 0.5;
@@ -93,7 +93,7 @@ void LegacyAttributes::ReadColors()
   this->Add(isBinary ? array : ToBytes(array), name, vtkDataSetAttributes::SCALARS);
 }
 
-/// A table of the name that the scalars gave.
+/// Reads a table with the name that the scalars gave.
 void LegacyAttributes::ReadLookupTable()
 {
   const std::string name = this->Arrays.NextName();
@@ -131,7 +131,8 @@ void LegacyAttributes::ReadTexture()
   this->Add(array, name, vtkDataSetAttributes::TCOORDS);
 }
 
-/// Makes the array the attribute if there is none yet, else one among others; whether the former.
+/// Makes the array the active attribute if there is none yet, else adds it as an ordinary array.
+/// @returns whether it became the active attribute.
 bool LegacyAttributes::Add(vtkAbstractArray* array, const std::string& name, int attribute)
 {
   array->SetName(name.c_str());

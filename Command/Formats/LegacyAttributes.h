@@ -13,7 +13,7 @@ namespace delaunayflip
 {
 
 /// Reads the attributes of points and cells in a legacy .vtk: SCALARS, VECTORS and so on. The first
-/// of a kind becomes the active one, the others are arrays among others.
+/// of a kind becomes the active one, the others become ordinary arrays.
 class LegacyAttributes
 {
 public:
@@ -22,17 +22,18 @@ public:
   {
   }
 
-  /// What is read from here on belongs to `data`.
+  /// Attributes that are read from here on belong to `data`.
   void Begin(vtkDataSetAttributes* data, vtkIdType tuples)
   {
     this->Data = data;
     this->Tuples = tuples;
   }
 
-  /// What the attributes belong to; null before the first Begin.
+  /// The data to which attributes belong; null before the first Begin.
   vtkDataSetAttributes* Get() const { return this->Data; }
 
-  /// Reads what follows a keyword; false if it is none of an attribute, or none can be here.
+  /// Reads what follows a keyword. Returns false if it is not the keyword of an attribute, or if
+  /// there can be no attribute here.
   bool Read(const std::string& keyword);
 
 private:
@@ -47,7 +48,7 @@ private:
   LegacyArrays& Arrays;
   vtkDataSetAttributes* Data = nullptr;
   vtkIdType Tuples = 0;
-  std::string TableName; ///< What the active scalars call their colors.
+  std::string TableName; ///< The name of the active scalars' colour table.
 };
 
 }

@@ -24,7 +24,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Levels of ghosts, of files before VTK 6.3, as the type that they became.
+/// Converts ghost levels, of files before VTK 6.3, to ghost types.
 void UpdateGhosts(vtkAbstractArray* array)
 {
   auto* levels = vtkUnsignedCharArray::SafeDownCast(array);
@@ -157,7 +157,7 @@ private:
     return this->HasOffsets ? this->ReadOffsets(first, second) : this->ReadSizes(first, second);
   }
 
-  /// Since version 5: where each cell begins, and after that the ids of all.
+  /// Since version 5: the offset of each cell, followed by the ids of all cells.
   vtkSmartPointer<vtkCellArray> ReadOffsets(vtkIdType offsets, vtkIdType ids)
   {
     auto cells = vtkSmartPointer<vtkCellArray>::New();
@@ -254,7 +254,7 @@ private:
     this->Attributes.Begin(attributes, tuples);
   }
 
-  /// Named arrays, of the points, the cells, or before both of the mesh as a whole.
+  /// Named arrays of the points, of the cells, or, before both, of the whole mesh.
   void ReadField()
   {
     this->Arrays.NextName();
@@ -285,7 +285,7 @@ private:
   LegacyArrays Arrays;
   FileMesh Result;
   bool HasOffsets = false;
-  LegacyAttributes Attributes; ///< Of the points or cells, once their data have begun.
+  LegacyAttributes Attributes; ///< Those of the points or cells, once their data have begun.
 };
 
 }

@@ -12,11 +12,11 @@ namespace delaunayflip
 {
 
 /// Reads a legacy .vtk, versions 1 to 5, text or binary: the polygonal data with all attributes and
-/// field data. Numbers of a text are read in the type that the file names.
-/// @throws CommandError (BadFile) that names the file, the line and the reason.
+/// field data. Numbers in text are read as the type that the file names.
+/// @throws CommandError (BadFile) with the file, the line and the reason.
 FileMesh ReadLegacy(const InputFile& file);
 
-/// Says that a file holds another type of data.
+/// Throws an error: the file has another type of data.
 [[noreturn]] void FailOnType(const InputFile& file, const std::string& type);
 
 }

@@ -13,10 +13,10 @@ namespace
 
 constexpr std::int64_t None = CornerVectors::None;
 
-/// Numbers of a vertex, of its texture coordinates and of its normal.
+/// The numbers of a vertex, its texture coordinates and its normal.
 using Corner = std::array<std::int64_t, 3>;
 
-/// Puts a value at `place`, behind what was left out before it.
+/// Puts a value at `place`, after filling in the values that were left out before it.
 template <typename T>
 void PutAt(std::vector<T>& values, std::size_t place, T value, T leftOut)
 {
@@ -45,7 +45,7 @@ public:
     }
   }
 
-  /// Indices may name what comes later in the file.
+  /// Indices may refer to what comes later in the file.
   bool NamesTooMuch() const
   {
     const Corner counts = this->Count();
@@ -205,7 +205,7 @@ private:
     this->Cursor.Fail("'" + text + "' is not an index");
   }
 
-  /// In the file 1 is the first, -1 the last so far.
+  /// In the file, index 1 is the first element, and -1 the last one before this line.
   std::int64_t Resolve(std::size_t kind, std::int64_t index, std::int64_t seen)
   {
     if (index == 0 || index < -seen || index > this->Limits[kind])

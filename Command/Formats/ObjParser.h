@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// A keyword that names what the cells after it belong to.
+/// A keyword that names the group, material and so on of the cells after it.
 struct ObjLabel
 {
   const char* Keyword;
@@ -29,21 +29,21 @@ constexpr std::array<ObjLabel, 4> ObjLabels = { {
   { "s", "SmoothingIds", "SmoothingNames" },
 } };
 
-/// Cells of a kind.
+/// The cells of one kind.
 struct ObjCells
 {
   std::vector<vtkIdType> Points;
   std::vector<vtkIdType> Ends; ///< Where the points of each cell end.
-  std::vector<std::int64_t> Textures; ///< Of each corner; shorter where the last have none.
+  std::vector<std::int64_t> Textures; ///< Of each corner; shorter if the last ones have none.
   std::vector<std::int64_t> Normals; ///< Likewise.
   std::array<std::vector<int>, ObjLabels.size()> Labels; ///< Of each cell; empty if unused.
 };
 
-/// What a .obj holds, numbers counted from 0.
+/// The contents of a .obj, with numbers from 0.
 struct ObjContent
 {
-  std::vector<double> Positions; ///< 3 a vertex.
-  std::vector<double> Colors; ///< 3 a vertex; shorter where the last have none.
+  std::vector<double> Positions; ///< 3 per vertex.
+  std::vector<double> Colors; ///< 3 per vertex; shorter if the last ones have none.
   std::vector<double> Textures; ///< 3 each.
   std::vector<double> Normals; ///< 3 each.
   ObjCells Verts;
@@ -51,10 +51,10 @@ struct ObjContent
   ObjCells Faces;
   std::array<std::vector<std::string>, ObjLabels.size()> Names;
   std::vector<std::string> Libraries;
-  std::map<std::string, std::int64_t> Unknown; ///< Lines by their keyword.
+  std::map<std::string, std::int64_t> Unknown; ///< The number of lines by unknown keyword.
 };
 
-/// @throws CommandError (BadFile) that names the file, the line and the reason.
+/// @throws CommandError (BadFile) with the file, the line and the reason.
 ObjContent ParseObj(const InputFile& file);
 
 }

@@ -100,7 +100,7 @@ void AttachColors(vtkPolyData* mesh, ObjContent& content)
   }
 }
 
-/// Vectors of corners; `numbers` may be shorter than the corners are.
+/// The vectors of corners. `numbers` may be shorter than the list of corners.
 CornerVectors MakeCornerVectors(const ObjCells& cells, const std::vector<std::int64_t>& numbers)
 {
   CornerVectors vectors;
@@ -109,7 +109,7 @@ CornerVectors MakeCornerVectors(const ObjCells& cells, const std::vector<std::in
   return vectors;
 }
 
-/// Texture coordinates have two components unless some third one is not zero.
+/// Texture coordinates have two components, unless some third component is not zero.
 CornerVectors MakeTexture(const ObjContent& content)
 {
   CornerVectors texture = MakeCornerVectors(content.Faces, content.Faces.Textures);

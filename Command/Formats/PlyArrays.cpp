@@ -20,7 +20,7 @@ struct PlyGroup
   std::vector<std::string> Properties;
 };
 
-/// The names that are in use, the larger groups first.
+/// The names in use, larger groups first.
 const std::vector<PlyGroup>& Groups()
 {
   static const std::vector<PlyGroup> groups = {

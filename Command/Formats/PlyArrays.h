@@ -16,7 +16,7 @@ class vtkDataSetAttributes;
 namespace delaunayflip
 {
 
-/// Where the values of a property go, one after the other; nowhere for a list.
+/// Stores the values of a property one after the other; ignores those of a list.
 class PlyColumn
 {
 public:
@@ -43,13 +43,13 @@ private:
   }
 
   PlyType Type = PlyType::Int8;
-  bool Widens = false; ///< The array is of doubles, the property is not.
+  bool Widens = false; ///< Whether the array has doubles although the property does not.
   char* Next = nullptr;
   std::size_t Stride = 0;
 };
 
-/// The scalar properties of the elements of a kind, as arrays: some, such as red, green and blue,
-/// are the components of one; the others have one each, of their own name and type.
+/// The scalar properties of one kind of element, as arrays. Some, such as red, green and blue,
+/// become components of one array; the others have one array each, with their own name and type.
 class PlyArrays
 {
 public:
@@ -61,7 +61,7 @@ public:
   /// Takes out the array of x, y and z; null if there is none.
   vtkSmartPointer<vtkDataArray> TakePoints();
 
-  /// Adds the arrays, with so many tuples of zeros before and after them.
+  /// Adds the arrays, with these numbers of zero tuples before and after them.
   void AddTo(vtkDataSetAttributes* data, vtkIdType before = 0, vtkIdType after = 0) const;
 
 private:

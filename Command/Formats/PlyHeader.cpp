@@ -49,7 +49,7 @@ public:
   }
 
 private:
-  /// Whether there are more.
+  /// Whether more lines follow.
   bool ParseLine()
   {
     const std::string_view keyword = this->Cursor.NextWord();

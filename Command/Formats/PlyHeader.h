@@ -73,12 +73,12 @@ enum class PlyEncoding
   BigEndian
 };
 
-/// What the head of a .ply says of its body.
+/// What the header of a .ply says about the body.
 struct PlyHeader
 {
   PlyEncoding Encoding = PlyEncoding::Text;
   std::vector<PlyElement> Elements; ///< In the order of the body.
-  std::size_t Size = 0; ///< Bytes before the body.
+  std::size_t Size = 0; ///< The number of bytes before the body.
 
   /// The number of elements of a name, 0 where there are none.
   std::int64_t CountOf(const std::string& element) const;
