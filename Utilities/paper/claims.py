@@ -30,7 +30,7 @@ def claim_worst_case(results):
 def claim_iterations(results):
     def fit(program):
         found = plots.fit_logarithm(plots.iterations_by_size(results, program))
-        return f"{found[0]:.1f} + {found[1]:.1f} log10(points)" if found else "-"
+        return f"{found[1]:.2f} log10(points) {found[0]:+.1f}" if found else "-"
 
     ours = fit("ours-all")
     return ("iterations grow as O(log n)", f"{ours}; without chunks {fit('no-chunks')}",

@@ -139,6 +139,10 @@ class Plan:
             self.add(f"ruined-{kind}", f"bad surfaces, ruined by {kind}",
                      ("ruined", "--kind", kind, "--points", self.scale.ruined,
                       "--feature-angles", angles), 5 + self.scale.ruined / 1e6 * 300)
+        for mesh in (mesh for mesh in self.meshes if not mesh.endswith("torus")):
+            self.add(f"ruined-{mesh}", f"{mesh} as it is, over the feature angle",
+                     ("as-it-is", "--mesh", "{folder}/meshes/" + mesh + ".dfmesh",
+                      "--feature-angles", angles), 10)
 
     def add_rivals(self):
         for rival, size in ((r, s) for r in self.rivals if r in RIVAL_SECONDS

@@ -267,11 +267,12 @@ def draw_ruined(results):
     figure, axes = plt.subplots(figsize=(8.5, 3.6))
     for number, case in enumerate(cases):
         of_case = [row for row in rows if (row["ruined_by"], row["shape"]) == case]
-        style = {"color": (BLUE, SKY, VERMILION, ORANGE, GREEN, BLACK)[number % 6],
-                 "marker": "osD^vP"[number % 6]}
+        style = {"color": (BLUE, SKY, VERMILION, ORANGE, GREEN, BLACK, PURPLE)[number % 7],
+                 "marker": "osD^vP*<>"[number % 9]}
         axes.plot([row["feature_angle"] for row in of_case],
                   [row["mean_smallest_angle"] for row in of_case],
-                  label=f"{case[1]}, ruined by {case[0]}", **style)
+                  label=case[1] if case[0] == "nobody" else f"{case[1]}, ruined by {case[0]}",
+                  **style)
         axes.plot(of_case[0]["feature_angle"], of_case[0]["mean_smallest_angle_before"],
                   linestyle="none", fillstyle="none", **style)
     axes.set(xlabel="feature angle (degrees)", ylabel="mean smallest angle (degrees)",

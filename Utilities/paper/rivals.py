@@ -26,7 +26,7 @@ PACKAGES = {
     "startinpy": ("startinpy", "startinpy", "MIT"),
     "delaunator": ("delaunator", "delaunator", "GPL, as its package says"),
     "vtk": ("vtk", "vtkmodules.vtkFiltersCore", "BSD-3-Clause"),
-    "meshlib": ("meshlib", "meshlib.mrmeshpy", "MeshLib's own; no commercial use"),
+    "meshlib": ("meshlib", "meshlib.mrmeshpy", "MeshLib's own"),
 }
 
 

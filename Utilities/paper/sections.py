@@ -123,14 +123,18 @@ def section_quality(results):
     compared = [row for row in results.rows("rival") if "different" in row]
     ours = [row["different"] for row in rows if row["program"] == "ours, canonical"]
     table = Table(
-        ("points", "program", "precision", "epsilon", "different triangles", "percent",
-         "bad edges left", "iterations", "stop"),
+        ("points", "program", "precision", "epsilon", "triangles", "different triangles",
+         "percent", "bad edges left", "iterations", "stop"),
         [(row["points"], row["program"], row.get("precision", "-"), format_epsilon(row),
-          row["different"], row["percent"], row["bad_left"], row.get("iterations"),
+          row["triangles"], row["different"], row["percent"], row["bad_left"], row.get("iterations"),
           row.get("stop", "-")) for row in unique(rows) + compared])
     stuck = [row for row in rows
              if row["program"] == "paper" and row["stop"] == "iteration limit"]
     measured = [f"This project: {sum(ours)} different triangles in {len(ours)} meshes."]
+    whole = {row["points"]: row["triangles"] for row in rows}
+    measured += [f"{plots.label_of(row['program'])} left {whole[row['points']] - row['triangles']} "
+                 f"of {whole[row['points']]:,} triangles out." for row in compared
+                 if row["triangles"] < whole.get(row["points"], 0)]
     if stuck:
         measured.append(f"In {len(stuck)} runs the paper's method found no end; the largest epsilon "
                         f"of these is {max(row['epsilon'] for row in stuck):g}.")
@@ -165,7 +169,7 @@ def section_iterations(results):
         points = plots.iterations_by_size(results, program)
         fit = plots.fit_logarithm(points)
         if fit:
-            measured.append(f"{plots.label_of(program)}: {fit[0]:.1f} + {fit[1]:.2f} log10(n).")
+            measured.append(f"{plots.label_of(program)}: {fit[1]:.2f} log10(n) {fit[0]:+.1f}.")
         rows += [(plots.label_of(program), size, iterations) for size, iterations in points]
     return Section(
         "Fig. 9a: iterations over size",
@@ -313,7 +317,7 @@ def section_ruined(results):
          "left: would exist twice", "left: would fold", "distance", "change of volume"),
         [(row["ruined_by"], row["shape"], row["feature_angle"], row["flips"],
           row["smallest_angle_before"], row["smallest_angle"], row["mean_smallest_angle_before"],
-          row["mean_smallest_angle"], row["mean_smallest_angle_of_good"], row["left_fixed"],
+          row["mean_smallest_angle"], row.get("mean_smallest_angle_of_good"), row["left_fixed"],
           row["left_duplicate"], row["left_fold"], row["distance"], row["volume_change"])
          for row in rows])
     other = sum(row["left_other"] for row in rows)
@@ -324,5 +328,6 @@ def section_ruined(results):
         "Good surfaces are ruined by random legal flips, by splitting a tenth of the edges at 2 % of "
         "their length, or made with points twenty times as dense one way as the other. The distance "
         "is the largest from the middle of a changed edge to the other surface, by the diagonal of "
-        "the bounding box. Flips undo flips; they cannot undo badly placed points.",
+        "the bounding box; the change of volume means nothing for an open surface. Flips undo "
+        "flips; they cannot undo badly placed points.",
         [plots.draw_ruined(results)], [table])

@@ -59,6 +59,10 @@ Json RunTests(const ExperimentSettings& settings, const std::string& mesh, std::
 Json RunRuined(const ExperimentSettings& settings, const std::string& kind, std::int64_t points,
   const std::vector<double>& featureAngles);
 
+/// The same rows for a surface of a file.
+Json RunAsItIs(const ExperimentSettings& settings, const std::string& path,
+  const std::vector<double>& featureAngles);
+
 /// The mesh of RunRandom.
 OwnedMesh<float> MakePaperRandomMesh(std::int64_t points);
 

@@ -126,6 +126,10 @@ void AddExperiments(CLI::App& app, PaperArguments& a)
     [&] { WriteRows(a, RunTests(a.Settings, a.Name, a.Points)); });
   points(tests);
   tests->add_option("--mesh", a.Name, "random, grid, circles or offset")->required();
+  CLI::App* asItIs = AddCommand(app, "as-it-is", "the same for a surface of a file",
+    [&] { WriteRows(a, RunAsItIs(a.Settings, a.Mesh, a.FeatureAngles)); });
+  asItIs->add_option("--mesh", a.Mesh, "a .dfmesh file")->required();
+  asItIs->add_option("--feature-angles", a.FeatureAngles, "in degrees")->delimiter(',');
   CLI::App* ruined = AddCommand(app, "ruined", "surfaces of bad quality",
     [&] { WriteRows(a, RunRuined(a.Settings, a.Name, a.Points, a.FeatureAngles)); });
   points(ruined);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExperimentSupport.h"
+#include "MeshFile.h"
 #include "PaperSurfaces.h"
 #include "SurfaceChange.h"
 #include "TriangleAngles.h"
@@ -127,6 +128,25 @@ Json RunRuined(const ExperimentSettings& settings, const std::string& kind, std:
       row["mean_smallest_angle_of_good"] = goal;
       rows.push_back(std::move(row));
     }
+  }
+  return rows;
+}
+
+Json RunAsItIs(const ExperimentSettings& settings, const std::string& path,
+  const std::vector<double>& featureAngles)
+{
+  const FileMesh file = ReadMeshFile(path);
+  OwnedMesh<double> mesh;
+  mesh.Triangles = file.Triangles;
+  mesh.Points = file.Doubles;
+  mesh.Points.insert(mesh.Points.end(), file.Floats.begin(), file.Floats.end());
+  Json rows = Json::array();
+  for (const double featureAngle : featureAngles)
+  {
+    Json row = RunOne(settings, mesh, featureAngle);
+    row["ruined_by"] = "nobody";
+    row["shape"] = file.Name;
+    rows.push_back(std::move(row));
   }
   return rows;
 }

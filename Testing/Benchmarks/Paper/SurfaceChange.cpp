@@ -82,7 +82,8 @@ double FindSquaredDistance(const OwnedMesh<double>& mesh, const EdgeSet& edges,
     {
       const auto p = GetPoint(mesh, static_cast<std::int64_t>(edge >> 32));
       const auto q = GetPoint(mesh, static_cast<std::int64_t>(edge & 0xffffffffu));
-      largest = std::max(largest, tree.squared_distance(CGAL::midpoint(p, q)));
+      // Both surfaces pass through p, so the nearest point is not further away.
+      largest = std::max(largest, tree.squared_distance(CGAL::midpoint(p, q), p));
     }
   }
   return largest;
