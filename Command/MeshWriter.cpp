@@ -10,12 +10,16 @@
 
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
 #include <vtkPLYWriter.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <fstream>
@@ -58,12 +62,26 @@ void WriteXml(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
   Run(writer.Get(), mesh, path, messages);
 }
 
+/// The mesh with texture coordinates of type float: vtkPLYWriter crashes on others.
+vtkSmartPointer<vtkPolyData> WithFloatTexture(vtkPolyData* mesh)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(mesh);
+  if (vtkDataArray* const texture = mesh->GetPointData()->GetTCoords())
+  {
+    const vtkNew<vtkFloatArray> floats;
+    floats->DeepCopy(texture);
+    copy->GetPointData()->SetTCoords(floats);
+  }
+  return copy;
+}
+
 void WritePly(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
   vtkNew<vtkPLYWriter> writer;
   writer->SetFileTypeToBinary();
   writer->SetArrayName("RGB"); // as vtkPLYReader names colours
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), WithFloatTexture(mesh), path, messages);
 }
 
 void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
@@ -75,8 +93,12 @@ void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 
 void WriteObj(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
+  // For names of materials vtkOBJWriter wants texture coordinates of the same names.
+  const vtkNew<vtkPolyData> unnamed;
+  unnamed->ShallowCopy(mesh);
+  unnamed->GetFieldData()->Initialize();
   vtkNew<vtkOBJWriter> writer;
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), unnamed.Get(), path, messages);
 }
 
 void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what)

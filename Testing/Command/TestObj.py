@@ -52,6 +52,15 @@ class Texture(ObjTest):
         whole, _ = self.read(points + texture + "f 1/1 2/2 3/3\nf 2/2 1/1 4/6\n")
         self.assertEqual(sorted(map(sorted, triangles_of(whole))), [[0, 2, 3], [1, 2, 3]])
 
+    def test_is_written_whatever_the_materials(self):
+        text = "mtllib m.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" + SQUARE
+        self.write("a.obj", text + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n")
+        for name in ("out.obj", "out.ply"):
+            self.succeed("a.obj", name)
+            self.succeed(name, "again.vtp")
+            coordinates = read_mesh(self.path("again.vtp")).GetPointData().GetTCoords()
+            self.assertEqual(tuples_of(coordinates), [(0, 0), (1, 0), (1, 1), (0, 1)], name)
+
     def test_three_components(self):
         mesh, _ = self.read(SQUARE + "vt 0 0 0\nvt 1 0 .5\nvt 1\nf 1/1 2/2 3/3\n")
         coordinates = tuples_of(mesh.GetPointData().GetTCoords())[:3]
