@@ -26,9 +26,8 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
          progress=None, on_iteration=None):
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
-    Any mesh is accepted: open, non-manifold, of mixed winding, with degenerate triangles. Edges
-    that cannot flip safely stay and are counted. The same input gives the same result, bit for
-    bit, with any number of threads and on a GPU.
+    Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
+    safely stay and are counted. The same input gives the same bits, on any threads and GPU.
 
     Args:
         points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
@@ -56,10 +55,7 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
         A `Result`. After an abort it holds the valid mesh of the last whole iteration.
 
     Raises:
-        InvalidMesh: A triangle or constraint names a point that does not exist.
-        InvalidOptions: Options out of range, or that contradict the mesh.
-        MeshTooLarge: Too many triangles or points.
-        BackendUnavailable: No GPU for backend="cuda".
+        InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable: See these classes.
         MemoryError, TypeError, ValueError: As usual.
 
     Example:
