@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <ostream>
+#include <set>
 #include <string>
 
 /// @file
@@ -46,18 +47,18 @@ Mesh Round(Mesh mesh, double factor)
 /// Points without order and with few ties.
 Mesh MakePlane() { return Round(MakeRandomBadMeshDouble(600, 3), 0x1p20); }
 
-/// A lattice with all its ties, badly triangulated.
+/// Points of a lattice, with so many ties that the order of flips decides which triangles come out
+/// unless the rule does.
 Mesh MakeLattice()
 {
-  std::vector<std::array<double, 2>> points;
-  for (int i = 0; i < 12; ++i)
+  std::mt19937 random(1);
+  std::set<std::array<double, 2>> points;
+  for (int i = 0; i < 400; ++i)
   {
-    for (int k = 0; k < 9; ++k)
-    {
-      points.push_back({ double(i), double(k) });
-    }
+    const double x = DrawIndex(random, 24);
+    points.insert({ x, double(DrawIndex(random, 24)) });
   }
-  return MakeSweptMesh(points);
+  return MakeSweptMesh({ points.begin(), points.end() });
 }
 
 /// A plane askew in space, exactly.
