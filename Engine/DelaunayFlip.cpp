@@ -365,8 +365,13 @@ FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   {
     session.Advance(-1, observer, progress);
   }
+  FlipReport report = session.GetReport(); // before anything is written: it takes memory
   session.StoreTriangles(triangles);
-  return session.GetReport();
+  if (session.GetReport().Fallback != report.Fallback) // a GPU may fail while its result is fetched
+  {
+    report = session.GetReport();
+  }
+  return report;
 }
 
 }

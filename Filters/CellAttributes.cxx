@@ -15,7 +15,6 @@
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkSMPThreadLocalObject.h"
 #include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 
@@ -136,15 +135,14 @@ void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyD
   auto normals =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
-  vtkSMPThreadLocalObject<vtkIdList> cells;
   vtkSMPTools::For(0, slots.GetNumberOfPolygons(),
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkIdList* cell = cells.Local();
+      vtkNew<vtkIdList> cell; // vtkSMPThreadLocalObject cannot be destroyed without memory
       for (vtkIdType polygon = begin; polygon < end; ++polygon)
       {
         output->GetPolys()->GetCellAtId(polygon, cell);
-        RenewNormal(points, slots, { polygon, cell }, normals);
+        RenewNormal(points, slots, { polygon, cell.Get() }, normals);
       }
     });
   output->GetCellData()->SetNormals(normals);

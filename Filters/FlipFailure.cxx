@@ -12,12 +12,11 @@
 namespace delaunayflip
 {
 
-FlipFailure Attempt(const std::function<void()>& work)
+FlipFailure ExplainException()
 {
   try
   {
-    work();
-    return {};
+    throw;
   }
   catch (const InvalidOptions& error)
   {

@@ -3,7 +3,6 @@
 #ifndef FlipFailure_h
 #define FlipFailure_h
 
-#include <functional>
 #include <string>
 
 namespace delaunayflip
@@ -18,8 +17,24 @@ struct FlipFailure
   explicit operator bool() const { return this->Kind != 0; }
 };
 
-/// Runs `work`, and turns an exception into a failure.
-FlipFailure Attempt(const std::function<void()>& work);
+/// What the exception that is being handled means.
+FlipFailure ExplainException();
+
+/// Runs `work`, and turns what it throws into a failure. A template, since a std::function takes
+/// memory before anything is tried.
+template <typename Work>
+FlipFailure Attempt(const Work& work)
+{
+  try
+  {
+    work();
+    return {};
+  }
+  catch (...)
+  {
+    return ExplainException();
+  }
+}
 
 }
 

@@ -16,6 +16,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -116,9 +117,9 @@ int vtkDelaunayFlip::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
-  const std::string type = blocks ? blocks->GetClassName() : "vtkPolyData";
+  const char* type = blocks ? blocks->GetClassName() : "vtkPolyData";
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  if (!output || type != output->GetClassName())
+  if (!output || std::strcmp(type, output->GetClassName()) != 0)
   {
     const auto made = vtkSmartPointer<vtkDataObject>::Take(
       blocks ? static_cast<vtkDataObject*>(blocks->NewInstance()) : vtkPolyData::New());

@@ -582,6 +582,7 @@ private:
     vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
   delaunayflip::MeshOutcome TryToFlip(const Connection& data);
   void Flip(const Connection& data);
+  void GiveUp(vtkDataObject* output);
   void Tell(const delaunayflip::UpdateSummary& summary, bool aloud);
   delaunayflip::FlipOptions GetOptions() const;
   void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);

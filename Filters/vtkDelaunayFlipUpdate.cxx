@@ -78,25 +78,58 @@ int vtkDelaunayFlip::RequestData(
   auto* mesh = vtkPolyData::SafeDownCast(output);
   const FlagScope atWork(this->IsAtWork);
   this->HasExecuted = true;
-  UpdateSummary summary = blocks
-    ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
-    : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
-  const bool isFirst = JoinRanks(summary, piece);
-  if (this->LiveUpdate && (blocks || piece.Count > 1))
+  UpdateSummary summary;
+  const FlipFailure failure = Attempt(
+    [&]()
+    {
+      summary = blocks
+        ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
+        : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
+      if (this->LiveUpdate && (blocks || piece.Count > 1))
+      {
+        summary.Warnings.push_back(
+          { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+      }
+    });
+  if (failure)
   {
-    summary.Warnings.push_back(
-      { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+    summary = UpdateSummary();
+    this->GiveUp(output);
+    summary.AddMesh({ *this->Report, failure, "" }, 0, "");
   }
-  this->Tell(summary, isFirst);
-  // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
-  AddIterationColumns(isFirst ? *this->Report : UpdateReport(), "", table->GetRowData());
-  if (mesh && piece.Count > 1)
+  const bool isFirst = JoinRanks(summary, piece); // every rank comes here, whatever has failed
+  const FlipFailure untold = Attempt(
+    [&]()
+    {
+      // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
+      AddIterationColumns(isFirst ? summary.Report : UpdateReport(), "", table->GetRowData());
+      if (mesh && piece.Count > 1)
+      {
+        RenewFieldData(summary.Report, mesh->GetFieldData());
+      }
+      this->Tell(summary, isFirst);
+    });
+  if (untold)
   {
-    RenewFieldData(*this->Report, mesh->GetFieldData());
+    this->GiveUp(output);
+    table->Initialize();
+    UpdateSummary nothing;
+    nothing.AddMesh({ *this->Report, untold, "" }, 0, "");
+    this->Tell(nothing, true);
   }
   // Even after an error: 0 would keep filters downstream from executing, and a representation of
   // ParaView that did not execute ignores all later changes.
   return 1;
+}
+
+//------------------------------------------------------------------------------
+/// Leaves nothing half done.
+void vtkDelaunayFlip::GiveUp(vtkDataObject* output)
+{
+  this->Run.reset();
+  this->MayGoOn = false;
+  *this->Report = UpdateReport();
+  output->Initialize();
 }
 
 //------------------------------------------------------------------------------
@@ -215,9 +248,7 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
   outcome.Failure = Attempt([&]() { this->Flip(data); });
   if (outcome.Failure)
   {
-    *this->Report = UpdateReport();
-    this->MayGoOn = false;
-    data.Output->Initialize();
+    this->GiveUp(data.Output);
   }
   outcome.Report = *this->Report;
   outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Each allocation of the engine fails once: an error, and the caller's arrays are as they were.
+
+#include "FailingAllocations.h"
+
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+#include "MeshAudit.h"
+#include "PolygonSplit.h"
+#include "TriangleAngles.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <new>
+#include <vector>
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr std::size_t Megabyte = std::size_t(1) << 20;
+
+using Ids = std::vector<std::int32_t>;
+
+/// Runs `work` with its first allocation failing, its second, and so on until it gets through.
+/// @returns how many there were.
+std::int64_t FailEach(const std::function<void()>& work, const std::function<void()>& checkFailed,
+  std::size_t smallest = 0)
+{
+  for (std::int64_t number = 1;; ++number)
+  {
+    bool hasThrown = false;
+    FailingAllocations failing(number, smallest);
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc&)
+    {
+      hasThrown = true;
+    }
+    if (!FailingAllocations::Stop())
+    {
+      EXPECT_FALSE(hasThrown);
+      return number - 1;
+    }
+    EXPECT_TRUE(hasThrown) << "allocation " << number;
+    checkFailed();
+    if (testing::Test::HasFailure())
+    {
+      ADD_FAILURE() << "allocation " << number;
+      return number;
+    }
+  }
+}
+
+/// Of a whole run, into an array of its own.
+void ExpectFailuresReported(
+  const OwnedMesh<double>& owned, FlipOptions options, std::size_t smallest = 0)
+{
+  options.Backend = BackendKind::Threads;
+  Ids expected(owned.Triangles.size());
+  const MutableTriangleArray all(expected.data(), owned.NumberOfTriangles());
+  FlipToDelaunay(owned.View(), options, all); // also what a process allocates only once
+  const Ids untouched(owned.Triangles.size(), -7);
+  const OwnedMesh<double> before = owned;
+  Ids output = untouched;
+  const std::int64_t count = FailEach(
+    [&]()
+    {
+      FlipToDelaunay(
+        owned.View(), options, MutableTriangleArray(output.data(), owned.NumberOfTriangles()));
+    },
+    [&]()
+    {
+      EXPECT_TRUE(output == untouched);
+      EXPECT_TRUE(owned.Triangles == before.Triangles && owned.Points == before.Points);
+    },
+    smallest);
+  EXPECT_TRUE(output == expected);
+  EXPECT_GE(count, smallest > 0 ? 3 : 30);
+}
+
+FlipOptions WithThreads(int threads, GeometryKind geometry)
+{
+  FlipOptions options;
+  options.NumberOfThreads = threads;
+  options.Geometry = geometry;
+  options.TrackQuality = true;
+  return options;
+}
+
+}
+
+TEST(EngineAllocations, OfAPlaneFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
+  ExpectFailuresReported(mesh, WithThreads(1, GeometryKind::Auto));
+}
+
+TEST(EngineAllocations, OnThreadsFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(6000, 1);
+  ExpectFailuresReported(mesh, WithThreads(3, GeometryKind::Auto));
+}
+
+TEST(EngineAllocations, OfASurfaceFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
+  ExpectFailuresReported(mesh, WithThreads(1, GeometryKind::Surface));
+}
+
+/// Blocks of a megabyte and more are mapped.
+TEST(EngineAllocations, OfALargeMeshFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(70000, 1);
+  ExpectFailuresReported(mesh, WithThreads(2, GeometryKind::Auto), Megabyte);
+}
+
+TEST(EngineAllocations, OfOtherFunctionsFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
+  std::vector<double> angles(mesh.NumberOfTriangles());
+  const std::function<void()> nothing = []() {};
+  EXPECT_GT(FailEach([&]() { CountNonDelaunayEdges(mesh.View(), {}); }, nothing), 1);
+  EXPECT_GT(FailEach([&]() { FindFixedEdges(mesh.View(), {}); }, nothing), 1);
+  FailEach(
+    [&]() { FindSmallestAngles(mesh.View(), GeometryKind::Planar, 2, angles.data()); }, nothing);
+}
+
+/// Between iterations a session keeps what it has; after a failure it can be asked again.
+TEST(EngineAllocations, OfASessionLeaveItUsable)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
+  Ids expected(mesh.Triangles.size());
+  FlipToDelaunay(mesh.View(), {}, MutableTriangleArray(expected.data(), mesh.NumberOfTriangles()));
+  Ids output(mesh.Triangles.size());
+  const MutableTriangleArray target(output.data(), mesh.NumberOfTriangles());
+  FlipSession session(mesh.View(), {});
+  session.Advance(3);
+  FailEach([&]() { session.StoreTriangles(target); }, []() {});
+  session.Advance(-1);
+  session.StoreTriangles(target);
+  EXPECT_TRUE(output == expected);
+}
+
+}

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FailingAllocations.h"
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace
+{
+
+std::atomic<bool> isOn{ false };
+std::atomic<std::int64_t> left{ 0 };
+std::atomic<std::size_t> smallestCounted{ 0 };
+
+/// What lies at an address: the program itself, the filter, VTK, or something else.
+enum class Owner
+{
+  Ours,
+  Vtk,
+  Other
+};
+
+Owner FindOwner(void* address)
+{
+  Dl_info info;
+  if (!dladdr(address, &info) || !info.dli_fname)
+  {
+    return Owner::Other;
+  }
+  if (std::strstr(info.dli_fname, "vtkDelaunayFlip") ||
+    std::strstr(info.dli_fname, "DelaunayFlipEngineAllocation"))
+  {
+    return Owner::Ours;
+  }
+  return std::strstr(info.dli_fname, "libvtk") ? Owner::Vtk : Owner::Other;
+}
+
+/// Whether the call from `caller` is the one to fail.
+bool IsToFail(std::size_t bytes, void* caller, bool isArray)
+{
+  if (!isOn || bytes < smallestCounted)
+  {
+    return false;
+  }
+  const Owner owner = FindOwner(caller);
+  const bool isCounted = owner == Owner::Ours || (isArray && owner == Owner::Vtk);
+  return isCounted && --left == 0;
+}
+
+void* AllocateOrThrow(std::size_t bytes, void* caller)
+{
+  void* memory = IsToFail(bytes, caller, false) ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+}
+
+FailingAllocations::FailingAllocations(std::int64_t number, std::size_t smallest)
+{
+  smallestCounted = smallest;
+  left = number;
+  isOn = true;
+}
+
+FailingAllocations::~FailingAllocations() { isOn = false; }
+
+bool FailingAllocations::HasFailed() { return left <= 0; }
+
+bool FailingAllocations::Stop()
+{
+  isOn = false;
+  return HasFailed();
+}
+
+void* operator new(std::size_t bytes)
+{
+  return AllocateOrThrow(bytes, __builtin_return_address(0));
+}
+
+void* operator new[](std::size_t bytes)
+{
+  return AllocateOrThrow(bytes, __builtin_return_address(0));
+}
+
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  return IsToFail(bytes, __builtin_return_address(0), false) ? nullptr
+                                                             : std::malloc(bytes > 0 ? bytes : 1);
+}
+
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  return IsToFail(bytes, __builtin_return_address(0), false) ? nullptr
+                                                             : std::malloc(bytes > 0 ? bytes : 1);
+}
+
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+// The symbols of this program replace those of its libraries only where they are visible.
+#pragma GCC visibility push(default)
+extern "C"
+{
+
+  void* __libc_malloc(std::size_t bytes);
+  void* __libc_realloc(void* memory, std::size_t bytes);
+  void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+
+  /// VTK's arrays come from here, and from realloc.
+  void* malloc(std::size_t bytes)
+  {
+    const bool fails = isOn && bytes >= 1024 && IsToFail(bytes, __builtin_return_address(0), true);
+    return fails ? nullptr : __libc_malloc(bytes);
+  }
+
+  void* realloc(void* memory, std::size_t bytes)
+  {
+    const bool fails = isOn && bytes >= 1024 && IsToFail(bytes, __builtin_return_address(0), true);
+    return fails ? nullptr : __libc_realloc(memory, bytes);
+  }
+
+  int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes)
+  {
+    *memory = IsToFail(bytes, __builtin_return_address(0), true)
+      ? nullptr
+      : __libc_memalign(alignment, bytes);
+    return *memory ? 0 : ENOMEM;
+  }
+
+  void* mmap(void* place, std::size_t bytes, int protection, int flags, int file, off_t offset)
+  {
+    if (IsToFail(bytes, __builtin_return_address(0), true))
+    {
+      errno = ENOMEM;
+      return MAP_FAILED;
+    }
+    return reinterpret_cast<void*>(
+      syscall(SYS_mmap, place, bytes, protection, flags, file, offset));
+  }
+}
+
+#pragma GCC visibility pop
+
+#endif
