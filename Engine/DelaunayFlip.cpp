@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
+#include "ConstraintInsertion.h"
 #include "EngineChoice.h"
 #include "FlipLoop.h"
 #include "InputChecks.h"
@@ -23,6 +24,10 @@ namespace
 /// Iterations that a surface may take beyond its number of triangles before the loop gives up.
 constexpr std::int64_t SafetyMargin = 1000;
 constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
+
+/// Share of a run that the insertion of constraints takes, where there are any: it builds an edge
+/// mesh of its own.
+constexpr double InsertionShare = 0.3;
 
 class StopWatch
 {
@@ -104,7 +109,10 @@ public:
   {
     if (this->Engine)
     {
-      this->Engine->StoreTriangles(triangles);
+      const TriangleArray& input = this->Mesh.Triangles;
+      const bool isInput = (triangles.Ids32 && triangles.Ids32 == input.Ids32) ||
+        (triangles.Ids64 && triangles.Ids64 == input.Ids64);
+      this->Engine->StoreTriangles(triangles, isInput);
       return;
     }
     for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
@@ -119,6 +127,7 @@ public:
     if (this->Engine)
     {
       this->Engine->StoreFlipCounts(counts);
+      this->Insertion.AddFlipCounts(counts);
       return;
     }
     std::fill_n(counts, this->Mesh.Triangles.Count, 0);
@@ -135,11 +144,9 @@ private:
   /// @returns false if the observer stopped it. Then, and after an exception, there is no engine.
   bool TryToBuild(const ProgressObserver& observer)
   {
-    const BuildProgress progress(
-      [&](double fraction) { return this->Progress.Tell(observer, fraction); });
     try
     {
-      this->Build(progress);
+      this->Build([&](double share) { return this->Progress.Tell(observer, share); });
       return true;
     }
     catch (const BuildAborted&)
@@ -155,11 +162,17 @@ private:
     }
   }
 
-  void Build(const BuildProgress& progress)
+  void Build(const ProgressObserver& tell)
   {
     const StopWatch watch;
-    this->Engine.emplace(this->Mesh, this->Options, progress);
+    this->Insertion = ConstraintInsertion(
+      this->Mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
+    const double begin = this->Insertion.HasFlips() ? InsertionShare : 0.0;
+    const BuildProgress progress([&](double share) { return tell(begin + (1.0 - begin) * share); });
+    this->Engine.emplace(
+      this->Insertion.GetMesh(this->Mesh), this->Insertion.GetOptions(this->Options), progress);
     this->Report = this->Engine->GetInputReport();
+    this->Insertion.AddTo(this->Report);
     progress.Reach(this->Report.GeometryUsed, BuildStep::Prepared);
     this->Report.MinimumAngleBefore = this->MeasureAngle();
     this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
@@ -173,6 +186,7 @@ private:
   void Forget()
   {
     this->Engine.reset();
+    this->Insertion = ConstraintInsertion();
     this->Report = FlipReport();
     this->Report.Points = this->Mesh.Points.Count;
     this->Report.Triangles = this->Mesh.Triangles.Count;
@@ -312,6 +326,7 @@ private:
   void FindHarm()
   {
     this->Report.Defects = this->Engine->GetInputReport().Defects;
+    this->Insertion.AddTo(this->Report.Defects);
     const Defect turned = this->IsRunning() ? Defect() : this->Engine->FindTurnedTriangles();
     if (turned.Count > 0)
     {
@@ -321,6 +336,7 @@ private:
 
   TriangleMesh Mesh;
   FlipOptions Options;
+  ConstraintInsertion Insertion; ///< The engine starts from its arrays.
   std::optional<ChosenEngine> Engine; ///< None if its build was aborted.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last Detect.

@@ -65,9 +65,10 @@ private:
   std::unique_ptr<Implementation> Impl;
 };
 
-/// Finds the interior edges (edges with two triangles) that never flip in a run with these options.
-/// To keep exactly these edges fixed after points have been moved, pass them as constraint edges,
-/// with a feature angle of 180, to a run over the same or the flipped triangles.
+/// Finds the interior edges (edges with two triangles) that never flip in a run with these options,
+/// including those of inserted constraints. To keep exactly these edges fixed after points have
+/// been moved, pass them as constraint edges, with a feature angle of 180, to a run over the same
+/// or the flipped triangles.
 /// @returns pairs of vertex ids.
 /// @throws the same as FlipSession's constructor.
 DELAUNAYFLIP_EXPORT std::vector<std::int64_t> FindFixedEdges(

@@ -72,18 +72,16 @@ double ChosenEngine::FindLargestSquaredCotangent()
     [](FlipEngine& engine) { return engine.GetLoop().FindLargestSquaredCotangent(); });
 }
 
-void ChosenEngine::StoreTriangles(const MutableTriangleArray& triangles)
+void ChosenEngine::StoreTriangles(const MutableTriangleArray& triangles, bool atOnce)
 {
-  const bool isInput = (triangles.Ids32 && triangles.Ids32 == this->Mesh.Triangles.Ids32) ||
-    (triangles.Ids64 && triangles.Ids64 == this->Mesh.Triangles.Ids64);
   this->Run(
     [&](const FlipEngine& engine)
     {
-      if (isInput && triangles.Ids32)
+      if (atOnce && triangles.Ids32)
       {
         StoreAtOnce(engine, triangles.Ids32, triangles.Count);
       }
-      else if (isInput)
+      else if (atOnce)
       {
         StoreAtOnce(engine, triangles.Ids64, triangles.Count);
       }

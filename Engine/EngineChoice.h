@@ -39,8 +39,9 @@ public:
   StepCounts GetFound() const { return this->Engine->GetLoop().GetFound(); }
   double FindLargestSquaredCotangent();
 
-  // The same as FlipEngine's. The triangles may be those of the input.
-  void StoreTriangles(const MutableTriangleArray& triangles);
+  // The same as FlipEngine's. With `atOnce`, as for the caller's input, nothing is written until
+  // the whole result is known.
+  void StoreTriangles(const MutableTriangleArray& triangles, bool atOnce);
   void StoreFlipCounts(std::int32_t* counts);
   Defect FindTurnedTriangles();
   void Audit();

@@ -97,11 +97,11 @@ std::string DescribeDefects(const std::vector<Defect>& defects)
   for (const Defect& defect : defects)
   {
     text += (text.empty() ? "" : "; ") + CountDefect(defect);
-    const char* separator = " (first: ";
-    for (const std::int64_t id : defect.FirstIds)
+    const bool isPaired = defect.Ids == DefectIds::PointPairs;
+    for (std::size_t i = 0; i < defect.FirstIds.size(); ++i)
     {
-      text += separator + std::to_string(id);
-      separator = ", ";
+      const char* next = isPaired && i % 2 == 1 ? "-" : ", ";
+      text += (i == 0 ? " (first: " : next) + std::to_string(defect.FirstIds[i]);
     }
     text += defect.FirstIds.empty() ? "" : ")";
   }

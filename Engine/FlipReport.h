@@ -57,7 +57,8 @@ struct EdgeCounts
 enum class DefectIds
 {
   Triangles, ///< The caller's triangle slots.
-  Points
+  Points,
+  PointPairs ///< Two ids for each: ends of edges, in the caller's order.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.
@@ -65,7 +66,7 @@ struct Defect
 {
   std::string What; ///< In words, e.g. "triangles with a repeated point id".
   std::int64_t Count = 0; ///< How many.
-  std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty if ids would not help.
+  std::vector<std::int64_t> FirstIds; ///< Of at most three, ascending; empty if ids would not help.
   DefectIds Ids = DefectIds::Triangles;
 };
 
@@ -74,7 +75,11 @@ struct FlipReport
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   EdgeCounts Edges;
-  std::int64_t UnmatchedConstraints = 0; ///< Constraint edges that are not edges of the mesh.
+  std::int64_t UnmatchedConstraints = 0; ///< Constraint edges that are not edges of the mesh and
+                                         ///< were not inserted.
+  std::int64_t InsertedConstraints = 0; ///< Constraint edges that flips turned into edges, or
+                                        ///< chains of edges, before the first iteration.
+  std::int64_t ConstraintFlips = 0; ///< How many flips that took. Not in TotalFlips or Iterations.
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
@@ -89,7 +94,7 @@ struct FlipReport
   std::int64_t TotalFlips = 0;
   std::int64_t TotalExcluded = 0;
   std::int64_t TotalBlocked = 0;
-  std::int64_t NonDelaunayBefore = 0; ///< Bad edges of the input that are not fixed.
+  std::int64_t NonDelaunayBefore = 0; ///< Bad edges before the first iteration that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
   std::int64_t BlockedByShape = 0; ///< Of these, those whose flip would fold the mesh over.
   std::int64_t BlockedByEdge = 0; ///< And those whose flip would create an edge that exists.

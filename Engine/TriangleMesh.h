@@ -114,6 +114,13 @@ struct TriangleMesh
   const std::int64_t* ConstraintEdges = nullptr;
   std::int64_t NumberOfConstraintEdges = 0;
 
+  /// One flag per constraint edge, or null. In planar geometry, constraint edges with a non-zero
+  /// flag that are not edges of the mesh are inserted before the first iteration: flips turn each
+  /// into an edge, or into a chain of edges if it passes through vertices. Constraint edges that
+  /// are edges already are fixed first; the others follow in their order. One that would cross an
+  /// edge that stays, or leave the mesh, is not inserted.
+  const unsigned char* ConstraintsToInsert = nullptr;
+
   /// One label per triangle, or null. Edges between triangles with different labels stay.
   const std::int32_t* Regions = nullptr;
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BackendEngine.h"
+#include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "ThreadBackend.h"
 #include "ThreadFlipLoop.h"
@@ -40,13 +41,16 @@ std::vector<std::int64_t> ListFixedEdges(EdgeMesh& edges, const SpatialOrderView
 }
 }
 
-std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& mesh, const FlipOptions& options)
+std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& caller, const FlipOptions& options)
 {
   CheckOptions(options);
-  CheckMeshSize(mesh);
+  CheckMeshSize(caller);
+  const ConstraintInsertion insertion(caller, options, {});
+  const TriangleMesh mesh = insertion.GetMesh(caller);
   const ThreadBackend backend(options.NumberOfThreads);
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
+  const MeshSurvey survey =
+    BuildMeshSurvey(input, insertion.GetOptions(options).Geometry, backend);
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);

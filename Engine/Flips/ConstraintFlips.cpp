@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ConstraintFlips.h"
+
+#include "EdgeFlip.h"
+#include "FlipRules.h"
+
+namespace delaunayflip
+{
+
+namespace
+{
+struct CertainSigns
+{
+  static int Orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+  {
+    return FindOrientation(a, b, c);
+  }
+};
+}
+
+ConstraintFlips::ConstraintFlips(
+  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table)
+  : Mesh(mesh),
+    Table(table),
+    Fans(mesh, vertices, triangles)
+{
+}
+
+PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
+{
+  ConstraintPath path = this->FindFreePath(from, to);
+  if (path.Result != PathResult::Found)
+  {
+    return path.Result;
+  }
+  for (Rim& rim : path.Pieces)
+  {
+    if (!this->Straighten(rim))
+    {
+      return PathResult::Overlaps;
+    }
+  }
+  for (const Rim& rim : path.Pieces)
+  {
+    this->Mesh.Edges.States[EdgeOf(rim.front())] = EdgeState::Fixed;
+    this->Pieces.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
+  }
+  return PathResult::Found;
+}
+
+/// The path when triangles without area are flipped out of its way.
+ConstraintPath ConstraintFlips::FindFreePath(VertexId from, VertexId to)
+{
+  ConstraintPath path = FindPath(this->Mesh, this->Fans, from, to);
+  while (path.Result == PathResult::IsBarred)
+  {
+    if (!this->Unbar(path.Bar))
+    {
+      path.Result = PathResult::Overlaps;
+      break;
+    }
+    path = FindPath(this->Mesh, this->Fans, from, to);
+  }
+  return path;
+}
+
+/// Cuts ears off the triangles that a piece of a constraint crosses until their rim is that piece.
+/// A rim that is not straight always has an ear (Documentation/method.md).
+/// @returns false where triangles overlap so that there is none.
+bool ConstraintFlips::Straighten(Rim& rim)
+{
+  Rim kept;
+  for (HalfEdgeId next : rim)
+  {
+    while (!kept.empty() && this->IsEar(kept.back(), next))
+    {
+      if (!this->CutEar(kept.back(), next))
+      {
+        return false;
+      }
+      // Of the ear, the third side; of what is left, its other side.
+      const CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[kept.back()]);
+      next = this->Mesh.GetHalfEdge(corner) ^ 1u;
+      kept.pop_back();
+    }
+    kept.push_back(next);
+  }
+  rim = std::move(kept);
+  return rim.size() == 1;
+}
+
+/// Whether the triangles at the vertex between two half-edges of a rim cover less than half a turn.
+bool ConstraintFlips::IsEar(HalfEdgeId first, HalfEdgeId second) const
+{
+  const int turn = this->Mesh.FindTurnAt(this->Mesh.Edges.CornerOfHalfEdge[first]);
+  return turn != 0 &&
+    this->Mesh.FindTurn(
+      this->Mesh.GetEnd(first), this->Mesh.GetStart(first), this->Mesh.GetStart(second)) == -turn;
+}
+
+/// Flips edges away from the vertex between two half-edges of a rim, until one triangle is left
+/// there that has both.
+bool ConstraintFlips::CutEar(HalfEdgeId first, HalfEdgeId second)
+{
+  if (!this->ListFan(first, second))
+  {
+    return false;
+  }
+  std::vector<EdgeId> left;
+  for (const EdgeId edge : this->Fan)
+  {
+    left.push_back(edge);
+    while (!left.empty() && this->TryFlip(left.back()))
+    {
+      left.pop_back();
+    }
+  }
+  return left.empty();
+}
+
+/// Lists the edges between two half-edges of a rim, around the vertex that these share.
+bool ConstraintFlips::ListFan(HalfEdgeId first, HalfEdgeId second)
+{
+  this->Fan.clear();
+  const CornerId start = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[first]);
+  CornerId corner = start;
+  HalfEdgeId side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+  while (side != second)
+  {
+    this->Fan.push_back(EdgeOf(side));
+    corner = this->Mesh.FindNextAround(corner);
+    if (corner == NoCorner || corner == start)
+    {
+      return false;
+    }
+    side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+  }
+  return true;
+}
+
+/// Flips a triangle without area away, and before it others on which it leans with its long side:
+/// the next one's is longer, so that there is a last one.
+bool ConstraintFlips::Unbar(TriangleId bar)
+{
+  std::vector<EdgeId> sides;
+  for (TriangleId flat = bar; this->IsFlat(flat);)
+  {
+    const HalfEdgeId side = this->GetLongSide(flat);
+    if (side == NoHalfEdge || this->Mesh.IsFixed(side) ||
+      (!sides.empty() && sides.back() == EdgeOf(side)))
+    {
+      return false;
+    }
+    sides.push_back(EdgeOf(side));
+    flat = TriangleOf(this->Mesh.FindAcross(side));
+  }
+  bool flipped = true;
+  for (auto side = sides.rbegin(); side != sides.rend() && flipped; ++side)
+  {
+    flipped = this->TryFlip(*side);
+  }
+  return flipped;
+}
+
+bool ConstraintFlips::IsFlat(TriangleId triangle) const
+{
+  return this->Mesh.FindTurnAt(MakeCorner(triangle, 0)) == 0;
+}
+
+/// Of a triangle without area, the side that holds all three points; NoHalfEdge where two coincide.
+HalfEdgeId ConstraintFlips::GetLongSide(TriangleId flat) const
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const CornerId corner = MakeCorner(flat, slot);
+    const PlanePoint at = this->Mesh.GetPoint(this->Mesh.GetVertex(corner));
+    const PlanePoint next = this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(corner)));
+    const PlanePoint previous =
+      this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Previous(corner)));
+    const bool isBetween =
+      (IsLexicographicallyLess(next, at) && IsLexicographicallyLess(at, previous)) ||
+      (IsLexicographicallyLess(previous, at) && IsLexicographicallyLess(at, next));
+    if (isBetween)
+    {
+      return this->Mesh.GetHalfEdge(corner);
+    }
+  }
+  return NoHalfEdge;
+}
+
+bool ConstraintFlips::TryFlip(EdgeId edge)
+{
+  const EdgeMeshView& mesh = this->Mesh.Edges;
+  if (mesh.States[edge] == EdgeState::Fixed)
+  {
+    return false;
+  }
+  const Quad quad = mesh.GetQuad(edge);
+  const std::uint64_t key = EdgeKey(quad.A, quad.B);
+  bool fresh = false;
+  if (!this->IsConvex(quad) || this->Table.Find(key) != EdgeTableView::NoSlot ||
+    !this->Table.InsertNew(key, fresh))
+  {
+    return false;
+  }
+  this->Table.Remove(EdgeKey(quad.P, quad.Q));
+  const OuterHalfEdges outer = FlipEdge(mesh, edge, quad, mesh.Triangles[TriangleOf(quad.CornerA)],
+    mesh.Triangles[TriangleOf(quad.CornerB)], nullptr);
+  this->Fans.NoteFlip(edge, quad, outer.PB, outer.QA);
+  ++this->Flips;
+  return true;
+}
+
+/// Whether both triangles have the same side after the flip, strictly, and before it, at least one.
+bool ConstraintFlips::IsConvex(const Quad& quad) const
+{
+  const PlanePoint apqb[4] = { this->Mesh.GetPoint(quad.A), this->Mesh.GetPoint(quad.P),
+    this->Mesh.GetPoint(quad.Q), this->Mesh.GetPoint(quad.B) };
+  bool strict = true;
+  const int side = FindSide<CertainSigns>(apqb, strict);
+  return side != 0 && CheckConvex<CertainSigns>(apqb, side) == EdgeState::Bad;
+}
+
+}

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CONSTRAINTFLIPS_H
+#define DELAUNAYFLIP_CONSTRAINTFLIPS_H
+
+#include "ConstraintPath.h"
+#include "EdgeTable.h"
+#include "PlaneMesh.h"
+#include "VertexFans.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Makes constraints edges of a mesh, one after the other, by flips of the edges that cross them.
+///
+/// Each flip turns two triangles into two that turn to the same side, and makes no edge that
+/// exists. So whatever the mesh, it stays what it was; and where a constraint cannot be inserted,
+/// flips made for it do no harm.
+class ConstraintFlips
+{
+public:
+  /// @param table of the vertex pairs of all edges.
+  ConstraintFlips(
+    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table);
+
+  /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
+  PathResult Insert(VertexId from, VertexId to);
+
+  /// The ends of the edges that constraints have become, in the order of insertion.
+  const std::vector<std::pair<VertexId, VertexId>>& GetPieces() const { return this->Pieces; }
+
+  std::int64_t GetNumberOfFlips() const { return this->Flips; }
+
+private:
+  using Rim = ConstraintPath::Rim;
+
+  ConstraintPath FindFreePath(VertexId from, VertexId to);
+  bool Straighten(Rim& rim);
+  bool IsEar(HalfEdgeId first, HalfEdgeId second) const;
+  bool CutEar(HalfEdgeId first, HalfEdgeId second);
+  bool ListFan(HalfEdgeId first, HalfEdgeId second);
+  bool Unbar(TriangleId bar);
+  HalfEdgeId GetLongSide(TriangleId flat) const;
+  bool IsFlat(TriangleId triangle) const;
+  bool TryFlip(EdgeId edge);
+  bool IsConvex(const Quad& quad) const;
+
+  const PlaneMesh& Mesh;
+  EdgeTableView Table;
+  VertexFans Fans;
+  std::vector<EdgeId> Fan; ///< Of the ear that is cut.
+  std::vector<std::pair<VertexId, VertexId>> Pieces;
+  std::int64_t Flips = 0;
+};
+
+}
+
+#endif

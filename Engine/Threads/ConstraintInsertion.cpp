@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ConstraintInsertion.h"
+
+#include "BackendEngine.h"
+#include "ConstraintFlips.h"
+#include "EdgeMeshBuilder.h"
+#include "MeshSurveyBuilder.h"
+#include "MissingConstraints.h"
+#include "ThreadBackend.h"
+
+#include <array>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Shares of the time that an insertion takes: the edge mesh, and all constraints.
+constexpr double BuildShare = 0.6;
+constexpr double FlipShare = 0.95;
+
+/// Constraints between two calls of the observer, a few milliseconds.
+constexpr std::size_t ConstraintsPerCall = 64;
+
+void Tell(const ProgressObserver& progress, double share)
+{
+  if (progress && !progress(share))
+  {
+    throw BuildAborted();
+  }
+}
+
+/// Why constraints cannot be inserted.
+enum class Refusal
+{
+  Leaves,
+  Crosses,
+  Overlaps,
+  Surface
+};
+
+const char* Describe(Refusal refusal)
+{
+  switch (refusal)
+  {
+    case Refusal::Leaves:
+      return "constraint edges that cannot be inserted because they leave the mesh";
+    case Refusal::Crosses:
+      return "constraint edges that cannot be inserted because they cross edges that stay";
+    case Refusal::Overlaps:
+      return "constraint edges that cannot be inserted where triangles overlap or points coincide";
+    case Refusal::Surface:
+      break;
+  }
+  return "constraint edges that are not edges of the mesh and cannot be inserted on a surface";
+}
+
+Refusal ToRefusal(PathResult result)
+{
+  return result == PathResult::LeavesMesh
+    ? Refusal::Leaves
+    : (result == PathResult::CrossesFixedEdge ? Refusal::Crosses : Refusal::Overlaps);
+}
+}
+
+/// Fills a ConstraintInsertion.
+class ConstraintInserter
+{
+public:
+  ConstraintInserter(ConstraintInsertion& target, const TriangleMesh& mesh,
+    const FlipOptions& options, const ProgressObserver& progress)
+    : Target(target),
+      Mesh(mesh),
+      Options(options),
+      Progress(progress),
+      Backend(options.NumberOfThreads)
+  {
+  }
+
+  void Run()
+  {
+    this->Missing = FindMissingConstraints(this->Mesh, this->Backend);
+    if (this->Missing.First.empty())
+    {
+      return;
+    }
+    const MeshInput input{ this->Mesh, this->Mesh };
+    const MeshSurvey survey = BuildMeshSurvey(input, this->Options.Geometry, this->Backend);
+    this->KeepOthers();
+    if (survey.Geometry == GeometryKind::Surface)
+    {
+      for (const std::int64_t constraint : this->Missing.First)
+      {
+        this->Refuse(constraint, Refusal::Surface);
+      }
+    }
+    else
+    {
+      this->Flip(input, survey);
+    }
+    this->NameRefused();
+  }
+
+private:
+  /// All constraints but the missing ones go to the engine as they are.
+  void KeepOthers()
+  {
+    this->Target.HasEdges = true;
+    for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
+    {
+      const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
+      if (!this->Missing.IsMissing[i])
+      {
+        this->Target.Edges.insert(this->Target.Edges.end(), ends, ends + 2);
+      }
+    }
+  }
+
+  void Flip(const MeshInput& input, const MeshSurvey& survey)
+  {
+    const SpatialOrder order = OrderMesh(input, survey, this->Backend);
+    const EdgeMeshInput edges{ input, survey, order, this->Options.FeatureAngle };
+    const BuildProgress progress([this](double share)
+      { return !this->Progress || this->Progress(std::min(1.0, share) * BuildShare); });
+    EdgeMeshResult built =
+      BuildEdgeMesh(edges, LoadTriangles(edges, this->Backend), this->Backend, progress);
+    const PlaneMesh plane{ built.Edges.View(), this->Mesh.Points, order.View(), survey.Projection };
+    ConstraintFlips flips(
+      plane, this->Mesh.Points.Count, this->Mesh.Triangles.Count, built.Table.View());
+    Tell(this->Progress, BuildShare);
+    this->InsertAll(flips, order.View());
+    this->Target.Flips = flips.GetNumberOfFlips();
+    if (this->Target.Flips > 0)
+    {
+      this->Target.Geometry = survey.Geometry;
+      this->Target.GeometryReason = survey.GeometryReason;
+      this->Store(built.Edges, order.View());
+    }
+    this->StorePieces(flips, order.View());
+  }
+
+  void InsertAll(ConstraintFlips& flips, const SpatialOrderView& order)
+  {
+    const std::vector<std::int64_t>& missing = this->Missing.First;
+    for (std::size_t i = 0; i < missing.size(); ++i)
+    {
+      const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * missing[i];
+      const PathResult result = flips.Insert(order.GetRank(ends[0]), order.GetRank(ends[1]));
+      if (result == PathResult::Found)
+      {
+        ++this->Target.Inserted;
+      }
+      else
+      {
+        this->Refuse(missing[i], ToRefusal(result));
+      }
+      if (i % ConstraintsPerCall == 0)
+      {
+        const double share = static_cast<double>(i) / static_cast<double>(missing.size());
+        Tell(this->Progress, BuildShare + (FlipShare - BuildShare) * share);
+      }
+    }
+  }
+
+  void StorePieces(const ConstraintFlips& flips, const SpatialOrderView& order)
+  {
+    for (const auto& [from, to] : flips.GetPieces())
+    {
+      this->Target.Edges.push_back(order.GetVertex(from));
+      this->Target.Edges.push_back(order.GetVertex(to));
+    }
+  }
+
+  void Store(EdgeMesh& edges, const SpatialOrderView& order)
+  {
+    const std::int64_t count = edges.NumberOfTriangles;
+    const bool isNarrow = this->Mesh.Triangles.Ids32 != nullptr;
+    this->Target.Ids32.resize(isNarrow ? 3 * count : 0);
+    this->Target.Ids64.resize(isNarrow ? 0 : 3 * count);
+    this->Backend.StoreTriangles(isNarrow ? MutableTriangleArray(this->Target.Ids32.data(), count)
+                                          : MutableTriangleArray(this->Target.Ids64.data(), count),
+      StoreStep{ edges.Triangles.Data(), order });
+    for (std::int64_t t = 0; t < count; ++t)
+    {
+      const TriangleRecord& triangle = edges.Triangles[t];
+      const auto flips = static_cast<std::int32_t>(triangle.Flips / OneFlip);
+      if (flips > 0)
+      {
+        this->Target.FlipCounts.emplace_back(triangle.InputTriangle, flips);
+      }
+    }
+  }
+
+  void Refuse(std::int64_t constraint, Refusal refusal)
+  {
+    const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
+    Defect& defect = this->Refused[static_cast<std::size_t>(refusal)];
+    constexpr std::int64_t Named = 3;
+    if (defect.Count++ < Named)
+    {
+      defect.FirstIds.insert(defect.FirstIds.end(), ends, ends + 2);
+    }
+  }
+
+  void NameRefused()
+  {
+    for (std::size_t i = 0; i < this->Refused.size(); ++i)
+    {
+      if (this->Refused[i].Count > 0)
+      {
+        this->Refused[i].What = Describe(static_cast<Refusal>(i));
+        this->Refused[i].Ids = DefectIds::PointPairs;
+        this->Target.Refused.push_back(this->Refused[i]);
+      }
+    }
+  }
+
+  ConstraintInsertion& Target;
+  const TriangleMesh& Mesh;
+  const FlipOptions& Options;
+  const ProgressObserver& Progress;
+  const ThreadBackend Backend;
+  MissingConstraints Missing;
+  std::array<Defect, 4> Refused;
+};
+
+ConstraintInsertion::ConstraintInsertion(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+{
+  if (mesh.ConstraintsToInsert && mesh.NumberOfConstraintEdges > 0)
+  {
+    ConstraintInserter(*this, mesh, options, progress).Run();
+  }
+}
+
+TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
+{
+  TriangleMesh mesh = caller;
+  mesh.ConstraintsToInsert = nullptr;
+  if (this->HasEdges)
+  {
+    mesh.ConstraintEdges = this->Edges.data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
+  }
+  if (!this->Ids32.empty())
+  {
+    mesh.Triangles = TriangleArray(this->Ids32.data(), caller.Triangles.Count);
+  }
+  if (!this->Ids64.empty())
+  {
+    mesh.Triangles = TriangleArray(this->Ids64.data(), caller.Triangles.Count);
+  }
+  return mesh;
+}
+
+FlipOptions ConstraintInsertion::GetOptions(const FlipOptions& caller) const
+{
+  FlipOptions options = caller;
+  options.Geometry = this->HasFlips() ? this->Geometry : caller.Geometry;
+  return options;
+}
+
+void ConstraintInsertion::AddTo(FlipReport& report) const
+{
+  report.GeometryReason = this->HasFlips() ? this->GeometryReason : report.GeometryReason;
+  report.InsertedConstraints = this->Inserted;
+  report.ConstraintFlips = this->Flips;
+  for (const Defect& defect : this->Refused)
+  {
+    report.UnmatchedConstraints += defect.Count;
+  }
+  this->AddTo(report.Defects);
+}
+
+void ConstraintInsertion::AddTo(std::vector<Defect>& defects) const
+{
+  defects.insert(defects.end(), this->Refused.begin(), this->Refused.end());
+}
+
+void ConstraintInsertion::AddFlipCounts(std::int32_t* counts) const
+{
+  for (const auto& [triangle, flips] : this->FlipCounts)
+  {
+    counts[triangle] += flips;
+  }
+}
+
+}

@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CgalReference.h"
+#include "ConstraintOracle.h"
+#include "ExactReference.h"
+#include "MeshAudit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr const char* Crosses = "because they cross edges that stay";
+constexpr const char* Leaves = "because they leave the mesh";
+constexpr const char* Overlaps = "where triangles overlap or points coincide";
+
+/// Distinct points with whole coordinates from 0 to `size`, among them the corners.
+std::vector<std::array<double, 2>> DrawLattice(
+  std::size_t count, std::int32_t size, std::mt19937& random)
+{
+  const double last = size;
+  std::set<std::array<double, 2>> points = { { 0, 0 }, { last, 0 }, { 0, last }, { last, last } };
+  while (points.size() < count)
+  {
+    const double x = DrawIndex(random, size + 1);
+    const double y = DrawIndex(random, size + 1);
+    points.insert({ x, y });
+  }
+  std::vector<std::array<double, 2>> drawn(points.begin(), points.end());
+  std::shuffle(drawn.begin(), drawn.end(), random);
+  return drawn;
+}
+
+/// Random constraints on a random bad mesh. The fewer lattice points there are to choose from, the
+/// more constraints meet vertices.
+ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  ConstrainedMesh drawn;
+  drawn.Mesh = MakeSweptMesh(DrawLattice(points, size, random));
+  for (int i = 0; i < constraints; ++i)
+  {
+    const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+    drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
+  }
+  return drawn;
+}
+
+/// The mesh right after the insertion.
+FlipResult Insert(const TriangleMesh& mesh, FlipOptions options = {})
+{
+  options.MaximumIterations = 0;
+  return Flip(mesh, options);
+}
+
+std::int64_t CountRefused(const FlipReport& report)
+{
+  return CountDefect(report, Crosses) + CountDefect(report, Leaves) + CountDefect(report, Overlaps);
+}
+
+/// Nothing but edges has changed: counts, area, and the way that every triangle turns.
+void ExpectSameDomain(const TriangleMesh& mesh, const FlipResult& result)
+{
+  ExpectSameTopology(mesh.Triangles, result.Triangles, result.Report);
+  const TriangleMesh after = WithTriangles(mesh, result.Triangles);
+  EXPECT_EQ(SumAreas(mesh), SumAreas(after));
+  EXPECT_EQ(CountTurns(mesh).Left, CountTurns(after).Left);
+  EXPECT_EQ(CountTurns(mesh).Right, CountTurns(after).Right);
+}
+
+void ExpectAsPredicted(const TriangleMesh& mesh, const FlipOptions& options = {})
+{
+  const ExpectedInsertion expected = PredictInsertion(mesh);
+  const FlipResult inserted = Insert(mesh, options);
+  const FlipResult result = Flip(mesh, options);
+  for (const FlipResult* one : { &inserted, &result })
+  {
+    ExpectSameDomain(mesh, *one);
+    ExpectEdges(one->Triangles, expected.Pieces);
+    EXPECT_EQ(expected.Inserted, one->Report.InsertedConstraints);
+    EXPECT_EQ(expected.Refused, one->Report.UnmatchedConstraints);
+    EXPECT_EQ(expected.Refused, CountRefused(one->Report));
+    EXPECT_EQ(inserted.Report.ConstraintFlips, one->Report.ConstraintFlips);
+    ExpectConsistentStatistics(one->Report);
+  }
+  EXPECT_EQ(0, inserted.Report.TotalFlips);
+  EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+  ExpectConstrainedDelaunay(WithTriangles(mesh, result.Triangles), expected.Pieces);
+}
+
+}
+
+TEST(ConstraintInsertion, RandomConstraintsAmongFewLatticePoints)
+{
+  for (std::uint32_t seed = 0; seed < 300 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ExpectAsPredicted(DrawCase(8 + seed % 20, 6, 12, seed).View());
+  }
+}
+
+TEST(ConstraintInsertion, RandomConstraintsAmongManyPoints)
+{
+  for (std::uint32_t seed = 0; seed < 20 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ExpectAsPredicted(DrawCase(150, 1000, 60, seed).View());
+  }
+}
+
+TEST(ConstraintInsertion, OfClockwiseMeshes)
+{
+  for (std::uint32_t seed = 0; seed < 20 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ConstrainedMesh drawn = DrawCase(40, 12, 20, seed);
+    ReverseTriangles(drawn.Mesh.Triangles);
+    const ExpectedInsertion expected = PredictInsertion(drawn.View());
+    const FlipResult result = Flip(drawn.View());
+    ExpectSameDomain(drawn.View(), result);
+    ExpectEdges(result.Triangles, expected.Pieces);
+    EXPECT_EQ(expected.Inserted, result.Report.InsertedConstraints);
+  }
+}
+
+TEST(ConstraintInsertion, GivesCgalsConstrainedDelaunayMesh)
+{
+  for (std::uint32_t seed = 0; seed < 10; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ConstrainedMesh drawn;
+    drawn.Mesh = MakeRandomBadMeshDouble(1000 / Reduction, seed);
+    std::mt19937 random(seed);
+    std::vector<VertexPair> taken;
+    while (taken.size() < 40)
+    {
+      const VertexPair pair(DrawIndex(random, drawn.Mesh.NumberOfPoints()),
+        DrawIndex(random, drawn.Mesh.NumberOfPoints()));
+      const auto crosses = [&](const VertexPair& other)
+      { return Cross(drawn.Mesh.View(), pair, other); };
+      if (pair.first != pair.second && std::none_of(taken.begin(), taken.end(), crosses))
+      {
+        taken.push_back(pair);
+        drawn.Add(pair.first, pair.second);
+      }
+    }
+    const FlipResult result = Flip(drawn.View());
+    EXPECT_EQ(0, result.Report.UnmatchedConstraints);
+    EXPECT_LT(20, result.Report.InsertedConstraints);
+    EXPECT_TRUE(MakeCgalConstrainedDelaunay(drawn.View()) == ToTriangleSet(result.Triangles));
+  }
+}
+
+TEST(ConstraintInsertion, AlongAndAcrossALattice)
+{
+  constexpr std::int32_t Size = 24;
+  ConstrainedMesh lattice;
+  lattice.Mesh = MakeGridMesh(Size, Size);
+  const auto point = [](std::int64_t x, std::int64_t y) { return y * (Size + 1) + x; };
+  lattice.Add(point(0, 12), point(Size, 12)); // along edges
+  lattice.Add(point(0, 0), point(Size, Size)); // along one kind of diagonal
+  lattice.Add(point(0, Size), point(12, 12)); // across the other
+  lattice.Add(point(13, 0), point(Size, 11)); // and again
+  lattice.Add(point(1, 0), point(Size, 10)); // meets no vertex
+  lattice.Add(point(0, 13), point(23, Size)); // meets no vertex
+  lattice.Add(point(0, 1), point(21, 4)); // meets every seventh
+  lattice.Add(point(12, Size), point(14, 0)); // crosses some of them
+  ExpectAsPredicted(lattice.View());
+}
+
+TEST(ConstraintInsertion, OfTheSecondOfTwoThatCross)
+{
+  ConstrainedMesh square;
+  square.Mesh.Points = { 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0 };
+  square.Mesh.Triangles = { 0, 1, 2, 0, 2, 3 };
+  square.Add(1, 3);
+  square.Add(2, 0); // an edge, which comes first
+  square.Add(3, 1);
+  const FlipResult result = Flip(square.View());
+  EXPECT_TRUE(HasEdge(result.Triangles, 0, 2));
+  EXPECT_EQ(1, result.Report.Edges.Constraint);
+  EXPECT_EQ(1, result.Report.UnmatchedConstraints);
+  EXPECT_EQ(0, result.Report.InsertedConstraints);
+  EXPECT_NE(std::string::npos, DescribeDefects(result.Report.Defects).find("(first: 1-3)"))
+    << DescribeDefects(result.Report.Defects);
+  EXPECT_EQ(1, CountDefect(result.Report, Crosses));
+}
+
+TEST(ConstraintInsertion, OnlyOfFlaggedConstraints)
+{
+  ConstrainedMesh square;
+  square.Mesh.Points = { 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0 };
+  square.Mesh.Triangles = { 0, 1, 2, 0, 2, 3 };
+  square.Add(1, 3, false);
+  FlipResult result = Flip(square.View());
+  EXPECT_TRUE(HasEdge(result.Triangles, 0, 2));
+  EXPECT_EQ(1, result.Report.UnmatchedConstraints);
+  EXPECT_EQ(0, result.Report.ConstraintFlips);
+  square.Add(3, 1);
+  result = Flip(square.View());
+  EXPECT_TRUE(HasEdge(result.Triangles, 1, 3));
+  EXPECT_EQ(0, result.Report.UnmatchedConstraints);
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+  EXPECT_EQ(1, result.Report.ConstraintFlips);
+  EXPECT_EQ(1, result.Report.Edges.Constraint);
+  EXPECT_EQ((std::vector<std::int32_t>{ 1, 1 }), result.FlipCounts);
+}
+
+TEST(ConstraintInsertion, LeavesAloneWhatLeavesTheMesh)
+{
+  // A lattice with a hole in its middle and one unused point.
+  ConstrainedMesh ring;
+  ring.Mesh = MakeGridMesh(3, 3);
+  ring.Mesh.Triangles.erase(
+    ring.Mesh.Triangles.begin() + 3 * 8, ring.Mesh.Triangles.begin() + 3 * 10);
+  ring.Mesh.Points.insert(ring.Mesh.Points.end(), { 0.5, 0.25, 0.0 });
+  ring.Add(0, 15); // through corners of the hole
+  ring.Add(1, 10); // over its side
+  ring.Add(4, 16); // to the unused point
+  ring.Add(9, 6); // the hole's other diagonal
+  ring.Add(0, 7); // possible
+  const FlipResult result = Flip(ring.View());
+  EXPECT_EQ(4, CountDefect(result.Report, Leaves));
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+  ExpectEdges(result.Triangles, SplitAtVertices(ring.View(), 0, 7));
+  ExpectSameDomain(ring.View(), result);
+}
+
+TEST(ConstraintInsertion, StopsAtRegionsAndFrozenTriangles)
+{
+  ConstrainedMesh strip;
+  strip.Mesh = MakeGridMesh(4, 1);
+  strip.Add(0, 8);
+  TriangleMesh mesh = strip.View();
+  const std::vector<std::int32_t> regions = { 0, 0, 0, 0, 1, 1, 1, 1 };
+  mesh.Regions = regions.data();
+  EXPECT_EQ(1, CountDefect(Flip(mesh).Report, Crosses));
+  mesh = strip.View();
+  const std::vector<unsigned char> frozen = { 0, 0, 0, 1, 0, 0, 0, 0 };
+  mesh.FrozenTriangles = frozen.data();
+  const FlipResult result = Flip(mesh);
+  EXPECT_EQ(1, CountDefect(result.Report, Crosses));
+  EXPECT_TRUE(std::equal(&result.Triangles[9], &result.Triangles[12], &strip.Mesh.Triangles[9]));
+  EXPECT_EQ(1, Flip(strip.View()).Report.InsertedConstraints);
+}
+
+TEST(ConstraintInsertion, FlipsTrianglesWithoutAreaOutOfTheWay)
+{
+  // Points 4 to 6 lie on the line 0-2, which has no triangle with area at all of them on one side.
+  ConstrainedMesh bar;
+  bar.Mesh.Points = { 0, 0, 0, 4, -4, 0, 8, 0, 0, 4, 4, 0, 2, 0, 0, 4, 0, 0, 6, 0, 0 };
+  bar.Mesh.Triangles = { 0, 1, 2, 0, 2, 4, 4, 2, 5, 5, 2, 6, 0, 4, 3, 4, 5, 3, 5, 6, 3, 6, 2, 3 };
+  bar.Add(1, 5);
+  ExpectSameTopology(
+    bar.Mesh.View().Triangles, Insert(bar.View()).Triangles, Insert(bar.View()).Report);
+  const FlipResult result = Insert(bar.View());
+  EXPECT_TRUE(HasEdge(result.Triangles, 1, 5));
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+  bar.Add(1, 3);
+  const FlipResult longer = Insert(bar.View());
+  ExpectEdges(longer.Triangles, { { 1, 5 }, { 5, 3 } });
+  EXPECT_EQ(SumAreas(bar.Mesh.View()), SumAreas(WithTriangles(bar.View(), longer.Triangles)));
+}
+
+TEST(ConstraintInsertion, SurfacesNameWhatIsMissing)
+{
+  ConstrainedMesh sphere;
+  sphere.Mesh = MakeBadSphere(20, 10, 3);
+  sphere.Add(5, 90);
+  sphere.Add(sphere.Mesh.Triangles[0], sphere.Mesh.Triangles[1]);
+  const FlipResult result = Flip(sphere.View());
+  EXPECT_EQ(1, CountDefect(result.Report, "cannot be inserted on a surface"));
+  EXPECT_NE(std::string::npos, DescribeDefects(result.Report.Defects).find("(first: 5-90)"));
+  EXPECT_EQ(1, result.Report.UnmatchedConstraints);
+  EXPECT_EQ(1, result.Report.Edges.Constraint);
+  EXPECT_EQ(0, result.Report.ConstraintFlips);
+}
+
+TEST(ConstraintInsertion, KeepsOverlapsWhatTheyAre)
+{
+  // Random triangles through each other: constraints may fail, but topology must stay.
+  for (std::uint32_t seed = 0; seed < 200 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ConstrainedMesh drawn = DrawCase(40, 10, 40, seed);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 6; ++i)
+    {
+      const std::size_t point = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+      drawn.Mesh.Points[3 * point] = DrawIndex(random, 11);
+      drawn.Mesh.Points[3 * point + 1] = DrawIndex(random, 11);
+    }
+    drawn.Mesh = seed % 2 == 0 ? drawn.Mesh : RepeatTriangles(drawn.Mesh);
+    const FlipResult inserted = Insert(drawn.View());
+    ExpectSameTopology(drawn.View().Triangles, inserted.Triangles, inserted.Report);
+    EXPECT_EQ(SumAreas(drawn.View()), SumAreas(WithTriangles(drawn.View(), inserted.Triangles)));
+    const FlipResult result = Flip(drawn.View());
+    ExpectSameTopology(drawn.View().Triangles, result.Triangles, result.Report);
+    EXPECT_EQ(result.Report.UnmatchedConstraints, CountRefused(result.Report));
+  }
+}
+
+TEST(ConstraintInsertion, OfTerrainKeepsTheGeometryOfTheInput)
+{
+  // Gentle slopes, until a constraint joins two peaks.
+  ConstrainedMesh hills;
+  hills.Mesh = MakeGridMesh(40, 40);
+  for (std::size_t i = 0; i < hills.Mesh.Points.size(); i += 3)
+  {
+    hills.Mesh.Points[i + 2] = 0.4 * static_cast<double>(i * i % 7) / 7.0;
+  }
+  hills.Add(3, 1670);
+  const FlipReport plain = Flip(hills.Mesh.View()).Report;
+  const FlipResult result = Flip(hills.View());
+  EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed);
+  EXPECT_EQ(plain.GeometryReason, result.Report.GeometryReason);
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+  ExpectEdges(result.Triangles, SplitAtVertices(hills.View(), 3, 1670));
+}
+
+TEST(ConstraintInsertion, FixedEdgesHoldThePieces)
+{
+  const ConstrainedMesh drawn = DrawCase(60, 20, 20, 4);
+  std::set<VertexPair> fixed;
+  const std::vector<std::int64_t> ends = FindFixedEdges(drawn.View(), {});
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+  {
+    fixed.insert(std::minmax({ ends[i], ends[i + 1] }));
+  }
+  for (const VertexPair& piece : PredictInsertion(drawn.View()).Pieces)
+  {
+    const bool isFixed = fixed.count(std::minmax({ piece.first, piece.second })) == 1;
+    const bool onRim = drawn.Mesh.Points[3 * piece.first] == drawn.Mesh.Points[3 * piece.second] ||
+      drawn.Mesh.Points[3 * piece.first + 1] == drawn.Mesh.Points[3 * piece.second + 1];
+    EXPECT_TRUE(isFixed || onRim) << piece.first << "-" << piece.second;
+  }
+}
+
+TEST(ConstraintInsertion, DoesNotDependOnThreadsOrIds)
+{
+  ConstrainedMesh drawn;
+  drawn.Mesh = MakeRandomBadMeshDouble(20000 / Reduction, 8);
+  std::mt19937 random(8);
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+    drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
+  }
+  FlipOptions options;
+  options.NumberOfThreads = 1;
+  const FlipResult expected = Flip(drawn.View(), options);
+  EXPECT_LT(0, expected.Report.InsertedConstraints);
+  options.NumberOfThreads = 3;
+  const FlipResult actual = Flip(drawn.View(), options);
+  EXPECT_TRUE(expected.Triangles == actual.Triangles);
+  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
+  ExpectSameStatistics(expected.Report, actual.Report);
+
+  std::vector<std::int64_t> wide(drawn.Mesh.Triangles.begin(), drawn.Mesh.Triangles.end());
+  TriangleMesh mesh = drawn.View();
+  mesh.Triangles = TriangleArray(wide.data(), mesh.Triangles.Count);
+  FlipToDelaunay(mesh, OnTestBackend({}), MutableTriangleArray(wide.data(), mesh.Triangles.Count));
+  EXPECT_TRUE(std::equal(wide.begin(), wide.end(), expected.Triangles.begin()));
+}
+
+TEST(ConstraintInsertion, CountsItsFlipsPerTriangle)
+{
+  const ConstrainedMesh drawn = DrawCase(100, 50, 30, 9);
+  const FlipResult result = Flip(drawn.View());
+  std::int64_t sum = 0;
+  for (const std::int32_t count : result.FlipCounts)
+  {
+    sum += count;
+  }
+  EXPECT_LT(0, result.Report.ConstraintFlips);
+  EXPECT_EQ(2 * (result.Report.ConstraintFlips + result.Report.TotalFlips), sum);
+}
+
+TEST(ConstraintInsertion, CanBeAborted)
+{
+  const ConstrainedMesh drawn = DrawCase(100, 50, 30, 9);
+  const FlipResult expected = Flip(drawn.View());
+  std::vector<double> told;
+  MakeSession(drawn.View());
+  FlipSession(drawn.View(), OnTestBackend({}),
+    [&](double share)
+    {
+      told.push_back(share);
+      return true;
+    });
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  for (std::size_t last = 0; last < told.size(); ++last)
+  {
+    std::size_t calls = 0;
+    FlipSession session(drawn.View(), OnTestBackend({}), [&](double) { return calls++ < last; });
+    EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason) << last;
+    EXPECT_EQ(0, session.GetReport().ConstraintFlips);
+    std::vector<std::int32_t> triangles(drawn.Mesh.Triangles.size());
+    session.StoreTriangles(MutableTriangleArray(triangles.data(), drawn.Mesh.NumberOfTriangles()));
+    EXPECT_TRUE(triangles == drawn.Mesh.Triangles);
+    session.Advance();
+    session.StoreTriangles(MutableTriangleArray(triangles.data(), drawn.Mesh.NumberOfTriangles()));
+    EXPECT_TRUE(triangles == expected.Triangles);
+  }
+}
+
+TEST(ConstraintInsertion, RefusesIdsThatAreNoPoints)
+{
+  ConstrainedMesh grid;
+  grid.Mesh = MakeGridMesh(2, 2);
+  grid.Add(0, 9);
+  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
+  grid.Ends[1] = -1;
+  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
+  grid.Ends[1] = 8;
+  grid.Mesh.Triangles[3] = 77;
+  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
+}
+
+}
