@@ -12,6 +12,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace delaunayflip
 {
@@ -63,6 +64,27 @@ void AddOthers(const ConstraintSource& source, ConstraintEdges& edges)
   PlaceMatch(points, pairs, source.Points).AddEdges(source.Triangles, edges);
 }
 
+/// Keeps the first of equal pairs; it is to be inserted if any of them is.
+void RemoveRepeated(ConstraintEdges& edges)
+{
+  const std::vector<std::size_t> first = FindFirst(edges.Pairs);
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    edges.ToInsert[first[i]] |= edges.ToInsert[i];
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    if (first[i] == i)
+    {
+      edges.Pairs[kept] = edges.Pairs[i];
+      edges.ToInsert[kept++] = edges.ToInsert[i];
+    }
+  }
+  edges.Pairs.resize(kept);
+  edges.ToInsert.resize(kept);
+}
+
 }
 
 void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
@@ -73,10 +95,20 @@ void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
   }
 }
 
-void SortPairs(std::vector<PointPair>& pairs)
+std::vector<std::size_t> FindFirst(const std::vector<PointPair>& pairs)
 {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b)
+    { return pairs[a] != pairs[b] ? pairs[a] < pairs[b] : a < b; });
+  std::vector<std::size_t> first(pairs.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    const bool isRepeated = i > 0 && pairs[order[i]] == pairs[order[i - 1]];
+    first[order[i]] = isRepeated ? first[order[i - 1]] : order[i];
+  }
+  return first;
 }
 
 ConstraintEdges FindConstraintEdges(const ConstraintSource& source)
@@ -86,12 +118,14 @@ ConstraintEdges FindConstraintEdges(const ConstraintSource& source)
   {
     const PointIdCheck check{ "line cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
     AddPaths(source.Lines->GetLines(), false, check, edges.Pairs);
+    edges.ToInsert.resize(edges.Pairs.size(), source.InsertLines ? 1 : 0);
   }
   if (source.Others)
   {
     AddOthers(source, edges);
+    edges.ToInsert.resize(edges.Pairs.size(), source.InsertOthers ? 1 : 0);
   }
-  SortPairs(edges.Pairs);
+  RemoveRepeated(edges);
   return edges;
 }
 

@@ -19,7 +19,8 @@ using PointPair = std::array<std::int64_t, 2>;
 /// Edges that must stay.
 struct ConstraintEdges
 {
-  std::vector<PointPair> Pairs; ///< Sorted and unique, the smaller id of each pair first.
+  std::vector<PointPair> Pairs; ///< Unique, in the order given, the smaller id of each pair first.
+  std::vector<unsigned char> ToInsert; ///< One flag per pair, as in TriangleMesh.
   std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
 };
 
@@ -29,6 +30,8 @@ struct ConstraintSource
   vtkPolyData* Others; ///< The second input, whose lines and polygons are constraints, or null.
   PointArray Points; ///< Of the mesh.
   TriangleArray Triangles;
+  bool InsertLines; ///< Whether edges along the lines are inserted where the mesh lacks them.
+  bool InsertOthers; ///< The same for the others.
 };
 
 /// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The
@@ -40,8 +43,8 @@ ConstraintEdges FindConstraintEdges(const ConstraintSource& source);
 /// Adds the pair of `a` and `b`, unless they are equal.
 void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs);
 
-/// Sorts pairs and removes repeated ones.
-void SortPairs(std::vector<PointPair>& pairs);
+/// Finds, for each pair, the index of the first pair that equals it.
+std::vector<std::size_t> FindFirst(const std::vector<PointPair>& pairs);
 
 }
 

@@ -65,6 +65,7 @@ ProgressObserver Scale(const ProgressObserver& progress, double begin, double en
 bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
 {
   return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
+    a.InsertLines == b.InsertLines && a.InsertConstraints == b.InsertConstraints &&
     a.RegionArray == b.RegionArray;
 }
 
@@ -188,6 +189,7 @@ TriangleMesh FlipRun::GetStartMesh() const
     mesh.Triangles = TriangleArray(this->Begin.Triangles.data(), mesh.Triangles.Count);
     mesh.ConstraintEdges = this->Begin.FixedEdges.data();
     mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Begin.FixedEdges.size()) / 2;
+    mesh.ConstraintsToInsert = nullptr;
   }
   return mesh;
 }
@@ -264,6 +266,8 @@ FlipRun::Start FlipRun::GetEnd() const
   const FlipReport report = this->GetReport();
   start.Constraints = report.Edges.Constraint;
   start.UnmatchedConstraints = report.UnmatchedConstraints;
+  start.InsertedConstraints = report.InsertedConstraints;
+  start.ConstraintFlips = report.ConstraintFlips;
   return start;
 }
 
@@ -275,6 +279,8 @@ FlipReport FlipRun::GetReport() const
   {
     report.Edges.Constraint = this->Begin.Constraints;
     report.UnmatchedConstraints = this->Begin.UnmatchedConstraints;
+    report.InsertedConstraints = this->Begin.InsertedConstraints;
+    report.ConstraintFlips = this->Begin.ConstraintFlips;
   }
   else
   {

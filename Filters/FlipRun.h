@@ -98,6 +98,8 @@ private:
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
     std::int64_t Constraints = 0; ///< How many edges of the first mesh were constraints.
     std::int64_t UnmatchedConstraints = 0;
+    std::int64_t InsertedConstraints = 0;
+    std::int64_t ConstraintFlips = 0;
   };
 
   FlipRun(const Request& request, Start start);

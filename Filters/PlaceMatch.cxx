@@ -26,13 +26,21 @@ void PlaceMatch::NumberPlaces(const PointArray& others, const std::vector<PointP
     place = place == PointPlaces::None ? this->Places.Add(others, point) : place;
     return place;
   };
+  std::vector<PointPair> wanted;
   for (const PointPair& pair : pairs)
   {
     const std::int64_t from = number(pair[0]);
     const std::int64_t to = number(pair[1]);
-    AddPair(from, to, this->Wanted);
+    AddPair(from, to, wanted);
   }
-  SortPairs(this->Wanted);
+  const std::vector<std::size_t> first = FindFirst(wanted);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    if (first[i] == i)
+    {
+      this->Wanted.push_back(wanted[i]);
+    }
+  }
 }
 
 void PlaceMatch::FindPoints(const PointArray& mesh)
@@ -74,6 +82,7 @@ void PlaceMatch::AddEdges(const TriangleArray& triangles, ConstraintEdges& edges
       crowded.push_back(pair);
     }
   }
+  std::sort(crowded.begin(), crowded.end());
   edges.Unmatched += this->AddEdgesAt(crowded, triangles, edges.Pairs);
 }
 
@@ -95,8 +104,9 @@ std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
       found.push_back(pair);
     }
   }
-  SortPairs(found);
-  return static_cast<std::int64_t>(crowded.size() - found.size());
+  std::sort(found.begin(), found.end());
+  const auto end = std::unique(found.begin(), found.end());
+  return static_cast<std::int64_t>(crowded.size()) - (end - found.begin());
 }
 
 /// Accepts ids out of range, which the engine reports later.

@@ -35,7 +35,7 @@ private:
   std::int64_t GetPlace(std::int64_t point) const;
 
   PointPlaces Places;
-  std::vector<PointPair> Wanted; ///< Pairs of places, sorted and unique.
+  std::vector<PointPair> Wanted; ///< Pairs of places, unique, in the order given.
   std::vector<std::int64_t> PlaceOfPoint; ///< For every point of the mesh its place, or None.
   std::vector<std::int64_t> PointsAtPlace; ///< How many points of the mesh lie there.
   std::vector<std::int64_t> PointOfPlace; ///< The first of them.

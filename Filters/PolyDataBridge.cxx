@@ -29,8 +29,8 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
     Slots(mesh, Points, settings.Triangulate, progress),
-    Constraints(FindConstraintEdges(
-      { settings.LinesAsConstraints ? mesh : nullptr, constraints, Points, Slots.GetTriangles() }))
+    Constraints(FindConstraintEdges({ settings.LinesAsConstraints ? mesh : nullptr, constraints,
+      Points, Slots.GetTriangles(), settings.InsertLines, settings.InsertConstraints }))
 {
   this->FreezeGhosts();
   if (!settings.RegionArray.empty())
@@ -76,6 +76,7 @@ TriangleMesh PolyDataBridge::GetMesh() const
   const std::vector<PointPair>& pairs = this->Constraints.Pairs;
   mesh.ConstraintEdges = pairs.empty() ? nullptr : pairs.front().data();
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(pairs.size());
+  mesh.ConstraintsToInsert = pairs.empty() ? nullptr : this->Constraints.ToInsert.data();
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   return mesh;

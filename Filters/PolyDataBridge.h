@@ -28,6 +28,8 @@ public:
   {
     bool Triangulate = true;
     bool LinesAsConstraints = true;
+    bool InsertLines = false;
+    bool InsertConstraints = true;
     std::string RegionArray; ///< Empty: no regions.
   };
 

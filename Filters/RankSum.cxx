@@ -127,7 +127,7 @@ template <typename Archive>
 void Visit(Archive& archive, UpdateReport& report)
 {
   archive(report.Points, report.Triangles, report.EulerCharacteristic);
-  archive(report.UnmatchedConstraints);
+  archive(report.UnmatchedConstraints, report.InsertedConstraints, report.ConstraintFlips);
   Visit(archive, report.Edges);
   archive(report.GeometryUsed, report.HasMixedGeometry, report.GeometryReason, report.Tolerance);
   archive(report.Backend, report.Fallback);

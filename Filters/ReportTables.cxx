@@ -92,6 +92,8 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   writer.AddValue<vtkIdTypeArray>("NonManifoldEdges", report.Edges.NonManifold);
   writer.AddValue<vtkIdTypeArray>("ConstraintEdges", report.Edges.Constraint);
   writer.AddValue<vtkIdTypeArray>("UnmatchedConstraintEdges", report.UnmatchedConstraints);
+  writer.AddValue<vtkIdTypeArray>("InsertedConstraintEdges", report.InsertedConstraints);
+  writer.AddValue<vtkIdTypeArray>("ConstraintFlips", report.ConstraintFlips);
   writer.AddValue<vtkStringArray>("GeometryUsed", report.GetGeometryName());
   writer.AddValue<vtkStringArray>("GeometryReason", report.GeometryReason);
   writer.AddValue<vtkStringArray>("Tolerance", report.Tolerance);

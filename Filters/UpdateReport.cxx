@@ -146,6 +146,8 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
   this->Points += other.Points;
   this->Triangles += other.Triangles;
   this->UnmatchedConstraints += other.UnmatchedConstraints;
+  this->InsertedConstraints += other.InsertedConstraints;
+  this->ConstraintFlips += other.ConstraintFlips;
   this->EulerCharacteristic += other.EulerCharacteristic;
   this->TotalFlips += other.TotalFlips;
   this->TotalExcluded += other.TotalExcluded;

@@ -170,6 +170,16 @@ vtkIdType vtkDelaunayFlip::GetNumberOfUnmatchedConstraintEdges() const
   return this->Report->UnmatchedConstraints;
 }
 
+vtkIdType vtkDelaunayFlip::GetNumberOfInsertedConstraintEdges() const
+{
+  return this->Report->InsertedConstraints;
+}
+
+vtkIdType vtkDelaunayFlip::GetNumberOfConstraintFlips() const
+{
+  return this->Report->ConstraintFlips;
+}
+
 vtkIdType vtkDelaunayFlip::GetNumberOfNonDelaunayEdges() const
 {
   return this->Report->NonDelaunayAfter;
@@ -235,6 +245,8 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
   os << indent << "RegionArray: " << this->RegionArray << "\n";
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
+  os << indent << "InsertLines: " << this->InsertLines << "\n";
+  os << indent << "InsertConstraints: " << this->InsertConstraints << "\n";
   os << indent << "Triangulate: " << this->Triangulate << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "DeviceId: " << this->DeviceId << "\n";

@@ -28,10 +28,10 @@
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
  * Converged, StopReason, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByEdge, FixedEdges,
- * NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, GeometryUsed, GeometryReason,
- * Tolerance ("automatic", the value, or "none" if the in-circle predicate decides) and Backend. In
- * the field data each name begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input
- * arrays with the short names pass.
+ * NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, InsertedConstraintEdges,
+ * ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic", the value, or "none" if
+ * the in-circle predicate decides) and Backend. In the field data each name begins with
+ * "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short names pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
@@ -224,6 +224,28 @@ public:
 
   ///@{
   /**
+   * In planar geometry, insert constraints that are not edges of the mesh: before the first
+   * iteration, flips turn each of them into an edge, or into a chain of edges if it passes through
+   * points of the mesh. With the in-circle criterion the result is then a constrained Delaunay
+   * triangulation. InsertConstraints (default on) is for the second input, InsertLines (default
+   * off, because lines may be contours that the mesh need not follow) for the lines of the first
+   * input, if LinesAsConstraints is on.
+   *
+   * Constraints that are edges already are fixed first. The others are inserted in the order of the
+   * inputs and their cells. A constraint that would cross an edge that stays, or leave the mesh, is
+   * not inserted. Such constraints are counted, and the update gives one warning that names the
+   * first of them. On surfaces nothing is inserted.
+   */
+  vtkSetMacro(InsertConstraints, bool);
+  vtkGetMacro(InsertConstraints, bool);
+  vtkBooleanMacro(InsertConstraints, bool);
+  vtkSetMacro(InsertLines, bool);
+  vtkGetMacro(InsertLines, bool);
+  vtkBooleanMacro(InsertLines, bool);
+  ///@}
+
+  ///@{
+  /**
    * Split quads, polygons and triangle strips into triangles and flip those too. A quad is split
    * along the diagonal from its first to its third point, unless that runs outside it; a larger
    * polygon becomes a fan if it is convex, else its ears are clipped. Default on. If off, such
@@ -298,8 +320,8 @@ public:
 
   ///@{
   /**
-   * Add the cell array vtkDelaunayFlipCount (int): in how many flips each triangle took part; 0 for
-   * other cells. Default off.
+   * Add the cell array vtkDelaunayFlipCount (int): in how many flips each triangle took part,
+   * including those that insert constraints; 0 for other cells. Default off.
    */
   vtkSetMacro(GenerateFlipCount, bool);
   vtkGetMacro(GenerateFlipCount, bool);
@@ -387,14 +409,15 @@ public:
 
   ///@{
   /**
-   * Constraint edges, optional: edges of the mesh along the lines and polygons of this input stay.
+   * Constraint edges, optional: edges of the mesh along the lines and polygons of this input stay,
+   * and those that the mesh does not have are inserted (see InsertConstraints).
    * If this input has no points, or the same points as the first input (the same number and bits),
    * its point ids are those of the mesh, as with the source of vtkDelaunay2D. Otherwise edges are
    * matched by the coordinates of their points, so the output of vtkFeatureEdges, which renumbers
    * points, can be used. Coordinates must be equal, not just close; if one input has float points
    * and the other double, they are compared after rounding to float. If several points of the mesh
    * coincide, all pairs of them that are edges of the mesh match. Constraint edges that match no
-   * edge of the mesh are counted, and the update gives one warning.
+   * edge of the mesh and are not inserted are counted, and the update gives one warning.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints);
@@ -428,12 +451,16 @@ public:
   ///@{
   /**
    * How many edges of the mesh are constraint edges, by lines of the first input or by the second
-   * input, and how many edges of these lines and of the second input match no edge of the mesh.
-   * After a warm start, as at the beginning. Both are sums over blocks and pieces: if all blocks
-   * share the constraints, an edge counts as unmatched once for each block that does not have it.
+   * input, including the edges of inserted constraints; how many edges of these lines and of the
+   * second input match no edge of the mesh and were not inserted; how many were inserted; and how
+   * many flips that took, which are not part of TotalFlips and the iterations. After a warm start,
+   * as at the beginning. All are sums over blocks and pieces: if all blocks share the constraints,
+   * an edge counts as unmatched once for each block that does not have it.
    */
   vtkIdType GetNumberOfConstraintEdges() const;
   vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
+  vtkIdType GetNumberOfInsertedConstraintEdges() const;
+  vtkIdType GetNumberOfConstraintFlips() const;
   ///@}
 
   /**
@@ -557,6 +584,8 @@ protected:
   double FeatureAngle = 30.0;
   std::string RegionArray;
   bool LinesAsConstraints = true;
+  bool InsertConstraints = true;
+  bool InsertLines = false;
   bool Triangulate = true;
   int Backend = BACKEND_AUTO;
   int DeviceId = -1;

@@ -309,8 +309,10 @@ std::unique_ptr<FlipRun> vtkDelaunayFlip::GoOn(
   {
     return FlipRun::GoOn(std::move(last),
       { data.Input, data.Constraints,
-        { this->Triangulate, this->LinesAsConstraints, this->RegionArray }, this->GetOptions(),
-        data.IsLive, [this](double fraction) { return this->ObserveProgress(fraction); } });
+        { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
+          this->RegionArray },
+        this->GetOptions(), data.IsLive,
+        [this](double fraction) { return this->ObserveProgress(fraction); } });
   }
   catch (const SplitAborted&)
   {

@@ -108,7 +108,8 @@ class Proxy(PluginTest):
             "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
             "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfEdgesBlockedByShape",
             "NumberOfEdgesBlockedByEdge", "NumberOfConstraintEdges",
-            "NumberOfUnmatchedConstraintEdges", "StopReason", "GeometryUsed", "GeometryReason",
+            "NumberOfUnmatchedConstraintEdges", "NumberOfInsertedConstraintEdges",
+            "NumberOfConstraintFlips", "StopReason", "GeometryUsed", "GeometryReason",
             "BackendUsed"})
 
     def test_iterations_can_be_animated(self):
