@@ -72,10 +72,24 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
     "input's triangles (in-circle in the plane only) [keep]");
 }
 
-void AddRunOptions(CLI::App& app, Arguments& arguments)
+void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 {
+  app.add_option("--constraints", arguments.Constraints,
+    "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if it "
+    "has the same points; otherwise points are matched by their coordinates. In the plane, edges "
+    "that the input does not have are inserted by flips");
+  app.add_flag("!--no-insert-constraints", arguments.InsertConstraints,
+    "Do not insert edges of --constraints");
+  app.add_flag(
+    "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
   app.add_flag(
     "--ignore-lines", arguments.IgnoreLines, "Lines of the input do not hold edges in place");
+  app.add_option("--region-array", arguments.RegionArray,
+    "A cell array of the input: edges between cells of different values stay");
+}
+
+void AddRunOptions(CLI::App& app, Arguments& arguments)
+{
   app
     .add_option("--max-iterations", arguments.Flip.MaximumIterations,
       "Stop after this many iterations; -1: when nothing is left to flip [-1]")
@@ -123,6 +137,10 @@ void CheckTogether(Arguments& arguments)
 {
   arguments.InputFormat = FormatOf(arguments.Input);
   arguments.OutputFormat = FormatOf(arguments.Output);
+  if (!arguments.Constraints.empty())
+  {
+    arguments.ConstraintsFormat = FormatOf(arguments.Constraints);
+  }
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Quality && !holdsCellData)
@@ -132,6 +150,9 @@ void CheckTogether(Arguments& arguments)
   }
   CheckDistinct(arguments.Input, arguments.Statistics);
   CheckDistinct(arguments.Input, arguments.Report);
+  CheckDistinct(arguments.Constraints, arguments.Output);
+  CheckDistinct(arguments.Constraints, arguments.Statistics);
+  CheckDistinct(arguments.Constraints, arguments.Report);
   CheckDistinct(arguments.Output, arguments.Statistics);
   CheckDistinct(arguments.Output, arguments.Report);
   CheckDistinct(arguments.Statistics, arguments.Report);
@@ -153,6 +174,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     ->required();
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments.Flip);
+  AddConstraintOptions(app, arguments);
   AddRunOptions(app, arguments);
   try
   {

@@ -23,6 +23,11 @@ struct Arguments
   MeshFormat OutputFormat = MeshFormat::VTK;
   FlipOptions Flip;
   bool IgnoreLines = false;
+  bool InsertLines = false;
+  std::string Constraints; ///< File; empty: none.
+  MeshFormat ConstraintsFormat = MeshFormat::VTK;
+  bool InsertConstraints = true;
+  std::string RegionArray; ///< Empty: none.
   bool Quality = false; ///< Cell arrays of angles.
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.

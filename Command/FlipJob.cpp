@@ -72,6 +72,9 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetNumberOfThreads(flip.NumberOfThreads);
   filter->SetDeviceId(flip.Device);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
+  filter->SetInsertLines(arguments.InsertLines);
+  filter->SetInsertConstraints(arguments.InsertConstraints);
+  filter->SetRegionArray(arguments.RegionArray.c_str());
   filter->SetGenerateQuality(arguments.Quality);
 }
 
@@ -113,20 +116,13 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    this->Bar.Start("reading " + this->Settings.Input);
-    const FileMesh file = ReadMesh(
-      this->Settings.Input, this->Settings.InputFormat, RepeatedPoints::Merge, this->Messages);
-    this->Bar.Clear();
-    this->Input = file.Mesh;
+    this->Input = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
+    if (!this->Settings.Constraints.empty())
+    {
+      this->Constraints =
+        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat);
+    }
     this->Run.ReadSeconds = SecondsSince(start);
-    for (const std::string& warning : file.Warnings)
-    {
-      PrintWarning(warning);
-    }
-    for (const std::string& note : file.Notes)
-    {
-      this->Note(note);
-    }
     if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
     {
       this->Note(this->Settings.Input + ": contains no triangles");
@@ -141,6 +137,10 @@ public:
     Configure(this->Filter, this->Settings);
     this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
     this->Filter->SetInputData(this->Input);
+    if (this->Constraints)
+    {
+      this->Filter->SetConstraintsData(this->Constraints);
+    }
     this->Filter->Update();
     this->Bar.Clear();
     this->Messages.PrintWarnings();
@@ -192,6 +192,22 @@ public:
   }
 
 private:
+  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
+  {
+    this->Bar.Start("reading " + path);
+    const FileMesh file = ReadMesh(path, format, RepeatedPoints::Merge, this->Messages);
+    this->Bar.Clear();
+    for (const std::string& warning : file.Warnings)
+    {
+      PrintWarning(warning);
+    }
+    for (const std::string& note : file.Notes)
+    {
+      this->Note(note);
+    }
+    return file.Mesh;
+  }
+
   void Note(const std::string& note) const
   {
     if (!this->Settings.Quiet)
@@ -254,6 +270,7 @@ private:
   VTKMessages Messages;
   ProgressBar Bar;
   vtkSmartPointer<vtkPolyData> Input;
+  vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkNew<vtkDelaunayFlip> Filter;
   RunReport Run;
 };

@@ -23,6 +23,8 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["non_manifold_edges"] = flip.Edges.NonManifold;
   json["constraint_edges"] = flip.Edges.Constraint;
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
+  json["inserted_constraint_edges"] = flip.InsertedConstraints;
+  json["constraint_flips"] = flip.ConstraintFlips;
   json["geometry"] = ToString(flip.GeometryUsed);
   json["geometry_reason"] = flip.GeometryReason;
   json["tolerance"] = flip.Tolerance;
@@ -118,6 +120,22 @@ std::string DescribeLeft(const FlipReport& flip)
   return blocked > 0 ? left + " (" + Grouped(blocked) + " blocked: " + reasons + ")" : left;
 }
 
+/// A line of the summary, or nothing where there are no constraints.
+std::string DescribeConstraints(const FlipReport& flip)
+{
+  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
+  {
+    return {};
+  }
+  std::string text = "constraints     " + Count(flip.Edges.Constraint, "edge") + " held";
+  if (flip.InsertedConstraints > 0)
+  {
+    text += ", " + Grouped(flip.InsertedConstraints) + " inserted by " +
+      Count(flip.ConstraintFlips, "flip");
+  }
+  return text + ", " + Grouped(flip.UnmatchedConstraints) + " not in the mesh\n";
+}
+
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -134,8 +152,8 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
          << Grouped(flip.Edges.Fixed) << " fixed)\n"
          << "geometry        " << DescribeGeometry(flip) << '\n'
-         << "bad edges       " << Grouped(flip.NonDelaunayBefore) << " -> " << DescribeLeft(flip)
-         << '\n'
+         << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
+         << " -> " << DescribeLeft(flip) << '\n'
          << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
          << Degrees(flip.MinimumAngleAfter) << " degrees\n"
          << "flips           " << Grouped(flip.TotalFlips) << " in "

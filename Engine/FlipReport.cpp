@@ -72,6 +72,11 @@ std::string InSingular(const std::string& what)
     { "triangles ", "triangle " },
     { "points ", "point " },
     { "constraint edges that are not edges ", "constraint edge that is not an edge " },
+    { "constraint edges that cannot be inserted because they leave ",
+      "constraint edge that cannot be inserted because it leaves " },
+    { "constraint edges that cannot be inserted because they cross ",
+      "constraint edge that cannot be inserted because it crosses " },
+    { "constraint edges ", "constraint edge " },
   };
   for (const auto& [several, one] : beginnings)
   {

@@ -49,8 +49,7 @@ std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& caller, const FlipO
   const TriangleMesh mesh = insertion.GetMesh(caller);
   const ThreadBackend backend(options.NumberOfThreads);
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey =
-    BuildMeshSurvey(input, insertion.GetOptions(options).Geometry, backend);
+  const MeshSurvey survey = BuildMeshSurvey(input, insertion.GetOptions(options).Geometry, backend);
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);

@@ -8,7 +8,16 @@ import resource
 import unittest
 
 from CommandTesting import (
-    CommandTest, bumpy_grid, make_mesh, random_insertion, triangle_set, read_mesh, write_mesh)
+    CommandTest,
+    bumpy_grid,
+    make_mesh,
+    random_insertion,
+    read_mesh,
+    triangle_set,
+    triangles_of,
+    write_mesh,
+)
+from vtkmodules.vtkCommonCore import vtkIntArray
 
 # Divided along its long diagonal.
 KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
@@ -24,6 +33,78 @@ class Options(CommandTest):
         mesh = make_mesh(KITE, KITE_CELLS, [(2, 0)])
         self.assertEqual(self.flips(mesh), 0)
         self.assertEqual(self.flips(mesh, "--ignore-lines"), 1)
+
+    def test_constraints(self):
+        """A kite cut along its short diagonal 1-3. The long one is in a file of the same points."""
+        tall = [(0, -2, 0), (1, 0, 0), (0, 2, 0), (-1, 0, 0)]
+        mesh = make_mesh(tall, [(0, 1, 3), (1, 2, 3)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        lines = write_mesh(make_mesh(tall, [], [(0, 2)]), self.path("lines.vtk"))
+        counts = ("inserted_constraint_edges", "constraint_flips", "constraint_edges",
+                  "unmatched_constraint_edges")
+
+        def constrain(*arguments):
+            report = self.report(path, "out.vtk", *arguments)
+            return [report[key] for key in counts]
+
+        self.assertEqual(constrain(), [0, 0, 0, 0])
+        self.assertEqual(constrain("--constraints", lines), [1, 1, 1, 0])
+        self.assertTrue(self.has_edge(0, 2))
+        self.assertEqual(constrain("--constraints", lines, "--no-insert-constraints"), [0, 0, 0, 1])
+        self.assertFalse(self.has_edge(0, 2))
+
+    def has_edge(self, a, b):
+        """Whether the output has it."""
+        triangles = triangles_of(read_mesh(self.path("out.vtk")))
+        return any(a in triangle and b in triangle for triangle in triangles)
+
+    def test_constraints_by_place(self):
+        points = [(9, 9, 9), (0, 2, 0), (0, -2, 0)]
+        mesh = make_mesh([(0, -2, 0), (1, 0, 0), (0, 2, 0), (-1, 0, 0)], [(0, 1, 3), (1, 2, 3)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        for name in ("lines.vtp", "lines.obj"):
+            with self.subTest(name):
+                lines = write_mesh(make_mesh(points, [], [(1, 2)]), self.path(name))
+                report = self.report(path, "out.vtk", "--constraints", lines)
+                self.assertEqual(report["inserted_constraint_edges"], 1)
+
+    def test_lines_are_inserted_on_request(self):
+        mesh = make_mesh(KITE, [(0, 1, 3), (1, 2, 3)], [(0, 2)])
+        self.assertEqual(self.flips(mesh), 0)
+        path = self.path("in.vtk")
+        result = self.succeed(path, "out.vtk", "--insert-lines")
+        self.assertIn("1 edge held, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
+        self.assertTrue(self.has_edge(0, 2))
+
+    def test_constraints_that_cannot_be_inserted_are_named(self):
+        mesh = make_mesh(KITE, [(0, 1, 3), (1, 2, 3)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        lines = write_mesh(make_mesh(KITE, [], [(1, 3), (2, 0)]), self.path("lines.vtk"))
+        result = self.succeed(path, "out.vtk", "--constraints", lines)
+        self.assertIn("1 edge held, 1 not in the mesh", result.stdout)
+        self.assertIn("cross edges that stay (first: 0-2)", result.stderr)
+
+    def test_bad_constraints(self):
+        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
+        self.fail_with(3, path, "out.vtk", "--constraints", "none.vtk", naming=["none.vtk"])
+        self.fail_with(2, path, "out.vtk", "--constraints", "lines.txt", naming=["lines.txt"])
+        self.fail_with(2, path, "out.vtk", "--constraints", "out.vtk", naming=["out.vtk"])
+        other = write_mesh(make_mesh(KITE[:2], [], [(0, 1)]), self.path("short.vtk"))
+        with open(other, "r+b") as file:
+            file.truncate(os.path.getsize(other) // 2)
+        self.fail_with(3, path, "out.vtk", "--constraints", other, naming=["short.vtk"])
+
+    def test_region_array(self):
+        mesh = make_mesh(KITE, KITE_CELLS)
+        regions = vtkIntArray()
+        regions.SetName("Rock")
+        for value in (1, 2):
+            regions.InsertNextValue(value)
+        mesh.GetCellData().AddArray(regions)
+        self.assertEqual(self.flips(mesh), 1)
+        self.assertEqual(self.flips(mesh, "--region-array", "Rock"), 0)
+        path = self.path("in.vtk")
+        self.fail_with(2, path, "out.vtk", "--region-array", "Sand", naming=["Sand"])
 
     def test_quality(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
