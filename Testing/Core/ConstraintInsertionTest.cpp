@@ -156,6 +156,123 @@ TEST(ConstraintInsertion, GivesCgalsConstrainedDelaunayMesh)
   }
 }
 
+namespace
+{
+
+/// A mesh whose triangles have their middle at whole coordinates, without the stars of some points.
+ConstrainedMesh DrawCaseWithHoles(std::uint32_t seed)
+{
+  ConstrainedMesh drawn = DrawCase(60, 30, 30, seed);
+  for (double& x : drawn.Mesh.Points)
+  {
+    x *= 3.0;
+  }
+  std::vector<std::int32_t> kept;
+  const std::vector<std::int32_t>& all = drawn.Mesh.Triangles;
+  for (std::size_t i = 0; i < all.size(); i += 3)
+  {
+    if (all[i] % 15 != 0 && all[i + 1] % 15 != 0 && all[i + 2] % 15 != 0)
+    {
+      kept.insert(kept.end(), &all[i], &all[i] + 3);
+    }
+  }
+  drawn.Mesh.Triangles = kept;
+  return drawn;
+}
+
+/// Whether the middle of a triangle lies in the mesh.
+bool IsInDomain(const TriangleMesh& mesh, const std::array<std::int64_t, 3>& triangle)
+{
+  const auto getPoint = [&](std::int64_t id) -> Point3 {
+    return { mesh.Points.Get(id, 0), mesh.Points.Get(id, 1), 0.0 };
+  };
+  Point3 middle{};
+  for (const std::int64_t id : triangle)
+  {
+    middle[0] += getPoint(id)[0] / 3.0;
+    middle[1] += getPoint(id)[1] / 3.0;
+  }
+  bool isIn = false;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count && !isIn; ++t)
+  {
+    isIn = true;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      isIn = isIn &&
+        RationalTurn(getPoint(mesh.Triangles.Get(t, slot)),
+          getPoint(mesh.Triangles.Get(t, (slot + 1) % 3)), middle) >= 0;
+    }
+  }
+  return isIn;
+}
+
+/// CGAL's constrained Delaunay triangles in the domain of a mesh, whose rim constrains, too.
+std::vector<std::int32_t> MakeReferenceInDomain(const TriangleMesh& mesh, ConstrainedMesh accepted)
+{
+  std::set<VertexPair> sides;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      sides.emplace(mesh.Triangles.Get(t, slot), mesh.Triangles.Get(t, (slot + 1) % 3));
+    }
+  }
+  for (const VertexPair& side : sides)
+  {
+    if (sides.count({ side.second, side.first }) == 0)
+    {
+      accepted.Add(side.first, side.second);
+    }
+  }
+  std::vector<std::int32_t> triangles;
+  for (const auto& triangle : MakeCgalConstrainedDelaunay(accepted.View()))
+  {
+    if (IsInDomain(mesh, triangle))
+    {
+      triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    }
+  }
+  return triangles;
+}
+
+}
+
+TEST(ConstraintInsertion, GivesCgalsMeshInADomainWithHoles)
+{
+  FlipOptions options;
+  options.TieRule = TieRuleKind::Canonical;
+  std::int64_t inserted = 0;
+  std::int64_t left = 0;
+  for (std::uint32_t seed = 0; seed < 30 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const ConstrainedMesh drawn = DrawCaseWithHoles(seed);
+    const TriangleMesh mesh = drawn.View();
+    const FlipResult result = Flip(mesh, options);
+    ExpectSameDomain(mesh, result);
+    inserted += result.Report.InsertedConstraints;
+    left += CountDefect(result.Report, Leaves);
+    ConstrainedMesh accepted;
+    accepted.Mesh = drawn.Mesh;
+    const auto isEdge = [&](const VertexPair& piece)
+    { return HasEdge(result.Triangles, piece.first, piece.second); };
+    for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+    {
+      const std::vector<VertexPair> pieces =
+        SplitAtVertices(mesh, mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
+      if (!pieces.empty() && std::all_of(pieces.begin(), pieces.end(), isEdge))
+      {
+        accepted.Add(mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
+      }
+    }
+    const std::vector<std::int32_t> reference = MakeReferenceInDomain(mesh, accepted);
+    const FlipResult canonical = Flip(WithTriangles(accepted.View(), reference), options);
+    EXPECT_TRUE(ToTriangleSet(canonical.Triangles) == ToTriangleSet(result.Triangles));
+  }
+  EXPECT_LT(0, inserted);
+  EXPECT_LT(0, left);
+}
+
 TEST(ConstraintInsertion, AlongAndAcrossALattice)
 {
   constexpr std::int32_t Size = 24;
@@ -305,22 +422,46 @@ TEST(ConstraintInsertion, KeepsOverlapsWhatTheyAre)
   }
 }
 
+TEST(ConstraintInsertion, SaysWhereTrianglesOverlap)
+{
+  // Two lattices at the same place; constraints from one to the other, and within one.
+  ConstrainedMesh layers;
+  layers.Mesh = MakeGridMesh(4, 4);
+  const OwnedMesh<double> one = layers.Mesh;
+  layers.Mesh.Points.insert(layers.Mesh.Points.end(), one.Points.begin(), one.Points.end());
+  for (const std::int32_t id : one.Triangles)
+  {
+    layers.Mesh.Triangles.push_back(id + 25);
+  }
+  layers.Add(0, 25 + 11);
+  layers.Add(6, 25 + 6);
+  layers.Add(25, 25 + 11);
+  const FlipResult result = Flip(layers.View());
+  EXPECT_EQ(2, CountDefect(result.Report, Overlaps));
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+
+  // The triangle behind edge 1-2 is folded back over the one before it.
+  ConstrainedMesh fold;
+  fold.Mesh.Points = { 0, 0, 0, 2, -1, 0, 2, 1, 0, 1, 0.25, 0, 4, 0, 0, 5, -1, 0, 5, 1, 0 };
+  fold.Mesh.Triangles = { 0, 1, 2, 2, 1, 3, 4, 5, 6 };
+  fold.Add(0, 4);
+  EXPECT_EQ(1, CountDefect(Flip(fold.View()).Report, Overlaps));
+}
+
 TEST(ConstraintInsertion, OfTerrainKeepsTheGeometryOfTheInput)
 {
-  // Gentle slopes, until a constraint joins two peaks.
-  ConstrainedMesh hills;
-  hills.Mesh = MakeGridMesh(40, 40);
-  for (std::size_t i = 0; i < hills.Mesh.Points.size(); i += 3)
-  {
-    hills.Mesh.Points[i + 2] = 0.4 * static_cast<double>(i * i % 7) / 7.0;
-  }
-  hills.Add(3, 1670);
-  const FlipReport plain = Flip(hills.Mesh.View()).Report;
-  const FlipResult result = Flip(hills.View());
+  // Gentle triangles until the constraint cuts the two heights from each other.
+  ConstrainedMesh ridge;
+  ridge.Mesh.Points = { -3, 0, 0, 0, -1.5, 2, 3, 0, 0, 0, 1.5, 2 };
+  ridge.Mesh.Triangles = { 0, 1, 3, 1, 2, 3 };
+  const FlipReport plain = Flip(ridge.Mesh.View()).Report;
+  ridge.Add(0, 2);
+  const FlipResult result = Flip(ridge.View());
   EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed);
   EXPECT_EQ(plain.GeometryReason, result.Report.GeometryReason);
-  EXPECT_EQ(1, result.Report.InsertedConstraints);
-  ExpectEdges(result.Triangles, SplitAtVertices(hills.View(), 3, 1670));
+  EXPECT_TRUE(HasEdge(result.Triangles, 0, 2));
+  EXPECT_EQ(GeometryKind::Surface,
+    Flip(WithTriangles(ridge.Mesh.View(), result.Triangles)).Report.GeometryUsed);
 }
 
 TEST(ConstraintInsertion, FixedEdgesHoldThePieces)
