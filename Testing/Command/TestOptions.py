@@ -82,7 +82,7 @@ class Options(CommandTest):
         lines = write_mesh(make_mesh(KITE, [], [(1, 3), (2, 0)]), self.path("lines.vtk"))
         result = self.succeed(path, "out.vtk", "--constraints", lines)
         self.assertIn("1 edge held, 1 not in the mesh", result.stdout)
-        self.assertIn("cross edges that stay (first: 0-2)", result.stderr)
+        self.assertIn("crosses edges that stay (first: 0-2)", result.stderr)
 
     def test_bad_constraints(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
