@@ -231,7 +231,7 @@ TEST(ConstraintPlaces, LinesOfTheMeshAndOthersTogether)
   WatchedFilter filter(mesh);
   EXPECT_EQ(Constrain(filter, lines), Counts(2, 2));
   for (const char* text : { "1 constraint edge that is not an edge of the mesh",
-         "1 constraint edges of the second input that the mesh does not have" })
+         "1 constraint edge of the second input that the mesh does not have" })
   {
     EXPECT_NE(filter.GetWarnings()[0].find(text), std::string::npos) << filter.GetWarnings()[0];
   }
