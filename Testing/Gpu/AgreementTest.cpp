@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <utility>
+#include <vector>
 
 /// @file
 /// The GPU's mesh and statistics are the CPU's, bit for bit.
@@ -233,6 +235,30 @@ TEST_F(FloatAgreementTest, TolerancesAgree)
       ExpectGpuAgrees(plane.View(), options);
     }
   }
+}
+
+class InsertionAgreementTest : public GpuTest
+{
+};
+
+TEST_F(InsertionAgreementTest, InsertedConstraintsAgree)
+{
+  constexpr std::int64_t Constraints = 300;
+  const OwnedMesh<double> bad = MakeRandomBadMeshDouble(50000, 24);
+  std::mt19937 random(24);
+  std::vector<std::int64_t> ends;
+  for (std::int64_t i = 0; i < 2 * Constraints; ++i)
+  {
+    ends.push_back(DrawIndex(random, bad.NumberOfPoints()));
+  }
+  const std::vector<unsigned char> toInsert(Constraints, 1);
+  TriangleMesh mesh = bad.View();
+  mesh.ConstraintEdges = ends.data();
+  mesh.NumberOfConstraintEdges = Constraints;
+  mesh.ConstraintsToInsert = toInsert.data();
+  const FlipReport report = ExpectGpuAgrees(mesh, FlipOptions()).Report;
+  EXPECT_LT(0, report.InsertedConstraints);
+  EXPECT_LT(0, report.ConstraintFlips);
 }
 
 }
