@@ -23,7 +23,7 @@ class Example(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             result = run(folder)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-            self.assertRegex(result.stdout, r"^\d+ flips in \d+ iterations, 0 edges left")
+            self.assertRegex(result.stdout, r"^\d+ flips in \d+ iterations, 0 bad edges left")
             mesh, picture = vtkXMLPolyDataReader(), vtkPNGReader()
             for reader, extension in ((mesh, ".vtp"), (picture, ".png")):
                 reader.SetFileName(os.path.join(folder, os.environ["STEM"] + extension))
