@@ -55,7 +55,8 @@ def make_text(folder):
     numbers = read_json(NUMBERS)
     results.machine, results.parts = numbers["machine"], numbers["parts"]
     sections, tables = report.gather(results)
-    return report.make_markdown(sections, tables, "images/paper").split("\n", 4)[4].strip()
+    text = report.make_markdown(sections, tables, "images/paper")
+    return text[text.index("\n## ") :].strip()  # the page has an introduction of its own
 
 
 def read_document():
