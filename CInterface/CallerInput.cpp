@@ -77,6 +77,7 @@ TriangleMesh ToMesh(const delaunayflip_mesh& c)
   Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
   mesh.ConstraintEdges = c.constraint_edges;
   mesh.NumberOfConstraintEdges = c.number_of_constraint_edges;
+  mesh.ConstraintsToInsert = c.constraints_to_insert;
   mesh.Regions = c.regions;
   mesh.FrozenTriangles = c.frozen_triangles;
   return mesh;

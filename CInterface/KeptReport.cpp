@@ -41,6 +41,8 @@ void SetEdges(delaunayflip_report& c, const FlipReport& report)
   c.region_edges = report.Edges.Region;
   c.fixed_edges = report.Edges.Fixed;
   c.unmatched_constraints = report.UnmatchedConstraints;
+  c.inserted_constraints = report.InsertedConstraints;
+  c.constraint_flips = report.ConstraintFlips;
   c.euler_characteristic = report.EulerCharacteristic;
 }
 

@@ -91,6 +91,9 @@ extern "C"
     int32_t id_type; /**< DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64, of the triangles. [INT64] */
     const int64_t* constraint_edges; /**< Edges that must stay: pairs of point ids, or null. */
     int64_t number_of_constraint_edges;
+    const unsigned char* constraints_to_insert; /**< A flag per constraint edge, or null: where it
+                                                   is not 0 and the mesh is planar, an edge that
+                                                   the mesh does not have is made by flips. */
     const int32_t* regions; /**< A label per triangle, or null: edges between labels stay. */
     const unsigned char* frozen_triangles; /**< A flag per triangle, or null: where it is not 0, the
                                                 triangle's edges stay. */
@@ -191,6 +194,8 @@ extern "C"
     int64_t region_edges;
     int64_t fixed_edges; /**< Edges that never flip, for any reason. */
     int64_t unmatched_constraints; /**< Constraint edges that the mesh does not have. */
+    int64_t inserted_constraints; /**< Constraint edges that flips made before the iterations. */
+    int64_t constraint_flips; /**< How many flips that took; not in total_flips. */
     int64_t euler_characteristic; /**< Used points - edges + triangles; flips keep it. */
     double
       minimum_angle_before; /**< Degrees; 0 with a degenerate triangle; NaN without triangles. */

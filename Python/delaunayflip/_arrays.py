@@ -51,7 +51,8 @@ def _per_triangle(name, values, kind, count):
 class Mesh:
     """A mesh in arrays that live as long as it does."""
 
-    def __init__(self, points, triangles, constraints=None, regions=None, frozen=None):
+    def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
+                 insert_constraints=True):
         self.points = as_points(points)
         self.triangles = as_ids("triangles", triangles, 3)
         self.struct = _library.Mesh()
@@ -65,6 +66,9 @@ class Mesh:
             self.constraints = as_ids("constraints", constraints, 2).astype(numpy.int64, copy=False)
             self.struct.constraint_edges = address(self.constraints)
             self.struct.number_of_constraint_edges = len(self.constraints)
+            if insert_constraints:
+                self.to_insert = numpy.ones(len(self.constraints), dtype=numpy.uint8)
+                self.struct.constraints_to_insert = address(self.to_insert)
         if regions is not None:
             self.regions = _per_triangle("regions", regions, numpy.int32, len(self.triangles))
             self.struct.regions = address(self.regions)

@@ -21,9 +21,9 @@ class Result:
 
 
 def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule="keep",
-         tolerance=-1.0, feature_angle=30.0, constraints=None, regions=None, frozen=None,
-         maximum_iterations=-1, backend="auto", threads=0, device=-1, track_quality=False,
-         progress=None, on_iteration=None):
+         tolerance=-1.0, feature_angle=30.0, constraints=None, insert_constraints=True,
+         regions=None, frozen=None, maximum_iterations=-1, backend="auto", threads=0, device=-1,
+         track_quality=False, progress=None, on_iteration=None):
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
@@ -41,6 +41,7 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
         constraints: (k, 2) pairs of point ids: edges that must stay.
+        insert_constraints: In the plane, make constraints that are no edges yet by flips.
         regions: (m,) integers: edges between triangles of different labels stay.
         frozen: (m,) flags: the edges of these triangles stay.
         maximum_iterations: -1: until done; 0: only test.
@@ -69,8 +70,8 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
         [[0, 1, 3], [1, 2, 3]]
     """
     with Session(
-        points, triangles, constraints=constraints, regions=regions, frozen=frozen,
-        progress=progress, geometry=geometry, criterion=criterion, tie_rule=tie_rule,
+        points, triangles, constraints=constraints, insert_constraints=insert_constraints,
+        regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion, tie_rule=tie_rule,
         tolerance=tolerance, feature_angle=feature_angle, maximum_iterations=maximum_iterations,
         backend=backend, threads=threads, device=device, track_quality=track_quality,
     ) as session:

@@ -32,6 +32,7 @@ class Mesh(ctypes.Structure):
         ("id_type", c_int32),
         ("constraint_edges", c_void_p),
         ("number_of_constraint_edges", c_int64),
+        ("constraints_to_insert", c_void_p),
         ("regions", c_void_p),
         ("frozen_triangles", c_void_p),
     ]
@@ -94,6 +95,8 @@ class Report(ctypes.Structure):
         ("region_edges", c_int64),
         ("fixed_edges", c_int64),
         ("unmatched_constraints", c_int64),
+        ("inserted_constraints", c_int64),
+        ("constraint_flips", c_int64),
         ("euler_characteristic", c_int64),
         ("minimum_angle_before", c_double),
         ("minimum_angle_after", c_double),

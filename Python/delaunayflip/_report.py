@@ -38,6 +38,8 @@ class Report:
     region_edges: int
     fixed_edges: int
     unmatched_constraints: int  #: Constraint edges that the mesh does not have.
+    inserted_constraints: int  #: Constraint edges that flips made before the iterations.
+    constraint_flips: int  #: How many flips that took; not in total_flips.
     euler_characteristic: int  #: Used points - edges + triangles; flips keep it.
     minimum_angle_before: float  #: Degrees; NaN without triangles.
     minimum_angle_after: float

@@ -35,10 +35,11 @@ class Session:
         converged
     """
 
-    def __init__(self, points, triangles, *, constraints=None, regions=None, frozen=None,
-                 progress=None, **options):
+    def __init__(self, points, triangles, *, constraints=None, insert_constraints=True,
+                 regions=None, frozen=None, progress=None, **options):
         self._handle = ctypes.c_void_p()
-        self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen)
+        self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
+                                 insert_constraints)
         chosen = make_options(**options)
         observers = Observers(progress)
         with observers.raising() as callbacks:

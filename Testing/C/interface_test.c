@@ -251,6 +251,27 @@ static int32_t LogIteration(const delaunayflip_iteration* record, void* user)
   return ++log->calls != log->last_call;
 }
 
+static void TestConstraintIsInserted(void)
+{
+  const int64_t shortDiagonal[] = { 0, 1, 3, 1, 2, 3 };
+  const int64_t diagonal[] = { 0, 2 };
+  const unsigned char insert[] = { 1 };
+  delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  mesh.triangles = shortDiagonal;
+  mesh.constraint_edges = diagonal;
+  mesh.number_of_constraint_edges = 1;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(triangles));
+  CHECK(report.unmatched_constraints == 1 && report.inserted_constraints == 0);
+  mesh.constraints_to_insert = insert;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(!HasShortDiagonal(triangles));
+  CHECK(report.inserted_constraints == 1 && report.constraint_flips == 1);
+}
+
 static void TestProgressAborts(void)
 {
   Lattice lattice = MakeLattice(50);
@@ -490,12 +511,12 @@ int main(int argc, char** argv)
 {
   const Case cases[] = { { "versions", TestVersions }, { "flips_square", TestFlipsSquare },
     { "all_types", TestAllTypes }, { "steps", TestSteps }, { "in_place", TestInPlace },
-    { "constraints", TestConstraints }, { "progress_aborts", TestProgressAborts },
-    { "iteration_aborts", TestIterationAborts }, { "invalid_mesh", TestInvalidMesh },
-    { "invalid_options", TestInvalidOptions }, { "null_pointers", TestNullPointers },
-    { "unset_sizes", TestUnsetSizes }, { "old_program", TestOldProgram },
-    { "newer_program", TestNewerProgram }, { "empty_mesh", TestEmptyMesh },
-    { "angles", TestAngles }, { "iterations", TestIterations },
+    { "constraints", TestConstraints }, { "inserted_constraint", TestConstraintIsInserted },
+    { "progress_aborts", TestProgressAborts }, { "iteration_aborts", TestIterationAborts },
+    { "invalid_mesh", TestInvalidMesh }, { "invalid_options", TestInvalidOptions },
+    { "null_pointers", TestNullPointers }, { "unset_sizes", TestUnsetSizes },
+    { "old_program", TestOldProgram }, { "newer_program", TestNewerProgram },
+    { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
     { "backend_unavailable", TestBackendUnavailable }, { "threads", TestThreads } };
   size_t i;
   for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)

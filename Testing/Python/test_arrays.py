@@ -99,6 +99,17 @@ class Flip(unittest.TestCase):
                 result = delaunayflip.flip(POINTS, TRIANGLES, **keywords)
                 numpy.testing.assert_array_equal(result.triangles, TRIANGLES)
 
+    def test_a_constraint_is_inserted(self):
+        short = [[0, 1, 3], [1, 2, 3]]
+        inserted = delaunayflip.flip(POINTS, short, constraints=[[0, 2]])
+        self.assertEqual({frozenset(t) for t in inserted.triangles.tolist()},
+                         {frozenset((0, 1, 2)), frozenset((0, 2, 3))})
+        self.assertEqual(inserted.report.inserted_constraints, 1)
+        self.assertEqual(inserted.report.constraint_flips, 1)
+        kept = delaunayflip.flip(POINTS, short, constraints=[[0, 2]], insert_constraints=False)
+        numpy.testing.assert_array_equal(kept.triangles, short)
+        self.assertEqual(kept.report.unmatched_constraints, 1)
+
     def test_empty(self):
         result = delaunayflip.flip(numpy.empty((0, 3)), [])
         self.assertEqual(result.triangles.shape, (0, 3))
