@@ -116,6 +116,9 @@ TEST(EngineAllocations, OfASurfaceFailOnce)
 /// Blocks of a megabyte and more are mapped.
 TEST(EngineAllocations, OfALargeMeshFailOnce)
 {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer has mmap for itself";
+#endif
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(70000, 1);
   ExpectFailuresReported(mesh, WithThreads(2, GeometryKind::Auto), Megabyte);
 }
