@@ -37,8 +37,7 @@ extern "C"
 {
 #endif
 
-/** The version of this interface. The library's is at least the header's where both fit together.
- */
+/** The version of this interface. Check that delaunayflip_interface_version() returns the same. */
 #define DELAUNAYFLIP_INTERFACE_VERSION 1
 
   /** The interface version of the library that was loaded. */
@@ -51,7 +50,7 @@ extern "C"
   {
     DELAUNAYFLIP_OK = 0,
     DELAUNAYFLIP_INVALID_MESH =
-      1, /**< A triangle or constraint edge names a point that is not there. */
+      1, /**< A triangle or constraint edge names a point that does not exist. */
     DELAUNAYFLIP_INVALID_OPTIONS = 2, /**< Options out of range, or that contradict the mesh. */
     DELAUNAYFLIP_MESH_TOO_LARGE = 3,
     DELAUNAYFLIP_BACKEND_UNAVAILABLE = 4, /**< The requested backend cannot run here. */
@@ -146,7 +145,7 @@ extern "C"
   typedef enum
   {
     DELAUNAYFLIP_NOT_STARTED = 0,
-    DELAUNAYFLIP_CONVERGED = 1, /**< An iteration found nothing that it may flip. */
+    DELAUNAYFLIP_CONVERGED = 1, /**< An iteration found no edge that may flip. */
     DELAUNAYFLIP_ITERATION_LIMIT = 2,
     DELAUNAYFLIP_ABORTED = 3, /**< A callback returned 0. */
     DELAUNAYFLIP_RUNNING = 4 /**< There is more to do. */
@@ -157,7 +156,7 @@ extern "C"
   {
     int64_t iteration; /**< 1, 2, ... */
     int64_t tested; /**< Edges tested. */
-    int64_t non_delaunay; /**< Bad edges known when the iteration chose; never fixed ones. */
+    int64_t non_delaunay; /**< Bad edges at its start; fixed edges never count. */
     int64_t flipped;
     int64_t
       excluded; /**< Not flipped because a neighbour was, or because it lies between chunks. */
@@ -174,17 +173,17 @@ extern "C"
     int32_t geometry_used; /**< A delaunayflip_geometry, never AUTO. */
     const char* geometry_reason; /**< Why that geometry was used. */
     const char* backend; /**< E.g. "Threads: 8" or "CUDA: NVIDIA H200". */
-    const char* fallback; /**< Why the CPU stood in for a GPU; "" if it did not. */
-    const char* tolerance; /**< "automatic", the value asked for, or "none". */
-    const char* defects; /**< What the mesh had wrong, as a sentence; "" if nothing. */
+    const char* fallback; /**< Why the CPU replaced a GPU; "" if it did not. */
+    const char* tolerance; /**< "automatic", the requested value, or "none". */
+    const char* defects; /**< What was wrong with the mesh, in one sentence; "" if nothing. */
     int64_t number_of_iterations;
     int64_t total_flips;
     int64_t total_excluded;
     int64_t total_blocked;
     int64_t non_delaunay_before; /**< Bad edges of the input that are not fixed. */
     int64_t non_delaunay_after; /**< Bad edges left, flippable or blocked. */
-    int64_t blocked_by_shape; /**< Of these, such whose flip would fold the mesh over. */
-    int64_t blocked_by_edge; /**< And such whose flip would make an edge that exists. */
+    int64_t blocked_by_shape; /**< Of these, edges whose flip would fold the mesh over. */
+    int64_t blocked_by_edge; /**< Of these, edges whose flip would duplicate an edge. */
     int64_t edges;
     int64_t boundary_edges;
     int64_t non_manifold_edges;

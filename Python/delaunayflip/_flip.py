@@ -41,7 +41,7 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
         constraints: (k, 2) pairs of point ids: edges that must stay.
-        insert_constraints: In the plane, make constraints that are no edges yet by flips.
+        insert_constraints: In the plane, flips turn missing constraints into edges.
         regions: (m,) integers: edges between triangles of different labels stay.
         frozen: (m,) flags: the edges of these triangles stay.
         maximum_iterations: -1: until done; 0: only test.

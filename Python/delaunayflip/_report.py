@@ -8,7 +8,7 @@ from . import _library
 
 @dataclasses.dataclass(frozen=True)
 class Report:
-    """What a run did, and what it met in the mesh.
+    """What a run did, and what it found in the mesh.
 
     An edge is bad if it is not Delaunay. Fixed edges (boundary, non-manifold, feature, constraint,
     ...) never flip and are never counted as bad.
@@ -18,8 +18,8 @@ class Report:
     geometry_used: str  #: "planar", "planar-xy" or "surface".
     geometry_reason: str  #: Why.
     backend: str  #: E.g. "Threads: 8" or "CUDA: NVIDIA H200".
-    fallback: str  #: Why the CPU stood in for a GPU; "" if it did not.
-    tolerance: str  #: "automatic", the value asked for, or "none".
+    fallback: str  #: Why the CPU replaced a GPU; "" if it did not.
+    tolerance: str  #: "automatic", the requested value, or "none".
     defects: str  #: What was wrong with the mesh, as a sentence; "" if nothing.
     number_of_iterations: int
     total_flips: int

@@ -16,7 +16,7 @@ ITERATION = numpy.dtype(
 
 
 class Session:
-    """A mesh in the course of its flips, for those who want to see the steps.
+    """Flips a mesh step by step.
 
     Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
     `advance` flips. The arrays must not change while the session lives. A session is a context

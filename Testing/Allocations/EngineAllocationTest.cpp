@@ -113,11 +113,11 @@ TEST(EngineAllocations, OfASurfaceFailOnce)
   ExpectFailuresReported(mesh, WithThreads(1, GeometryKind::Surface));
 }
 
-/// Blocks of a megabyte and more are mapped.
+/// Allocations of a megabyte and more are mapped.
 TEST(EngineAllocations, OfALargeMeshFailOnce)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer has mmap for itself";
+  GTEST_SKIP() << "sanitizers replace mmap themselves";
 #endif
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(70000, 1);
   ExpectFailuresReported(mesh, WithThreads(2, GeometryKind::Auto), Megabyte);

@@ -39,26 +39,6 @@ std::string GetWarning(WatchedFilter& filter)
   return filter.GetWarnings().empty() ? "" : filter.GetWarnings()[0];
 }
 
-bool Holds(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-/// The rhombus and a distant part, which must not keep it from being processed.
-vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons)
-{
-  auto mesh = MakeRhombus();
-  for (const auto& point : points)
-  {
-    mesh->GetPoints()->InsertNextPoint(point.data());
-  }
-  for (const Cell& cell : polygons)
-  {
-    mesh->GetPolys()->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
-  }
-  return mesh;
-}
-
 }
 
 TEST(VtkDelaunayFlip, EmptyInputPasses)

@@ -74,11 +74,6 @@ double GetRow(vtkDelaunayFlip* filter, const char* column, vtkIdType row)
   return filter->GetIterations()->GetValueByName(row, column).ToDouble();
 }
 
-bool Holds(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
 }
 
 TEST(Composite, EveryBlockIsFlipped)

@@ -23,26 +23,6 @@
 namespace
 {
 
-bool Holds(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-/// The rhombus beside another mesh, whose points count from 4 and must lie right of x = 5.
-vtkSmartPointer<vtkPolyData> MakeRhombusBeside(const Points& points, const Cells& polygons)
-{
-  auto mesh = MakeRhombus();
-  for (const auto& point : points)
-  {
-    mesh->GetPoints()->InsertNextPoint(point.data());
-  }
-  for (const Cell& cell : polygons)
-  {
-    mesh->GetPolys()->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
-  }
-  return mesh;
-}
-
 /// How often each edge is one of a triangle, ascending.
 std::vector<std::pair<Cell, int>> CountEdges(vtkPolyData* mesh)
 {
@@ -115,7 +95,7 @@ TEST(Contract, CoincidentPointsAreNotMerged)
 {
   // Points 4 and 5 lie at one place; the edge between them has no length.
   const Points points = { { 10, 0, 0 }, { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } };
-  auto mesh = MakeRhombusBeside(points, { { 4, 5, 6 }, { 4, 6, 7 }, { 5, 4, 7 } });
+  auto mesh = MakeRhombusAnd(points, { { 4, 5, 6 }, { 4, 6, 7 }, { 5, 4, 7 } });
   WatchedFilter filter(mesh);
   vtkPolyData* output = filter.Run();
   EXPECT_TRUE(filter.GetErrors().empty());
@@ -163,7 +143,7 @@ TEST(Contract, BowTieVerticesKeepTheirTriangles)
 {
   // A second rhombus that hangs on point 2 of the first.
   const Points points = { { 6, -1, 0 }, { 9, 0, 0 }, { 6, 1, 0 } };
-  auto mesh = MakeRhombusBeside(points, { { 2, 4, 5 }, { 2, 5, 6 } });
+  auto mesh = MakeRhombusAnd(points, { { 2, 4, 5 }, { 2, 5, 6 } });
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   EXPECT_EQ(filter->GetTotalFlips(), 2);
@@ -175,7 +155,7 @@ TEST(Contract, OverlapsInTheProjectionNeverFlip)
 {
   // The third triangle is folded back over the first: both have edge 0-1.
   const Points points = { { 10, 0, 0 }, { 16, 0, 0 }, { 13, 1, 0 }, { 13, 2, 5 } };
-  auto mesh = MakeRhombusBeside(points, { { 4, 5, 6 }, { 5, 4, 7 } });
+  auto mesh = MakeRhombusAnd(points, { { 4, 5, 6 }, { 5, 4, 7 } });
   WatchedFilter filter(mesh);
   filter->SetGeometryToPlanarXY();
   vtkPolyData* output = filter.Run();

@@ -45,6 +45,25 @@ vtkSmartPointer<vtkPolyData> MakeRhombus()
     { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } });
 }
 
+vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons)
+{
+  auto mesh = MakeRhombus();
+  for (const auto& point : points)
+  {
+    mesh->GetPoints()->InsertNextPoint(point.data());
+  }
+  for (const Cell& cell : polygons)
+  {
+    mesh->GetPolys()->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
+  }
+  return mesh;
+}
+
+bool Holds(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
 Cell GetCell(vtkPolyData* mesh, vtkIdType cell)
 {
   vtkNew<vtkIdList> ids;

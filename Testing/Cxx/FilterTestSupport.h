@@ -29,6 +29,13 @@ vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygon
 /// 0-2 into triangles (0, 1, 2) and (0, 2, 3). One flip, to 1-3, makes it Delaunay.
 vtkSmartPointer<vtkPolyData> MakeRhombus();
 
+/// The rhombus and another part, which must not keep it from being processed. The other points are
+/// numbered from 4.
+vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons);
+
+/// Whether `part` occurs in `text`.
+bool Holds(const std::string& text, const std::string& part);
+
 /// The point ids of a cell.
 Cell GetCell(vtkPolyData* mesh, vtkIdType cell);
 

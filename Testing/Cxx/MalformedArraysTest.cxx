@@ -26,11 +26,6 @@
 namespace
 {
 
-bool Holds(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
 /// The rhombus as one quad, beside a triangle far away.
 vtkSmartPointer<vtkPolyData> MakeQuadAndTriangle()
 {
