@@ -7,6 +7,7 @@
 #include "DelaunayFlip.h"
 #include "DiskSpace.h"
 #include "FormatLosses.h"
+#include "JobPlan.h"
 #include "MeshReader.h"
 #include "MeshWriter.h"
 #include "OutputFiles.h"
@@ -109,7 +110,8 @@ public:
   FlipJob(const Arguments& arguments, OutputFiles& files)
     : Settings(arguments),
       Files(files),
-      Bar(!arguments.Quiet)
+      Bar(!arguments.Quiet),
+      Plan(PlanJob(arguments.InputFormat, arguments.OutputFormat))
   {
   }
 
@@ -135,6 +137,7 @@ public:
     progress->SetCallback(ShowProgress);
     progress->SetClientData(&this->Bar);
     Configure(this->Filter, this->Settings);
+    this->Bar.Begin(this->Plan.Flip, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
     this->Filter->SetInputData(this->Input);
     if (this->Constraints)
@@ -151,7 +154,7 @@ public:
   void Write()
   {
     const auto start = Clock::now();
-    this->Bar.Start("writing " + this->Settings.Output);
+    this->Bar.Begin(1.0, "writing " + this->Settings.Output);
     vtkNew<vtkPolyData> mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
     // These two may differ between runs; without them, equal meshes give equal files.
@@ -194,7 +197,7 @@ public:
 private:
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
   {
-    this->Bar.Start("reading " + path);
+    this->Bar.Begin(this->Plan.Read, "reading " + path);
     const FileMesh file = ReadMesh(path, format, RepeatedPoints::Merge, this->Messages);
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
@@ -243,7 +246,8 @@ private:
   {
     try
     {
-      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages);
+      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
+        [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
     }
     catch (const CommandError& error)
     {
@@ -269,6 +273,7 @@ private:
   OutputFiles& Files;
   VTKMessages Messages;
   ProgressBar Bar;
+  JobPlan Plan;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkNew<vtkDelaunayFlip> Filter;

@@ -8,6 +8,7 @@
 #include "DiskSpace.h"
 #include "MeshReader.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
@@ -54,9 +55,20 @@ void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messag
   Run(writer.Get(), mesh, path, messages);
 }
 
-void WriteXml(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
+{
+  (*static_cast<const WriteObserver*>(tell))(vtkAlgorithm::SafeDownCast(writer)->GetProgress());
+}
+
+/// The one format whose writing takes long.
+void WriteXml(
+  vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(TellProgress);
+  progress->SetClientData(const_cast<WriteObserver*>(&tell));
+  writer->AddObserver(vtkCommand::ProgressEvent, progress);
   writer->SetDataModeToBinary(); // inline: Debian's ParaView 5.11 fails on appended data
   writer->SetHeaderTypeToUInt64();
   Run(writer.Get(), mesh, path, messages);
@@ -135,15 +147,15 @@ void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
   }
 }
 
-void WriteUnchecked(
-  vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages)
+void WriteUnchecked(vtkPolyData* mesh, const std::string& path, MeshFormat format,
+  VTKMessages& messages, const WriteObserver& tell)
 {
   switch (format)
   {
     case MeshFormat::VTK:
       return WriteLegacy(mesh, path, messages);
     case MeshFormat::VTP:
-      return WriteXml(mesh, path, messages);
+      return WriteXml(mesh, path, messages, tell);
     case MeshFormat::PLY:
       return WritePly(mesh, path, messages);
     case MeshFormat::STL:
@@ -179,13 +191,14 @@ bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
 
 }
 
-void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages)
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
+  const WriteObserver& tell)
 {
   std::string difference;
   try
   {
     RequireStorableCells(mesh, format);
-    WriteUnchecked(mesh, path, format, messages);
+    WriteUnchecked(mesh, path, format, messages, tell);
     const FileMesh written = ReadMesh(path, format, RepeatedPoints::Keep, messages);
     if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
     {

@@ -17,24 +17,36 @@ ProgressBar::ProgressBar(bool wanted)
 
 ProgressBar::~ProgressBar() { this->Clear(); }
 
+void ProgressBar::Begin(double end, const std::string& text)
+{
+  this->PartBegin = this->PartEnd;
+  this->PartEnd = end;
+  this->Done = std::max(this->Done, this->PartBegin);
+  this->Draw(text);
+}
+
 void ProgressBar::Show(double fraction, const std::string& text)
 {
-  const auto now = std::chrono::steady_clock::now();
-  if (!this->Draws || now - this->LastDrawn < std::chrono::milliseconds(100))
+  const double done = this->PartBegin + (this->PartEnd - this->PartBegin) * fraction;
+  this->Done = std::max(this->Done, std::min(done, this->PartEnd));
+  if (std::chrono::steady_clock::now() - this->LastDrawn >= std::chrono::milliseconds(100))
+  {
+    this->Draw(text);
+  }
+}
+
+void ProgressBar::Draw(const std::string& text)
+{
+  if (!this->Draws)
   {
     return;
   }
-  this->LastDrawn = now;
+  this->LastDrawn = std::chrono::steady_clock::now();
   constexpr int width = 30;
-  const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+  const int done = static_cast<int>(this->Done * width);
+  const std::string percent = std::to_string(static_cast<int>(100.0 * this->Done));
   std::cerr << "\r\033[K[" << std::string(done, '#') << std::string(width - done, '-') << "] "
-            << text << std::flush;
-}
-
-void ProgressBar::Start(const std::string& text)
-{
-  this->LastDrawn = {};
-  this->Show(0.0, text);
+            << percent << " %, " << text << std::flush;
 }
 
 void ProgressBar::Clear()

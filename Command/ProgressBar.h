@@ -9,28 +9,34 @@
 namespace delaunayflip
 {
 
-/// One line on stderr that shows progress. Drawn only on a terminal, never into a log.
+/// One line on stderr that shows how much of a job of several parts is done. It never goes back.
+/// Drawn on a terminal only, so logs do not contain it.
 class ProgressBar
 {
 public:
-  /// If `wanted` is false, nothing is ever drawn.
+  /// `wanted` false: never draws.
   explicit ProgressBar(bool wanted);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Shows `fraction`, 0 to 1, and `text`. Draws at most ten times per second.
+  /// The next part begins, which lasts until this share of the job, 0 .. 1. Draws at once.
+  void Begin(double end, const std::string& text);
+
+  /// `fraction` of the part, 0 .. 1. Draws at most ten times per second.
   void Show(double fraction, const std::string& text);
 
-  /// Shows a fraction of 0 at once.
-  void Start(const std::string& text);
-
-  /// Erases the line.
+  /// Wipes the line.
   void Clear();
 
 private:
+  void Draw(const std::string& text);
+
   bool Draws;
   std::chrono::steady_clock::time_point LastDrawn;
+  double PartBegin = 0.0;
+  double PartEnd = 0.0;
+  double Done = 0.0;
 };
 
 }

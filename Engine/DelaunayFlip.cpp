@@ -41,6 +41,25 @@ private:
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
 };
 
+/// Gives a variable another value for as long as this lives.
+template <typename Value>
+class TemporaryValue
+{
+public:
+  TemporaryValue(Value& variable, const Value& value)
+    : Variable(variable),
+      Before(std::exchange(variable, value))
+  {
+  }
+  ~TemporaryValue() { this->Variable = std::move(this->Before); }
+  TemporaryValue(const TemporaryValue&) = delete;
+  TemporaryValue& operator=(const TemporaryValue&) = delete;
+
+private:
+  Value& Variable;
+  Value Before;
+};
+
 double ToDegrees(double squaredCotangent)
 {
   if (squaredCotangent == -INFINITY)
@@ -60,43 +79,30 @@ public:
   Implementation(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
     : Mesh(mesh),
-      Options(Checked(mesh, options))
+      Options(Checked(mesh, options)),
+      Observer(progress)
   {
-    this->TryToBuild(progress);
+    this->Try([this]() { this->Build(); });
   }
 
   bool Advance(
     std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
   {
-    if (!this->Engine && !this->TryToBuild(progress))
+    const TemporaryValue<ProgressObserver> told(this->Observer, progress);
+    const auto work = [&]()
     {
-      return false;
-    }
-    const StopWatch watch;
-    const double secondsBefore = this->Report.FlipSeconds;
-    this->Resume();
-    const auto done = [this]()
-    { return static_cast<std::int64_t>(this->Report.Iterations.size()); };
-    const std::int64_t limit = iterations < 0 ? NoLimit : done() + iterations;
-    while (this->IsRunning() && done() < limit)
-    {
-      this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer, progress);
-    }
-    if (!this->IsRunning())
-    {
-      this->MeasureEnd();
-    }
-    this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
-    if (!this->IsRunning() && this->Report.StopReason != StopReasonKind::Aborted)
-    {
-      this->Progress.Tell(progress, 1.0);
-    }
-    return this->IsRunning();
+      if (!this->Engine)
+      {
+        this->Build();
+      }
+      this->Run(iterations, observer, progress);
+    };
+    return this->Try(work) && this->IsRunning();
   }
 
   const FlipReport& GetReport()
   {
-    this->MeasureEnd();
+    this->Try([this]() { this->MeasureEnd(); });
     if (this->Engine)
     {
       this->Report.Backend = this->Engine->GetInputReport().Backend;
@@ -107,12 +113,11 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles)
   {
-    if (this->Engine)
+    const TriangleArray& input = this->Mesh.Triangles;
+    const bool isInput = (triangles.Ids32 && triangles.Ids32 == input.Ids32) ||
+      (triangles.Ids64 && triangles.Ids64 == input.Ids64);
+    if (this->Engine && this->Try([&]() { this->Engine->StoreTriangles(triangles, isInput); }))
     {
-      const TriangleArray& input = this->Mesh.Triangles;
-      const bool isInput = (triangles.Ids32 && triangles.Ids32 == input.Ids32) ||
-        (triangles.Ids64 && triangles.Ids64 == input.Ids64);
-      this->Engine->StoreTriangles(triangles, isInput);
       return;
     }
     for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
@@ -124,13 +129,15 @@ public:
 
   void StoreFlipCounts(std::int32_t* counts)
   {
-    if (this->Engine)
+    const auto store = [&]()
     {
       this->Engine->StoreFlipCounts(counts);
       this->Insertion.AddFlipCounts(counts);
-      return;
+    };
+    if (!this->Engine || !this->Try(store))
+    {
+      std::fill_n(counts, this->Mesh.Triangles.Count, 0);
     }
-    std::fill_n(counts, this->Mesh.Triangles.Count, 0);
   }
 
 private:
@@ -141,19 +148,32 @@ private:
     return options;
   }
 
-  /// @returns false if the observer stopped it. Then, and after an exception, there is no engine.
-  bool TryToBuild(const ProgressObserver& observer)
+  /// Calls work(), and forgets all when an observer stops it before there is a mesh to show for it:
+  /// while one is built, or while the CPU repeats what a GPU has lost.
+  /// @returns whether it was not stopped.
+  template <typename Work>
+  bool Try(const Work& work)
   {
     try
     {
-      this->Build([&](double share) { return this->Progress.Tell(observer, share); });
+      work();
       return true;
     }
-    catch (const BuildAborted&)
+    catch (const RunAborted&)
     {
       this->Forget();
       this->Report.StopReason = StopReasonKind::Aborted;
       return false;
+    }
+  }
+
+  /// When an exception leaves, there is no engine.
+  void Build()
+  {
+    try
+    {
+      this->BuildEngine(
+        [this](double share) { return this->Progress.Tell(this->Observer, share); });
     }
     catch (...)
     {
@@ -162,7 +182,7 @@ private:
     }
   }
 
-  void Build(const ProgressObserver& tell)
+  void BuildEngine(const ProgressObserver& tell)
   {
     const StopWatch watch;
     this->Insertion = ConstraintInsertion(
@@ -190,6 +210,30 @@ private:
     this->Report = FlipReport();
     this->Report.Points = this->Mesh.Points.Count;
     this->Report.Triangles = this->Mesh.Triangles.Count;
+    this->IsMeasured = true;
+  }
+
+  void Run(std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+  {
+    const StopWatch watch;
+    const double secondsBefore = this->Report.FlipSeconds;
+    this->Resume();
+    const auto done = [this]()
+    { return static_cast<std::int64_t>(this->Report.Iterations.size()); };
+    const std::int64_t limit = iterations < 0 ? NoLimit : done() + iterations;
+    while (this->IsRunning() && done() < limit)
+    {
+      this->Iterate(std::min(limit, this->GetIterationLimit()) - done(), observer, progress);
+    }
+    if (!this->IsRunning())
+    {
+      this->MeasureEnd();
+    }
+    this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
+    if (!this->IsRunning() && this->Report.StopReason != StopReasonKind::Aborted)
+    {
+      this->Progress.Tell(progress, 1.0);
+    }
   }
 
   double MeasureAngle() { return ToDegrees(this->Engine->FindLargestSquaredCotangent()); }
@@ -337,6 +381,7 @@ private:
   TriangleMesh Mesh;
   FlipOptions Options;
   ConstraintInsertion Insertion; ///< The engine starts from its arrays.
+  ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   std::optional<ChosenEngine> Engine; ///< None if its build was aborted.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last Detect.

@@ -32,6 +32,8 @@ class DELAUNAYFLIP_EXPORT FlipSession
 public:
   /// Builds the edge mesh and tests all edges. If `progress` returns false meanwhile, the report's
   /// StopReason is Aborted and the triangles are those of the input; the next Advance builds again.
+  /// @param progress is kept: if a GPU fails in a later call, it can stop the CPU from repeating
+  /// the run. The report and the triangles are then as above.
   /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
   FlipSession(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
@@ -70,9 +72,9 @@ private:
 /// been moved, pass them as constraint edges, with a feature angle of 180, to a run over the same
 /// or the flipped triangles.
 /// @returns pairs of vertex ids.
-/// @throws the same as FlipSession's constructor.
+/// @throws the same as FlipSession's constructor; RunAborted.
 DELAUNAYFLIP_EXPORT std::vector<std::int64_t> FindFixedEdges(
-  const TriangleMesh& mesh, const FlipOptions& options);
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
 
 /// The geometry that a run with these options uses: options.Geometry, or what Auto chooses.
 /// @throws the same as FlipSession's constructor.

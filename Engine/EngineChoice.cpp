@@ -6,6 +6,7 @@
 #include "HostMemory.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace delaunayflip
@@ -34,7 +35,8 @@ void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 ChosenEngine::ChosenEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
   : Mesh(mesh),
-    Options(options)
+    Options(options),
+    Progress(progress)
 {
   try
   {
@@ -47,7 +49,7 @@ ChosenEngine::ChosenEngine(
     {
       throw;
     }
-    this->FallBack(error.what(), progress);
+    this->FallBack(error.what());
   }
 }
 
@@ -107,19 +109,32 @@ void ChosenEngine::Audit()
   this->RunOnce([](const FlipEngine& engine) { engine.Audit(); });
 }
 
-void ChosenEngine::FallBack(const std::string& reason, const BuildProgress& progress)
+void ChosenEngine::FallBack(const std::string& reason)
 {
   this->Fallback = reason;
   this->Engine.reset();
-  this->Engine = MakeThreadEngine(this->Mesh, this->Options, progress);
+  this->Engine = MakeThreadEngine(this->Mesh, this->Options, this->Progress);
   if (this->HasDetected)
   {
+    this->Progress.Reach(this->GetInputReport().GeometryUsed, BuildStep::Measured);
     this->Engine->GetLoop().Detect();
+    this->Progress.Reach(this->GetInputReport().GeometryUsed, BuildStep::Tested);
+    this->Repeat();
   }
+}
+
+/// The iterations that have been reported, in batches of up to a tenth of a second.
+void ChosenEngine::Repeat()
+{
+  using Clock = std::chrono::steady_clock;
+  std::int64_t batch = 1;
   for (std::int64_t done = 0; done < this->Iterations;)
   {
-    const AdvancePlan plan{ this->Iterations - done, false, false };
+    const Clock::time_point start = Clock::now();
+    const AdvancePlan plan{ std::min(batch, this->Iterations - done), false, false };
     done += static_cast<std::int64_t>(this->Engine->GetLoop().Advance(plan).size());
+    batch = Clock::now() - start < std::chrono::milliseconds(50) ? 2 * batch : batch;
+    this->Progress.Tell(0.0);
   }
 }
 

@@ -24,8 +24,10 @@ class ChosenEngine
 {
 public:
   /// The arrays of `mesh` must stay unchanged as long as this object exists.
+  /// @param progress is told of the build and, in any function, of what is repeated after a
+  /// failure.
   /// @throws BackendUnavailable with BackendKind::CUDA; so do all other functions.
-  /// @throws BuildAborted.
+  /// @throws RunAborted; so do all other functions.
   ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
   /// Why the CPU replaced a GPU that exists; else empty.
@@ -73,10 +75,12 @@ private:
     return work(*this->Engine);
   }
 
-  void FallBack(const std::string& reason, const BuildProgress& progress = BuildProgress());
+  void FallBack(const std::string& reason);
+  void Repeat();
 
   TriangleMesh Mesh;
   FlipOptions Options;
+  BuildProgress Progress;
   std::unique_ptr<FlipEngine> Engine;
   std::string Fallback;
   bool HasDetected = false;

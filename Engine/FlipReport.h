@@ -125,6 +125,11 @@ using FlipObserver = std::function<bool(const IterationRecord&)>;
 /// flips made and expected. It is 1 when there is nothing more to do.
 using ProgressObserver = std::function<bool(double)>;
 
+/// Thrown by functions without a report when a progress observer wants to stop them.
+struct RunAborted
+{
+};
+
 /// "converged", "iteration limit", "aborted", "running" or "not started".
 DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 

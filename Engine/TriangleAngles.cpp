@@ -43,22 +43,34 @@ double SmallestAngle(const PointArray& points, const Corners& ids, int axes)
   return atB >= atC ? ToDegrees(c - b, a - b) : ToDegrees(a - c, b - c);
 }
 
-}
-
-void FindSmallestAngles(
-  const TriangleMesh& mesh, GeometryKind geometry, int threads, double* degrees)
+double FindSmallestAngle(const TriangleMesh& mesh, GeometryKind geometry, std::int64_t t)
 {
   const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
-  ThreadBackend(threads).ForEach(mesh.Triangles.Count,
-    [&](std::int64_t t)
+  const Corners ids = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+    mesh.Triangles.Get(t, 2) };
+  const bool isFinite = std::all_of(ids.begin(), ids.end(),
+    [&](std::int64_t id) { return IsFinitePoint(mesh.Points, id, geometry); });
+  return isFinite ? SmallestAngle(mesh.Points, ids, axes)
+                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+}
+
+void FindSmallestAngles(const TriangleMesh& mesh, GeometryKind geometry, int threads,
+  double* degrees, const ProgressObserver& progress)
+{
+  constexpr std::int64_t TrianglesBetweenCalls = 131072; // tens of milliseconds on one thread
+  const std::int64_t count = mesh.Triangles.Count;
+  const ThreadBackend backend(threads);
+  for (std::int64_t first = 0; first < count; first += TrianglesBetweenCalls)
+  {
+    if (progress && !progress(static_cast<double>(first) / static_cast<double>(count)))
     {
-      const Corners ids = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
-        mesh.Triangles.Get(t, 2) };
-      const bool isFinite = std::all_of(ids.begin(), ids.end(),
-        [&](std::int64_t id) { return IsFinitePoint(mesh.Points, id, geometry); });
-      degrees[t] =
-        isFinite ? SmallestAngle(mesh.Points, ids, axes) : std::numeric_limits<double>::quiet_NaN();
-    });
+      throw RunAborted();
+    }
+    backend.ForEach(std::min(TrianglesBetweenCalls, count - first),
+      [&](std::int64_t i) { degrees[first + i] = FindSmallestAngle(mesh, geometry, first + i); });
+  }
 }
 
 }

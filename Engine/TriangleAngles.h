@@ -5,6 +5,7 @@
 
 #include "EngineExport.h"
 #include "FlipOptions.h"
+#include "FlipReport.h"
 #include "TriangleMesh.h"
 
 /// @file
@@ -19,8 +20,9 @@ namespace delaunayflip
 /// @param geometry PlanarXY measures in the projection, all others in space.
 /// @param threads the number of threads; 0: as many as the machine has. The result does not depend
 /// on it.
-DELAUNAYFLIP_EXPORT void FindSmallestAngles(
-  const TriangleMesh& mesh, GeometryKind geometry, int threads, double* degrees);
+/// @throws RunAborted.
+DELAUNAYFLIP_EXPORT void FindSmallestAngles(const TriangleMesh& mesh, GeometryKind geometry,
+  int threads, double* degrees, const ProgressObserver& progress = {});
 
 }
 

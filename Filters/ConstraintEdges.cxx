@@ -5,6 +5,7 @@
 #include "PlaceMatch.h"
 #include "PointIds.h"
 #include "PointViews.h"
+#include "WorkProgress.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
@@ -12,6 +13,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace delaunayflip
@@ -19,55 +21,78 @@ namespace delaunayflip
 namespace
 {
 
-void AddPaths(
-  vtkCellArray* cells, bool closed, const PointIdCheck& check, std::vector<PointPair>& pairs)
+/// The cells of a vtkCellArray, as lines or as polygons.
+struct Paths
 {
-  check.RequireValid(cells);
+  vtkCellArray* Cells;
+  bool AreClosed;
+};
+
+void AddPaths(const Paths& paths, const PointIdCheck& check, WorkProgress& progress,
+  std::vector<PointPair>& pairs)
+{
+  check.RequireValid(paths.Cells);
   vtkNew<vtkIdList> ids;
-  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  for (vtkIdType cell = 0; cell < paths.Cells->GetNumberOfCells(); ++cell)
   {
-    cells->GetCellAtId(cell, ids);
+    paths.Cells->GetCellAtId(cell, ids);
     check.RequireInRange(cell, ids);
     const vtkIdType count = ids->GetNumberOfIds();
     for (vtkIdType i = 1; i < count; ++i)
     {
       AddPair(ids->GetId(i - 1), ids->GetId(i), pairs);
     }
-    if (closed && count > 2)
+    if (paths.AreClosed && count > 2)
     {
       AddPair(ids->GetId(count - 1), ids->GetId(0), pairs);
     }
+    progress.Add(count);
   }
+}
+
+void AddLines(
+  const ConstraintSource& source, const ProgressObserver& progress, std::vector<PointPair>& pairs)
+{
+  vtkCellArray* lines = source.Lines->GetLines();
+  const PointIdCheck check{ "line, cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
+  WorkProgress work(progress, lines->GetNumberOfConnectivityIds());
+  AddPaths({ lines, false }, check, work, pairs);
 }
 
 /// Adds the edges along lines and polygons of the second input, whose ids must be below
 /// `numberOfPoints`.
-void AddOtherPaths(vtkPolyData* others, vtkIdType numberOfPoints, std::vector<PointPair>& pairs)
+void AddOtherPaths(vtkPolyData* others, vtkIdType numberOfPoints, const ProgressObserver& progress,
+  std::vector<PointPair>& pairs)
 {
+  WorkProgress work(progress,
+    others->GetLines()->GetNumberOfConnectivityIds() +
+      others->GetPolys()->GetNumberOfConnectivityIds());
   PointIdCheck check{ "constraint cell", others->GetNumberOfVerts(), numberOfPoints };
-  AddPaths(others->GetLines(), false, check, pairs);
+  AddPaths({ others->GetLines(), false }, check, work, pairs);
   check.FirstCell += others->GetNumberOfLines();
-  AddPaths(others->GetPolys(), true, check, pairs);
+  AddPaths({ others->GetPolys(), true }, check, work, pairs);
 }
 
-void AddOthers(const ConstraintSource& source, ConstraintEdges& edges)
+void AddOthers(
+  const ConstraintSource& source, const ProgressObserver& progress, ConstraintEdges& edges)
 {
   std::vector<double> storage;
   const PointArray points = ViewPoints(source.Others, storage);
   if (points.Count == 0 || HaveSameBits(points, source.Points))
   {
-    AddOtherPaths(source.Others, source.Points.Count, edges.Pairs);
+    AddOtherPaths(source.Others, source.Points.Count, progress, edges.Pairs);
     return;
   }
   std::vector<PointPair> pairs;
-  AddOtherPaths(source.Others, points.Count, pairs);
-  PlaceMatch(points, pairs, source.Points).AddEdges(source.Triangles, edges);
+  AddOtherPaths(source.Others, points.Count, MakePart(progress, 0.0, 0.1), pairs);
+  PlaceMatch(points, pairs, source.Points, MakePart(progress, 0.1, 0.9))
+    .AddEdges(source.Triangles, MakePart(progress, 0.9, 1.0), edges);
 }
 
 /// Keeps the first of equal pairs; it is to be inserted if any of them is.
-void RemoveRepeated(ConstraintEdges& edges)
+void RemoveRepeated(ConstraintEdges& edges, const ProgressObserver& progress)
 {
-  const std::vector<std::size_t> first = FindFirst(edges.Pairs);
+  const std::vector<std::size_t> first = FindFirst(edges.Pairs, progress);
   for (std::size_t i = 0; i < first.size(); ++i)
   {
     edges.ToInsert[first[i]] |= edges.ToInsert[i];
@@ -95,13 +120,23 @@ void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
   }
 }
 
-std::vector<std::size_t> FindFirst(const std::vector<PointPair>& pairs)
+std::vector<std::size_t> FindFirst(
+  const std::vector<PointPair>& pairs, const ProgressObserver& progress)
 {
+  // About as many comparisons as the sort makes.
+  constexpr vtkIdType ComparisonsPerItem = 16;
+  const auto size = static_cast<double>(pairs.size());
+  WorkProgress work(
+    progress, static_cast<vtkIdType>(size * std::log2(size + 2.0) / ComparisonsPerItem));
+  vtkIdType comparisons = 0;
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b)
-    { return pairs[a] != pairs[b] ? pairs[a] < pairs[b] : a < b; });
+    {
+      work.Add(++comparisons % ComparisonsPerItem == 0 ? 1 : 0);
+      return pairs[a] != pairs[b] ? pairs[a] < pairs[b] : a < b;
+    });
   std::vector<std::size_t> first(pairs.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {
@@ -111,21 +146,21 @@ std::vector<std::size_t> FindFirst(const std::vector<PointPair>& pairs)
   return first;
 }
 
-ConstraintEdges FindConstraintEdges(const ConstraintSource& source)
+ConstraintEdges FindConstraintEdges(
+  const ConstraintSource& source, const ProgressObserver& progress)
 {
   ConstraintEdges edges;
   if (source.Lines)
   {
-    const PointIdCheck check{ "line cell", source.Lines->GetNumberOfVerts(), source.Points.Count };
-    AddPaths(source.Lines->GetLines(), false, check, edges.Pairs);
+    AddLines(source, MakePart(progress, 0.0, source.Others ? 0.0 : 0.5), edges.Pairs);
     edges.ToInsert.resize(edges.Pairs.size(), source.InsertLines ? 1 : 0);
   }
   if (source.Others)
   {
-    AddOthers(source, edges);
+    AddOthers(source, MakePart(progress, 0.0, 0.7), edges);
     edges.ToInsert.resize(edges.Pairs.size(), source.InsertOthers ? 1 : 0);
   }
-  RemoveRepeated(edges);
+  RemoveRepeated(edges, MakePart(progress, 0.7, 1.0));
   return edges;
 }
 

@@ -3,6 +3,7 @@
 #ifndef ConstraintEdges_h
 #define ConstraintEdges_h
 
+#include "FlipReport.h"
 #include "TriangleMesh.h"
 
 #include <array>
@@ -37,14 +38,17 @@ struct ConstraintSource
 /// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The
 /// ids of the others are those of the mesh if the others have no points or the same points as the
 /// mesh; otherwise edges are matched by the coordinates of their points.
-/// @throws InvalidMesh when a cell names a point that does not exist.
-ConstraintEdges FindConstraintEdges(const ConstraintSource& source);
+/// @throws InvalidMesh when a cell names a point that does not exist; RunAborted.
+ConstraintEdges FindConstraintEdges(
+  const ConstraintSource& source, const ProgressObserver& progress = {});
 
 /// Adds the pair of `a` and `b`, unless they are equal.
 void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs);
 
 /// Finds, for each pair, the index of the first pair that equals it.
-std::vector<std::size_t> FindFirst(const std::vector<PointPair>& pairs);
+/// @throws RunAborted.
+std::vector<std::size_t> FindFirst(
+  const std::vector<PointPair>& pairs, const ProgressObserver& progress = {});
 
 }
 

@@ -47,21 +47,6 @@ void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
   }
 }
 
-/// How the progress of an update is divided: up to SplitShare polygons are split, if there are any;
-/// up to SessionEnd the session works; the rest is for the output.
-constexpr double SplitShare = 0.3;
-constexpr double SessionEnd = 0.95;
-
-/// An observer of a part of the work that begins and ends at these shares of the whole.
-ProgressObserver Scale(const ProgressObserver& progress, double begin, double end)
-{
-  if (!progress)
-  {
-    return {};
-  }
-  return [=](double share) { return progress(begin + (end - begin) * share); };
-}
-
 bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
 {
   return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
@@ -97,14 +82,20 @@ vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
 }
 
 //------------------------------------------------------------------------------
-FlipRun::Snapshot::Snapshot(
-  const Request& request, bool copyPoints, const ProgressObserver& progress)
+FlipRun::Snapshot::Snapshot(const Request& request, bool copyPoints, const UpdatePlan& plan)
   : Mesh(TakeMesh(request.Input, copyPoints)),
     Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
     Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
     Time(request.Input->GetMTime()),
-    Bridge(Mesh, Constraints, request.Settings, progress)
+    Bridge(Mesh, Constraints, request.Settings, plan)
+{
+}
+
+FlipRun::Snapshots::Snapshots(const Request& request, const UpdatePlan& plan)
+  : Current(std::make_shared<Snapshot>(request, false, plan)),
+    Origin(
+      request.IsLive ? std::make_shared<Snapshot>(Current->Repeat(request), true, plan) : Current)
 {
 }
 
@@ -148,47 +139,51 @@ FlipRun::Stamps FlipRun::StampPoints(vtkPolyData* mesh)
 
 //------------------------------------------------------------------------------
 FlipRun::FlipRun(const Request& request)
-  : FlipRun(request, Start())
+  : FlipRun(request, Snapshots(request, MakePlan(request, false)), Start())
 {
 }
 
-FlipRun::FlipRun(const Request& request, Start start)
+FlipRun::FlipRun(const Request& request, Snapshots input, Start start)
   : Settings(request.Settings),
     Options(request.Options),
-    Current(std::make_shared<Snapshot>(request, false, Scale(request.Progress, 0.0, SplitShare))),
-    Origin(request.IsLive ? std::make_shared<Snapshot>(Current->Repeat(request), true,
-                              Scale(request.Progress, SplitShare, SplitShare))
-                          : Current),
+    Wanted(request.Wanted),
+    Plan(MakePlan(request, !start.Triangles.empty())),
+    Input(std::move(input)),
     Begin(std::move(start)),
-    Session(this->MakeSession(this->IsWarm() ? nullptr : request.Progress)),
+    Session(this->MakeSession()),
     Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted)
 {
 }
 
-/// A warm start is built even if the observer asks to stop, because only this update knows its
-/// start.
-FlipSession FlipRun::MakeSession(const ProgressObserver& progress) const
+UpdatePlan FlipRun::MakePlan(const Request& request, bool isWarm)
+{
+  return { { request.Input, request.Constraints, request.Settings.LinesAsConstraints,
+             !request.Settings.RegionArray.empty(), isWarm, request.Wanted.Angles },
+    request.Progress };
+}
+
+FlipSession FlipRun::MakeSession() const
 {
   try
   {
     return FlipSession(
-      this->GetStartMesh(), this->GetStartOptions(), this->ScaleProgress(progress));
+      GetMesh(this->Input, this->Begin), this->GetStartOptions(), this->GetProgress());
   }
   catch (const InvalidMesh&)
   {
-    this->Origin->Bridge.RequireValidIds(); // its error names the cell, not the triangle
+    this->Input.Origin->Bridge.RequireValidIds(); // its error names the cell, not the triangle
     throw;
   }
 }
 
-TriangleMesh FlipRun::GetStartMesh() const
+TriangleMesh FlipRun::GetMesh(const Snapshots& input, const Start& start)
 {
-  TriangleMesh mesh = this->Origin->Bridge.GetMesh();
-  if (this->IsWarm())
+  TriangleMesh mesh = input.Origin->Bridge.GetMesh();
+  if (!start.Triangles.empty())
   {
-    mesh.Triangles = TriangleArray(this->Begin.Triangles.data(), mesh.Triangles.Count);
-    mesh.ConstraintEdges = this->Begin.FixedEdges.data();
-    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Begin.FixedEdges.size()) / 2;
+    mesh.Triangles = TriangleArray(start.Triangles.data(), mesh.Triangles.Count);
+    mesh.ConstraintEdges = start.FixedEdges.data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(start.FixedEdges.size()) / 2;
     mesh.ConstraintsToInsert = nullptr;
   }
   return mesh;
@@ -202,68 +197,63 @@ FlipOptions FlipRun::GetStartOptions() const
   return options;
 }
 
-ProgressObserver FlipRun::ScaleProgress(const ProgressObserver& progress) const
-{
-  return Scale(progress, this->Origin->Bridge.HasSplit() ? SplitShare : 0.0, SessionEnd);
-}
-
 //------------------------------------------------------------------------------
-std::unique_ptr<FlipRun> FlipRun::GoOn(std::unique_ptr<FlipRun> last, const Request& request)
+void FlipRun::GoOn(std::unique_ptr<FlipRun>& run, const Request& request)
 {
-  if (last && last->Fits(request))
+  if (!run || !run->Fits(request))
   {
-    if (last->Current->Points != StampPoints(request.Input))
-    {
-      return StartWarmly(std::move(last), request);
-    }
-    if (last->Current->Time != request.Input->GetMTime())
-    {
-      last->Current = std::make_shared<Snapshot>(request, false);
-    }
-    last->Stopped = false;
-    return last;
+    run.reset(); // its memory may be needed
+    run.reset(new FlipRun(request));
   }
-  last.reset(); // its memory may be needed
-  return std::unique_ptr<FlipRun>(new FlipRun(request));
+  else if (run->Input.Current->Points != StampPoints(request.Input))
+  {
+    StartWarmly(run, request);
+  }
+  else
+  {
+    if (run->Input.Current->Time != request.Input->GetMTime())
+    {
+      run->Input.Current = std::make_shared<Snapshot>(request, false, MakePlan(request, false));
+    }
+    run->Wanted = request.Wanted;
+    run->Stopped = false;
+  }
 }
 
 bool FlipRun::Fits(const Request& request) const
 {
   return this->Options == request.Options && IsSame(this->Settings, request.Settings) &&
-    this->Current->Edges == StampEdges(request);
-}
-
-std::unique_ptr<FlipRun> FlipRun::StartWarmly(std::unique_ptr<FlipRun> last, const Request& request)
-{
-  const GeometryKind geometry = last->Session.GetReport().GeometryUsed;
-  Start start = last->GetEnd();
-  last.reset();
-  std::unique_ptr<FlipRun> run(new FlipRun(request, std::move(start)));
-  if (!run->GoesBy(geometry))
-  {
-    run.reset();
-    run.reset(new FlipRun(request));
-  }
-  return run;
+    this->Input.Current->Edges == StampEdges(request);
 }
 
 /// A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
 /// So Auto must choose this geometry both for the triangles that flips have made and, as it does
 /// without LiveUpdate, for those of the input.
-bool FlipRun::GoesBy(GeometryKind geometry) const
+void FlipRun::StartWarmly(std::unique_ptr<FlipRun>& run, const Request& request)
 {
-  return this->Session.GetReport().GeometryUsed == geometry &&
-    FindGeometry(this->Origin->Bridge.GetMesh(), this->Options) == geometry;
+  const UpdatePlan plan = MakePlan(request, true);
+  Start start = run->GetEnd(plan.ForFixedEdges());
+  Snapshots input(request, plan);
+  const auto keepsGeometry = [&](const Start& begin)
+  { return FindGeometry(GetMesh(input, begin), request.Options) == start.Geometry; };
+  if (!keepsGeometry(Start()) || !keepsGeometry(start))
+  {
+    start = Start();
+  }
+  run.reset(); // its memory may be needed
+  run.reset(new FlipRun(request, std::move(input), std::move(start)));
 }
 
-FlipRun::Start FlipRun::GetEnd() const
+FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
 {
-  const TriangleMesh mesh = this->Origin->Bridge.GetMesh();
+  const TriangleMesh mesh = this->Input.Origin->Bridge.GetMesh();
+  const FlipReport report = this->GetReport();
   Start start;
+  start.Geometry = this->IsWarm() ? this->Begin.Geometry : report.GeometryUsed;
   start.Triangles.resize(3 * mesh.Triangles.Count);
   this->Session.StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
-  start.FixedEdges = this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Options);
-  const FlipReport report = this->GetReport();
+  start.FixedEdges =
+    this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Options, progress);
   start.Constraints = report.Edges.Constraint;
   start.UnmatchedConstraints = report.UnmatchedConstraints;
   start.InsertedConstraints = report.InsertedConstraints;
@@ -286,14 +276,14 @@ FlipReport FlipRun::GetReport() const
   {
     this->AddUnmatchedConstraints(report);
   }
-  this->Current->Bridge.NumberCells(report.Defects);
-  this->Current->Bridge.AddDefects(report.Defects);
+  this->Input.Current->Bridge.NumberCells(report.Defects);
+  this->Input.Current->Bridge.AddDefects(report.Defects);
   return report;
 }
 
 void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
 {
-  const std::int64_t count = this->Origin->Bridge.GetNumberOfUnmatchedConstraints();
+  const std::int64_t count = this->Input.Origin->Bridge.GetNumberOfUnmatchedConstraints();
   report.UnmatchedConstraints += count;
   if (count > 0)
   {
@@ -302,16 +292,26 @@ void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
   }
 }
 
-void FlipRun::Store(vtkPolyData* output, const Extras& extras) const
+bool FlipRun::Store(vtkPolyData* output) const
 {
-  this->Current->Bridge.Store(this->Session, output);
-  if (extras.FlipCounts)
+  const PolyDataBridge& bridge = this->Input.Current->Bridge;
+  bridge.Store(this->Session, output);
+  if (this->Wanted.FlipCounts)
   {
-    this->Current->Bridge.StoreFlipCounts(this->Session, output);
+    bridge.StoreFlipCounts(this->Session, output);
   }
-  if (extras.Angles)
+  try
   {
-    this->Current->Bridge.StoreAngles(this->Session, this->Options.NumberOfThreads, output);
+    if (this->Wanted.Angles)
+    {
+      bridge.StoreAngles(
+        this->Session, this->Options.NumberOfThreads, this->Plan.ForOutput(), output);
+    }
+    return true;
+  }
+  catch (const RunAborted&)
+  {
+    return false;
   }
 }
 

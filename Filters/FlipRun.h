@@ -5,6 +5,7 @@
 
 #include "DelaunayFlip.h"
 #include "PolyDataBridge.h"
+#include "UpdatePlan.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -24,6 +25,13 @@ namespace delaunayflip
 class FlipRun
 {
 public:
+  /// Optional cell arrays of the output.
+  struct Extras
+  {
+    bool FlipCounts;
+    bool Angles;
+  };
+
   /// What an update asks for.
   struct Request
   {
@@ -32,41 +40,37 @@ public:
     PolyDataBridge::Settings Settings;
     FlipOptions Options;
     bool IsLive; ///< More updates will follow, and points may be moved in place between them.
-    ProgressObserver Progress; ///< Used during this update only.
+    Extras Wanted;
+    ProgressObserver Progress; ///< Kept by the run.
   };
 
   /// Begins at the triangles of the input.
-  /// @throws as PolyDataBridge's and FlipSession's constructors; SplitAborted.
+  /// @throws as PolyDataBridge's and FlipSession's constructors.
   explicit FlipRun(const Request& request);
   FlipRun(const FlipRun&) = delete;
   FlipRun& operator=(const FlipRun&) = delete;
 
-  /// The run for this request. It is `last` itself if the request is the same, apart from
-  /// attributes. If only points have been moved since, it is a warm start: a run that begins with
-  /// the triangles of `last` and the edges that were fixed in it. Otherwise, or if `last` is null,
-  /// it is a new run.
-  static std::unique_ptr<FlipRun> GoOn(std::unique_ptr<FlipRun> last, const Request& request);
+  /// Makes `run` the run for this request. It stays itself if the request is the same, apart from
+  /// attributes. If only points have been moved since, it becomes a warm start: a run that begins
+  /// with the triangles of the last one and the edges that were fixed in it. Otherwise, or if it is
+  /// null, it becomes a new run.
+  /// @throws as the constructor. After RunAborted, `run` is what it was, or null.
+  static void GoOn(std::unique_ptr<FlipRun>& run, const Request& request);
 
   FlipSession& GetSession() { return this->Session; }
 
   /// Whether the observer of this update stopped the run before its first iteration.
   bool IsStopped() const { return this->Stopped; }
 
-  /// Converts the session's progress to that of the whole update.
-  ProgressObserver ScaleProgress(const ProgressObserver& progress) const;
+  /// What to tell of the session's progress to.
+  ProgressObserver GetProgress() const { return this->Plan.ForSession(); }
 
   /// What has happened so far. Its defects name cells of the input.
   FlipReport GetReport() const;
 
-  /// Optional cell arrays.
-  struct Extras
-  {
-    bool FlipCounts;
-    bool Angles;
-  };
-
   /// Writes the mesh as it is now.
-  void Store(vtkPolyData* output, const Extras& extras) const;
+  /// @returns false when the observer stopped it; then there are no angles.
+  bool Store(vtkPolyData* output) const;
 
   /// What the last warning said.
   std::string Warning;
@@ -78,7 +82,7 @@ private:
   /// An input as it was at some update, and the bridge to it.
   struct Snapshot
   {
-    Snapshot(const Request& request, bool copyPoints, const ProgressObserver& progress = {});
+    Snapshot(const Request& request, bool copyPoints, const UpdatePlan& plan);
 
     Request Repeat(const Request& request) const;
 
@@ -89,11 +93,20 @@ private:
     vtkMTimeType Time;
     PolyDataBridge Bridge;
   };
-  using Snapshots = std::shared_ptr<const Snapshot>;
+
+  /// The two snapshots of a new run; one for both where no update will follow.
+  struct Snapshots
+  {
+    Snapshots(const Request& request, const UpdatePlan& plan);
+
+    std::shared_ptr<const Snapshot> Current; ///< The attributes for the output are taken from it.
+    std::shared_ptr<const Snapshot> Origin; ///< The session has views of its arrays.
+  };
 
   /// Where a warm start begins; empty for other runs.
   struct Start
   {
+    GeometryKind Geometry = GeometryKind::Auto;
     std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
     std::int64_t Constraints = 0; ///< How many edges of the first mesh were constraints.
@@ -102,26 +115,26 @@ private:
     std::int64_t ConstraintFlips = 0;
   };
 
-  FlipRun(const Request& request, Start start);
+  FlipRun(const Request& request, Snapshots input, Start start);
 
+  static UpdatePlan MakePlan(const Request& request, bool isWarm);
   static Stamps StampEdges(const Request& request);
   static Stamps StampPoints(vtkPolyData* mesh);
-  static std::unique_ptr<FlipRun> StartWarmly(
-    std::unique_ptr<FlipRun> last, const Request& request);
+  static void StartWarmly(std::unique_ptr<FlipRun>& run, const Request& request);
+  static TriangleMesh GetMesh(const Snapshots& input, const Start& start);
   bool Fits(const Request& request) const;
-  bool GoesBy(GeometryKind geometry) const;
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
-  TriangleMesh GetStartMesh() const;
   FlipOptions GetStartOptions() const;
-  FlipSession MakeSession(const ProgressObserver& progress) const;
-  Start GetEnd() const;
+  FlipSession MakeSession() const;
+  Start GetEnd(const ProgressObserver& progress) const;
   void AddUnmatchedConstraints(FlipReport& report) const;
 
   PolyDataBridge::Settings Settings;
   FlipOptions Options;
-  Snapshots Current; ///< The attributes for the output are taken from it.
-  Snapshots Origin; ///< The session has views of its arrays, and of those of Begin.
-  Start Begin;
+  Extras Wanted;
+  UpdatePlan Plan;
+  Snapshots Input;
+  Start Begin; ///< The session has views of its arrays, too.
   FlipSession Session;
   bool Stopped;
 };

@@ -2,23 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlaceMatch.h"
 
-#include "vtkSMPTools.h"
+#include "WorkProgress.h"
 
 #include <algorithm>
 
 namespace delaunayflip
 {
 
-PlaceMatch::PlaceMatch(
-  const PointArray& others, const std::vector<PointPair>& pairs, const PointArray& mesh)
+PlaceMatch::PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs,
+  const PointArray& mesh, const ProgressObserver& progress)
   : Places(others.Floats != nullptr || mesh.Floats != nullptr)
 {
-  this->NumberPlaces(others, pairs);
-  this->FindPoints(mesh);
+  this->NumberPlaces(others, pairs, MakePart(progress, 0.0, 0.6));
+  this->FindPoints(mesh, MakePart(progress, 0.6, 1.0));
 }
 
-void PlaceMatch::NumberPlaces(const PointArray& others, const std::vector<PointPair>& pairs)
+void PlaceMatch::NumberPlaces(
+  const PointArray& others, const std::vector<PointPair>& pairs, const ProgressObserver& progress)
 {
+  WorkProgress work(MakePart(progress, 0.0, 0.6), static_cast<vtkIdType>(pairs.size()));
   std::vector<std::int64_t> places(others.Count, PointPlaces::None);
   const auto number = [&](std::int64_t point)
   {
@@ -32,8 +34,9 @@ void PlaceMatch::NumberPlaces(const PointArray& others, const std::vector<PointP
     const std::int64_t from = number(pair[0]);
     const std::int64_t to = number(pair[1]);
     AddPair(from, to, wanted);
+    work.Add();
   }
-  const std::vector<std::size_t> first = FindFirst(wanted);
+  const std::vector<std::size_t> first = FindFirst(wanted, MakePart(progress, 0.6, 1.0));
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {
     if (first[i] == i)
@@ -43,10 +46,10 @@ void PlaceMatch::NumberPlaces(const PointArray& others, const std::vector<PointP
   }
 }
 
-void PlaceMatch::FindPoints(const PointArray& mesh)
+void PlaceMatch::FindPoints(const PointArray& mesh, const ProgressObserver& progress)
 {
   this->PlaceOfPoint.resize(mesh.Count);
-  vtkSMPTools::For(0, mesh.Count,
+  ForPieces(mesh.Count, progress,
     [this, &mesh](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType point = begin; point < end; ++point)
@@ -66,7 +69,8 @@ void PlaceMatch::FindPoints(const PointArray& mesh)
   }
 }
 
-void PlaceMatch::AddEdges(const TriangleArray& triangles, ConstraintEdges& edges) const
+void PlaceMatch::AddEdges(
+  const TriangleArray& triangles, const ProgressObserver& progress, ConstraintEdges& edges) const
 {
   std::vector<PointPair> crowded;
   for (const PointPair& pair : this->Wanted)
@@ -83,17 +87,21 @@ void PlaceMatch::AddEdges(const TriangleArray& triangles, ConstraintEdges& edges
     }
   }
   std::sort(crowded.begin(), crowded.end());
-  edges.Unmatched += this->AddEdgesAt(crowded, triangles, edges.Pairs);
+  edges.Unmatched += this->AddEdgesAt(crowded, triangles, progress, edges.Pairs);
 }
 
 /// Adds the edges of the mesh between pairs of places where several points lie.
 /// @returns how many of the pairs have no edge.
 std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
-  const TriangleArray& triangles, std::vector<PointPair>& edges) const
+  const TriangleArray& triangles, const ProgressObserver& progress,
+  std::vector<PointPair>& edges) const
 {
   std::vector<PointPair> found;
-  for (std::int64_t side = 0; side < (crowded.empty() ? 0 : 3 * triangles.Count); ++side)
+  const std::int64_t sides = crowded.empty() ? 0 : 3 * triangles.Count;
+  WorkProgress work(MakePart(progress, 0.0, 0.7), sides);
+  for (std::int64_t side = 0; side < sides; ++side)
   {
+    work.Add();
     const std::int64_t from = triangles.Get(side / 3, side % 3);
     const std::int64_t to = triangles.Get(side / 3, (side + 1) % 3);
     const std::int64_t places[2] = { this->GetPlace(from), this->GetPlace(to) };

@@ -21,17 +21,22 @@ class PlaceMatch
 {
 public:
   /// @param pairs point ids of `others`.
-  PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs, const PointArray& mesh);
+  /// @throws RunAborted.
+  PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs, const PointArray& mesh,
+    const ProgressObserver& progress);
 
   /// Adds pairs of the mesh's points. Some of them may not be edges of the mesh. Pairs with an end
   /// where the mesh has no point are counted as unmatched.
-  void AddEdges(const TriangleArray& triangles, ConstraintEdges& edges) const;
+  /// @throws RunAborted.
+  void AddEdges(
+    const TriangleArray& triangles, const ProgressObserver& progress, ConstraintEdges& edges) const;
 
 private:
-  void NumberPlaces(const PointArray& others, const std::vector<PointPair>& pairs);
-  void FindPoints(const PointArray& mesh);
+  void NumberPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
+    const ProgressObserver& progress);
+  void FindPoints(const PointArray& mesh, const ProgressObserver& progress);
   std::int64_t AddEdgesAt(const std::vector<PointPair>& crowded, const TriangleArray& triangles,
-    std::vector<PointPair>& edges) const;
+    const ProgressObserver& progress, std::vector<PointPair>& edges) const;
   std::int64_t GetPlace(std::int64_t point) const;
 
   PointPlaces Places;

@@ -9,6 +9,8 @@
 #include "PointViews.h"
 #include "RegionLabels.h"
 #include "TriangleAngles.h"
+#include "UpdatePlan.h"
+#include "WorkProgress.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
@@ -24,18 +26,20 @@
 
 namespace delaunayflip
 {
-PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
-  const Settings& settings, const ProgressObserver& progress)
+PolyDataBridge::PolyDataBridge(
+  vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
-    Slots(mesh, Points, settings.Triangulate, progress),
-    Constraints(FindConstraintEdges({ settings.LinesAsConstraints ? mesh : nullptr, constraints,
-      Points, Slots.GetTriangles(), settings.InsertLines, settings.InsertConstraints }))
+    Slots(mesh, Points, settings.Triangulate, plan.ForPolygons()),
+    Constraints(FindConstraintEdges(
+      { settings.LinesAsConstraints ? mesh : nullptr, constraints, Points, Slots.GetTriangles(),
+        settings.InsertLines, settings.InsertConstraints },
+      plan.ForConstraints()))
 {
   this->FreezeGhosts();
   if (!settings.RegionArray.empty())
   {
-    this->LabelTriangles(settings.RegionArray);
+    this->LabelTriangles(settings.RegionArray, plan.ForRegions());
   }
 }
 
@@ -58,9 +62,9 @@ void PolyDataBridge::FreezeGhosts()
   }
 }
 
-void PolyDataBridge::LabelTriangles(const std::string& array)
+void PolyDataBridge::LabelTriangles(const std::string& array, const ProgressObserver& progress)
 {
-  const std::vector<std::int32_t> labels = LabelRegions(this->Mesh, array);
+  const std::vector<std::int32_t> labels = LabelRegions(this->Mesh, array, progress);
   this->Regions.resize(this->Slots.GetTriangles().Count);
   for (vtkIdType triangle = 0; triangle < this->Slots.GetTriangles().Count; ++triangle)
   {
@@ -125,23 +129,24 @@ void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* ou
     { "vtkDelaunayFlipCount", std::move(counts), 0 }, this->Slots, output);
 }
 
-void PolyDataBridge::StoreAngles(const FlipSession& session, int threads, vtkPolyData* output) const
+void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
+  const ProgressObserver& progress, vtkPolyData* output) const
 {
   const GeometryKind geometry = session.GetReport().GeometryUsed;
   TriangleMesh mesh = this->GetMesh();
-  const auto add = [&](const char* name)
-  {
-    std::vector<double> angles(mesh.Triangles.Count);
-    FindSmallestAngles(mesh, geometry, threads, angles.data());
-    constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-    AddTriangleArray<vtkDoubleArray>({ name, std::move(angles), NaN }, this->Slots, output);
-  };
-  add("vtkDelaunayFlipAngleBefore");
+  std::vector<double> before(mesh.Triangles.Count);
+  FindSmallestAngles(mesh, geometry, threads, before.data(), MakePart(progress, 0.0, 0.5));
   std::vector<std::int64_t> ids(3 * mesh.Triangles.Count);
   session.StoreTriangles(MutableTriangleArray(ids.data(), mesh.Triangles.Count));
   mesh.Triangles =
     TriangleArray(static_cast<const std::int64_t*>(ids.data()), mesh.Triangles.Count);
-  add("vtkDelaunayFlipAngleAfter");
+  std::vector<double> after(mesh.Triangles.Count);
+  FindSmallestAngles(mesh, geometry, threads, after.data(), MakePart(progress, 0.5, 1.0));
+  constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+  AddTriangleArray<vtkDoubleArray>(
+    { "vtkDelaunayFlipAngleBefore", std::move(before), NaN }, this->Slots, output);
+  AddTriangleArray<vtkDoubleArray>(
+    { "vtkDelaunayFlipAngleAfter", std::move(after), NaN }, this->Slots, output);
 }
 
 }

@@ -18,6 +18,7 @@ namespace delaunayflip
 {
 
 class FlipSession;
+class UpdatePlan;
 
 /// Translates between vtkPolyData and the engine, in both directions; computes nothing. The mesh
 /// must outlive the bridge.
@@ -34,13 +35,9 @@ public:
   };
 
   /// @param constraints may be null.
-  /// @param progress is told the share of polygons that are split, if there are any.
-  /// @throws InvalidMesh, InvalidOptions, SplitAborted.
-  PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings,
-    const ProgressObserver& progress = {});
-
-  /// Whether polygons had to be split or copied.
-  bool HasSplit() const { return !this->Slots.AreInPlace(); }
+  /// @throws InvalidMesh, InvalidOptions, RunAborted.
+  PolyDataBridge(
+    vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings, const UpdatePlan& plan);
 
   /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
@@ -59,7 +56,9 @@ public:
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
 
   /// Adds vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter to the cells of such an output.
-  void StoreAngles(const FlipSession& session, int threads, vtkPolyData* output) const;
+  /// @throws RunAborted; then there is neither of them.
+  void StoreAngles(const FlipSession& session, int threads, const ProgressObserver& progress,
+    vtkPolyData* output) const;
 
   /// Replaces triangle ids by cell ids of the mesh, for warnings.
   void NumberCells(std::vector<Defect>& defects) const;
@@ -69,7 +68,7 @@ public:
 
 private:
   void FreezeGhosts();
-  void LabelTriangles(const std::string& array);
+  void LabelTriangles(const std::string& array, const ProgressObserver& progress);
 
   vtkPolyData* Mesh;
   std::vector<double> Coordinates; ///< A copy of points that cannot be viewed in place.

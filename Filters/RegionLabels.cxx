@@ -3,6 +3,7 @@
 #include "RegionLabels.h"
 
 #include "FlipError.h"
+#include "WorkProgress.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"
@@ -64,7 +65,7 @@ private:
 struct LabelNumbers
 {
   template <typename ArrayT>
-  void operator()(ArrayT* array, std::vector<std::int32_t>& labels) const
+  void operator()(ArrayT* array, WorkProgress& progress, std::vector<std::int32_t>& labels) const
   {
     using Value = vtk::GetAPIType<ArrayT>;
     Labeler<Value> label;
@@ -74,11 +75,13 @@ struct LabelNumbers
     {
       std::copy(values.cbegin(), values.cend(), tuple.begin());
       labels[cell++] = label(tuple);
+      progress.Add();
     }
   }
 };
 
-void LabelStrings(vtkAbstractArray* array, std::vector<std::int32_t>& labels)
+void LabelStrings(
+  vtkAbstractArray* array, WorkProgress& progress, std::vector<std::int32_t>& labels)
 {
   Labeler<std::string> label;
   std::vector<std::string> tuple(array->GetNumberOfComponents());
@@ -90,12 +93,14 @@ void LabelStrings(vtkAbstractArray* array, std::vector<std::int32_t>& labels)
       component = array->GetVariantValue(value++).ToString();
     }
     cellLabel = label(tuple);
+    progress.Add();
   }
 }
 
 }
 
-std::vector<std::int32_t> LabelRegions(vtkPolyData* mesh, const std::string& name)
+std::vector<std::int32_t> LabelRegions(
+  vtkPolyData* mesh, const std::string& name, const ProgressObserver& observer)
 {
   vtkAbstractArray* array = mesh->GetCellData()->GetAbstractArray(name.c_str());
   if (!array)
@@ -108,14 +113,15 @@ std::vector<std::int32_t> LabelRegions(vtkPolyData* mesh, const std::string& nam
       "RegionArray: \"" + name + "\" must have as many tuples as the mesh has cells.");
   }
   std::vector<std::int32_t> labels(mesh->GetNumberOfCells());
+  WorkProgress progress(observer, mesh->GetNumberOfCells());
   vtkDataArray* numbers = vtkArrayDownCast<vtkDataArray>(array);
   if (!numbers)
   {
-    LabelStrings(array, labels);
+    LabelStrings(array, progress, labels);
   }
-  else if (!vtkArrayDispatch::Dispatch::Execute(numbers, LabelNumbers{}, labels))
+  else if (!vtkArrayDispatch::Dispatch::Execute(numbers, LabelNumbers{}, progress, labels))
   {
-    LabelNumbers{}(numbers, labels);
+    LabelNumbers{}(numbers, progress, labels);
   }
   return labels;
 }

@@ -4,7 +4,7 @@
 
 #include "PointIds.h"
 #include "PolygonSplit.h"
-#include "SplitProgress.h"
+#include "WorkProgress.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
@@ -78,7 +78,7 @@ TriangleSlots::TriangleSlots(
     return;
   }
   PointIdCheck{ "cell", this->FirstPolygon, points.Count }.RequireValid(mesh->GetPolys());
-  SplitProgress split(progress,
+  WorkProgress split(progress,
     mesh->GetPolys()->GetNumberOfConnectivityIds() +
       mesh->GetStrips()->GetNumberOfConnectivityIds());
   this->ReadPolygons(mesh->GetPolys(), points, split);
@@ -134,7 +134,7 @@ void TriangleSlots::RequireValidIds(vtkIdType numberOfPoints) const
 }
 
 void TriangleSlots::ReadPolygons(
-  vtkCellArray* polygons, const PointArray& points, SplitProgress& progress)
+  vtkCellArray* polygons, const PointArray& points, WorkProgress& progress)
 {
   const PointIdCheck check{ "cell", this->FirstPolygon, points.Count };
   vtkNew<vtkIdList> ids;
@@ -143,15 +143,15 @@ void TriangleSlots::ReadPolygons(
     polygons->GetCellAtId(polygon, ids);
     check.RequireInRange(polygon, ids);
     this->ReadPolygon(this->FirstPolygon + polygon, ids, points, progress);
-    progress.EndCell();
+    progress.Add(ids->GetNumberOfIds());
   }
 }
 
 void TriangleSlots::ReadPolygon(
-  vtkIdType cell, vtkIdList* ids, const PointArray& points, SplitProgress& progress)
+  vtkIdType cell, vtkIdList* ids, const PointArray& points, WorkProgress& progress)
 {
   const vtkIdType size = ids->GetNumberOfIds();
-  const ProgressObserver& observer = progress.BeginCell(size);
+  const ProgressObserver& observer = progress.BeginGroup(size);
   const bool stays = size < 3 || (size > 3 && !this->Triangulate);
   if (stays)
   {
@@ -167,14 +167,14 @@ void TriangleSlots::ReadPolygon(
     const std::vector<std::int64_t> corners(ids->begin(), ids->end());
     if (!SplitPolygon(points, corners.data(), size, this->Ids, observer))
     {
-      throw SplitAborted();
+      throw RunAborted();
     }
     this->AddTriangles(cell, size - 2, stays);
   }
 }
 
 void TriangleSlots::ReadStrips(
-  vtkCellArray* strips, const PointArray& points, SplitProgress& progress)
+  vtkCellArray* strips, const PointArray& points, WorkProgress& progress)
 {
   const PointIdCheck check{ "cell", this->FirstStrip, points.Count };
   vtkNew<vtkIdList> ids;
@@ -184,7 +184,6 @@ void TriangleSlots::ReadStrips(
     check.RequireInRange(strip, ids);
     const vtkIdType size = ids->GetNumberOfIds();
     const bool stays = size < 3 || !this->Triangulate;
-    progress.BeginCell(size);
     if (stays)
     {
       this->Strips.push_back(this->FirstStrip + strip);
@@ -194,7 +193,7 @@ void TriangleSlots::ReadStrips(
       this->AddStripTriangles(ids);
       this->AddTriangles(this->FirstStrip + strip, size - 2, stays);
     }
-    progress.EndCell();
+    progress.Add(size);
   }
 }
 

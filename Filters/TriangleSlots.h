@@ -18,7 +18,7 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-class SplitProgress;
+class WorkProgress;
 
 /// The triangles of a vtkPolyData: from which cell each is made, and which output cell it becomes.
 ///
@@ -35,7 +35,7 @@ public:
   /// that is copied, or a strip, names a point outside `points`. Polygons viewed in place are
   /// checked by the engine, which is much faster.
   /// @param progress is told the share of cells that are copied.
-  /// @throws SplitAborted.
+  /// @throws RunAborted.
   TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate,
     const ProgressObserver& progress = {});
   TriangleSlots(const TriangleSlots&) = delete;
@@ -98,10 +98,10 @@ private:
   };
 
   bool ViewPolygons(vtkCellArray* polygons);
-  void ReadPolygons(vtkCellArray* polygons, const PointArray& points, SplitProgress& progress);
+  void ReadPolygons(vtkCellArray* polygons, const PointArray& points, WorkProgress& progress);
   void ReadPolygon(
-    vtkIdType cell, vtkIdList* ids, const PointArray& points, SplitProgress& progress);
-  void ReadStrips(vtkCellArray* strips, const PointArray& points, SplitProgress& progress);
+    vtkIdType cell, vtkIdList* ids, const PointArray& points, WorkProgress& progress);
+  void ReadStrips(vtkCellArray* strips, const PointArray& points, WorkProgress& progress);
   void AddStripTriangles(vtkIdList* ids);
   void AddTriangles(vtkIdType cell, vtkIdType count, bool stays);
 

@@ -334,7 +334,7 @@ public:
    * smallest angle of each triangle in degrees, 0 to 60, in space or, with PLANAR_XY, in the
    * projection. Before is the angle of the triangle that was in the same place in the input, after
    * polygons were split. 0 for triangles without area; NaN if a coordinate is NaN or infinite, and
-   * for cells that are not triangles. Default off.
+   * for cells that are not triangles. An aborted update leaves them out. Default off.
    */
   vtkSetMacro(GenerateQuality, bool);
   vtkGetMacro(GenerateQuality, bool);
@@ -438,11 +438,12 @@ public:
   /**
    * What the last update did. With several blocks or pieces, NumberOfIterations is the largest of
    * theirs and TotalFlips the sum. In an observer of ProgressEvent they are those of the current
-   * block so far. Progress is the estimated share of the update's time that has passed, including
-   * the splitting of polygons and the search for edges. AbortExecute is checked whenever progress
-   * is reported: for a million triangles at least every 0.1 s. If aborted before the first
-   * iteration, the output has the triangles of the input, or its polygons if those were still being
-   * split.
+   * block so far. Progress is the estimated share of the update's time that has passed, from the
+   * splitting of polygons and the matching of constraints to the output. AbortExecute is checked
+   * whenever progress is reported: for a million triangles at least every 0.1 s. If aborted before
+   * the first iteration, the output has the triangles of the input, or its polygons if these had
+   * not all been read; if later, those of the last iteration. A live run goes on with the next
+   * update.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;
@@ -615,8 +616,7 @@ private:
   void Tell(const delaunayflip::UpdateSummary& summary, bool aloud);
   delaunayflip::FlipOptions GetOptions() const;
   void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);
-  std::unique_ptr<delaunayflip::FlipRun> GoOn(
-    std::unique_ptr<delaunayflip::FlipRun> last, const Connection& data);
+  void Flip(const Connection& data, std::unique_ptr<delaunayflip::FlipRun>& run);
   bool Advance(delaunayflip::FlipRun& run, bool isLive);
   bool Observe(const delaunayflip::IterationRecord& record);
   bool ObserveProgress(double fraction);

@@ -10,7 +10,6 @@
 #include "HostProgram.h"
 #include "RankSum.h"
 #include "ReportTables.h"
-#include "SplitProgress.h"
 #include "TimedAdvance.h"
 #include "UpdateSummary.h"
 #include "VersionDifferences.h"
@@ -262,7 +261,7 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
 //------------------------------------------------------------------------------
 void vtkDelaunayFlip::Flip(const Connection& data)
 {
-  std::unique_ptr<FlipRun> last = std::move(this->Run);
+  std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
   this->MayGoOn = false;
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
@@ -272,26 +271,45 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   }
   if (!data.IsLive)
   {
-    last.reset(); // before another run needs as much memory
+    run.reset(); // before another takes as much memory
   }
-  std::unique_ptr<FlipRun> run = this->GoOn(std::move(last), data);
-  if (!run)
+  try
+  {
+    this->Flip(data, run);
+  }
+  catch (const RunAborted&)
   {
     this->PassInput(data, StopReasonKind::Aborted);
     this->MayGoOn = data.IsLive;
-    return;
   }
-  *this->Report = UpdateReport(run->GetReport());
-  const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
-  run->Store(data.Output, { this->GenerateFlipCount, this->GenerateQuality });
-  // Only now: a GPU may still fail while its result is copied.
-  *this->Report = UpdateReport(run->GetReport());
-  AddFieldData(*this->Report, data.Output->GetFieldData());
   if (data.IsLive)
   {
-    this->MayGoOn = mayGoOn || this->Report->StopReason == StopReasonKind::Aborted;
     this->Run = std::move(run);
   }
+}
+
+/// @param run the last one, or null; it becomes the one of this update.
+/// @throws RunAborted when it is stopped before there are triangles to put out.
+void vtkDelaunayFlip::Flip(const Connection& data, std::unique_ptr<FlipRun>& run)
+{
+  if (IsAbortRequested(this))
+  {
+    throw RunAborted(); // in another block
+  }
+  FlipRun::GoOn(run,
+    { data.Input, data.Constraints,
+      { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
+        this->RegionArray },
+      this->GetOptions(), data.IsLive, { this->GenerateFlipCount, this->GenerateQuality },
+      [this](double fraction) { return this->ObserveProgress(fraction); } });
+  *this->Report = UpdateReport(run->GetReport());
+  const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
+  const bool isWhole = run->Store(data.Output);
+  // Not before: a GPU may fail while its result is fetched.
+  *this->Report = UpdateReport(run->GetReport());
+  this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
+  AddFieldData(*this->Report, data.Output->GetFieldData());
+  this->MayGoOn = data.IsLive && (mayGoOn || this->Report->StopReason == StopReasonKind::Aborted);
 }
 
 /// Passes the input to the output unchanged.
@@ -299,25 +317,6 @@ void vtkDelaunayFlip::PassInput(const Connection& data, StopReasonKind reason)
 {
   this->Report->StopReason = reason;
   data.Output->ShallowCopy(data.Input);
-}
-
-/// @returns null if the update was aborted while polygons were being split.
-std::unique_ptr<FlipRun> vtkDelaunayFlip::GoOn(
-  std::unique_ptr<FlipRun> last, const Connection& data)
-{
-  try
-  {
-    return FlipRun::GoOn(std::move(last),
-      { data.Input, data.Constraints,
-        { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
-          this->RegionArray },
-        this->GetOptions(), data.IsLive,
-        [this](double fraction) { return this->ObserveProgress(fraction); } });
-  }
-  catch (const SplitAborted&)
-  {
-    return nullptr;
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -345,8 +344,7 @@ bool vtkDelaunayFlip::Advance(FlipRun& run, bool isLive)
   FlipSession& session = run.GetSession();
   const FlipObserver observer = [this](const IterationRecord& record)
   { return this->Observe(record); };
-  const delaunayflip::ProgressObserver progress =
-    run.ScaleProgress([this](double fraction) { return this->ObserveProgress(fraction); });
+  const delaunayflip::ProgressObserver progress = run.GetProgress();
   if (isLive && this->IterationsPerUpdate == 0)
   {
     constexpr double Seconds = 0.05; // as documented in the header

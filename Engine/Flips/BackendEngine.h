@@ -47,7 +47,7 @@ class BackendEngine : public FlipEngine
 {
 public:
   /// Keeps no reference to `mesh`.
-  /// @throws BuildAborted.
+  /// @throws RunAborted.
   BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend,
     const BuildProgress& progress)
     : Backend(std::move(backend))

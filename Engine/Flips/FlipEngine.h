@@ -49,11 +49,11 @@ public:
   virtual void Audit() const = 0;
 };
 
-/// @throws BuildAborted.
+/// @throws RunAborted.
 std::unique_ptr<FlipEngine> MakeThreadEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
-/// @throws BuildAborted.
+/// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
 /// mesh needs the CPU. The message says why.
 std::unique_ptr<FlipEngine> MakeCudaEngine(

@@ -35,11 +35,6 @@ inline double GetShareOfRun(GeometryKind geometry, BuildStep step)
   return geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i];
 }
 
-/// Thrown during a build when its observer asks to stop.
-struct BuildAborted
-{
-};
-
 /// Tells an observer, between the steps of a build, the share of the run that is done.
 class BuildProgress
 {
@@ -51,12 +46,18 @@ public:
   {
   }
 
-  /// @throws BuildAborted.
+  /// @throws RunAborted.
   void Reach(GeometryKind geometry, BuildStep step) const
   {
-    if (this->Observer && !this->Observer(GetShareOfRun(geometry, step)))
+    this->Tell(GetShareOfRun(geometry, step));
+  }
+
+  /// @throws RunAborted.
+  void Tell(double share) const
+  {
+    if (this->Observer && !this->Observer(share))
     {
-      throw BuildAborted();
+      throw RunAborted();
     }
   }
 

@@ -335,7 +335,7 @@ void NumberEdges(
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
 /// @param loaded made by LoadTriangles.
-/// @throws InvalidMesh if a constraint names a point that does not exist; BuildAborted.
+/// @throws InvalidMesh if a constraint names a point that does not exist; RunAborted.
 template <typename Backend>
 EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const Backend& backend,
   const BuildProgress& progress = BuildProgress())

@@ -27,7 +27,7 @@ void Tell(const ProgressObserver& progress, double share)
 {
   if (progress && !progress(share))
   {
-    throw BuildAborted();
+    throw RunAborted();
   }
 }
 

@@ -25,7 +25,7 @@ public:
   ConstraintInsertion() = default;
 
   /// @param progress of the insertion; not told where the mesh has all the edges.
-  /// @throws as FlipSession's constructor; BuildAborted.
+  /// @throws as FlipSession's constructor; RunAborted.
   ConstraintInsertion(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
 

@@ -41,18 +41,23 @@ std::vector<std::int64_t> ListFixedEdges(EdgeMesh& edges, const SpatialOrderView
 }
 }
 
-std::vector<std::int64_t> FindFixedEdges(const TriangleMesh& caller, const FlipOptions& options)
+std::vector<std::int64_t> FindFixedEdges(
+  const TriangleMesh& caller, const FlipOptions& options, const ProgressObserver& observer)
 {
   CheckOptions(options);
   CheckMeshSize(caller);
   const ConstraintInsertion insertion(caller, options, {});
   const TriangleMesh mesh = insertion.GetMesh(caller);
   const ThreadBackend backend(options.NumberOfThreads);
+  const BuildProgress progress(observer);
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, insertion.GetOptions(options).Geometry, backend);
+  progress.Reach(survey.Geometry, BuildStep::Surveyed);
   const SpatialOrder order = OrderMesh(input, survey, backend);
+  progress.Reach(survey.Geometry, BuildStep::Ordered);
   const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
-  EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
+  EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, progress);
+  progress.Reach(survey.Geometry, BuildStep::Fixed);
   return ListFixedEdges(built.Edges, order.View());
 }
 

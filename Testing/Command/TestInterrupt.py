@@ -4,6 +4,7 @@
 
 import os
 import pty
+import re
 import select
 import signal
 import subprocess
@@ -109,6 +110,24 @@ class Terminal(CommandTest):
         self.assertIn(b"[---", text)
         self.assertTrue(text.endswith(b"\r\033[K"), "the bar must be wiped")
         self.assertEqual(self.succeed(mesh, "out.vtk").stderr, "")
+
+    def test_progress_bar_never_goes_back(self):
+        """Each part of the job continues where the one before it ended."""
+        mesh = write_mesh(bumpy_grid(160, 0), self.path("mesh.vtk"))
+        for name, most in (("out.vtp", 25), ("out.vtk", 90)):  # .vtp takes long to be written
+            text = self.errors_on_terminal(mesh, name).decode()
+            bars = re.findall(r"\[(#*)-*\] (\d+) %, (\w+)", text)
+            percents = [int(percent) for _, percent, _ in bars]
+            self.assertEqual(percents, sorted(percents), text)
+            for done, percent, _ in bars:
+                self.assertAlmostEqual(len(done), 0.3 * int(percent), delta=1.0)
+            begins = {part: percent for percent, (_, _, part) in reversed([*zip(percents, bars)])}
+            self.assertEqual(begins["reading"], 0)
+            self.assertLess(begins["finding"], most / 2, text)
+            self.assertLess(begins["writing"], most, text)
+            self.assertGreater(begins["writing"], 10, text)
+            if name == "out.vtp":
+                self.assertGreater(percents[-1], begins["writing"] + 10, text)
 
     def test_quiet(self):
         grid = bumpy_grid(10, 1)

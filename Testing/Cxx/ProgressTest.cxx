@@ -7,6 +7,9 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPoints.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
@@ -186,6 +189,182 @@ TEST(FilterProgress, AnAbortedUpdateIsFollowedByAWholeOne)
   filter->Modified();
   RunCleanly(filter);
   EXPECT_TRUE(filter->GetConverged());
+}
+
+namespace
+{
+
+constexpr int LongSide = 130; ///< Squares; 33,800 triangles are enough for events while labelled.
+
+using Mesh = vtkSmartPointer<vtkPolyData>;
+
+/// A lattice of triangles with bad diagonals.
+Mesh MakeLattice()
+{
+  auto mesh = ToPolyData(delaunayflip::MakeGridMesh(LongSide, LongSide));
+  Shear(mesh, -0.7);
+  return mesh;
+}
+
+/// All first edges of its triangles as lines; with points of their own or without.
+Mesh MakeEdges(vtkPolyData* mesh, bool withPoints)
+{
+  Cells lines;
+  for (const Cell& triangle : GetCells(mesh->GetPolys()))
+  {
+    lines.push_back({ triangle[0], triangle[1] });
+  }
+  auto edges = Mesh::New();
+  if (withPoints)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToFloat();
+    points->DeepCopy(mesh->GetPoints());
+    edges->SetPoints(points);
+  }
+  edges->SetLines(MakeCells(lines));
+  return edges;
+}
+
+/// Whether an update, stopped at its first event, passes the very cells of the input; and whether
+/// the next one is whole.
+void ExpectToStopAtOnce(WatchedFilter& filter, vtkPolyData* mesh)
+{
+  ProgressWatch watch(filter, 1);
+  filter->SetInputData(mesh);
+  EXPECT_EQ(filter.Run()->GetPolys(), mesh->GetPolys());
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+  EXPECT_EQ(watch.Progress.size(), 1u);
+  filter->RemoveAllObservers();
+  filter->Modified();
+  RunCleanly(filter);
+  EXPECT_TRUE(filter->GetConverged());
+}
+
+}
+
+TEST(FilterProgress, AbortsWhileConstraintsAreMatched)
+{
+  const Mesh mesh = MakeLattice();
+  for (const bool withPoints : { false, true })
+  {
+    WatchedFilter filter;
+    filter->SetConstraintsData(MakeEdges(mesh, withPoints));
+    ExpectToStopAtOnce(filter, mesh);
+    EXPECT_GT(filter->GetNumberOfConstraintEdges(), LongSide * LongSide);
+  }
+}
+
+/// Reading them, numbering and finding places, sorting: nowhere is a long time without an event.
+TEST(FilterProgress, IsToldSteadilyWhileConstraintsAreMatched)
+{
+  const Mesh mesh = ToPolyData(delaunayflip::MakeGridMesh(2 * LongSide, 2 * LongSide));
+  for (const bool withPoints : { false, true })
+  {
+    WatchedFilter filter(mesh);
+    filter->SetConstraintsData(MakeEdges(mesh, withPoints));
+    const ProgressWatch watch(filter);
+    RunCleanly(filter);
+    double last = 0.0;
+    for (const double progress : watch.Progress)
+    {
+      EXPECT_LT(progress - last, last < (withPoints ? 0.45 : 0.2) ? 0.07 : 1.0) << withPoints;
+      last = progress;
+    }
+  }
+}
+
+TEST(FilterProgress, AbortsWhileRegionsAreLabelled)
+{
+  const Mesh mesh = MakeLattice();
+  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    names->InsertNextValue(cell % 2 == 0 ? "even" : "odd");
+  }
+  mesh->GetCellData()->AddArray(names);
+  for (const char* array : { "Number", "Name" })
+  {
+    WatchedFilter filter;
+    filter->SetRegionArray(array);
+    ExpectToStopAtOnce(filter, mesh);
+  }
+}
+
+/// The mesh is that of a whole update, but there are no angles.
+TEST(FilterProgress, AbortsWhileAnglesAreFound)
+{
+  const Mesh mesh = MakeLongRun();
+  WatchedFilter whole(mesh);
+  whole->GenerateQualityOn();
+  const ProgressWatch all(whole);
+  EXPECT_EQ(RunCleanly(whole)->GetCellData()->GetNumberOfArrays(), 2);
+  for (const std::size_t before : { 1, 2 }) // the last event, when all is done
+  {
+    WatchedFilter filter(mesh);
+    filter->GenerateQualityOn();
+    ProgressWatch watch(filter, all.Progress.size() - before);
+    vtkPolyData* output = filter.Run();
+    EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+    EXPECT_EQ(GetCells(output->GetPolys()), FlipAtOnce(mesh));
+    EXPECT_EQ(output->GetCellData()->GetNumberOfArrays(), 0);
+  }
+}
+
+/// Wherever it is stopped: the same mesh in the end.
+TEST(FilterProgress, WarmStartsGoOn)
+{
+  std::size_t events = SIZE_MAX;
+  Cells expected;
+  for (std::size_t event = 0; event <= events; ++event)
+  {
+    const Mesh mesh = MakeBadPlane();
+    LiveFilter filter(mesh);
+    filter->SetIterationsPerUpdate(1000);
+    filter.RunToTheEnd();
+    const Cells before = filter.GetTriangles();
+    Shear(mesh, 0.4);
+    ProgressWatch watch(filter, event);
+    filter.Run();
+    if (event == 0)
+    {
+      events = watch.Progress.size() - 2; // the others tell that all is done
+      expected = filter.GetTriangles();
+      EXPECT_LT(watch.Progress.front(), 0.1);
+      EXPECT_NE(expected, before);
+      continue;
+    }
+    ASSERT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED) << event;
+    ASSERT_EQ(watch.Progress.size(), event);
+    filter->RemoveAllObservers();
+    EXPECT_TRUE(filter->Advance());
+    filter.RunToTheEnd();
+    EXPECT_EQ(filter.GetTriangles(), expected) << event;
+  }
+  EXPECT_GT(events, 10u);
+}
+
+TEST(FilterProgress, ABlockAfterAnAbortPasses)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    blocks->SetBlock(i, MakeLongRun());
+  }
+  WatchedFilter filter;
+  ProgressWatch watch(filter, 1);
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  EXPECT_EQ(watch.Progress.size(), 1u);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(GetCells(vtkPolyData::SafeDownCast(output->GetBlock(i))->GetPolys()),
+      GetCells(vtkPolyData::SafeDownCast(blocks->GetBlock(i))->GetPolys()));
+  }
 }
 
 /// Wherever it is stopped, a live run continues with the next update.

@@ -14,7 +14,8 @@ import unittest
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkOutputWindow, vtkPoints
 from vtkmodules.vtkCommonCore import vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    VTK_TRIANGLE, vtkCellArray, vtkImageData, vtkPolyData, vtkStructuredGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 PLUGIN = os.environ["DELAUNAYFLIP_PLUGIN"]
@@ -46,6 +47,43 @@ def make_fan(number_of_points):
     mesh.SetPolys(make_cells(triangles))
     mesh.GetCellData().AddArray(sides)
     return mesh
+
+
+def make_lattice(side, shear=0.7):
+    """side x side points in a sheared lattice, row by row, and the quads between them."""
+    points = vtkPoints()
+    for i in range(side * side):
+        points.InsertNextPoint(i % side + shear * (i // side), i // side, 0.0)
+    corners = [x + side * y for y in range(side - 1) for x in range(side - 1)]
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(make_cells([(i, i + 1, i + side + 1, i + side) for i in corners]))
+    return mesh
+
+
+def make_surface(size, kind):
+    """A mesh whose points and cells are those of convert_surface's result of this kind."""
+    if kind == "vtkImageData":
+        return make_lattice(size, 0.0)
+    return make_lattice(size) if kind == "vtkStructuredGrid" else make_fan(size)
+
+
+def convert_surface(size, kind):
+    """A surface that is another type of dataset."""
+    mesh = make_surface(size, kind)
+    if kind == "vtkImageData":
+        result = vtkImageData()
+        result.SetDimensions(size, size, 1)
+    elif kind == "vtkStructuredGrid":
+        result = vtkStructuredGrid()
+        result.SetDimensions(size, size, 1)
+        result.SetPoints(mesh.GetPoints())
+    else:
+        result = vtkUnstructuredGrid()
+        result.SetPoints(mesh.GetPoints())
+        result.SetCells(VTK_TRIANGLE, mesh.GetPolys())
+        result.GetCellData().ShallowCopy(mesh.GetCellData())
+    return result
 
 
 def make_line(mesh, start, end):

@@ -17,13 +17,16 @@ from PluginTesting import Messages, fetch, refresh
 SOURCE = """
 import sys
 sys.path.insert(0, {here!r})
-from PluginTesting import make_cells, make_fan
+from PluginTesting import convert_surface, make_cells, make_fan
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
 meshes = {meshes!r}[rank]
+kinds = {kinds!r}
 
-def make(size):
+def make(size, block):
+    if block in kinds:
+        return convert_surface(size, kinds[block])
     mesh = make_fan(abs(size))
     if size < 0:
         mesh.SetPolys(make_cells([(0, 1, 77)]))
@@ -34,9 +37,9 @@ output = self.GetOutput()
 if {composite!r}:
     output.SetNumberOfBlocks(4)
     for block, size in meshes.items():
-        output.SetBlock(block, make(size))
+        output.SetBlock(block, make(size, block))
 elif meshes:
-    output.ShallowCopy(make(meshes[0]))
+    output.ShallowCopy(make(meshes[0], 0))
 """
 PIECES = "self.GetOutputInformation(0).Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)"
 
@@ -49,14 +52,24 @@ CASES = {
     "shared block": ({0: 10, 1: 12}, {1: 20}),
     "block fails": ({0: 10}, {1: 20, 2: -15, 3: 25}),
     "nothing": ({}, {}),
+    "unstructured pieces": ({0: 20}, {0: 30}),
+    "blocks of other types": ({0: 20, 3: 6}, {1: 9, 2: 7}),
+}
+# What the meshes of a case are, by their blocks, where they are not polygonal data.
+KINDS = {
+    "unstructured pieces": {0: "vtkUnstructuredGrid"},
+    "blocks of other types": {
+        0: "vtkUnstructuredGrid", 1: "vtkStructuredGrid", 2: "vtkImageData", 3: "vtkStructuredGrid"},
 }
 
 
-def make_source(meshes, composite):
-    kind = "vtkMultiblockDataSet" if composite else "vtkPolyData"
+def make_source(case):
+    composite = "block" in case
+    kinds = KINDS.get(case, {})
+    kind = "vtkMultiblockDataSet" if composite else kinds.get(0, "vtkPolyData")
     source = simple.ProgrammableSource(OutputDataSetType=kind)
-    source.Script = SOURCE.format(
-        here=os.path.dirname(os.path.abspath(__file__)), meshes=meshes, composite=composite)
+    source.Script = SOURCE.format(here=os.path.dirname(os.path.abspath(__file__)),
+                                  meshes=CASES[case], kinds=kinds, composite=composite)
     source.ScriptRequestInformation = PIECES
     return source
 
@@ -78,8 +91,7 @@ def describe(flip, messages):
 def run(case):
     """Updates the filter, changes an option and updates it again, so that a rank which was left
     behind would be found."""
-    composite = "block" in case
-    flip = simple.DelaunayFlip(Input=make_source(CASES[case], composite))
+    flip = simple.DelaunayFlip(Input=make_source(case))
     flip.LiveUpdate = int(case == "pieces")
     for tie_rule in ("Keep", "Canonical"):
         flip.TieRule = tie_rule

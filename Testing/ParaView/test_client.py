@@ -69,6 +69,9 @@ class Client(PluginTest):
     def test_panel(self):
         self.expect_quiet(self.play("client_panel.py"))
 
+    def test_statistics(self):
+        self.expect_quiet(self.play("client_statistics.py"))
+
 
 if __name__ == "__main__":
     find_client()

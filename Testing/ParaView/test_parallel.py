@@ -13,22 +13,23 @@ import shutil
 import subprocess
 import sys
 
-from PluginTesting import PluginTest, fetch, main, make_fan
+from PluginTesting import PluginTest, fetch, main, make_surface
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPT = os.path.join(HERE, "parallel_batch.py")
 PATIENCE = 200  # seconds: a rank must not wait for another one for ever
 
 
-def read_cases():
-    """The table CASES of the script, which only pvbatch may run."""
+def read_table(name):
+    """A table of the script, which only pvbatch may run."""
     with open(SCRIPT, encoding="utf-8") as file:
         tree = ast.parse(file.read())
     return next(ast.literal_eval(line.value) for line in tree.body
-                if isinstance(line, ast.Assign) and line.targets[0].id == "CASES")
+                if isinstance(line, ast.Assign) and line.targets[0].id == name)
 
 
-CASES = read_cases()
+CASES = read_table("CASES")
+KINDS = read_table("KINDS")
 
 
 def find_launcher():
@@ -66,15 +67,17 @@ class Parallel(PluginTest):
     def setUpClass(cls):
         cls.said = run_cases()
 
-    def flip_alone(self, size):
-        """The number of flips in every iteration of one fan."""
-        table = fetch(self.flip(self.read(make_fan(size), f"{size}.vtp"), TieRule="Canonical"), 1)
+    def flip_alone(self, size, kind):
+        """The number of flips in every iteration of one mesh, as polygonal data."""
+        source = self.read(make_surface(size, kind), f"{size}.vtp")
+        table = fetch(self.flip(source, TieRule="Canonical"), 1)
         column = table.GetRowData().GetArray("Flipped")
         return [int(column.GetTuple1(i)) for i in range(column.GetNumberOfTuples())]
 
     def expect_sums(self, case):
-        sizes = [size for rank in CASES[case] for size in rank.values() if size > 0]
-        alone = [self.flip_alone(size) for size in sizes]
+        kinds = KINDS.get(case, {})
+        alone = [self.flip_alone(size, kinds.get(block)) for rank in CASES[case]
+                 for block, size in rank.items() if size > 0]
         rows = [sum(row) for row in itertools.zip_longest(*alone, fillvalue=0)]
         said = self.said[case]
         self.assertEqual(said["flipped"], rows)
@@ -91,7 +94,7 @@ class Parallel(PluginTest):
     def test_edges_between_pieces(self):
         for case, said in self.said.items():
             with self.subTest(case):
-                seams = case in ("pieces", "shared block")
+                seams = case in ("pieces", "shared block", "unstructured pieces")
                 self.assertEqual("edges between pieces" in said["text"], seams, said["text"])
                 self.assertEqual(said["warnings"], int(seams), said["text"])
 

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDelaunayFlipText
+ * @brief   statistics of vtkDelaunayFlip as a text for a render view
+ *
+ * In goes the mesh of vtkDelaunayFlip, whose field data have its statistics; out comes a table with
+ * one string in a column Text, which ParaView draws in its render views: iterations, flips, bad
+ * edges left, the smallest angle where it is known, and whether the run goes on. During a live run
+ * the text follows every frame. For another mesh the text says that there are no statistics.
+ */
+#ifndef vtkDelaunayFlipText_h
+#define vtkDelaunayFlipText_h
+
+#include "vtkDelaunayFlipParaViewFiltersModule.h" // For export macro
+#include "vtkTableAlgorithm.h"
+
+class VTKDELAUNAYFLIPPARAVIEWFILTERS_EXPORT vtkDelaunayFlipText : public vtkTableAlgorithm
+{
+public:
+  static vtkDelaunayFlipText* New();
+  vtkTypeMacro(vtkDelaunayFlipText, vtkTableAlgorithm);
+
+protected:
+  vtkDelaunayFlipText();
+  ~vtkDelaunayFlipText() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkDelaunayFlipText(const vtkDelaunayFlipText&) = delete;
+  void operator=(const vtkDelaunayFlipText&) = delete;
+};
+
+#endif
