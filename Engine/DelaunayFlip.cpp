@@ -188,7 +188,9 @@ private:
     this->Insertion = ConstraintInsertion(
       this->Mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
     const double begin = this->Insertion.HasFlips() ? InsertionShare : 0.0;
-    const BuildProgress progress([&](double share) { return tell(begin + (1.0 - begin) * share); });
+    // A copy stays in the engine, for when the CPU must start again.
+    const BuildProgress progress(
+      [tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
     this->Engine.emplace(
       this->Insertion.GetMesh(this->Mesh), this->Insertion.GetOptions(this->Options), progress);
     this->Report = this->Engine->GetInputReport();
