@@ -15,23 +15,68 @@ engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
 build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-dev
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
-tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format-14 clang-format universal-ctags
-  python3-numpy python3-matplotlib)
-proof=(clang libclang-rt-14-dev python3-clang-14 gcovr)
+tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev python3-numpy
+  python3-matplotlib)
+proof=(clang libclang-rt-dev python3-clang gcovr)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)
 # What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
-# ParaView's programs load.
+# ParaView's programs load. Qt is that of the release's ParaView.
+qt5=(qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev
+  qttools5-dev-tools qtxmlpatterns5-dev-tools libqt5sql5-sqlite python3-pyqt5)
+qt6=(qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-tools-dev-tools qt6-declarative-dev qt6-5compat-dev
+  libqt6sql6-sqlite python3-pyqt6)
 paraview=("${engine[@]}" xvfb xauth
-  qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev
-  qttools5-dev-tools qtxmlpatterns5-dev-tools libqt5sql5-sqlite
   libgl-dev libopengl-dev libegl-dev libgl2ps-dev libglew-dev libx11-dev libxcursor-dev
   libfreetype-dev libjpeg-dev libpng-dev libtiff-dev
   libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libogg-dev libtheora-dev
   libhdf5-openmpi-dev libnetcdf-dev libgdal-dev libproj-dev
-  libopenmpi-dev openmpi-bin libpython3-dev python3-mpi4py python3-numpy python3-pyqt5
+  libopenmpi-dev openmpi-bin libpython3-dev python3-mpi4py python3-numpy python3-matplotlib
   libdouble-conversion-dev libeigen3-dev libexpat1-dev libjsoncpp-dev liblz4-dev liblzma-dev
   libutfcpp-dev libxml2-dev zlib1g-dev)
+
+usage()
+{
+  echo "usage: $0 build|demo|test|proof|paper|paraview" >&2
+  exit 2
+}
+
+apt_get()
+{
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || return 1
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 \
+    -o Dpkg::Use-Pty=0 "$@" </dev/null
+}
+
+# Usage: dependencies PACKAGE - as this release has them; the first of alternatives; no virtual
+# packages, which are in < >.
+dependencies()
+{
+  apt-cache depends "$1" 2>/dev/null |
+    awk '/Depends:/ { if (!alternative && $2 !~ /</) print $2; alternative = /\|Depends:/ }'
+}
+
+# Usage: add_libraries_of_paraview - to what is wanted: its Qt, its VTK if that is a package of its
+# own (from Debian testing on), and all that its programs load.
+add_libraries_of_paraview()
+{
+  local libraries
+  [ -n "$(dependencies paraview)" ] || apt_get update || true
+  mapfile -t libraries < <({ dependencies paraview; dependencies python3-paraview; } |
+    grep -v -x -E 'paraview|python3')
+  wanted+=("${libraries[@]}")
+  case " ${libraries[*]} " in
+    *" libqt6core"*) wanted+=("${qt6[@]}") ;;
+    *) wanted+=("${qt5[@]}") ;;
+  esac
+  case " ${libraries[*]} " in
+    *" libvtk9"*) wanted+=(libvtk9-dev libvtk9-qt-dev) ;;
+  esac
+}
 
 case "${1:-}" in
   build) wanted=("${build[@]}") ;;
@@ -40,15 +85,15 @@ case "${1:-}" in
   test) wanted=("${build[@]}" "${tests[@]}") ;;
   paper) wanted=("${paper[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
-  *)
-    echo "usage: $0 build|demo|test|proof|paper|paraview" >&2
-    exit 2
-    ;;
+  *) usage ;;
 esac
 
 if ! command -v apt-get >/dev/null; then
   echo "No apt-get here. Install the equivalents of these packages: ${wanted[*]}" >&2
   exit 0
+fi
+if [ "$1" = paraview ]; then
+  add_libraries_of_paraview
 fi
 
 missing=()
@@ -60,21 +105,10 @@ if [ ${#missing[@]} -eq 0 ]; then
   exit 0
 fi
 
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  if ! command -v sudo >/dev/null; then
-    echo "Run as root, or install by hand: apt-get install ${missing[*]}" >&2
-    exit 1
-  fi
-  as_root=(sudo)
-fi
-
-apt_get()
-{
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 \
-    -o Dpkg::Use-Pty=0 "$@" </dev/null
-}
-
 echo "Installing ${missing[*]}"
+if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+  echo "Run as root, or install by hand: apt-get install ${missing[*]}" >&2
+  exit 1
+fi
 apt_get update
 apt_get install -y --no-install-recommends "${missing[@]}" >/dev/null

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: test.sh [--long]
+# Usage: test.sh [--long|--no-sanitizers]
 # Installs missing packages (Debian), builds everything and runs every test: the whole project in
 # build/, the ParaView plugin in build-paraview/, the engine under AddressSanitizer and
 # UndefinedBehaviorSanitizer in build-asan/, and under ThreadSanitizer in build-tsan/. The exit
@@ -10,18 +10,19 @@
 #
 # Under the sanitizers tests use smaller meshes, a tenth of the size, and fewer cases. --long runs
 # them at full size, which takes hours instead of minutes, and also builds and tests the engine by
-# Clang in build-clang/.
+# Clang in build-clang/. --no-sanitizers leaves the two out.
 #
 # JOBS in the environment is the number of jobs that run at a time (default 2). ccache is used if it
 # is installed.
 set -euo pipefail
 
-long=OFF timeout=1500 # seconds a test may take
+long=OFF sanitizers=ON timeout=1500 # seconds a test may take
 case "$*" in
   "") ;;
   --long) long=ON timeout=14400 ;;
+  --no-sanitizers) sanitizers=OFF ;;
   *)
-    echo "usage: $0 [--long]" >&2
+    echo "usage: $0 [--long|--no-sanitizers]" >&2
     exit 2
     ;;
 esac
@@ -89,6 +90,24 @@ check_clang()
   fi
 }
 
+# The engine under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer.
+check_under_sanitizers()
+{
+  # Without NDEBUG, so that the edge mesh is audited after every iteration.
+  check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
+    -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address \
+    -DDELAUNAYFLIP_LONG_TESTS=$long
+
+  # ThreadSanitizer of GCC 12 finds no room for its shadow memory if the kernel randomises addresses
+  # strongly (Linux 6.6 and newer). This also affects the build, which runs the tests to list them.
+  if setarch --addr-no-randomize true 2>/dev/null; then
+    launcher=(setarch --addr-no-randomize)
+  fi
+  check build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=ON \
+    -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=thread -DDELAUNAYFLIP_LONG_TESTS=$long
+  launcher=()
+}
+
 # Usage: count_results JUNIT_FILE - adds its tests to the totals; without a file, none ran.
 count_results()
 {
@@ -115,22 +134,15 @@ launcher=()
 check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DCMAKE_CUDA_ARCHITECTURES=75
 # After build, whose command makes the meshes with which those of the plugin are compared.
 check_plugin
-# Without NDEBUG, so that the edge mesh is audited after every iteration.
-check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
-  -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address \
-  -DDELAUNAYFLIP_LONG_TESTS=$long
-
+if [ $sanitizers = ON ]; then
+  check_under_sanitizers
+else
+  absent+=(build-asan build-tsan)
+  skipped=$((skipped + 2))
+fi
 if [ $long = ON ]; then
   check_clang
 fi
-
-# ThreadSanitizer of GCC 12 finds no room for its shadow memory if the kernel randomises addresses
-# strongly (Linux 6.6 and newer). This also affects the build, which runs the tests to list them.
-if setarch --addr-no-randomize true 2>/dev/null; then
-  launcher=(setarch --addr-no-randomize)
-fi
-check build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=ON \
-  -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=thread -DDELAUNAYFLIP_LONG_TESTS=$long
 
 printf '\n'
 if [ ${#broken[@]} -gt 0 ]; then

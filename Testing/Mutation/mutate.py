@@ -10,7 +10,7 @@
 
 A fault is a comparison, a sign or a constant changed, two arguments swapped, or a statement left
 out. All are in the sources at once and off; DELAUNAYFLIP_MUTANT=NUMBER in the environment turns one
-on, so that the tests are built once. Needs python3-clang-14 and clang (Debian).
+on, so that the tests are built once. Needs python3-clang and clang (Debian).
 """
 
 import argparse
