@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: check_files.py licences|sizes|words|markdown ROOT
+"""Usage: check_files.py licences|sizes|words|markdown|release ROOT
 
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
 words: the libraries never print to standard output and never end the process.
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.
+release: the citation and the changelog have the version that CMakeLists.txt has.
 """
 
 import os
@@ -76,6 +77,22 @@ def check_markdown(root):
                 yield f"{path}:{number}: {columns} columns"
 
 
+def check_release(root):
+    version = find(r"^project\(\w+ VERSION ([\d.]+)", read(root, "CMakeLists.txt"))
+    cited = find(r"^version: (\S+)", read(root, "CITATION.cff"))
+    if cited != version:
+        yield f"CITATION.cff: version {cited}, but CMakeLists.txt has {version}"
+    newest = find(r"^## \[(\d[^]]*)\] - ", read(root, "CHANGELOG.md"))
+    if newest != version:
+        yield f"CHANGELOG.md: newest version {newest}, but CMakeLists.txt has {version}"
+
+
+def find(pattern, text):
+    """The group of the first match; None without one."""
+    match = re.search(pattern, text, re.MULTILINE)
+    return match and match.group(1)
+
+
 def blank(pattern, text):
     """The text without the matches, but with all line breaks."""
     return pattern.sub(lambda match: "\n" * match.group().count("\n"), text)
@@ -86,6 +103,7 @@ CHECKS = {
     "sizes": check_sizes,
     "words": check_words,
     "markdown": check_markdown,
+    "release": check_release,
 }
 
 

@@ -39,6 +39,9 @@ CLEAN = {
     "Testing/Core/TestEdgeMesh.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
     "Utilities/short.py": LICENCE.replace("//", "#") + "def answer():\n    return 42\n",
     "Documentation/wide.md": MARKDOWN,
+    "CMakeLists.txt": "project(Clean VERSION 1.2.3)\n",
+    "CITATION.cff": "cff-version: 1.2.0\nversion: 1.2.3\n",
+    "CHANGELOG.md": "## [Unreleased]\n\n## [1.2.3] - 2000-01-01\n\n## [1.2.2] - 1999-01-01\n",
     "Utilities/demo.sh": "#!/bin/sh\n" + LICENCE.replace("//", "#"),
 }
 
@@ -235,6 +238,16 @@ class StyleChecks(unittest.TestCase):
                 expected = f"{path}:{text.count(chr(10))}: "
                 self.check_notices(["check_files.py", "markdown"], path, text, expected)
                 self.remove(path)
+
+    def test_release(self):
+        for path, text, found in (
+            ("CMakeLists.txt", "project(Clean VERSION 1.2.4)\n", "CITATION.cff: version 1.2.3,"),
+            ("CITATION.cff", "version: 1.2.2\n", "CITATION.cff: version 1.2.2, "),
+            ("CHANGELOG.md", "## [1.2.2] - 1999-01-01\n", "CHANGELOG.md: newest version 1.2.2,"),
+        ):
+            with self.subTest(path):
+                self.check_notices(["check_files.py", "release"], path, text, found)
+                self.write(path, CLEAN[path])
 
 
 if __name__ == "__main__":

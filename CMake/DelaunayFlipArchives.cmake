@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+
+# What cpack makes of a build: an archive that works wherever it is unpacked, and a Debian package
+# that depends on the libraries of the machine where it was made.
+set(CPACK_GENERATOR TGZ)
+find_program(DELAUNAYFLIP_DPKG_SHLIBDEPS dpkg-shlibdeps
+  DOC "Finds the packages that a Debian package depends on (Debian: dpkg-dev)")
+mark_as_advanced(DELAUNAYFLIP_DPKG_SHLIBDEPS)
+if(DELAUNAYFLIP_DPKG_SHLIBDEPS)
+  list(APPEND CPACK_GENERATOR DEB)
+endif()
+
+set(CPACK_PACKAGE_NAME delaunayflip)
+set(CPACK_PACKAGE_VENDOR "The DelaunayFlip developers")
+set(CPACK_PACKAGE_CONTACT "${CPACK_PACKAGE_VENDOR}")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_PACKAGE_FILE_NAME
+  "delaunayflip-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_MONOLITHIC_INSTALL ON)
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_PACKAGE_DESCRIPTION
+  "Turns a triangle mesh into a Delaunay mesh by flipping its edges, in parallel: \
+the points stay where they are, the slivers go. This package has the command \
+delaunay-flip, the VTK filter vtkDelaunayFlip for C++ and Python, and the \
+engine for C++, C and NumPy.")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# The libraries that the package itself contains.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+# The Python package uses NumPy, and VTK's Python modules where these are wanted.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-vtk9")
+
+set(delaunayflip_texts "${CMAKE_INSTALL_DATAROOTDIR}/doc/delaunayflip")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${delaunayflip_texts}" RENAME copyright)
+install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${delaunayflip_texts}")
+include(CPack)
