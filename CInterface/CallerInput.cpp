@@ -67,6 +67,17 @@ delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given)
   return Complete(*given, delaunayflip_mesh_init);
 }
 
+delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
+{
+  Require(given, "polygons is null");
+  const delaunayflip_polygons c = Complete(*given, delaunayflip_polygons_init);
+  Require(c.number_of_polygons >= 0, "number_of_polygons is negative");
+  Require(c.offsets || c.number_of_polygons == 0, "offsets is null");
+  Require(c.corners || c.number_of_polygons == 0 || c.offsets[0] == c.offsets[c.number_of_polygons],
+    "corners is null");
+  return c;
+}
+
 TriangleMesh ToMesh(const delaunayflip_mesh& c)
 {
   TriangleMesh mesh;

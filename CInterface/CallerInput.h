@@ -28,6 +28,9 @@ Struct MakeEmpty()
 /// The mesh with all members that this library knows.
 delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given);
 
+/// The polygons with all members that this library knows.
+delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
+
 /// Views of the arrays of a complete mesh.
 TriangleMesh ToMesh(const delaunayflip_mesh& mesh);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -63,6 +65,21 @@ void SetFlips(delaunayflip_report& c, const FlipReport& report)
   c.flip_seconds = report.FlipSeconds;
 }
 
+/// Several triangles of one number are named once.
+void NumberTriangles(std::vector<Defect>& defects, const std::int64_t* numbers)
+{
+  for (Defect& defect : defects)
+  {
+    if (defect.Ids == DefectIds::Triangles)
+    {
+      std::vector<std::int64_t>& ids = defect.FirstIds;
+      std::transform(
+        ids.begin(), ids.end(), ids.begin(), [numbers](std::int64_t id) { return numbers[id]; });
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    }
+  }
+}
+
 }
 
 delaunayflip_iteration ToC(const IterationRecord& record)
@@ -79,10 +96,14 @@ delaunayflip_iteration ToC(const IterationRecord& record)
   return c;
 }
 
-KeptReport::KeptReport(const FlipReport& report)
-  : Report(report),
-    Defects(DescribeDefects(report.Defects))
+KeptReport::KeptReport(FlipReport report, const std::int64_t* numbers)
+  : Report(std::move(report))
 {
+  if (numbers)
+  {
+    NumberTriangles(this->Report.Defects, numbers);
+  }
+  this->Defects = DescribeDefects(this->Report.Defects);
 }
 
 void KeptReport::Fill(delaunayflip_report& target) const

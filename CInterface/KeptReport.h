@@ -7,6 +7,7 @@
 
 #include "FlipReport.h"
 
+#include <cstdint>
 #include <string>
 
 /// @file
@@ -21,7 +22,8 @@ delaunayflip_iteration ToC(const IterationRecord& record);
 class KeptReport
 {
 public:
-  explicit KeptReport(const FlipReport& report);
+  /// @param numbers what triangles are called, or null: their indices.
+  KeptReport(FlipReport report, const std::int64_t* numbers);
 
   /// Fills as many bytes of `target` as target.size says.
   void Fill(delaunayflip_report& target) const;

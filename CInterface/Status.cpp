@@ -3,6 +3,7 @@
 #include "Status.h"
 
 #include "FlipError.h"
+#include "FlipReport.h"
 
 #include <new>
 
@@ -71,6 +72,10 @@ delaunayflip_status FailByException()
   catch (const BackendUnavailable& error)
   {
     return Fail(DELAUNAYFLIP_BACKEND_UNAVAILABLE, error.what());
+  }
+  catch (const RunAborted&)
+  {
+    return Fail(DELAUNAYFLIP_STOPPED, "stopped by a callback");
   }
   catch (const std::bad_alloc&)
   {

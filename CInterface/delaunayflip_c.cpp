@@ -49,14 +49,16 @@ void RequirePointIds(const TriangleMesh& mesh)
 struct delaunayflip_session
 {
   delaunayflip_session(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(mesh, options, progress),
-      NumberOfTriangles(mesh.Triangles.Count)
+    const delaunayflip_mesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+    : Session(ToMesh(mesh), options, progress),
+      NumberOfTriangles(mesh.number_of_triangles),
+      TriangleNumbers(mesh.triangle_numbers)
   {
   }
 
   FlipSession Session;
   std::int64_t NumberOfTriangles;
+  const std::int64_t* TriangleNumbers; ///< Of the caller, or null.
   std::unique_ptr<KeptReport> Report;
 };
 
@@ -115,7 +117,7 @@ extern "C"
       {
         Require(session, "session is null");
         *session = new delaunayflip_session(
-          ToMesh(CompleteMesh(mesh)), ToOptions(options), Observers(callbacks).Progress);
+          CompleteMesh(mesh), ToOptions(options), Observers(callbacks).Progress);
       });
   }
 
@@ -145,7 +147,8 @@ extern "C"
       {
         Require(session, "session is null");
         RequireReport(report);
-        session->Report = std::make_unique<KeptReport>(session->Session.GetReport());
+        session->Report =
+          std::make_unique<KeptReport>(session->Session.GetReport(), session->TriangleNumbers);
         session->Report->Fill(*report);
       });
   }
@@ -217,7 +220,7 @@ extern "C"
         if (report)
         {
           thread_local std::unique_ptr<KeptReport> kept;
-          kept = std::make_unique<KeptReport>(result);
+          kept = std::make_unique<KeptReport>(result, c.triangle_numbers);
           kept->Fill(*report);
         }
       });

@@ -57,7 +57,8 @@ extern "C"
     DELAUNAYFLIP_OUT_OF_MEMORY = 5,
     DELAUNAYFLIP_INVALID_CALL =
       6, /**< A null pointer, an unknown type, or a struct without a size. */
-    DELAUNAYFLIP_FAILED = 7 /**< Anything else. */
+    DELAUNAYFLIP_FAILED = 7, /**< Anything else. */
+    DELAUNAYFLIP_STOPPED = 8 /**< A callback stopped a call that has no part of a result. */
   } delaunayflip_status;
 
   /** The message of the last failing call of this thread, in English; "" if there was none. Valid
@@ -96,6 +97,8 @@ extern "C"
     const int32_t* regions; /**< A label per triangle, or null: edges between labels stay. */
     const unsigned char* frozen_triangles; /**< A flag per triangle, or null: where it is not 0, the
                                                 triangle's edges stay. */
+    const int64_t* triangle_numbers; /**< A number per triangle by which a report names it, or null:
+                                        its index. E.g. the cell from which it was split. */
   } delaunayflip_mesh;
 
   typedef enum
@@ -272,6 +275,28 @@ extern "C"
    * `angles`: number_of_triangles numbers. NaN where a coordinate is not finite. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_angles(
     const delaunayflip_mesh* mesh, int32_t geometry, double* angles);
+
+  /** Polygon i has the corners corners[offsets[i]] .. corners[offsets[i + 1] - 1], ids of points.
+   */
+  typedef struct
+  {
+    int64_t size;
+    int64_t number_of_polygons;
+    const int64_t* offsets; /**< number_of_polygons + 1 integers. */
+    const int64_t* corners;
+  } delaunayflip_polygons;
+
+  DELAUNAYFLIP_API void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
+
+  /** Splits polygons over the points of `mesh`, whose other members have no effect, into triangles
+   * that keep their winding. A polygon of n corners gives n - 2 triangles, or none if n < 3; their
+   * point ids, three each, are written to `triangles` in the order of the polygons. A quad is
+   * divided along its first diagonal, unless that runs outside it; a larger polygon becomes a fan
+   * if it is convex, else its ears are clipped. `callbacks` may be null; if `progress` returns 0
+   * the call fails with DELAUNAYFLIP_STOPPED. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
+    const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
+    int64_t* triangles);
 
   /** 1 where there is a GPU that this library can use, else 0. */
   DELAUNAYFLIP_API int32_t delaunayflip_has_cuda_device(void);

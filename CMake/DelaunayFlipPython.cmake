@@ -1,6 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 
+# A wheel has the library in the package, where pyproject.toml puts the Python files. A wheel has no
+# symbolic links, so the library's file gets the name by which it is loaded.
+if(DELAUNAYFLIP_WHEEL)
+  set_target_properties(DelaunayFlipC PROPERTIES
+    VERSION 1
+    INSTALL_RPATH_USE_LINK_PATH ON)
+  install(TARGETS DelaunayFlipC
+    LIBRARY DESTINATION delaunayflip COMPONENT wheel NAMELINK_SKIP)
+  return()
+endif()
+
 # The Python package delaunayflip, in the folder DELAUNAYFLIP_PYTHONPATH of the build. It finds
 # libdelaunayflip in a folder above; DelaunayFlipVTK adds the wrapped VTK modules.
 set(delaunayflip_packages "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")

@@ -16,7 +16,7 @@ build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-de
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev python3-numpy
-  python3-matplotlib)
+  python3-matplotlib python3-venv)
 proof=(clang libclang-rt-dev python3-clang gcovr)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)

@@ -24,6 +24,17 @@ Everything is loaded at its first use: the functions for arrays need NumPy and n
 needs VTK and no OpenGL, and the live view needs VTK's OpenGL modules too.
 """
 import importlib
+import typing
+
+if typing.TYPE_CHECKING:
+    from ._errors import BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge
+    from ._flip import Result, flip, smallest_angles
+    from ._library import has_cuda_device, release_cuda_memory
+    from ._report import Report
+    from ._session import Session
+    from ._vtk import vtkDelaunayFlip
+
+    __version__: str
 
 _HOMES = {
     "flip": "._flip",
@@ -42,10 +53,14 @@ _HOMES = {
     "vtkDelaunayFlipLiveView": "._vtk_rendering",
 }
 
-__all__ = [name for name in _HOMES if name != "vtkDelaunayFlipLiveView"]
+__all__ = [
+    "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
+    "Result", "Session", "flip", "has_cuda_device", "release_cuda_memory", "smallest_angles",
+    "vtkDelaunayFlip",
+]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> typing.Any:
     if name == "__version__":
         value = importlib.import_module("._library", __name__).version()
     elif name in _HOMES:
@@ -56,5 +71,5 @@ def __getattr__(name):
     return value
 
 
-def __dir__():
+def __dir__() -> typing.List[str]:
     return sorted([*globals(), *_HOMES, "__version__"])

@@ -15,7 +15,7 @@ class InvalidMesh(FlipError, ValueError):
         point: The id that it names.
     """
 
-    def __init__(self, message, cell=-1, point=-1):
+    def __init__(self, message: str, cell: int = -1, point: int = -1) -> None:
         super().__init__(message)
         self.cell = cell
         self.point = point

@@ -2,28 +2,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole run in one call."""
 import dataclasses
+from typing import Optional
 
 import numpy
 
 from . import _arrays, _library
 from ._report import Report
 from ._session import Session
+from ._types import Array, Backend, Criterion, Geometry, Numbers, OnIteration, Progress, TieRule
 
 
 @dataclasses.dataclass(frozen=True)
 class Result:
     """What `flip` returns."""
 
-    triangles: numpy.ndarray  #: (m, 3), in the input's order and of its integers.
-    flip_counts: numpy.ndarray  #: (m,) int32: how many flips each triangle was part of.
-    iterations: numpy.ndarray  #: Structured, a row per iteration; see Session.iterations.
+    triangles: Array  #: (m, 3), in the input's order and of its integers.
+    flip_counts: Array  #: (m,) int32: how many flips each triangle was part of.
+    iterations: Array  #: Structured, a row per iteration; see Session.iterations.
     report: Report
 
 
-def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule="keep",
-         tolerance=-1.0, feature_angle=30.0, constraints=None, insert_constraints=True,
-         regions=None, frozen=None, maximum_iterations=-1, backend="auto", threads=0, device=-1,
-         track_quality=False, progress=None, on_iteration=None):
+def flip(
+    points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
+    criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
+    feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
+    insert_constraints: bool = True, regions: Optional[Numbers] = None,
+    frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
+    threads: int = 0, device: int = -1, track_quality: bool = False,
+    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None) -> Result:
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
@@ -56,14 +62,11 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
         A `Result`. After an abort it holds the valid mesh of the last whole iteration.
 
     Raises:
-        InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable: See these classes.
-        MemoryError, TypeError, ValueError: As usual.
+        InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
 
     Example:
-        >>> import numpy
-        >>> points = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
-        >>> triangles = numpy.array([[0, 1, 2], [0, 2, 3]])
-        >>> result = flip(points, triangles)
+        >>> points = [[0, 0], [2, -1], [4, 0], [2, 1]]
+        >>> result = flip(points, [[0, 1, 2], [0, 2, 3]])
         >>> result.report.total_flips
         1
         >>> sorted(sorted(triangle) for triangle in result.triangles.tolist())
@@ -71,16 +74,19 @@ def flip(points, triangles, *, geometry="auto", criterion="in-circle", tie_rule=
     """
     with Session(
         points, triangles, constraints=constraints, insert_constraints=insert_constraints,
-        regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion, tie_rule=tie_rule,
-        tolerance=tolerance, feature_angle=feature_angle, maximum_iterations=maximum_iterations,
-        backend=backend, threads=threads, device=device, track_quality=track_quality,
+        regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion,
+        tie_rule=tie_rule, tolerance=tolerance, feature_angle=feature_angle,
+        maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
+        track_quality=track_quality,
     ) as session:
         if session.report.stop_reason != "aborted":
             session.advance(progress=progress, on_iteration=on_iteration)
         return Result(session.triangles, session.flip_counts, session.iterations, session.report)
 
 
-def smallest_angles(points, triangles, *, geometry="surface"):
+def smallest_angles(
+    points: Numbers, triangles: Numbers, *, geometry: Geometry = "surface"
+) -> Array:
     """The smallest angle of each triangle.
 
     Args:

@@ -35,6 +35,16 @@ class Mesh(ctypes.Structure):
         ("constraints_to_insert", c_void_p),
         ("regions", c_void_p),
         ("frozen_triangles", c_void_p),
+        ("triangle_numbers", c_void_p),
+    ]
+
+
+class Polygons(ctypes.Structure):
+    _fields_ = [
+        ("size", c_int64),
+        ("number_of_polygons", c_int64),
+        ("offsets", c_void_p),
+        ("corners", c_void_p),
     ]
 
 
@@ -156,6 +166,9 @@ def library():
         ("store_flip_counts", c_int32, [c_void_p, c_void_p]),
         ("close", None, [c_void_p]),
         ("triangle_angles", c_int32, [pointer(Mesh), c_int32, c_void_p]),
+        ("polygons_init", None, [pointer(Polygons)]),
+        ("split_polygons", c_int32,
+         [pointer(Mesh), pointer(Polygons), pointer(Callbacks), c_void_p]),
         ("has_cuda_device", c_int32, []),
         ("release_cuda_memory", None, []),
     ):
@@ -187,16 +200,16 @@ def call(name, *arguments):
     raise _EXCEPTIONS.get(status, _errors.FlipError)(message)
 
 
-def version():
+def version() -> str:
     """The release of the engine, e.g. "0.1.0"."""
     return library().delaunayflip_version().decode()
 
 
-def has_cuda_device():
+def has_cuda_device() -> bool:
     """Whether there is a GPU that the engine can use."""
     return bool(library().delaunayflip_has_cuda_device())
 
 
-def release_cuda_memory():
+def release_cuda_memory() -> None:
     """Frees the memory that the CUDA backend keeps between runs."""
     library().delaunayflip_release_cuda_memory()

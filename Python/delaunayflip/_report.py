@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run did."""
 import dataclasses
+import typing
 
 from . import _library
 
@@ -47,14 +48,14 @@ class Report:
     flip_seconds: float
 
     @property
-    def converged(self):
+    def converged(self) -> bool:
         """Whether the run ended because no edge could flip any more."""
         return self.stop_reason == "converged"
 
 
-def from_struct(struct):
+def from_struct(struct: _library.Report) -> Report:
     """The report in a _library.Report."""
-    values = {}
+    values: typing.Dict[str, typing.Any] = {}
     for name, _ in struct._fields_[1:]:
         value = getattr(struct, name)
         values[name] = value.decode(errors="replace") if isinstance(value, bytes) else value

@@ -2,12 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run in steps."""
 import ctypes
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._observers import Observers
 from ._options import make_options
+from ._types import Array, Numbers, OnIteration, Options, Progress
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 #: The columns of an iteration, as a NumPy structure.
 ITERATION = numpy.dtype(
@@ -35,8 +40,12 @@ class Session:
         converged
     """
 
-    def __init__(self, points, triangles, *, constraints=None, insert_constraints=True,
-                 regions=None, frozen=None, progress=None, **options):
+    def __init__(
+        self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
+        insert_constraints: bool = True, regions: Optional[Numbers] = None,
+        frozen: Optional[Numbers] = None, progress: Optional[Progress] = None,
+        **options: "Unpack[Options]",
+    ) -> None:
         self._handle = ctypes.c_void_p()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                  insert_constraints)
@@ -45,23 +54,26 @@ class Session:
         with observers.raising() as callbacks:
             _library.call("open", self._mesh.struct, chosen, callbacks, self._handle)
 
-    def __enter__(self):
+    def __enter__(self) -> "Session":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: Any) -> None:
         self.close()
 
-    def __del__(self):
+    def __del__(self) -> None:
         if getattr(self, "_handle", None):
             self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Frees the session's memory. It cannot be used afterwards; closing again is allowed."""
         handle, self._handle = self._handle, None
         if handle:
             _library.library().delaunayflip_close(handle)
 
-    def advance(self, iterations=-1, *, progress=None, on_iteration=None):
+    def advance(
+        self, iterations: int = -1, *, progress: Optional[Progress] = None,
+        on_iteration: Optional[OnIteration] = None,
+    ) -> bool:
         """Runs at most so many more iterations; -1: until there is nothing more to flip.
 
         Args:
@@ -79,7 +91,7 @@ class Session:
         return bool(running.value)
 
     @property
-    def report(self):
+    def report(self) -> _report.Report:
         """What has happened so far, a `Report`."""
         struct = _library.Report()
         _library.library().delaunayflip_report_init(struct)
@@ -87,7 +99,7 @@ class Session:
         return _report.from_struct(struct)
 
     @property
-    def iterations(self):
+    def iterations(self) -> Array:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
         rows = numpy.empty(self.report.number_of_iterations, dtype=ITERATION)
@@ -96,7 +108,7 @@ class Session:
         return rows
 
     @property
-    def triangles(self):
+    def triangles(self) -> Array:
         """The triangles so far in their input order, a new array of the input's integers, (m, 3)."""
         triangles = numpy.empty_like(self._mesh.triangles)
         _library.call("store_triangles", self._open(), _arrays.address(triangles),
@@ -104,7 +116,7 @@ class Session:
         return triangles
 
     @property
-    def flip_counts(self):
+    def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
         counts = numpy.empty(len(self._mesh.triangles), dtype=numpy.int32)
         _library.call("store_flip_counts", self._open(), _arrays.address(counts))

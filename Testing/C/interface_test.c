@@ -501,6 +501,81 @@ static void TestThreads(void)
   FreeLattice(&lattice);
 }
 
+/* A quad, a line that is no polygon, and an L of six corners, whose fan would leave it. */
+static void TestPolygons(void)
+{
+  static const double points[] = { 0, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0 };
+  static const int64_t corners[] = { 0, 1, 2, 3, 0, 1, 4, 5, 0, 1, 2, 3 };
+  static const int64_t offsets[] = { 0, 4, 6, 12 };
+  static const int64_t expected[] = { 0, 1, 2, 0, 2, 3 };
+  int64_t triangles[18];
+  delaunayflip_mesh mesh;
+  delaunayflip_polygons polygons;
+  int i;
+  delaunayflip_mesh_init(&mesh);
+  mesh.points = points;
+  mesh.number_of_points = 6;
+  delaunayflip_polygons_init(&polygons);
+  polygons.number_of_polygons = 3;
+  polygons.offsets = offsets;
+  polygons.corners = corners;
+  CHECK(delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(triangles, expected, sizeof(expected)) == 0);
+  for (i = 6; i < 18; i += 3)
+  {
+    const double* a = points + 3 * triangles[i];
+    const double* b = points + 3 * triangles[i + 1];
+    const double* c = points + 3 * triangles[i + 2];
+    CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
+  }
+  mesh.number_of_points = 5;
+  CHECK(
+    delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_INVALID_MESH);
+  CHECK(delaunayflip_error_cell() == 2 && delaunayflip_error_point() == 5);
+}
+
+static int32_t StopAtOnce(double share, void* user)
+{
+  (void)share;
+  (void)user;
+  return 0;
+}
+
+static void TestPolygonsCanBeStopped(void)
+{
+  const int64_t corners[] = { 0, 1, 2, 3 };
+  const int64_t offsets[] = { 0, 4 };
+  int64_t triangles[6];
+  const delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_callbacks callbacks;
+  delaunayflip_polygons polygons;
+  delaunayflip_polygons_init(&polygons);
+  polygons.number_of_polygons = 1;
+  polygons.offsets = offsets;
+  polygons.corners = corners;
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = StopAtOnce;
+  CHECK(
+    delaunayflip_split_polygons(&mesh, &polygons, &callbacks, triangles) == DELAUNAYFLIP_STOPPED);
+}
+
+/* Triangle 1 repeats a point; the report calls it 7. */
+static void TestTriangleNumbers(void)
+{
+  const int64_t triangles[] = { 0, 1, 2, 3, 3, 0 };
+  const int64_t numbers[] = { 5, 7 };
+  int64_t result[6];
+  delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  mesh.triangles = triangles;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, result, &report) == DELAUNAYFLIP_OK);
+  CHECK(strstr(report.defects, "(first: 1)") != NULL);
+  mesh.triangle_numbers = numbers;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, result, &report) == DELAUNAYFLIP_OK);
+  CHECK(strstr(report.defects, "(first: 7)") != NULL);
+}
+
 typedef struct
 {
   const char* name;
@@ -517,7 +592,9 @@ int main(int argc, char** argv)
     { "null_pointers", TestNullPointers }, { "unset_sizes", TestUnsetSizes },
     { "old_program", TestOldProgram }, { "newer_program", TestNewerProgram },
     { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
-    { "backend_unavailable", TestBackendUnavailable }, { "threads", TestThreads } };
+    { "backend_unavailable", TestBackendUnavailable }, { "threads", TestThreads },
+    { "polygons", TestPolygons }, { "polygons_stopped", TestPolygonsCanBeStopped },
+    { "triangle_numbers", TestTriangleNumbers } };
   size_t i;
   for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)
   {

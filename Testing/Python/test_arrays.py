@@ -333,7 +333,7 @@ class Header(unittest.TestCase):
         return [declaration.match(text).groups() for text in declarations if text]
 
     def test_structs(self):
-        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks"):
+        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons"):
             struct = getattr(_library, name)
             members = self.members(f"delaunayflip_{name.lower()}")
             self.assertEqual([member for _, member in members],

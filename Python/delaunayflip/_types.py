@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Types of arguments and results."""
+import typing
+
+import numpy
+import numpy.typing
+
+Numbers = numpy.typing.ArrayLike
+Array = numpy.typing.NDArray[typing.Any]
+Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
+Criterion = typing.Literal["in-circle", "opposite-angles"]
+TieRule = typing.Literal["keep", "canonical"]
+Backend = typing.Literal["auto", "cuda", "threads"]
+#: False aborts; anything else goes on.
+Progress = typing.Callable[[float], typing.Optional[bool]]
+OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bool]]
+
+
+class Options(typing.TypedDict, total=False):
+    """The keywords of `flip` that a Session takes too."""
+
+    geometry: Geometry
+    criterion: Criterion
+    tie_rule: TieRule
+    tolerance: float
+    feature_angle: float
+    maximum_iterations: int
+    backend: Backend
+    threads: int
+    device: int
+    track_quality: bool
