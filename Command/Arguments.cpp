@@ -111,8 +111,8 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
       "that is more. The result does not depend on it [0]")
     ->check(Within(0.0, 65536.0, "a number of threads (0 to 65536)"));
   app.add_flag("--quality", arguments.Quality,
-    "Add cell arrays of the smallest angle of each triangle, in degrees, before and after (.vtk "
-    "and .vtp)");
+    "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
+    "(.vtk, .vtp and .ply)");
   app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
   app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)");
   app.add_flag("--quiet", arguments.Quiet,
@@ -142,11 +142,11 @@ void CheckTogether(Arguments& arguments)
     arguments.ConstraintsFormat = FormatOf(arguments.Constraints);
   }
   const bool holdsCellData =
-    arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
+    arguments.OutputFormat != MeshFormat::STL && arguments.OutputFormat != MeshFormat::OBJ;
   if (arguments.Quality && !holdsCellData)
   {
     throw CommandError(
-      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk or .vtp file");
+      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk, .vtp or .ply file");
   }
   CheckDistinct(arguments.Input, arguments.Statistics);
   CheckDistinct(arguments.Input, arguments.Report);

@@ -118,11 +118,12 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    this->Input = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
+    this->InputFile = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
+    this->Input = this->InputFile.Mesh;
     if (!this->Settings.Constraints.empty())
     {
       this->Constraints =
-        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat);
+        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat).Mesh;
     }
     this->Run.ReadSeconds = SecondsSince(start);
     if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
@@ -155,12 +156,14 @@ public:
   {
     const auto start = Clock::now();
     this->Bar.Begin(1.0, "writing " + this->Settings.Output);
-    vtkNew<vtkPolyData> mesh;
+    FileMesh file;
+    file.CopiesOf = this->InputFile.CopiesOf;
+    vtkPolyData* const mesh = file.Mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
     // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
-    this->WriteOutput(mesh);
+    this->WriteOutput(file);
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
     const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
@@ -195,7 +198,7 @@ public:
   }
 
 private:
-  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
+  FileMesh ReadFile(const std::string& path, MeshFormat format)
   {
     this->Bar.Begin(this->Plan.Read, "reading " + path);
     const FileMesh file = ReadMesh(path, format, RepeatedPoints::Merge, this->Messages);
@@ -208,7 +211,7 @@ private:
     {
       this->Note(note);
     }
-    return file.Mesh;
+    return file;
   }
 
   void Note(const std::string& note) const
@@ -242,11 +245,11 @@ private:
     }
   }
 
-  void WriteOutput(vtkPolyData* mesh)
+  void WriteOutput(const FileMesh& file)
   {
     try
     {
-      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
+      WriteMesh(file, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
         [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
     }
     catch (const CommandError& error)
@@ -274,6 +277,7 @@ private:
   VTKMessages Messages;
   ProgressBar Bar;
   JobPlan Plan;
+  FileMesh InputFile;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkNew<vtkDelaunayFlip> Filter;

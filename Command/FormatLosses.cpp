@@ -2,15 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FormatLosses.h"
 
+#include "ObjPlan.h"
+#include "PlyWriter.h"
+#include "XmlWriter.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <vector>
 
 namespace delaunayflip
@@ -18,21 +24,6 @@ namespace delaunayflip
 
 namespace
 {
-
-bool HoldsPointArray(vtkPointData* data, vtkAbstractArray* array, MeshFormat format)
-{
-  switch (format)
-  {
-    case MeshFormat::PLY:
-      return array == data->GetTCoords() ||
-        (array == data->GetArray("RGB") && array->GetDataType() == VTK_UNSIGNED_CHAR &&
-          array->GetNumberOfComponents() == 3);
-    case MeshFormat::OBJ:
-      return array == data->GetTCoords() || array == data->GetNormals();
-    default:
-      return false;
-  }
-}
 
 /// `what` and, in parentheses, the names of the arrays of `data` for which `isHeld` is false.
 template <typename Predicate>
@@ -91,38 +82,97 @@ vtkIdType CountUnusedPoints(vtkPolyData* mesh)
   return unused;
 }
 
+std::string Joined(const std::vector<std::string>& losses)
+{
+  std::string list;
+  for (const std::string& loss : losses)
+  {
+    list += (list.empty() || loss.empty() ? "" : ", ") + loss;
+  }
+  return list;
+}
+
 std::string Counted(const std::string& what, vtkIdType count)
 {
   return count > 0 ? what + " (" + std::to_string(count) + ")" : std::string();
+}
+
+using Holds = std::function<bool(vtkAbstractArray*)>;
+
+/// What a format can hold.
+struct FormatLimits
+{
+  Holds PointData;
+  Holds CellData;
+  Holds FieldData;
+  bool HoldsLines = false;
+  bool HoldsVerts = false;
+};
+
+FormatLimits LimitsOf(vtkPolyData* mesh, MeshFormat format)
+{
+  const auto nothing = [](vtkAbstractArray*) { return false; };
+  if (format == MeshFormat::PLY)
+  {
+    const PlyPlan points = PlanPlyVertices(mesh);
+    const PlyPlan cells = PlanPlyFaces(mesh);
+    return { [points](vtkAbstractArray* array) { return points.Holds(array); },
+      [cells](vtkAbstractArray* array) { return cells.Holds(array); }, nothing, true, false };
+  }
+  if (format == MeshFormat::OBJ)
+  {
+    const ObjPlan plan(mesh);
+    const auto holds = [plan](vtkAbstractArray* array) { return plan.Holds(array); };
+    return { holds, holds, holds, true, true };
+  }
+  return { nothing, nothing, nothing };
+}
+
+bool IsOrdinary(vtkDataSetAttributes* data, vtkAbstractArray* array)
+{
+  const bool isIds = array == data->GetAbstractAttribute(vtkDataSetAttributes::PEDIGREEIDS) ||
+    array == data->GetAbstractAttribute(vtkDataSetAttributes::GLOBALIDS);
+  return !isIds || CanBeXmlIds(array);
+}
+
+std::string DescribeXmlLosses(vtkPolyData* mesh)
+{
+  std::vector<std::string> losses;
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
+  {
+    losses.push_back(LostArrays("that an array holds ids", data,
+      [data](vtkAbstractArray* array) { return IsOrdinary(data, array); }));
+  }
+  return Joined(losses);
 }
 
 }
 
 std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
 {
-  if (format == MeshFormat::VTK || format == MeshFormat::VTP)
+  if (format == MeshFormat::VTK)
   {
     return {};
   }
-  const auto isHeld = [mesh, format](vtkAbstractArray* array)
-  { return HoldsPointArray(mesh->GetPointData(), array, format); };
-  const auto never = [](vtkAbstractArray*) { return false; };
-  std::string list;
-  for (const std::string& loss : {
-         Counted("lines", format == MeshFormat::OBJ ? 0 : mesh->GetNumberOfLines()),
-         Counted("verts", mesh->GetNumberOfVerts()),
-         Counted("unused points", format == MeshFormat::STL ? CountUnusedPoints(mesh) : 0),
-         LostArrays("point data", mesh->GetPointData(), isHeld),
-         LostArrays("cell data", mesh->GetCellData(), never),
-         LostArrays("field data", mesh->GetFieldData(), never),
-         std::string(format != MeshFormat::OBJ && NeedsDoubles(mesh->GetPoints())
-             ? "double precision of the points"
-             : ""),
-       })
+  if (format == MeshFormat::VTP)
   {
-    list += (list.empty() || loss.empty() ? "" : ", ") + loss;
+    return DescribeXmlLosses(mesh);
   }
-  return list;
+  const FormatLimits limits = LimitsOf(mesh, format);
+  const bool losesCellData = format == MeshFormat::PLY && mesh->GetNumberOfLines() > 0 &&
+    mesh->GetCellData()->GetNumberOfArrays() > 0;
+  return Joined({
+    Counted("lines", limits.HoldsLines ? 0 : mesh->GetNumberOfLines()),
+    Counted("verts", limits.HoldsVerts ? 0 : mesh->GetNumberOfVerts()),
+    Counted("unused points", format == MeshFormat::STL ? CountUnusedPoints(mesh) : 0),
+    LostArrays("point data", mesh->GetPointData(), limits.PointData),
+    LostArrays("cell data", mesh->GetCellData(), limits.CellData),
+    losesCellData ? "cell data of lines" : "",
+    LostArrays("field data", mesh->GetFieldData(), limits.FieldData),
+    format == MeshFormat::STL && NeedsDoubles(mesh->GetPoints()) ? "double precision of the points"
+                                                                 : "",
+  });
 }
 
 }

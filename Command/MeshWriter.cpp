@@ -7,20 +7,17 @@
 #include "Counted.h"
 #include "DiskSpace.h"
 #include "MeshReader.h"
+#include "ObjWriter.h"
+#include "PlyWriter.h"
+#include "XmlWriter.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
-#include <vtkOBJWriter.h>
-#include <vtkPLYWriter.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
-#include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <fstream>
@@ -32,10 +29,9 @@ namespace
 {
 
 template <typename Writer>
-void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+void Run(Writer* writer, const std::string& path, VTKMessages& messages)
 {
   writer->SetFileName(path.c_str());
-  writer->SetInputData(mesh);
   const bool written = writer->Write() != 0;
   const std::string complaints = messages.TakeComplaints();
   if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
@@ -51,8 +47,9 @@ void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages
 void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
   vtkNew<vtkPolyDataWriter> writer;
+  writer->SetInputData(mesh);
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), path, messages);
 }
 
 void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
@@ -71,46 +68,16 @@ void WriteXml(
   writer->AddObserver(vtkCommand::ProgressEvent, progress);
   writer->SetDataModeToBinary(); // inline: Debian's ParaView 5.11 fails on appended data
   writer->SetHeaderTypeToUInt64();
-  Run(writer.Get(), mesh, path, messages);
-}
-
-/// The mesh with texture coordinates of type float: vtkPLYWriter crashes on others.
-vtkSmartPointer<vtkPolyData> WithFloatTexture(vtkPolyData* mesh)
-{
-  auto copy = vtkSmartPointer<vtkPolyData>::New();
-  copy->ShallowCopy(mesh);
-  if (vtkDataArray* const texture = mesh->GetPointData()->GetTCoords())
-  {
-    const vtkNew<vtkFloatArray> floats;
-    floats->DeepCopy(texture);
-    copy->GetPointData()->SetTCoords(floats);
-  }
-  return copy;
-}
-
-void WritePly(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
-{
-  vtkNew<vtkPLYWriter> writer;
-  writer->SetFileTypeToBinary();
-  writer->SetArrayName("RGB"); // as vtkPLYReader names colours
-  Run(writer.Get(), WithFloatTexture(mesh), path, messages);
+  SetXmlInput(writer, mesh);
+  Run(writer.Get(), path, messages);
 }
 
 void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
 {
   vtkNew<vtkSTLWriter> writer;
+  writer->SetInputData(mesh);
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), mesh, path, messages);
-}
-
-void WriteObj(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
-{
-  // For names of materials vtkOBJWriter wants texture coordinates of the same names.
-  const vtkNew<vtkPolyData> unnamed;
-  unnamed->ShallowCopy(mesh);
-  unnamed->GetFieldData()->Initialize();
-  vtkNew<vtkOBJWriter> writer;
-  Run(writer.Get(), unnamed.Get(), path, messages);
+  Run(writer.Get(), path, messages);
 }
 
 void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what)
@@ -122,7 +89,7 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
     {
       throw CommandError(ExitCode::BadFile,
         what + " " + std::to_string(cell) + " has " + Counted(size, "point") +
-          ", too few for this file format");
+          ", too few for this file format; a .vtk can hold it");
     }
   }
 }
@@ -134,11 +101,11 @@ void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
   const bool isXml = format == MeshFormat::VTP;
   if (isXml)
   {
-    RequireSizes(mesh->GetVerts(), 1, "vert");
     RequireSizes(mesh->GetStrips(), 3, "strip");
   }
   if (isXml || format == MeshFormat::OBJ)
   {
+    RequireSizes(mesh->GetVerts(), 1, "vert");
     RequireSizes(mesh->GetLines(), 2, "line");
   }
   if (isXml || format == MeshFormat::OBJ || format == MeshFormat::STL)
@@ -147,9 +114,10 @@ void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
   }
 }
 
-void WriteUnchecked(vtkPolyData* mesh, const std::string& path, MeshFormat format,
+void WriteUnchecked(const FileMesh& file, const std::string& path, MeshFormat format,
   VTKMessages& messages, const WriteObserver& tell)
 {
+  vtkPolyData* const mesh = file.Mesh;
   switch (format)
   {
     case MeshFormat::VTK:
@@ -157,11 +125,11 @@ void WriteUnchecked(vtkPolyData* mesh, const std::string& path, MeshFormat forma
     case MeshFormat::VTP:
       return WriteXml(mesh, path, messages, tell);
     case MeshFormat::PLY:
-      return WritePly(mesh, path, messages);
+      return WritePly(file, path);
     case MeshFormat::STL:
       return WriteStl(mesh, path, messages);
     case MeshFormat::OBJ:
-      return WriteObj(mesh, path, messages);
+      return WriteObj(file, path);
   }
 }
 
@@ -180,9 +148,11 @@ bool IsEnded(const std::string& path, MeshFormat format)
   return file && last == ending;
 }
 
-bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
+bool HasSameCounts(const FileMesh& file, vtkPolyData* written, MeshFormat format)
 {
-  const bool keepsPoints = format != MeshFormat::STL;
+  vtkPolyData* const mesh = file.Mesh;
+  // Where a texture has seams, the reader chooses the number of points.
+  const bool keepsPoints = format != MeshFormat::STL && file.CopiesOf.empty();
   const bool keepsAll = format == MeshFormat::VTK || format == MeshFormat::VTP;
   return mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
     (!keepsPoints || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
@@ -191,16 +161,16 @@ bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
 
 }
 
-void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
-  const WriteObserver& tell)
+void WriteMesh(const FileMesh& file, const std::string& path, MeshFormat format,
+  VTKMessages& messages, const WriteObserver& tell)
 {
   std::string difference;
   try
   {
-    RequireStorableCells(mesh, format);
-    WriteUnchecked(mesh, path, format, messages, tell);
+    RequireStorableCells(file.Mesh, format);
+    WriteUnchecked(file, path, format, messages, tell);
     const FileMesh written = ReadMesh(path, format, RepeatedPoints::Keep, messages);
-    if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
+    if (IsEnded(path, format) && HasSameCounts(file, written.Mesh, format))
     {
       return;
     }

@@ -8,22 +8,21 @@
 #include <functional>
 #include <string>
 
-class vtkPolyData;
-
 namespace delaunayflip
 {
 
+struct FileMesh;
 class VTKMessages;
 
 /// Is told how much has been written, 0 .. 1, where the format takes long.
 using WriteObserver = std::function<void(double)>;
 
-/// Writes `mesh` to `path`, in binary where the format allows it. Then reads the file back to check
+/// Writes a mesh to `path`, in binary where the format allows it. Then reads the file back to check
 /// that it is complete, because the writers of some formats do not notice a full disk. Call this in
 /// a child process: VTK's readers may crash on an incomplete file.
 /// @throws CommandError (BadFile) with the reason.
-void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
-  const WriteObserver& tell);
+void WriteMesh(const FileMesh& file, const std::string& path, MeshFormat format,
+  VTKMessages& messages, const WriteObserver& tell);
 
 }
 

@@ -95,6 +95,7 @@ public:
   }
 
   const std::vector<std::int64_t>& GetTextureOfPoints() const { return this->OfPoint; }
+  const std::vector<vtkIdType>& GetCopies() const { return this->CopyOf; }
 
 private:
   vtkIdType FindPoint(vtkIdType point, std::int64_t texture)
@@ -166,13 +167,15 @@ bool CornerVectors::Agree(std::int64_t first, std::int64_t second) const
   return first == second || first == None || second == None ||
     std::equal(this->Values.begin() + this->Components * first,
       this->Values.begin() + this->Components * (first + 1),
-      this->Values.begin() + this->Components * second);
+      this->Values.begin() + this->Components * second,
+      [](double one, double other) { return one == other || (one != one && other != other); });
 }
 
 void AttachTexture(FileMesh& file, const std::string& name, const CornerVectors& texture)
 {
   SeamSplitter splitter(file.Mesh, texture);
   const vtkIdType copies = splitter.Split();
+  file.CopiesOf = splitter.GetCopies();
   file.Mesh->GetPointData()->SetTCoords(
     Gathered("TCoords", texture, splitter.GetTextureOfPoints()));
   if (copies > 0)

@@ -226,6 +226,11 @@ private:
     }
     const auto label = static_cast<std::size_t>(found - ObjLabels.begin());
     const std::string name = this->Cursor.RestOfLine();
+    if (name.empty())
+    {
+      this->Current[label] = -1;
+      return true;
+    }
     const auto next = static_cast<int>(this->Content.Names[label].size());
     const auto [place, isNew] = this->Known[label].try_emplace(name, next);
     if (isNew)

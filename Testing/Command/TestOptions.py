@@ -115,7 +115,10 @@ class Options(CommandTest):
             before, after = self.angles(name)
             self.assertAlmostEqual(before, math.degrees(math.atan(1 / 2)))
             self.assertAlmostEqual(after, 2 * math.degrees(math.atan(1 / 2)))
-        self.fail_with(2, path, "out.ply", "--quality", naming=["--quality", ".vtp"])
+        self.succeed(path, "out.ply", "--quality")
+        self.succeed("out.ply", "again.vtp")
+        self.assertEqual(self.angles("again.vtp"), [before, after])
+        self.fail_with(2, path, "out.obj", "--quality", naming=["--quality", ".vtp"])
 
     def angles(self, name):
         """The smallest values of the arrays that --quality adds."""

@@ -1,0 +1,408 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each format keeps of a mesh, attribute by attribute, there and back."""
+
+import math
+import unittest
+
+import vtkmodules.vtkCommonCore as vtk
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+
+from CommandTesting import (
+    CommandTest,
+    bumpy_grid,
+    cells_of,
+    make_mesh,
+    points_of,
+    read_mesh,
+    triangle_set,
+    triangles_of,
+    write_mesh,
+)
+
+PEDIGREE_IDS = vtkDataSetAttributes.PEDIGREEIDS
+GLOBAL_IDS = vtkDataSetAttributes.GLOBALIDS
+
+
+def make_values(kind, name, tuples):
+    """An array of a VTK class from tuples of values."""
+    array = getattr(vtk, kind)()
+    array.SetName(name)
+    array.SetNumberOfComponents(len(tuples[0]))
+    for values in tuples:
+        for value in values:
+            array.InsertNextValue(value)
+    return array
+
+
+def values_of(array):
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
+def same(first, second):
+    """Equality by which a NaN equals itself."""
+    return len(first) == len(second) and all(
+        a == b or (a != a and b != b) for a, b in zip(first, second)
+    )
+
+
+class WriterTest(CommandTest):
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            file.write(text)
+
+    def text(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read().decode("latin-1")
+
+    def convert(self, mesh, *names):
+        """Passes a mesh through files of these names, of which nothing is lost; the last mesh."""
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        for name in names:
+            self.assertEqual(self.succeed(source, name).stderr, "", name)
+            source = name
+        return read_mesh(self.path(names[-1]))
+
+    def read_plainly(self, name):
+        """What VTK's own reader makes of a file, without complaints."""
+        complaints = []
+        window = vtk.vtkStringOutputWindow()
+        before = vtk.vtkOutputWindow.GetInstance()
+        vtk.vtkOutputWindow.SetInstance(window)
+        try:
+            mesh = read_mesh(self.path(name))
+            complaints.append(window.GetOutput())
+        finally:
+            vtk.vtkOutputWindow.SetInstance(before)
+        self.assertEqual(complaints, [""], name)
+        return mesh
+
+    def assert_array(self, array, kind, values):
+        self.assertIsNotNone(array)
+        self.assertEqual(array.GetClassName(), kind, array.GetName())
+        self.assertTrue(same(values_of(array), values), f"{array.GetName()}: {values_of(array)}")
+
+
+# The type of an array, two values of it, and the type that comes back from a .ply.
+PLY_TYPES = [
+    ("vtkSignedCharArray", (-128, 127), None),
+    ("vtkUnsignedCharArray", (0, 255), None),
+    ("vtkShortArray", (-(2**15), 2**15 - 1), None),
+    ("vtkUnsignedShortArray", (0, 2**16 - 1), None),
+    ("vtkIntArray", (-(2**31), 2**31 - 1), None),
+    ("vtkUnsignedIntArray", (0, 2**32 - 1), None),
+    ("vtkFloatArray", (-math.inf, math.nan), None),
+    ("vtkDoubleArray", (1 / 3, -1e300), None),
+    ("vtkBitArray", (0, 1), "vtkUnsignedCharArray"),
+    ("vtkIdTypeArray", (-(2**31), 2**31 - 1), "vtkIntArray"),
+    ("vtkLongLongArray", (0, 2**32 - 1), "vtkUnsignedIntArray"),
+    ("vtkUnsignedLongArray", (0, 2**53 - 1), "vtkDoubleArray"),
+]
+
+
+class Ply(WriterTest):
+    def test_arrays_of_every_type(self):
+        mesh = bumpy_grid(3, 0)
+        for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8)):
+            for kind, (low, high), _ in PLY_TYPES:
+                tuples = [(high if i % 3 else low,) for i in range(size)]
+                data.AddArray(make_values(kind, "a " + kind, tuples))
+        out = self.convert(mesh, "out.ply", "out.vtp")
+        for data, size in ((out.GetPointData(), 9), (out.GetCellData(), 8)):
+            self.assertEqual(data.GetNumberOfArrays(), len(PLY_TYPES))
+            for kind, (low, high), back in PLY_TYPES:
+                values = [high if i % 3 else low for i in range(size)]
+                self.assert_array(data.GetArray("a_" + kind), back or kind, values)
+
+    def annotated(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.SetNormals(make_values("vtkDoubleArray", "N", [(i / 3, 1, -i) for i in range(9)]))
+        points.SetTCoords(make_values("vtkFloatArray", "T", [(i / 8, 0.5) for i in range(9)]))
+        points.SetScalars(make_values("vtkUnsignedCharArray", "C", [(i, 2, 255) for i in range(9)]))
+        points.AddArray(make_values("vtkFloatArray", "flow", [(i, -i, 0.5) for i in range(9)]))
+        cells.AddArray(make_values("vtkUnsignedCharArray", "RGBA", [(i, 1, 2, 3) for i in range(8)]))
+        return mesh
+
+    def test_normals_colors_texture_and_vectors(self):
+        out = self.convert(self.annotated(), "out.ply", "out.vtp")
+        points, cells = out.GetPointData(), out.GetCellData()
+        flat = [x for i in range(9) for x in (i / 3, 1, -i)]
+        self.assert_array(points.GetNormals(), "vtkDoubleArray", flat)
+        flat = [x for i in range(9) for x in (i / 8, 0.5)]
+        self.assert_array(points.GetTCoords(), "vtkFloatArray", flat)
+        flat = [x for i in range(9) for x in (i, 2, 255)]
+        self.assert_array(points.GetScalars(), "vtkUnsignedCharArray", flat)
+        for component, factor in enumerate((1, -1, 0)):
+            values = [0.5 if factor == 0 else factor * i for i in range(9)]
+            self.assert_array(points.GetArray(f"flow_{component}"), "vtkFloatArray", values)
+        flat = [x for i in range(8) for x in (i, 1, 2, 3)]
+        self.assert_array(cells.GetArray("RGBA"), "vtkUnsignedCharArray", flat)
+
+    def test_read_by_vtk(self):
+        self.convert(self.annotated(), "out.ply")
+        plain = self.read_plainly("out.ply")
+        self.assertEqual(points_of(plain), points_of(bumpy_grid(3, 0)))
+        self.assertEqual(triangle_set(plain), triangle_set(self.convert(self.annotated(), "o.vtp")))
+        points = plain.GetPointData()
+        self.assertEqual(points.GetNormals().GetTuple(2), (vtk_float(2 / 3), 1, -2))
+        self.assertEqual(points.GetTCoords().GetTuple(2), (0.25, 0.5))
+        self.assertEqual(points.GetArray("RGB").GetTuple(3), (3, 2, 255))
+        self.assertEqual(plain.GetCellData().GetArray("RGBA").GetTuple(5), (5, 1, 2, 3))
+
+    def test_doubles_stay(self):
+        mesh = make_mesh([(581311.123, 1e300, 1 / 3), (1, 0, -0.0), (0, math.nan, 5e-324)], [(0, 1, 2)])
+        source = write_mesh(mesh, self.path("in.vtk"))
+        self.succeed(source, "out.ply", "--quiet")
+        self.succeed("out.ply", "out.vtk", "--quiet")
+        out = read_mesh(self.path("out.vtk"))
+        self.assert_array(out.GetPoints().GetData(), "vtkDoubleArray",
+                          values_of(mesh.GetPoints().GetData()))
+
+    def test_lines_become_edges(self):
+        mesh = bumpy_grid(3, 0)
+        mesh.SetLines(make_mesh([], [], [(0, 1, 2), (), (5,), (3, 4)]).GetLines())
+        out = self.convert_by_vtk(mesh, "out.ply")
+        self.assertEqual(cells_of(out.GetLines()), [(0, 1), (1, 2), (3, 4)])
+        self.read_plainly("out.ply")
+
+    def convert_by_vtk(self, mesh, name):
+        """As convert, but from a .vtk, which holds more."""
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        self.succeed(name, "out.vtk")
+        return read_mesh(self.path("out.vtk"))
+
+    def test_cells_of_few_and_many_points(self):
+        points = [(math.cos(i / 50), math.sin(i / 50), 0) for i in range(300)] + [(math.nan, 0, 0)]
+        for cell in ((), (4,), (4, 5), tuple(range(301))):
+            out = self.convert_by_vtk(make_mesh(points, [(0, 1, 2), cell]), "out.ply")
+            self.assertIn(cell, [(), (4,), (4, 5)] + triangles_of(out) + [tuple(range(301))])
+            if len(cell) < 3:
+                self.assertEqual(triangles_of(out), [(0, 1, 2), cell])
+
+    def test_what_does_not_fit_is_named(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.AddArray(make_values("vtkStringArray", "words", [("a",)] * 9))
+        points.AddArray(make_values("vtkLongLongArray", "huge", [(2**53,)] * 9))
+        points.AddArray(make_values("vtkFloatArray", "x", [(1,)] * 9))
+        cells.AddArray(make_values("vtkIntArray", "two words", [(1,)] * 8))
+        cells.AddArray(make_values("vtkIntArray", "two_words", [(1,)] * 8))
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        said = self.succeed(source, "out.ply").stderr
+        self.assertIn("point data (words, huge, x), cell data (two_words)\n", said)
+
+
+def vtk_float(value):
+    array = vtk.vtkFloatArray()
+    array.InsertNextValue(value)
+    return array.GetValue(0)
+
+
+SEAM = (
+    "v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nv 9 9 0\n"
+    "vt 0 0\nvt .5 0\nvt .25 .1\nvt .5 1\nvt 1 1\nvt .75 .9\nf 1/1 2/2 3/3\nf 2/5 1/4 4/6\n"
+)
+
+
+class Seams(WriterTest):
+    """Points that the reader repeats along seams of a texture are one in the file again."""
+
+    def corners(self, name):
+        """Position and texture coordinates of the corners of each triangle."""
+        self.succeed(name, "corners.vtp")
+        mesh = read_mesh(self.path("corners.vtp"))
+        texture = mesh.GetPointData().GetTCoords()
+        return [
+            [mesh.GetPoint(i) + texture.GetTuple(i) for i in triangle]
+            for triangle in triangles_of(mesh)
+        ]
+
+    def test_in_obj(self):
+        self.write("in.obj", SEAM)
+        self.succeed("in.obj", "out.obj")
+        vertices = [line for line in self.text("out.obj").splitlines() if line.startswith("v ")]
+        self.assertEqual(len(vertices), 5)
+        self.assertEqual(self.corners("out.obj"), self.corners("in.obj"))
+        self.assertEqual(self.corners("in.obj")[1][0], (4, 0, 0, 1, 1))
+
+    def test_in_ply(self):
+        self.write("in.obj", SEAM)
+        self.succeed("in.obj", "out.ply")
+        self.assertIn("element vertex 5\n", self.text("out.ply"))
+        self.assertEqual(self.corners("out.ply"), self.corners("in.obj"))
+        self.succeed("out.ply", "again.ply")
+        self.assertEqual(self.text("out.ply"), self.text("again.ply"))
+        plain = self.read_plainly("out.ply")
+        self.assertEqual(plain.GetNumberOfPoints(), 7)
+
+    def test_in_other_formats_points_stay_repeated(self):
+        self.write("in.obj", SEAM)
+        self.succeed("in.obj", "out.vtp")
+        self.assertEqual(read_mesh(self.path("out.vtp")).GetNumberOfPoints(), 7)
+
+    def test_texture_that_is_no_number(self):
+        self.write("in.obj", SEAM.replace("vt 1 1\n", "vt nan 1\n"))
+        for name in ("out.obj", "out.ply"):
+            self.succeed("in.obj", name)
+            self.assertEqual(len(self.corners(name)), 2)
+
+
+class Obj(WriterTest):
+    def round_trip(self, text):
+        """The meshes of an .obj and of what the command makes of it."""
+        self.write("in.obj", text)
+        self.succeed("in.obj", "first.vtp")
+        self.assertNotIn("cannot store", self.succeed("in.obj", "out.obj").stderr)
+        self.succeed("out.obj", "second.vtp")
+        return read_mesh(self.path("first.vtp")), read_mesh(self.path("second.vtp"))
+
+    def assert_equal_data(self, first, second):
+        for index in range(first.GetNumberOfArrays()):
+            array = first.GetAbstractArray(index)
+            if not array.GetName().endswith("Ids"):
+                other = second.GetAbstractArray(array.GetName())
+                self.assert_array(other, array.GetClassName(), values_of(array))
+
+    def labels(self, mesh, kind):
+        """The name of the material, group ... of each cell; their numbers may change."""
+        ids = mesh.GetCellData().GetArray(kind + "Ids")
+        names = values_of(mesh.GetFieldData().GetAbstractArray(kind + "Names"))
+        return [names[i] if i >= 0 else None for i in values_of(ids)]
+
+    def assert_round_trip(self, text):
+        first, second = self.round_trip(text)
+        self.assertEqual(points_of(first), points_of(second))
+        for kind in ("GetVerts", "GetLines", "GetPolys"):
+            self.assertEqual(cells_of(getattr(first, kind)()), cells_of(getattr(second, kind)()))
+        self.assert_equal_data(first.GetPointData(), second.GetPointData())
+        self.assert_equal_data(first.GetCellData(), second.GetCellData())
+        return first, second
+
+    def test_materials_groups_and_libraries(self):
+        first, second = self.assert_round_trip(
+            "mtllib a b.mtl\nmtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+            "vt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nl 1 2\nusemtl red paint\no thing\ng one two\n"
+            "f 1/1 3/3 4/4\nusemtl blue\nf 2/2 1/1 3/3\np 4\ns off\nusemtl red paint\nf 3/3 2/2 1/1\n"
+        )
+        for kind in ("Material", "Group", "Object", "Smoothing"):
+            self.assertEqual(self.labels(first, kind), self.labels(second, kind))
+        expected = ["blue", None, None, "red paint", "blue", "red paint"]
+        self.assertEqual(self.labels(second, "Material"), expected)
+        libraries = second.GetFieldData().GetAbstractArray("MaterialLibraries")
+        self.assertEqual(values_of(libraries), ["a b.mtl", "c.mtl"])
+        plain = self.read_plainly("out.obj")
+        self.assertEqual(plain.GetNumberOfPolys(), 4)
+
+    def test_normals_of_points_and_cells(self):
+        square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\n"
+        normals = "vn 0 0 1\nvn 0 .1 1\nvn .3333333333333333 0 1\n"
+        _, out = self.assert_round_trip(square + normals + "f 1//1 2//2 3//3\nf 1//1 3//3 4//2\n")
+        self.assertEqual(out.GetPointData().GetNormals().GetTuple(2), (1 / 3, 0, 1))
+        _, out = self.assert_round_trip(
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 -1\nvn 0 -1 0\n"
+            "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\n"
+        )
+        self.assertEqual(out.GetCellData().GetNormals().GetTuple(1), (0, -1, 0))
+
+    def test_normals_and_texture_with_three_components(self):
+        self.assert_round_trip(
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0 .5\nvt 1 0 .25\nf 1/1/1 2/2/1 3/2/1\n"
+        )
+
+    def test_colors(self):
+        _, out = self.assert_round_trip("v 0 0 0 .1 .2 .3\nv 1 0 0 1 0 .5\nv 0 1 0\nf 1 2 3\n")
+        self.assertEqual(out.GetPointData().GetArray("Colors").GetTuple(0), (0.1, 0.2, 0.3))
+        mesh = bumpy_grid(3, 0)
+        colors = make_values("vtkUnsignedCharArray", "RGB", [(i, 0, 255) for i in range(9)])
+        mesh.GetPointData().AddArray(colors)
+        out = self.convert(mesh, "out.obj", "out.vtp")
+        colors = out.GetPointData().GetArray("Colors")
+        self.assertEqual(colors.GetTuple(3), (3 / 255, 0, 1))
+
+    def test_float_points_stay_exact(self):
+        mesh = make_mesh([], [(0, 1, 2)])
+        points = vtk.vtkPoints()
+        for point in ((0.1, 1 / 3, 1e-30), (1, 0, 0), (0, 1, math.inf)):
+            points.InsertNextPoint(point)
+        mesh.SetPoints(points)
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.obj", "--quiet")
+        self.succeed("out.obj", "out.vtp", "--quiet")
+        self.assertEqual(points_of(read_mesh(self.path("out.vtp"))), points_of(mesh))
+
+    def test_labels_that_no_line_can_hold_are_named(self):
+        mesh = bumpy_grid(3, 0)
+        for name, ids in (("MaterialIds", [0, 1] * 4), ("GroupIds", [0, 5] * 4)):
+            mesh.GetCellData().AddArray(make_values("vtkIntArray", name, [(i,) for i in ids]))
+        names = [("a",), ("b #2",)]
+        mesh.GetFieldData().AddArray(make_values("vtkStringArray", "MaterialNames", names))
+        mesh.GetFieldData().AddArray(make_values("vtkStringArray", "GroupNames", [("c",)]))
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        said = self.succeed(source, "out.obj").stderr
+        self.assertIn(
+            "cell data (MaterialIds, GroupIds), field data (MaterialNames, GroupNames)\n", said
+        )
+
+
+class Xml(WriterTest):
+    def test_ids_of_any_type(self):
+        """VTK's writer crashes on pedigree ids of strings, its reader complains of other types."""
+        for kind in ("vtkStringArray", "vtkDoubleArray", "vtkUnsignedCharArray", "vtkIntArray"):
+            make = str if kind == "vtkStringArray" else int
+            mesh = bumpy_grid(3, 0)
+            for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8)):
+                data.SetPedigreeIds(make_values(kind, "ids", [(make(i),) for i in range(size)]))
+            source = write_mesh(mesh, self.path("in.vtk"))
+            said = self.succeed(source, "out.vtp").stderr
+            out = self.read_plainly("out.vtp")
+            for data, size in ((out.GetPointData(), 9), (out.GetCellData(), 8)):
+                self.assert_array(
+                    data.GetAbstractArray("ids"), kind, [make(i) for i in range(size)])
+                isHeld = data.GetAbstractAttribute(PEDIGREE_IDS) is not None
+                self.assertEqual(isHeld, kind == "vtkIntArray")
+                self.assertEqual(said == "", isHeld, said)
+
+    def test_global_ids(self):
+        mesh = bumpy_grid(3, 0)
+        mesh.GetPointData().SetGlobalIds(
+            make_values("vtkFloatArray", "ids", [(i,) for i in range(9)]))
+        source = write_mesh(mesh, self.path("in.vtk"))
+        self.assertIn("that an array holds ids (ids)", self.succeed(source, "out.vtp").stderr)
+        self.assertIsNone(
+            self.read_plainly("out.vtp").GetPointData().GetAbstractAttribute(GLOBAL_IDS))
+
+    def test_points_without_a_finite_range(self):
+        for value in (1e155, 1.7e308, math.inf, math.nan):
+            points = [(0, 0, 0), (value, 0, 0), (0, value, 0)]
+            self.keep(make_mesh(points, [(0, 1, 2)]))
+        self.keep(make_mesh([(math.nan,) * 3] * 3, [(0, 1, 2)]))
+
+    def test_arrays_without_a_finite_range(self):
+        for value in (1e155, -1e308, math.inf, -math.inf, math.nan):
+            for components in (1, 3):
+                mesh = bumpy_grid(3, 0)
+                for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8),
+                                   (mesh.GetFieldData(), 3)):
+                    for name, first in (("all", value), ("some", 1.0)):
+                        tuples = [(first,) * components] + [(value,) * components] * (size - 1)
+                        data.AddArray(make_values("vtkDoubleArray", name, tuples))
+                self.keep(mesh)
+
+    def keep(self, mesh):
+        """VTK reads all values of the .vtp that the command writes, and complains of nothing."""
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtp")
+        out = self.read_plainly("out.vtp")
+        self.assertTrue(same(values_of(mesh.GetPoints().GetData()),
+                             values_of(out.GetPoints().GetData())))
+        self.assertEqual(mesh.GetNumberOfPolys(), out.GetNumberOfPolys())
+        for kind in ("GetPointData", "GetCellData", "GetFieldData"):
+            data = getattr(mesh, kind)()
+            for index in range(data.GetNumberOfArrays()):
+                array = data.GetArray(index)
+                other = getattr(out, kind)().GetArray(array.GetName())
+                self.assert_array(other, array.GetClassName(), values_of(array))
+                self.assertTrue(same(array.GetRange(-1), other.GetRange(-1)))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
