@@ -5,12 +5,13 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "CudaDevice.h"
+#include "FollowLinks.h"
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -39,6 +40,25 @@ CLI::Validator Within(double low, double high, const std::string& range)
     const double value = std::strtod(text.c_str(), &end);
     const bool inside = end != text.c_str() && *end == '\0' && value >= low && value <= high;
     return inside ? std::string() : text + " is not " + range;
+  };
+  return CLI::Validator(check, "");
+}
+
+/// A decimal number, also with zeros in front, where CLI would read octal.
+CLI::Validator WholeNumber(std::int64_t low, std::int64_t high, const std::string& range)
+{
+  const auto check = [low, high, range](std::string& text)
+  {
+    const char* const end = text.data() + text.size();
+    std::int64_t value = 0;
+    const bool hasPlus = text.rfind('+', 0) == 0 && text.rfind("+-", 0) != 0;
+    const auto [last, error] = std::from_chars(text.data() + (hasPlus ? 1 : 0), end, value);
+    if (error != std::errc() || last != end || value < low || value > high)
+    {
+      return text + " is not " + range;
+    }
+    text = std::to_string(value);
+    return std::string();
   };
   return CLI::Validator(check, "");
 }
@@ -93,7 +113,8 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--max-iterations", arguments.Flip.MaximumIterations,
       "Stop after this many iterations; -1: when nothing is left to flip [-1]")
-    ->check(Within(-1.0, 9e18, "a number of iterations (-1 or more)"));
+    ->transform(WholeNumber(
+      -1, std::numeric_limits<std::int64_t>::max(), "a number of iterations (-1 or more)"));
   AddChoice<BackendKind>(app, "--backend", arguments.Flip.Backend,
     { { "auto", BackendKind::Auto }, { "cuda", BackendKind::CUDA },
       { "threads", BackendKind::Threads } },
@@ -104,12 +125,13 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--device", arguments.Flip.Device,
       "Which GPU, by CUDA's number, 0 or more; -1: CUDA's default [-1]")
-    ->check(Within(-1.0, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
+    ->transform(
+      WholeNumber(-1, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
   app
     .add_option("--threads", arguments.Flip.NumberOfThreads,
       "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
       "that is more. The result does not depend on it [0]")
-    ->check(Within(0.0, 65536.0, "a number of threads (0 to 65536)"));
+    ->transform(WholeNumber(0, 65536, "a number of threads (0 to 65536)"));
   app.add_flag("--quality", arguments.Quality,
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk, .vtp and .ply)");
@@ -119,14 +141,9 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     "No summary, notes or progress bar; warnings and errors still appear");
 }
 
-std::filesystem::path Resolved(const std::string& path)
-{
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
-}
-
 void CheckDistinct(const std::string& first, const std::string& second)
 {
-  if (!first.empty() && !second.empty() && Resolved(first) == Resolved(second))
+  if (!first.empty() && !second.empty() && FollowLinks(first) == FollowLinks(second))
   {
     throw CommandError(ExitCode::WrongUsage, second + ": the same file is given for two purposes");
   }
@@ -169,7 +186,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   app.footer(
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
-    "available; 130 interrupted. After a failure no file has been changed.");
+    "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
+    "With any code but 0 and 4 no file has been changed.");
   app.add_option("INPUT", arguments.Input, "The mesh to read: .vtk, .vtp, .ply, .stl or .obj")
     ->required();
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();

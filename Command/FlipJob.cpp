@@ -227,8 +227,10 @@ private:
     const std::string errors = this->Messages.TakeErrors();
     if (!errors.empty())
     {
-      throw CommandError(
-        ToExitCode(this->Filter->GetFailure()), this->Settings.Input + ": " + errors);
+      const int failure = this->Filter->GetFailure();
+      const bool isNamed = failure != vtkDelaunayFlip::FAILURE_OTHER;
+      throw CommandError(ToExitCode(failure),
+        this->Settings.Input + (isNamed ? ": " : ": cannot be flipped: ") + errors);
     }
   }
 

@@ -11,6 +11,7 @@
 #include "XmlReader.h"
 
 #include <new>
+#include <stdexcept>
 
 namespace delaunayflip
 {
@@ -49,9 +50,12 @@ FileMesh ReadMesh(
   }
   catch (const std::bad_alloc&)
   {
-    file.Fail("takes more memory than there is, or than a file of " +
-      std::to_string(file.GetBytes().size()) + " bytes can need (corrupt)");
   }
+  catch (const std::length_error&)
+  {
+  }
+  file.Fail("takes more memory than there is, or than a file of " +
+    std::to_string(file.GetBytes().size()) + " bytes can need (corrupt)");
 }
 
 }

@@ -6,7 +6,9 @@
 #include "Arguments.h"
 #include "PendingFile.h"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -29,17 +31,39 @@ struct OutputFiles
     }
   }
 
+  /// All of them, or none.
   /// @throws CommandError (BadFile).
   void Commit()
   {
-    this->Mesh.Commit();
+    std::vector<PendingFile*> done;
+    try
+    {
+      for (PendingFile* file : this->GetAll())
+      {
+        file->Commit();
+        done.push_back(file);
+      }
+    }
+    catch (...)
+    {
+      std::for_each(done.begin(), done.end(), [](PendingFile* file) { file->Undo(); });
+      throw;
+    }
+  }
+
+  /// The mesh last, which matters most.
+  std::vector<PendingFile*> GetAll()
+  {
+    std::vector<PendingFile*> all;
     for (std::optional<PendingFile>* file : { &this->Statistics, &this->Report })
     {
       if (*file)
       {
-        (*file)->Commit();
+        all.push_back(&**file);
       }
     }
+    all.push_back(&this->Mesh);
+    return all;
   }
 
   PendingFile Mesh;

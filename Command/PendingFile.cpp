@@ -3,13 +3,16 @@
 #include "PendingFile.h"
 
 #include "CommandError.h"
+#include "FollowLinks.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -35,24 +38,47 @@ std::string ExtensionOf(const fs::path& path)
   return extension;
 }
 
-/// Creates an empty file with an unused name in the folder of `path`.
-std::string MakeTemporary(const fs::path& path, const std::string& target)
+/// Calls `make` with names in the folder of `path` until it succeeds or fails for another reason
+/// than that the name is in use. Returns the name, or nothing and leaves errno.
+template <typename Function>
+std::string MakeUnused(const fs::path& path, const Function& make)
 {
   const std::string stem = ".delaunay-flip-" + std::to_string(getpid()) + "-";
   for (int number = 0;; ++number)
   {
     const fs::path name = path.parent_path() / (stem + std::to_string(number) + ExtensionOf(path));
-    const int file = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (file >= 0)
+    if (make(name.c_str()))
     {
-      close(file);
       return name.string();
     }
     if (errno != EEXIST)
     {
-      Fail(target, std::strerror(errno));
+      return {};
     }
   }
+}
+
+bool MakeEmpty(const char* name)
+{
+  const int file = open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  return file >= 0 && close(file) == 0;
+}
+
+/// Gives a file the owner, the group and the mode of another, as far as the system lets it.
+void CopyOwner(const std::string& from, const std::string& to)
+{
+  struct stat status = {};
+  if (stat(from.c_str(), &status) != 0)
+  {
+    return;
+  }
+  const bool isOwned = chown(to.c_str(), status.st_uid, status.st_gid) == 0;
+  if (!isOwned && chown(to.c_str(), static_cast<uid_t>(-1), status.st_gid) != 0)
+  {
+    errno = 0; // then both are the caller's
+  }
+  // Set-user-ID and the like were meant for the owner.
+  chmod(to.c_str(), status.st_mode & (isOwned ? 07777 : 0777));
 }
 
 }
@@ -60,46 +86,65 @@ std::string MakeTemporary(const fs::path& path, const std::string& target)
 PendingFile::PendingFile(const std::string& target)
   : Target(target)
 {
+  const fs::path resolved = FollowLinks(target);
   std::error_code error;
-  const fs::path resolved = fs::weakly_canonical(fs::absolute(target), error);
-  if (error)
+  const fs::file_status status = fs::status(resolved, error);
+  if (error && status.type() != fs::file_type::not_found)
   {
     Fail(target, error.message());
   }
-  if (fs::exists(resolved) && !fs::is_regular_file(resolved))
+  if (fs::exists(status) && !fs::is_regular_file(status))
   {
     Fail(target, "it exists and is not a regular file");
   }
-  if (fs::exists(resolved) && access(resolved.c_str(), W_OK) != 0)
+  if (fs::exists(status) && access(resolved.c_str(), W_OK) != 0)
   {
     Fail(target, std::strerror(errno));
   }
   this->Resolved = resolved.string();
-  this->Temporary = MakeTemporary(resolved, target);
+  this->Temporary = MakeUnused(resolved, MakeEmpty);
+  if (this->Temporary.empty())
+  {
+    Fail(target, std::strerror(errno));
+  }
 }
 
 PendingFile::~PendingFile()
 {
-  if (!this->Temporary.empty())
+  for (const std::string& name : { this->Temporary, this->Backup })
   {
-    unlink(this->Temporary.c_str());
+    if (!name.empty())
+    {
+      unlink(name.c_str());
+    }
   }
 }
 
 void PendingFile::Commit()
 {
-  std::error_code error;
-  const fs::file_status existing = fs::status(this->Resolved, error);
-  if (fs::exists(existing))
+  CopyOwner(this->Resolved, this->Temporary);
+  // Where the system allows no second name for the old file, there is no way back.
+  this->Backup = MakeUnused(
+    this->Resolved, [this](const char* name) { return link(this->Resolved.c_str(), name) == 0; });
+  this->HadNone = this->Backup.empty() && errno == ENOENT;
+  if (std::rename(this->Temporary.c_str(), this->Resolved.c_str()) != 0)
   {
-    fs::permissions(this->Temporary, existing.permissions(), error);
-  }
-  fs::rename(this->Temporary, this->Resolved, error);
-  if (error)
-  {
-    Fail(this->Target, error.message());
+    Fail(this->Target, std::strerror(errno));
   }
   this->Temporary.clear();
+}
+
+void PendingFile::Undo()
+{
+  if (this->HadNone)
+  {
+    unlink(this->Resolved.c_str());
+  }
+  else if (!this->Backup.empty())
+  {
+    std::rename(this->Backup.c_str(), this->Resolved.c_str());
+    this->Backup.clear();
+  }
 }
 
 }

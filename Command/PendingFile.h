@@ -26,14 +26,19 @@ public:
   const std::string& GetTarget() const { return this->Target; }
   const std::string& GetTemporary() const { return this->Temporary; }
 
-  /// Gives the temporary file the name and the permissions of the target.
-  /// @throws CommandError (BadFile).
+  /// Gives the temporary file the name, the owner and the permissions of the target.
+  /// @throws CommandError (BadFile); the target is unchanged then.
   void Commit();
+
+  /// Puts back what Commit replaced.
+  void Undo();
 
 private:
   std::string Target;
   std::string Resolved; ///< The target, symbolic links followed.
   std::string Temporary;
+  std::string Backup; ///< Another name of the file that was replaced.
+  bool HadNone = false; ///< Whether there was no such file.
 };
 
 }

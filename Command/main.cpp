@@ -11,6 +11,7 @@
 #include <cstring>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
 /// @file
 /// delaunay-flip: this process creates, renames and removes the files; a child does the work.
@@ -21,7 +22,8 @@ namespace
 {
 
 /// Runs `work` and turns what it throws into a message and an exit code.
-int Guarded(const std::function<int()>& work)
+template <typename Function>
+int Guarded(const Function& work)
 {
   try
   {
@@ -34,7 +36,7 @@ int Guarded(const std::function<int()>& work)
   }
   catch (const std::bad_alloc&)
   {
-    PrintError("not enough memory");
+    PrintError("not enough memory; nothing was written");
   }
   catch (const std::exception& error)
   {
@@ -43,23 +45,69 @@ int Guarded(const std::function<int()>& work)
   return static_cast<int>(ExitCode::BadFile);
 }
 
+/// The file in hand and what was being done to it, as the beginning of a message.
+std::string DescribeWork(const Arguments& arguments, Phase phase)
+{
+  switch (phase)
+  {
+    case Phase::Reading:
+      return arguments.Input + ": cannot be read: ";
+    case Phase::Flipping:
+      return arguments.Input + ": cannot be flipped: ";
+    default:
+      return arguments.Output + ": cannot be written: ";
+  }
+}
+
+/// What is said of an exception that names no file.
+std::string Explain(const std::exception& error)
+{
+  const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) ||
+    dynamic_cast<const std::length_error*>(&error); // a container larger than any memory
+  return isMemory ? "not enough memory" : error.what();
+}
+
+/// The work of the child. Its errors name a file.
+int RunNamed(
+  const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
+{
+  Phase now = Phase::Reading;
+  const auto follow = [&now, &enter](Phase phase)
+  {
+    now = phase;
+    enter(phase);
+  };
+  try
+  {
+    return RunFlipJob(arguments, files, follow);
+  }
+  catch (const CommandError&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    throw CommandError(ExitCode::BadFile, DescribeWork(arguments, now) + Explain(error));
+  }
+}
+
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
   const std::string death = std::string(" (") + strsignal(outcome.DiedOf) + ")";
+  const std::string work = DescribeWork(arguments, outcome.LastPhase);
   switch (outcome.LastPhase)
   {
     case Phase::Reading:
-      return arguments.Input + ": cannot be read: " +
+      return work +
         (outcome.DiedOf == SIGXCPU ? "reading takes far more time than a file of its size needs"
                                    : "the reader crashed" + death) +
         "; the file is probably truncated or corrupt";
     case Phase::Flipping:
-      return arguments.Input + ": flipping it crashed" + death +
-        "; was there enough memory? Nothing was written";
+      return work + "it crashed" + death + "; was there enough memory? Nothing was written";
     default:
-      return arguments.Output + ": cannot be written: writing or checking it crashed" + death +
+      return work + "writing or checking it crashed" + death +
         ExplainFailedWrite(files.Mesh.GetTemporary());
   }
 }
@@ -103,7 +151,7 @@ int main(int argc, char** argv)
       const ChildOutcome outcome = child.Run(
         [&arguments, &files](const std::function<void(Phase)>& enter) {
           return Guarded(
-            [&arguments, &files, &enter] { return RunFlipJob(arguments, files, enter); });
+            [&arguments, &files, &enter] { return RunNamed(arguments, files, enter); });
         });
       return Finish(arguments, files, outcome);
     });

@@ -104,7 +104,10 @@ class BadFile(CommandTest):
 
 class Success(CommandTest):
     def test_help_and_version(self):
-        self.assertIn("--feature-angle", self.succeed("--help").stdout)
+        text = self.succeed("--help").stdout
+        self.assertIn("--feature-angle", text)
+        for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130 or 143"):
+            self.assertIn(code, text)
         self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")
 
     def test_every_option_at_once(self):
@@ -125,6 +128,18 @@ class Success(CommandTest):
         self.assertEqual((report["iterations"], report["total_flips"]), (2, 3))
         self.assertGreater(report["non_delaunay_after"], 0)
         self.assertEqual(len(triangles_of(read_mesh(self.path("out.vtk")))), 6)
+
+    def test_numbers_are_decimal(self):
+        """Leading zeros make no octal number."""
+        mesh = write_mesh(worst_case(20), self.path("mesh.vtk"))
+        for text, iterations in (("010", 10), ("08", 8), ("+9", 9), ("-01", 37), ("000", 0)):
+            report = self.report(
+                *(mesh, "out.vtk", "--max-iterations", text), code=0 if iterations > 30 else 4)
+            self.assertEqual(report["iterations"], iterations, text)
+        backend = self.report(mesh, "out.vtk", "--backend", "threads", "--threads", "010")["backend"]
+        self.assertEqual(backend, "Threads: 10")
+        for text in ("0x10", "1e1", "10.0", "", " 10", "1 0", "+-1", "99999999999999999999"):
+            self.fail_with(2, mesh, "out.vtk", f"--max-iterations={text}", naming=["max-iterations"])
 
     def test_no_iterations(self):
         mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))

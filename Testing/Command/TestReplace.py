@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""How files that exist are replaced: through links, with their owner, all of them or none."""
+
+import os
+import stat
+import subprocess
+import unittest
+
+from CommandTesting import CommandTest, bumpy_grid, command_line, read_mesh, write_mesh
+
+
+class ReplaceTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh = write_mesh(bumpy_grid(6, 0), self.path("mesh.vtk"))
+
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            file.write(text)
+
+
+class Links(ReplaceTest):
+    def check_link(self, link, target):
+        """The output goes to the target of the link, which stays a link."""
+        self.succeed(self.mesh, link)
+        self.assertTrue(os.path.islink(self.path(link)), link)
+        self.assertFalse(os.path.islink(self.path(target)), target)
+        self.assertEqual(read_mesh(self.path(target)).GetNumberOfPolys(), 50)
+
+    def test_dangling_links_are_followed(self):
+        os.mkdir(self.path("deep"))
+        os.symlink("new.vtk", self.path("relative.vtk"))
+        os.symlink(self.path("newer.vtk"), self.path("absolute.vtk"))
+        os.symlink("deep/newest.vtk", self.path("chain"))
+        os.symlink("chain", self.path("chain.vtk"))
+        os.symlink("../up.vtk", self.path("deep/up.vtk"))
+        for link, target in (("relative.vtk", "new.vtk"), ("absolute.vtk", "newer.vtk"),
+                             ("chain.vtk", "deep/newest.vtk"), ("deep/up.vtk", "up.vtk")):
+            self.check_link(link, target)
+            self.check_link(link, target)  # no longer dangling
+
+    def test_a_link_into_no_folder_is_refused(self):
+        os.symlink("none/out.vtk", self.path("link.vtk"))
+        self.fail_with(3, self.mesh, "link.vtk", naming=["link.vtk", "No such file"])
+
+    def test_a_link_to_itself_is_refused(self):
+        os.symlink("loop.vtk", self.path("loop.vtk"))
+        self.fail_with(3, self.mesh, "loop.vtk", naming=["loop.vtk", "symbolic links"])
+        self.assertTrue(os.path.islink(self.path("loop.vtk")))
+
+    def test_links_to_one_file(self):
+        for name in ("out.vtk", "report.json"):
+            os.symlink("both", self.path(name))
+        arguments = (self.mesh, "out.vtk", "--report", "report.json")
+        self.fail_with(2, *arguments, naming=["report.json", "same file"])
+
+
+@unittest.skipIf(os.geteuid() != 0, "only root may give files away")
+class Owner(ReplaceTest):
+    def test_owner_group_and_mode_stay(self):
+        for name, mode in (("out.vtk", 0o640), ("report.json", 0o604)):
+            self.write(name, "")
+            os.chown(self.path(name), 12345, 23456)
+            os.chmod(self.path(name), mode)
+            self.succeed(self.mesh, "out.vtk", "--report", "report.json")
+            status = os.stat(self.path(name))
+            self.assertGreater(status.st_size, 0)
+            self.assertEqual((status.st_uid, status.st_gid), (12345, 23456), name)
+            self.assertEqual(stat.S_IMODE(status.st_mode), mode, name)
+
+    def test_where_the_system_does_not_let_it(self):
+        """Another user's file becomes the caller's, without a mode meant for its owner."""
+        os.chmod(self.folder, 0o777)
+        self.write("out.vtk", "")
+        os.chown(self.path("out.vtk"), 12345, 23456)
+        os.chmod(self.path("out.vtk"), 0o4666)
+        result = subprocess.run(
+            command_line("mesh.vtk", "out.vtk"), cwd=self.folder, check=False, encoding="utf-8",
+            stdin=subprocess.DEVNULL, capture_output=True, user=54321, group=54321, extra_groups=[],
+        )  # fmt: skip
+        self.assertEqual(result.returncode, 0, result.stderr)
+        status = os.stat(self.path("out.vtk"))
+        self.assertEqual((status.st_uid, stat.S_IMODE(status.st_mode)), (54321, 0o666))
+
+
+class AllOrNothing(ReplaceTest):
+    """One of several files becomes a folder while the command waits for its input."""
+
+    names = {"out.vtk": (), "table.csv": ("--statistics",), "report.json": ("--report",)}
+
+    def run_while(self, change):
+        """Runs the command on a pipe, and calls `change` after it has opened its files."""
+        os.mkfifo(self.path("pipe.vtk"))
+        arguments = [word for name, option in self.names.items() for word in (*option, name)]
+        with subprocess.Popen(
+            command_line("pipe.vtk", *arguments), cwd=self.folder, encoding="utf-8",
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        ) as process:  # fmt: skip
+            with open(self.path("pipe.vtk"), "wb") as pipe:  # waits for the reader
+                change()
+                pipe.write(self.content("mesh.vtk"))
+            _, errors = process.communicate(timeout=60)
+        os.remove(self.path("pipe.vtk"))
+        return process.returncode, errors
+
+    def test_no_file_changes_if_one_cannot_be_replaced(self):
+        for exists in (True, False):
+            for name in self.names:
+                for other in self.names:
+                    if exists:
+                        self.write(other, f"before {other}")
+                    elif os.path.exists(self.path(other)):
+                        os.remove(self.path(other))
+                self.refuse(name, exists)
+
+    def refuse(self, name, exists):
+        def change():
+            if exists:
+                os.remove(self.path(name))
+            os.mkdir(self.path(name))
+
+        code, errors = self.run_while(change)
+        self.assertEqual(code, 3, errors)
+        self.assertIn(f"error: {name}: cannot be written", errors)
+        for other in self.names:
+            if other != name and exists:
+                self.assertEqual(self.content(other), f"before {other}".encode(), name)
+            elif other != name:
+                self.assertFalse(os.path.exists(self.path(other)), f"{other} beside {name}")
+        os.rmdir(self.path(name))
+
+    def test_all_are_replaced(self):
+        for name in self.names:
+            self.write(name, "before")
+        code, errors = self.run_while(lambda: None)
+        self.assertEqual(code, 0, errors)
+        for name in self.names:
+            self.assertGreater(len(self.content(name)), 100)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
