@@ -68,3 +68,8 @@ vtk_module_wrap_python(
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   SOABI "${Python3_SOABI}"
   INSTALL_HEADERS OFF)
+# By this name Python/delaunayflip/_vtk.py tells whether the modules are for the VTK in use.
+file(GENERATE OUTPUT "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/_vtk_build.py"
+  CONTENT "COMMON_CORE = \"$<TARGET_SONAME_FILE_NAME:VTK::CommonCore>\"\n")
+install(FILES "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/_vtk_build.py"
+  DESTINATION "${delaunayflip_packages}/delaunayflip" COMPONENT python)

@@ -131,7 +131,8 @@ attribute()
 launcher=()
 # With a CUDA compiler, builds for one architecture, in a quarter of the time for all; newer GPUs
 # run its PTX.
-check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON -DCMAKE_CUDA_ARCHITECTURES=75
+check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON \
+  -DCMAKE_CUDA_ARCHITECTURES=75 -DDELAUNAYFLIP_LONG_TESTS=$long
 # After build, whose command makes the meshes with which those of the plugin are compared.
 check_plugin
 if [ $sanitizers = ON ]; then

@@ -52,7 +52,7 @@ class Mesh:
     """A mesh in arrays that live as long as it does."""
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
-                 insert_constraints=True):
+                 insert_constraints=True, triangle_numbers=None):
         self.points = as_points(points)
         self.triangles = as_ids("triangles", triangles, 3)
         self.struct = _library.Mesh()
@@ -66,9 +66,11 @@ class Mesh:
             self.constraints = as_ids("constraints", constraints, 2).astype(numpy.int64, copy=False)
             self.struct.constraint_edges = address(self.constraints)
             self.struct.number_of_constraint_edges = len(self.constraints)
-            if insert_constraints:
-                self.to_insert = numpy.ones(len(self.constraints), dtype=numpy.uint8)
-                self.struct.constraints_to_insert = address(self.to_insert)
+            flags = numpy.asarray(insert_constraints)
+            if flags.ndim == 1 and len(flags) != len(self.constraints):
+                raise _shape_error("insert_constraints", flags, f"({len(self.constraints)},)")
+            self.to_insert = numpy.full(len(self.constraints), flags != 0, dtype=numpy.uint8)
+            self.struct.constraints_to_insert = address(self.to_insert)
         if regions is not None:
             self.regions = _per_triangle("regions", regions, numpy.int32, len(self.triangles))
             self.struct.regions = address(self.regions)
@@ -76,6 +78,11 @@ class Mesh:
             flags = numpy.asarray(frozen) != 0
             self.frozen = _per_triangle("frozen", flags, numpy.uint8, len(self.triangles))
             self.struct.frozen_triangles = address(self.frozen)
+
+        if triangle_numbers is not None:
+            self.numbers = _per_triangle(
+                "triangle_numbers", triangle_numbers, numpy.int64, len(self.triangles))
+            self.struct.triangle_numbers = address(self.numbers)
 
     def _set(self, name, array):
         setattr(self.struct, name, address(array))

@@ -29,5 +29,9 @@ class MeshTooLarge(FlipError, ValueError):
     """More triangles or points than 32-bit indices can number."""
 
 
+class Stopped(FlipError):
+    """A callback stopped a call that has no part of a result."""
+
+
 class BackendUnavailable(FlipError, RuntimeError):
     """The requested backend cannot run here."""

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole run in one call."""
 import dataclasses
-from typing import Optional
+from typing import Optional, Union
 
 import numpy
 
@@ -26,7 +26,7 @@ def flip(
     points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
     criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
     feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
-    insert_constraints: bool = True, regions: Optional[Numbers] = None,
+    insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
     frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
     threads: int = 0, device: int = -1, track_quality: bool = False,
     progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None) -> Result:
@@ -47,7 +47,7 @@ def flip(
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
         constraints: (k, 2) pairs of point ids: edges that must stay.
-        insert_constraints: In the plane, flips turn missing constraints into edges.
+        insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.
         regions: (m,) integers: edges between triangles of different labels stay.
         frozen: (m,) flags: the edges of these triangles stay.
         maximum_iterations: -1: until done; 0: only test.

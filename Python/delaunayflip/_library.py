@@ -185,6 +185,7 @@ _EXCEPTIONS = {
     4: _errors.BackendUnavailable,
     5: MemoryError,
     6: ValueError,
+    8: _errors.Stopped,
 }
 
 

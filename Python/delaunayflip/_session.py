@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run in steps."""
 import ctypes
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 
@@ -25,7 +25,8 @@ class Session:
 
     Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
     `advance` flips. The arrays must not change while the session lives. A session is a context
-    manager; leaving it frees its memory.
+    manager; leaving it frees its memory. With `triangle_numbers`, (m,) integers, reports name the
+    triangles by these.
 
     Example:
         >>> import numpy
@@ -42,13 +43,13 @@ class Session:
 
     def __init__(
         self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
-        insert_constraints: bool = True, regions: Optional[Numbers] = None,
-        frozen: Optional[Numbers] = None, progress: Optional[Progress] = None,
-        **options: "Unpack[Options]",
+        insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
+        frozen: Optional[Numbers] = None, triangle_numbers: Optional[Numbers] = None,
+        progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
         self._handle = ctypes.c_void_p()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
-                                 insert_constraints)
+                                 insert_constraints, triangle_numbers)
         chosen = make_options(**options)
         observers = Observers(progress)
         with observers.raising() as callbacks:
@@ -111,9 +112,16 @@ class Session:
     def triangles(self) -> Array:
         """The triangles so far in their input order, a new array of the input's integers, (m, 3)."""
         triangles = numpy.empty_like(self._mesh.triangles)
-        _library.call("store_triangles", self._open(), _arrays.address(triangles),
-                      _arrays.id_type(triangles))
+        self.store_triangles(triangles)
         return triangles
+
+    def store_triangles(self, target: Array) -> None:
+        """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3)."""
+        fits = target.shape == self._mesh.triangles.shape and target.flags.c_contiguous
+        if not fits or target.dtype not in (numpy.int32, numpy.int64):
+            raise ValueError("the target must be a contiguous (m, 3) array of int32 or int64")
+        _library.call("store_triangles", self._open(), _arrays.address(target),
+                      _arrays.id_type(target))
 
     @property
     def flip_counts(self) -> Array:

@@ -92,5 +92,34 @@ class Wheel(unittest.TestCase):
         self.assertIn("Found 2 errors", run.stdout)
 
 
+class Vtk(unittest.TestCase):
+    """The wheel beside the wheels of VTK and PyVista; these are large."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.wheel = build_wheel(folder.name)
+
+    def check(self, *packages):
+        environment = Environment()
+        self.addCleanup(environment.close)
+        environment.fetch("numpy", *packages)
+        environment.install_package(self.wheel)
+        run = environment.test("test_vtk_delaunay_flip", "test_malformed_input", "test_pipelines")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        which = environment.run("-c", "import delaunayflip; print(delaunayflip.vtkDelaunayFlip)")
+        self.assertIn("_vtk_filter", which.stdout, which.stderr)
+
+    def test_vtk_9_2(self):
+        self.check("vtk==9.2.6")
+
+    def test_vtk_9_4(self):
+        self.check("vtk==9.4.2")
+
+    def test_newest_vtk(self):
+        self.check("vtk")
+
+
 if __name__ == "__main__":
     unittest.main()

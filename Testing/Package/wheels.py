@@ -47,6 +47,10 @@ class Environment:
         if run.returncode != 0:
             raise unittest.SkipTest(f"cannot install {' '.join(packages)}:\n{run.stderr[-2000:]}")
 
+    def test(self, *modules):
+        """Runs tests of Testing/Python."""
+        return self.run("-m", "unittest", *modules, cwd=os.path.join(ROOT, "Testing", "Python"))
+
     def install_package(self, wheel):
         run = self.pip("--no-deps", wheel)
         if run.returncode != 0:

@@ -100,8 +100,8 @@ def add_numbers(data, name, count):
 class Watched:
     """A filter that records its errors and warnings."""
 
-    def __init__(self, data):
-        self.filter = vtkDelaunayFlip()
+    def __init__(self, data, kind=vtkDelaunayFlip):
+        self.filter = kind()
         self.errors = self._watch(self.filter, "ErrorEvent")
         self.warnings = self._watch(self.filter, "WarningEvent")
         self._watch(self.filter.GetExecutive(), "ErrorEvent")
@@ -305,7 +305,8 @@ class Pipeline(unittest.TestCase):
         output = watched.run()
         self.assertEqual(watched.filter.GetStopReasonAsString(), "aborted")
         self.assertEqual(watched.filter.GetNumberOfIterations(), 0)
-        self.assertLess(told[-1], 0.5)
+        # VTK tells of 1 at the end, from 9.2 on also after an abort.
+        self.assertLess(max(share for share in told if share < 1), 0.5)
         self.assertEqual(get_edges(output), get_edges(mesh))
 
     def test_live_update(self):

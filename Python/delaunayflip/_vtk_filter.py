@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkDelaunayFlip for every VTK with Python: the C++ class's interface over libdelaunayflip."""
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
+from vtkmodules.vtkCommonExecutionModel import (
+    vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
+
+from . import _library
+from ._vtk_properties import PROPERTIES, add_properties
+from ._vtk_update import Failure, Update, explain
+
+_USER_ERROR = 40000  # vtkErrorCode::UserError
+
+
+@add_properties
+class vtkDelaunayFlip(VTKPythonAlgorithmBase):
+    """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
+
+    This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. What differs: if points are
+    moved during a live run, the next update starts from the input's triangles, and in a parallel
+    run each rank reports on its own piece.
+
+    Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
+    """
+
+    def __init__(self, **properties):
+        super().__init__(nInputPorts=2, nOutputPorts=2, inputType="vtkPolyData")
+        self._values = {item.name: item.default for item in PROPERTIES}
+        self._is_at_work = False
+        self._interrupt = None
+        self._run = None  # of a live update
+        self._may_go_on = True
+        self._update = Update(self)
+        for name, value in properties.items():
+            setattr(self, _require_property(name), value)
+
+    # What every filter of VTK has.
+
+    def GetClassName(self):
+        return "vtkDelaunayFlip"
+
+    def __str__(self):
+        names = [item.name for item in PROPERTIES]
+        names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
+                  "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge"]
+        lines = [f"  {name}: {_print(getattr(self, 'Get' + name)())}" for name in names]
+        lines += [f"  StopReason: {self.GetStopReasonAsString()}",
+                  f"  GeometryUsed: {self.GetGeometryUsedAsString()}",
+                  f"  GeometryReason: {self.GetGeometryReason()}"]
+        return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
+
+    def SetInputData(self, *port_and_data):
+        """SetInputData(data) or SetInputData(port, data)."""
+        self.SetInputDataObject(*port_and_data)
+
+    def AddInputData(self, *port_and_data):
+        self.AddInputDataObject(*port_and_data)
+
+    def GetInput(self, port=0):
+        return self.GetInputDataObject(port, 0)
+
+    def GetPolyDataInput(self, port=0):
+        data = self.GetInput(port)
+        return data if isinstance(data, vtkPolyData) else None
+
+    def GetOutput(self, port=0):
+        """The mesh; None if the output is composite (see GetOutputDataObject)."""
+        output = self.GetOutputDataObject(port)
+        return output if isinstance(output, vtkPolyData) else None
+
+    def Update(self, *arguments):
+        super().Update(*arguments)
+        interrupt, self._interrupt = self._interrupt, None
+        if interrupt is not None:
+            raise interrupt
+
+    def FillInputPortInformation(self, port, info):
+        if port == 1:
+            info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
+        # Otherwise the executive would run the filter once per block, and no sums could be made.
+        info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
+        return 1
+
+    def FillOutputPortInformation(self, port, info):
+        info.Set(vtkDataObject.DATA_TYPE_NAME(), "vtkTable" if port == 1 else "vtkDataObject")
+        return 1
+
+    def ProcessRequest(self, request, inInfo, outInfo):
+        if request.Has(vtkDemandDrivenPipeline.REQUEST_DATA_OBJECT()):
+            return self.RequestDataObject(request, inInfo, outInfo)
+        if request.Has(vtkDemandDrivenPipeline.REQUEST_DATA()) and self._is_at_work:
+            self._tell("ErrorEvent", "An observer asked for an update within an update.")
+            return 0
+        return super().ProcessRequest(request, inInfo, outInfo)
+
+    def RequestDataObject(self, request, inInfo, outInfo):
+        """Port 0: composite data of the input's type, or a mesh."""
+        blocks = vtkDataObject.GetData(inInfo[0], 0)
+        is_composite = isinstance(blocks, vtkCompositeDataSet)
+        wanted = blocks.GetClassName() if is_composite else "vtkPolyData"
+        output = vtkDataObject.GetData(outInfo, 0)
+        if output is None or output.GetClassName() != wanted:
+            made = blocks.NewInstance() if is_composite else vtkPolyData()
+            outInfo.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), made)
+        if vtkDataObject.GetData(outInfo, 1) is None:
+            outInfo.GetInformationObject(1).Set(vtkDataObject.DATA_OBJECT(), vtkTable())
+        return 1
+
+    def RequestData(self, request, inInfo, outInfo):
+        info = outInfo.GetInformationObject(0)
+        pieces = info.Get(vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
+        data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
+        table = vtkDataObject.GetData(outInfo, 1)
+        self._is_at_work = True
+        update = Update(self, pieces)
+        try:
+            update.flip(*data)
+        except Exception as error:
+            update = Update(self)
+            update.fail(explain(error))
+            data[-1].Initialize()
+        finally:
+            self._is_at_work = False
+        self._update = update
+        update.totals.add_columns("", table.GetRowData())
+        update.tell(self._tell)
+        return 1
+
+    def _tell(self, event, text):
+        """As vtkErrorMacro and vtkWarningMacro do."""
+        if not vtkObject.GetGlobalWarningDisplay():
+            return
+        address = self.__this__.split("_")[1].lstrip("0")
+        text = f"vtkDelaunayFlip (0x{address}): {text}\n"
+        if self.HasObserver(event):
+            self.InvokeEvent(event, text)
+        elif event == "ErrorEvent":
+            vtkOutputWindow.GetInstance().DisplayErrorText("ERROR: " + text)
+        else:
+            vtkOutputWindow.GetInstance().DisplayWarningText("Warning: " + text)
+
+    # Methods of the C++ class.
+
+    def SetConstraintsConnection(self, port):
+        self.SetInputConnection(1, port)
+
+    def SetConstraintsData(self, constraints):
+        self.SetInputDataObject(1, constraints)
+
+    def GetIterations(self):
+        return self.GetOutputDataObject(1)
+
+    def Advance(self):
+        goes_on = self.GetLiveUpdate() and self._may_go_on
+        if goes_on:
+            self.Modified()
+        return goes_on
+
+    def Step(self):
+        return self.Advance()
+
+    def Restart(self):
+        self._run = None
+        self._may_go_on = True
+        self.Modified()
+
+    def GetNeedsUpdate(self):
+        is_under_way = self._run is not None and self._update.totals.stop_reason == "running"
+        return is_under_way and not self.GetPaused() and self.Advance()
+
+    def ReleaseDeviceMemory(self):
+        _library.release_cuda_memory()
+
+    def GetNumberOfIterations(self):
+        return len(self._update.totals.iterations)
+
+    def GetConverged(self):
+        return self.GetFailure() == Failure.NONE and self._update.totals.converged
+
+    def GetStopReason(self):
+        if self.GetFailure():
+            return self.STOP_REASON_FAILED
+        return self._update.totals.get_stop_reason()
+
+    def GetStopReasonAsString(self):
+        failed = self.GetFailure() != Failure.NONE
+        return "failed: " + self.GetErrorMessage() if failed else self._update.totals.stop_reason
+
+    def GetGeometryUsed(self):
+        return self._update.totals.get_geometry()
+
+    def GetGeometryUsedAsString(self):
+        return self._update.totals.geometry_used
+
+    def GetGeometryReason(self):
+        return self._update.totals.texts["geometry_reason"]
+
+    def GetBackendUsed(self):
+        return self._update.totals.texts["backend"]
+
+    def GetFailure(self):
+        return int(self._update.failure)
+
+    def GetErrorMessage(self):
+        return self._update.error_message
+
+    def GetErrorCode(self):
+        return _USER_ERROR + self.GetFailure() if self.GetFailure() else 0
+
+
+def _add_counts(cls):
+    for name, count in (("TotalFlips", "total_flips"),
+                        ("NumberOfConstraintEdges", "constraint_edges"),
+                        ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
+                        ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
+                        ("NumberOfConstraintFlips", "constraint_flips"),
+                        ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
+                        ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
+                        ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
+        setattr(cls, "Get" + name, lambda self, count=count: self._update.totals.counts[count])
+
+
+_add_counts(vtkDelaunayFlip)
+
+
+def _require_property(name):
+    if name not in {item.key for item in PROPERTIES}:
+        raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
+    return name
+
+
+def _print(value):
+    return int(value) if isinstance(value, bool) else value

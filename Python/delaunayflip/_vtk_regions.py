@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cell arrays that say which edges stay: region labels and ghosts."""
+import numpy
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+
+from . import _vtk_arrays
+from ._errors import InvalidOptions
+
+_GHOST = (vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.REFINEDCELL
+          | vtkDataSetAttributes.HIDDENCELL)
+
+
+def label_cells(mesh, name):
+    """One int32 label per cell; cells with equal tuples in the array have equal labels.
+
+    Raises:
+        InvalidOptions: There is no such array, or it does not have one tuple per cell.
+    """
+    array = mesh.GetCellData().GetAbstractArray(name)
+    if array is None:
+        raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+    if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
+        raise InvalidOptions(
+            f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
+    values = _number_tuples(array) if isinstance(array, vtkDataArray) else _number_texts(array)
+    return values.astype(numpy.int32)
+
+
+def _number_tuples(array):
+    values = _vtk_arrays.view(array).reshape(array.GetNumberOfTuples(), -1)
+    if values.dtype.kind == "f":
+        values = values + values.dtype.type(0)  # -0 becomes 0
+        values[numpy.isnan(values)] = numpy.nan  # all NaN are equal
+    values = numpy.ascontiguousarray(values)
+    width = values.shape[1] * values.itemsize
+    return numpy.unique(values.view(numpy.dtype((numpy.void, width))).ravel(),
+                        return_inverse=True)[1].ravel()
+
+
+def _number_texts(array):
+    width = array.GetNumberOfComponents()
+    numbers = {}
+    labels = numpy.empty(array.GetNumberOfTuples(), dtype=numpy.int32)
+    for cell in range(len(labels)):
+        texts = tuple(array.GetVariantValue(cell * width + i).ToString() for i in range(width))
+        labels[cell] = numbers.setdefault(texts, len(numbers))
+    return labels
+
+
+def find_frozen(mesh, slots):
+    """(m,) whether the edges of a triangle stay, or None if those of no triangle do."""
+    ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+    if not isinstance(ghosts, vtkUnsignedCharArray):
+        return slots.frozen
+    values = _vtk_arrays.view(ghosts).ravel()
+    padded = numpy.zeros(max(mesh.GetNumberOfCells(), len(values)), dtype=numpy.uint8)
+    padded[:len(values)] = values
+    are_ghosts = (padded[slots.cells] & _GHOST) != 0
+    return are_ghosts if slots.frozen is None else are_ghosts | slots.frozen
+
+
+def describe_malformed_arrays(mesh, cells_stay):
+    """What warnings say of arrays that do not fit the mesh."""
+    texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point",
+                            "passed unchanged")
+    texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+                             "passed unchanged" if cells_stay else "left out")
+    ghosts = mesh.GetCellData().GetAbstractArray(vtkDataSetAttributes.GhostArrayName())
+    if ghosts is not None and not isinstance(ghosts, vtkUnsignedCharArray):
+        texts.append("1 ghost array that is not of type unsigned char ignored")
+    return texts
+
+
+def _describe_short(data, tuples, kind, fate):
+    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+    names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
+    if not names:
+        return []
+    listed = ", ".join(f'"{name}"' for name in names[:3])
+    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
+    word = "array" if len(names) == 1 else "arrays"
+    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}{more}"]

@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an update did to all of its meshes, and what it says about it."""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkStringArray
+
+from . import _library
+from ._session import ITERATION
+
+FIELD_PREFIX = "DelaunayFlip:"
+_COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
+            "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
+            "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+_COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
+           "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
+           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
+           "ConstraintEdges": "constraint_edges",
+           "UnmatchedConstraintEdges": "unmatched_constraints",
+           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
+_TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
+_FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
+_MOST = 3  # places named per text, and texts
+
+
+class Totals:
+    """The report on one mesh, or the sum over several. Attributes that are not counts are named as
+    those of `Report`; `geometry_used` may be "mixed"."""
+
+    def __init__(self, stop_reason="not started"):
+        self.stop_reason = stop_reason
+        self.counts = dict.fromkeys(_COUNTS.values(), 0)
+        self.texts = dict.fromkeys(_TEXTS.values(), "")
+        self.geometry_used = "auto"
+        self.iterations = numpy.empty(0, dtype=ITERATION)
+        self.minimum_angle_after = numpy.inf
+        self.has_triangles = False
+
+    @classmethod
+    def of_run(cls, report, iterations, unmatched):
+        """Of a mesh with triangles. `unmatched`: constraints that the engine was not told of."""
+        totals = cls(report.stop_reason)
+        totals.counts = {name: getattr(report, name) for name in totals.counts}
+        totals.counts["unmatched_constraints"] += unmatched
+        totals.texts = {name: getattr(report, name) for name in totals.texts}
+        totals.geometry_used = report.geometry_used
+        totals.iterations = iterations
+        totals.minimum_angle_after = report.minimum_angle_after
+        totals.has_triangles = True
+        return totals
+
+    @property
+    def converged(self):
+        return self.stop_reason == "converged"
+
+    def add(self, other):
+        """Adds the report on another mesh. Angles are the smaller ones, the stop reason the worse."""
+        self.iterations = _join_iterations(self, other)
+        for name, count in other.counts.items():
+            self.counts[name] += count
+        for name, text in other.texts.items():
+            if text not in self.texts[name]:
+                self.texts[name] += (", " if self.texts[name] else "") + text
+        if self.geometry_used == "auto":
+            self.geometry_used = other.geometry_used
+        elif other.geometry_used not in ("auto", self.geometry_used):
+            self.geometry_used = "mixed"
+        self.minimum_angle_after = numpy.minimum(self.minimum_angle_after, other.minimum_angle_after)
+        self.has_triangles = self.has_triangles or other.has_triangles
+        self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
+
+    def get_geometry(self):
+        """The number of the geometry, as vtkDelaunayFlip.GEOMETRY_... have it."""
+        return (*_library.GEOMETRIES, "mixed").index(self.geometry_used)
+
+    def get_stop_reason(self):
+        return _library.STOP_REASONS.index(self.stop_reason)
+
+    def add_columns(self, prefix, data):
+        """One array per column, with a value per iteration."""
+        for name, field in _COLUMNS.items():
+            values = numpy.ascontiguousarray(self.iterations[field])
+            kind = VTK_ID_TYPE if values.dtype.kind == "i" else None
+            _add(data, prefix + name, numpy_to_vtk(values, deep=True, array_type=kind))
+
+    def add_field_data(self, data):
+        """The totals first: ParaView lists no field data when the first array is empty."""
+        _add_number(data, "Converged", numpy.int32(self.converged))
+        _add_text(data, "StopReason", self.stop_reason)
+        for name, count in _COUNTS.items():
+            _add_number(data, name, self.counts[count], VTK_ID_TYPE)
+        _add_text(data, "GeometryUsed", self.geometry_used)
+        for name, text in _TEXTS.items():
+            _add_text(data, name, self.texts[text])
+        self.add_columns(FIELD_PREFIX, data)
+
+
+def _add(data, name, array):
+    array.SetName(name)
+    data.AddArray(array)
+
+
+def _add_number(data, name, value, kind=None):
+    array = numpy_to_vtk(numpy.array([value]), deep=True, array_type=kind)
+    _add(data, FIELD_PREFIX + name, array)
+
+
+def _add_text(data, name, text):
+    array = vtkStringArray()
+    array.InsertNextValue(text)
+    _add(data, FIELD_PREFIX + name, array)
+
+
+def _join_iterations(a, b):
+    """Row by row. A mesh that made fewer iterations keeps its last angle."""
+    rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
+    rows["minimum_angle"] = numpy.inf
+    for totals in (a, b):
+        known = len(totals.iterations)
+        angles = numpy.full(len(rows), totals.minimum_angle_after)
+        angles[:known] = totals.iterations["minimum_angle"]
+        rows["minimum_angle"] = numpy.minimum(rows["minimum_angle"], angles)
+        for name in set(ITERATION.names) - {"iteration", "minimum_angle"}:
+            rows[name][:known] += totals.iterations[name]
+    rows["iteration"] = numpy.arange(1, len(rows) + 1)
+    return rows
+
+
+def describe_trouble(defects, report, has_asked_for_limit):
+    """What to warn of, or "". Reaching a limit that the user has set is not worth a warning."""
+    texts = [defects] if defects else []
+    if report.stop_reason == "iteration limit" and not has_asked_for_limit:
+        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
+    if report.fallback:
+        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+    return "; ".join(texts)
+
+
+def describe(notes):
+    """Joins (place, text) to one text; each text appears once, with its first places."""
+    places = {}
+    for where, text in notes:
+        places.setdefault(text, []).append(where)
+    texts = []
+    for text, where in places.items():
+        named = _join(where, ", ")
+        texts.append(f"{named}: {text}" if named else text)
+    return _join(texts, "; ")
+
+
+def _join(items, separator):
+    more = [f"and {len(items) - _MOST} more"] if len(items) > _MOST else []
+    return separator.join(items[:_MOST] + more)

