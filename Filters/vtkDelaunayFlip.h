@@ -442,8 +442,8 @@ public:
    * splitting of polygons and the matching of constraints to the output. AbortExecute is checked
    * whenever progress is reported: for a million triangles at least every 0.1 s. If aborted before
    * the first iteration, the output has the triangles of the input, or its polygons if these had
-   * not all been read; if later, those of the last iteration. A live run goes on with the next
-   * update.
+   * not all been read; if later, those of the last iteration. AbortExecute is off again at the end,
+   * and a live run goes on with the next update.
    */
   vtkIdType GetNumberOfIterations() const;
   vtkIdType GetTotalFlips() const;

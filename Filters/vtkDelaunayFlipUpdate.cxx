@@ -116,6 +116,7 @@ int vtkDelaunayFlip::RequestData(
     nothing.AddMesh({ *this->Report, untold, "" }, 0, "");
     this->Tell(nothing, true);
   }
+  ForgetAbortRequest(this);
   // Even after an error: 0 would keep filters downstream from executing, and a representation of
   // ParaView that did not execute ignores all later changes.
   return 1;

@@ -65,9 +65,9 @@ public:
 
   void operator()()
   {
-    if (this->Filter->GetProgress() == 0.0)
+    if (this->IsOfExecutive())
     {
-      return; // an event of the executive, before the filter runs
+      return;
     }
     this->Progress.push_back(this->Filter->GetProgress());
     this->Iterations.push_back(this->Filter->GetNumberOfIterations());
@@ -81,6 +81,13 @@ public:
   std::vector<vtkIdType> Iterations;
 
 private:
+  /// 0 before the filter runs; from VTK 9.3 on also 1 after it was aborted.
+  bool IsOfExecutive() const
+  {
+    return this->Filter->GetProgress() == 0.0 ||
+      (this->Filter->GetProgress() == 1.0 && this->Progress.size() == this->LastEvent);
+  }
+
   vtkDelaunayFlip* Filter;
   std::size_t LastEvent;
 };
