@@ -6,8 +6,9 @@
 set(CPACK_GENERATOR TGZ)
 find_program(DELAUNAYFLIP_DPKG_SHLIBDEPS dpkg-shlibdeps
   DOC "Finds the packages that a Debian package depends on (Debian: dpkg-dev)")
-mark_as_advanced(DELAUNAYFLIP_DPKG_SHLIBDEPS)
-if(DELAUNAYFLIP_DPKG_SHLIBDEPS)
+find_program(DELAUNAYFLIP_FILE file DOC "Tells libraries from other files (Debian: file)")
+mark_as_advanced(DELAUNAYFLIP_DPKG_SHLIBDEPS DELAUNAYFLIP_FILE)
+if(DELAUNAYFLIP_DPKG_SHLIBDEPS AND DELAUNAYFLIP_FILE)
   list(APPEND CPACK_GENERATOR DEB)
 endif()
 

@@ -132,7 +132,7 @@ class Properties(PlyTest):
     def test_single_precision_stays(self):
         points = [(0.5, 1.25, 3), (1, 0, 0), (0, 1, 0)]
         for mesh, _ in self.read_all(("vertex", XYZ, points), ("face", INDICES, [([0, 1, 2],)])):
-            self.assertEqual(mesh.GetPoints().GetData().GetClassName(), "vtkFloatArray")
+            self.assertTrue(mesh.GetPoints().GetData().IsA("vtkFloatArray"))
 
     def test_mixed_types_of_coordinates(self):
         points = [(i, i * i, 0.1 * i) for i in range(3)]

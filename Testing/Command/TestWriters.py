@@ -79,7 +79,7 @@ class WriterTest(CommandTest):
 
     def assert_array(self, array, kind, values):
         self.assertIsNotNone(array)
-        self.assertEqual(array.GetClassName(), kind, array.GetName())
+        self.assertEqual(array.GetDataType(), getattr(vtk, kind)().GetDataType(), array.GetName())
         self.assertTrue(same(values_of(array), values), f"{array.GetName()}: {values_of(array)}")
 
 

@@ -81,7 +81,8 @@ class Archive(Packing):
         self.expect_that_it_works(self.path(name))
 
 
-@unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "no dpkg-shlibdeps (Debian: dpkg-dev)")
+@unittest.skipUnless(shutil.which("dpkg-shlibdeps") and shutil.which("file"),
+                     "no dpkg-shlibdeps or file (Debian: dpkg-dev, file)")
 class DebianPackage(Packing):
 
     def setUp(self):
