@@ -8,19 +8,18 @@ paraview_live.png: during a live update.
 
 import os
 
+from ClientQt import QtCore, QtWidgets
 from ClientTesting import FOLDER, Panel, idle, load_plugin, play
 from paraview import simple
-from PyQt5.QtCore import Qt
-from PyQt5.QtWidgets import QDockWidget
 
 
 def arrange(client):
     """A window in which the Properties panel has room for all properties of the filter."""
     client.window.resize(1500, 1000)
-    docks = {dock.windowTitle(): dock for dock in client.window.findChildren(QDockWidget)}
+    docks = {dock.windowTitle(): dock for dock in client.window.findChildren(QtWidgets.QDockWidget)}
     panel = [docks["Properties"], docks["Pipeline Browser"]]
-    client.window.resizeDocks(panel, [430, 430], Qt.Horizontal)
-    client.window.resizeDocks(panel, [820, 130], Qt.Vertical)
+    client.window.resizeDocks(panel, [430, 430], QtCore.Qt.Orientation.Horizontal)
+    client.window.resizeDocks(panel, [820, 130], QtCore.Qt.Orientation.Vertical)
 
 
 def show_mesh(source):

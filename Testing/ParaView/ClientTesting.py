@@ -11,10 +11,8 @@ import sys
 import time
 import traceback
 
+from ClientQt import QtCore, QtWidgets
 from paraview import simple
-from PyQt5.QtCore import QItemSelectionModel, Qt, QTimer
-from PyQt5.QtWidgets import (
-    QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QMenu, QPushButton, QWidget)
 
 FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 PATIENCE = 60  # seconds, for one wait
@@ -25,7 +23,7 @@ class Client:
     """The client's main window."""
 
     def __init__(self):
-        self.application = QApplication.instance()
+        self.application = QtWidgets.QApplication.instance()
         self.window = next(
             widget for widget in self.application.topLevelWidgets()
             if widget.metaObject().className() == "ParaViewMainWindow")
@@ -33,7 +31,7 @@ class Client:
     def find_actions(self, text):
         """{title of the menu: its action} of all menus with an action of this text."""
         return {menu.title().replace("&", ""): action
-                for menu in self.window.menuBar().findChildren(QMenu)
+                for menu in self.window.menuBar().findChildren(QtWidgets.QMenu)
                 for action in menu.actions() if action.text().replace("&", "") == text}
 
     def choose(self, menu, text):
@@ -43,23 +41,24 @@ class Client:
     def choose_beginning(self, menu, beginning):
         """Clicks the action of a menu whose text begins with this."""
         titles = {menu_.title().replace("&", ""): menu_
-                  for menu_ in self.window.menuBar().findChildren(QMenu)}
+                  for menu_ in self.window.menuBar().findChildren(QtWidgets.QMenu)}
         next(action for action in titles[menu].actions()
              if action.text().replace("&", "").startswith(beginning)).trigger()
 
     def select(self, text):
         """Clicks an entry of the Pipeline Browser."""
         selection = next(
-            selection for selection in self.window.findChildren(QItemSelectionModel)
+            selection for selection in self.window.findChildren(QtCore.QItemSelectionModel)
             if selection.parent().metaObject().className() == "pqPipelineBrowserWidget")
         found = selection.model().match(
-            selection.model().index(0, 0), Qt.DisplayRole, text, 1,
-            Qt.MatchExactly | Qt.MatchRecursive)
-        selection.setCurrentIndex(found[0], QItemSelectionModel.ClearAndSelect)
+            selection.model().index(0, 0), QtCore.Qt.ItemDataRole.DisplayRole, text, 1,
+            QtCore.Qt.MatchFlag.MatchExactly | QtCore.Qt.MatchFlag.MatchRecursive)
+        selection.setCurrentIndex(
+            found[0], QtCore.QItemSelectionModel.SelectionFlag.ClearAndSelect)
 
     def apply(self):
         """Clicks Apply."""
-        self.window.findChild(QPushButton, "Accept").click()
+        self.window.findChild(QtWidgets.QPushButton, "Accept").click()
 
     def save_picture(self, name):
         """A picture of the whole window, in FOLDER."""
@@ -76,7 +75,7 @@ class Panel:
         self.window = client.window
 
     def find_all(self, name):
-        return self.window.findChildren(QWidget, name)
+        return self.window.findChildren(QtWidgets.QWidget, name)
 
     def find(self, name, kind):
         widgets = [widget.findChild(kind) or widget for widget in self.find_all(name)]
@@ -90,22 +89,22 @@ class Panel:
 
     def read(self, name):
         """The text of an information property."""
-        return self.find(name, QLabel).text()
+        return self.find(name, QtWidgets.QLabel).text()
 
     def write(self, name, text):
-        edit = self.find(name, QLineEdit)
+        edit = self.find(name, QtWidgets.QLineEdit)
         edit.setText(text)
         edit.textEdited.emit(text)
         edit.editingFinished.emit()
 
     def choose(self, name, text):
-        self.find(name, QComboBox).setCurrentText(text)
+        self.find(name, QtWidgets.QComboBox).setCurrentText(text)
 
     def click(self, name):
-        self.find(name, QCheckBox).click()
+        self.find(name, QtWidgets.QCheckBox).click()
 
     def press(self, name):
-        self.find(name, QPushButton).click()
+        self.find(name, QtWidgets.QPushButton).click()
 
 
 def expect(truth, what):
@@ -142,7 +141,7 @@ class _Player:
     def __init__(self, session):
         self.session = session
         self.wait_for(lambda: True)
-        self.timer = QTimer()
+        self.timer = QtCore.QTimer()
         self.timer.timeout.connect(self.look)
         self.timer.start(TICK)
 

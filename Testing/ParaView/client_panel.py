@@ -10,7 +10,7 @@ import os
 
 from ClientTesting import FOLDER, Panel, expect, idle, load_plugin, play, start_filter
 from paraview import servermanager, simple
-from PyQt5.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton
+from ClientQt import QtWidgets
 
 RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
            "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge", "StopReason",
@@ -31,11 +31,11 @@ def read_results(panel, flip):
     for name in RESULTS:
         expect(panel.read(name) == str(flip.GetPropertyValue(name)), f"{name}: {panel.read(name)}")
         for widget in panel.find_all(name):
-            expect(not isinstance(widget, QLineEdit) and not widget.findChildren(QLineEdit),
+            expect(not isinstance(widget, QtWidgets.QLineEdit) and not widget.findChildren(QtWidgets.QLineEdit),
                    f"{name} looks as if it could be edited")
     expect(panel.read("TotalFlips").isdigit(), panel.read("TotalFlips"))
     expect(any(label.text().endswith("<b>Last Update</b></html>")
-               for label in panel.window.findChildren(QLabel) if label.isVisible()), "no title")
+               for label in panel.window.findChildren(QtWidgets.QLabel) if label.isVisible()), "no title")
 
 
 def use_buttons(client, panel, flip):
@@ -76,7 +76,7 @@ def step_pauses(client, panel, flip):
     panel.press("Step")
     yield idle(QUIET)
     expect(flip.StopReason == "running", "the run went on")
-    expect(panel.find("Paused", QPushButton).isChecked(), "the button does not tell")
+    expect(panel.find("Paused", QtWidgets.QPushButton).isChecked(), "the button does not tell")
     panel.press("Paused")
     yield lambda: flip.StopReason == "converged"
     panel.click("LiveUpdate")
@@ -87,7 +87,7 @@ def step_pauses(client, panel, flip):
 def choose_constraints(client, panel, flip):
     edge = {15, 29}  # of the input's fan; flipped unless it is a constraint
     expect(count_edges(flip, edge) == 0, "the edge is there without constraints")
-    choices = panel.find("Constraints", QComboBox)
+    choices = panel.find("Constraints", QtWidgets.QComboBox)
     texts = [choices.itemText(i) for i in range(choices.count())]
     expect(texts[0] == "(none)" and "Lines" in texts, texts)
     panel.choose("Constraints", "Lines")
@@ -115,7 +115,7 @@ def offer_no_loop(panel, flip):
     yield idle(0.5)
     simple.SetActiveSource(flip)
     yield idle(0.5)
-    choices = panel.find("Constraints", QComboBox)
+    choices = panel.find("Constraints", QtWidgets.QComboBox)
     texts = {choices.itemText(i) for i in range(choices.count())}
     expect(texts == {"(none)", "Lines", "Mesh", "Beside"}, texts)
     for source in (last, later, simple.FindSource("Beside")):

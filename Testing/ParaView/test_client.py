@@ -6,6 +6,7 @@ The scripts client_*.py run inside it. Pictures stay in the folder DELAUNAYFLIP_
 """
 
 import glob
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -17,6 +18,7 @@ from PluginTesting import PluginTest, main, make_fan, make_line
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 125
 PATIENCE = 240  # seconds
+QT = os.environ["DELAUNAYFLIP_QT"]  # the client's major version
 
 
 def find_client():
@@ -25,10 +27,8 @@ def find_client():
     if not os.path.exists(client):
         print("skipped: no ParaView client", client)
         sys.exit(SKIPPED)
-    try:
-        import PyQt5.QtWidgets  # noqa: F401
-    except ImportError:
-        print("skipped: no PyQt5 (Debian: python3-pyqt5), which looks at the client's widgets")
+    if importlib.util.find_spec(f"PyQt{QT}") is None:
+        print(f"skipped: no PyQt{QT} (Debian: python3-pyqt{QT}), which looks at the client's widgets")
         sys.exit(SKIPPED)
     return client
 
