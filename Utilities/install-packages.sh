@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: install-packages.sh build|demo|test|proof|paper|paraview
-# Installs the Debian packages for building, the demo, the tests, the measurements of the tests
-# (coverage, planted faults, fuzzing), the reproduction of the paper, or the ParaView plugin with its
-# tests. Asks no questions, and changes nothing if all are installed already. ParaView itself is not
+# Usage: install-packages.sh build|demo|test|docs|proof|paper|paraview
+# Installs the Debian packages for building, the demo, the tests, the documentation's site, the
+# measurements of the tests (coverage, planted faults, fuzzing), the reproduction of the paper, or the
+# ParaView plugin with its tests. Asks no questions, and changes nothing if all are installed already. ParaView itself is not
 # included, since it cannot be installed beside python3-vtk9; see get-paraview.sh.
 set -euo pipefail
 
@@ -15,8 +15,10 @@ engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
 build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-dev
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
-tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev python3-numpy
-  python3-matplotlib python3-venv)
+tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev file
+  python3-numpy python3-matplotlib python3-venv)
+docs=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-copybutton
+  python3-numpy)
 proof=(clang libclang-rt-dev python3-clang gcovr)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)
@@ -37,7 +39,7 @@ paraview=("${engine[@]}" xvfb xauth
 
 usage()
 {
-  echo "usage: $0 build|demo|test|proof|paper|paraview" >&2
+  echo "usage: $0 build|demo|test|docs|proof|paper|paraview" >&2
   exit 2
 }
 
@@ -82,7 +84,8 @@ case "${1:-}" in
   build) wanted=("${build[@]}") ;;
   demo) wanted=("${build[@]}" "${demo[@]}") ;;
   proof) wanted=("${build[@]}" "${tests[@]}" "${proof[@]}") ;;
-  test) wanted=("${build[@]}" "${tests[@]}") ;;
+  test) wanted=("${build[@]}" "${tests[@]}" "${docs[@]}") ;;
+  docs) wanted=("${docs[@]}") ;;
   paper) wanted=("${paper[@]}") ;;
   paraview) wanted=("${paraview[@]}") ;;
   *) usage ;;

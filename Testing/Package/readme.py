@@ -1,17 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The snippets of the README."""
+"""The files of the project, and the code snippets of its pages."""
 import os
-import re
+import sys
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Documentation"))
 
-
-def read(path):
-    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-        return file.read()
-
-
-def snippets(language):
-    """The code snippets in a language, in order."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", read("README.md"), re.DOTALL | re.MULTILINE)
+from pages import ROOT, read, snippets  # noqa: E402,F401 - for the tests beside this file

@@ -137,15 +137,15 @@ class Modules(Consumer):
         super().setUp()
         self.install(os.environ["DELAUNAYFLIP_BUILD"])
 
-    def test_snippets_of_the_readme(self):
-        (project,) = [text for text in snippets("cmake") if "project(" in text]
-        (program,) = [text for text in snippets("cpp") if "main()" in text]
+    def test_snippets_of_the_documentation(self):
+        page = "Documentation/start/cpp.md"
+        (project,) = [text for text in snippets("cmake", page) if "project(" in text]
+        (program,) = [text for text in snippets("cpp", page) if "main()" in text]
         self.write("CMakeLists.txt", project)
         self.write("my_program.cpp", program)
         self.build()
-        os.mkdir(self.path("demo-output"))
         subprocess.run([f"{self.prefix}/bin/delaunay-flip", self.write_rhombus(),
-                        self.path("demo-output/before.vtp"), "--max-iterations", "0"],
+                        self.path("terrain.vtp"), "--max-iterations", "0"],
                        stdout=subprocess.DEVNULL, check=False)
         self.assertEqual(self.run_program("my_program"), "1 flips\n")
 

@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Links between the pages lead somewhere, and every page and picture is reached by one."""
+import os
+import re
+import unittest
+
+from pages import ROOT, anchors, links, list_pages, read
+
+TOCTREE = re.compile(r"^```\{toctree\}\n(?:^:[^\n]*\n)*(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+def resolve(page, target):
+    """The path, relative to ROOT, and the anchor that a link of a page names."""
+    path, _, anchor = target.partition("#")
+    return os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page, anchor
+
+
+class Links(unittest.TestCase):
+
+    def test_targets(self):
+        for page in list_pages():
+            for target in links(page):
+                if "://" in target:
+                    continue
+                with self.subTest(f"{page}: {target}"):
+                    path, anchor = resolve(page, target)
+                    self.assertTrue(os.path.exists(os.path.join(ROOT, path)), "no such file")
+                    if anchor:
+                        self.assertIn(anchor, anchors(path))
+
+    def test_pages_of_the_site(self):
+        listed = {f"Documentation/{name}.md" for part in TOCTREE.findall(read("Documentation/index.md"))
+                  for name in part.split()}
+        pages = {page for page in list_pages() if page.startswith("Documentation/")}
+        self.assertEqual(listed | {"Documentation/index.md"}, pages)
+
+    def test_pictures(self):
+        used = {resolve(page, target)[0] for page in list_pages() for target in links(page)}
+        for folder, _, names in os.walk(f"{ROOT}/Documentation/images"):
+            for name in names:
+                self.assertIn(os.path.relpath(os.path.join(folder, name), ROOT), used)
+
+
+if __name__ == "__main__":
+    unittest.main()
