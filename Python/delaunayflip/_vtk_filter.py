@@ -128,6 +128,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         self._update = update
         update.totals.add_columns("", table.GetRowData())
         update.tell(self._tell)
+        self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1
 
     def _tell(self, event, text):

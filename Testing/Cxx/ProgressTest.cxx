@@ -188,8 +188,7 @@ TEST(FilterProgress, AbortedAfterTheSplitTrianglesPass)
 TEST(FilterProgress, AnAbortedUpdateIsFollowedByAWholeOne)
 {
   WatchedFilter filter(MakeQuads());
-  auto stop = [&filter]() { filter->SetAbortExecute(1); };
-  OnProgress(filter.Get(), stop);
+  ProgressWatch watch(filter, 1);
   filter.Run();
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
   filter->RemoveAllObservers();

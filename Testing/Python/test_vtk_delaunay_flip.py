@@ -309,6 +309,21 @@ class Pipeline(unittest.TestCase):
         self.assertLess(max(share for share in told if share < 1), 0.5)
         self.assertEqual(get_edges(output), get_edges(mesh))
 
+    def test_an_aborted_update_is_followed_by_a_whole_one(self):
+        watched = Watched(make_bad_mesh())
+
+        def stop(flip, _event):
+            if flip.GetProgress() < 1:  # not at the end, which VTK tells of after an abort too
+                flip.SetAbortExecute(1)
+
+        watched.filter.AddObserver("ProgressEvent", stop)
+        watched.run()
+        self.assertEqual(watched.filter.GetStopReason(), vtkDelaunayFlip.STOP_REASON_ABORTED)
+        watched.filter.RemoveObservers("ProgressEvent")
+        watched.filter.Modified()
+        watched.run()
+        self.assertTrue(watched.filter.GetConverged())
+
     def test_live_update(self):
         mesh = make_bad_mesh()
         at_once = Watched(mesh).run()
