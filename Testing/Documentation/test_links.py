@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Links between the pages lead somewhere, and every page and picture is reached by one."""
+"""Links between the pages lead somewhere, and every page and picture is reached by one. The messages
+that the pages explain are those of the sources."""
+import glob
 import os
 import re
 import unittest
@@ -40,6 +42,21 @@ class Links(unittest.TestCase):
         for folder, _, names in os.walk(f"{ROOT}/Documentation/images"):
             for name in names:
                 self.assertIn(os.path.relpath(os.path.join(folder, name), ROOT), used)
+
+
+class Messages(unittest.TestCase):
+
+    def test_messages(self):
+        """The terms of the list in faq.md; "..." stands for anything."""
+        literals = "".join(read(path) for folder in ("Engine", "CUDA", "Filters", "Command")
+                           for path in glob.glob(f"{ROOT}/{folder}/**/*.*", recursive=True))
+        literals = re.sub(r'"\s*"', "", literals)  # adjacent strings are one
+        terms = re.findall(r"^(`[^\n]*`)\n: ", read("Documentation/faq.md"), re.MULTILINE)
+        self.assertGreater(len(terms), 10)
+        for message in (text for term in terms for text in re.findall("`([^`]*)`", term)):
+            for part in message.split(" ... "):
+                with self.subTest(message):
+                    self.assertTrue(part in literals, "no message of the sources")
 
 
 if __name__ == "__main__":
