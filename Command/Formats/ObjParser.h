@@ -7,6 +7,7 @@
 #include "TextCursor.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <vector>

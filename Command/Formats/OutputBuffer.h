@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_OUTPUTBUFFER_H
 #define DELAUNAYFLIP_OUTPUTBUFFER_H
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
