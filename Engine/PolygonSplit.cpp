@@ -199,7 +199,9 @@ void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double 
   // Twice, because the area vector of a needle may be so small that its length is inexact at first.
   for (int pass = 0; pass < 2; ++pass)
   {
-    const double length = pass == 0 ? std::abs(area[axis]) : std::hypot(area[0], area[1], area[2]);
+    const double length = pass == 0
+      ? std::abs(area[axis])
+      : std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
     for (int i = 0; i < 3; ++i)
     {
       area[i] = length > 0.0 ? area[i] / length : 0.0;

@@ -15,8 +15,10 @@ Writes OUTPUT/report.html, report.md, plots/, results.json and parts/ (default: 
   --quick                meshes of up to 1 M points; meant to take 10 minutes on two cores
   --meshes FOLDER        surfaces (.ply, .stl, .vtk) for Fig. 11 and Table 2
   --time-limit SECONDS   begin no part that would end later; the next call goes on from there
+  --parts PATTERN        run only parts with such names, a regular expression; for example, "gpu$"
   --no-rivals            without other people's programs, which pip would install
   --no-times             run every program once, for what is not time, on a busy machine
+  --run-only             run the parts, and leave the drawing to another call
   --draw-only            run nothing; draw and write what is there
   --build-only           build the program and stop
 A part that has run is not run again: remove its file from OUTPUT/parts for that.
@@ -31,12 +33,12 @@ while [ $# -gt 0 ]; do
     --quick) scale=quick ;;
     --no-rivals) rivals=no ;;
     --build-only) build_only=yes ;;
-    --no-times) options+=(--no-times) ;;
+    --no-times | --run-only) options+=("$1") ;;
     --draw-only)
       draw=yes
       options+=(--draw-only)
       ;;
-    --meshes | --time-limit)
+    --meshes | --time-limit | --parts)
       if [ $# -lt 2 ]; then
         echo "$1 needs a value" >&2
         exit 2

@@ -147,6 +147,15 @@ class Cases:
         flip.SetConstraintsData(edges)
         return mesh
 
+    def inserted_constraints(self, flip):
+        """Lines through the whole mesh: each crosses thousands of edges at the least."""
+        side = int(len(self.xyz) ** 0.5)
+        ends = numpy.arange(0, side, max(1, side // 100))
+        edges = vtkPolyData()
+        edges.SetLines(make_cells(numpy.stack([ends, ends[::-1] + side * (side - 1)], axis=1)))
+        flip.SetConstraintsData(edges)
+        return make_mesh(self.xyz, self.cells)
+
     def regions(self, flip):
         mesh = make_mesh(self.xyz, self.cells)
         add_cell_array(mesh, "region", numpy.arange(len(self.cells)) // 2 * 7919 % 1000003)

@@ -8,6 +8,7 @@ import argparse
 import dataclasses
 import os
 import platform
+import re
 import subprocess
 import sys
 import time
@@ -26,8 +27,11 @@ def parse_arguments():
     parser.add_argument("--meshes", help="folder of .ply, .stl and .vtk surfaces")
     parser.add_argument("--time-limit", type=float, metavar="SECONDS",
                         help="begin no part that would end later; call again for the rest")
+    parser.add_argument("--parts", type=re.compile, metavar="PATTERN", default=re.compile(""),
+                        help="run only parts with such names, a regular expression")
     parser.add_argument("--no-times", action="store_true",
                         help="run every program once, for what is not time, on a busy machine")
+    parser.add_argument("--run-only", action="store_true", help="do not draw; do that later")
     parser.add_argument("--draw-only", action="store_true", help="run nothing; draw what is there")
     return parser.parse_args()
 
@@ -88,7 +92,8 @@ class Runner:
 
     def run_all(self):
         """@returns how many parts are left for another call."""
-        left = [part for part in self.plan.parts if not self.is_done(part)]
+        left = [part for part in self.plan.parts
+                if self.arguments.parts.search(part.name) and not self.is_done(part)]
         for number, part in enumerate(left):
             remaining = sum(p.seconds for p in left[number:])
             if self.is_too_late(part):
@@ -157,6 +162,8 @@ def main():
     left = 0 if arguments.draw_only else run_parts(arguments)
     results = Results(arguments.output)
     results.write_merged()
+    if arguments.run_only:
+        return 3 if left else 0
     try:
         import report
     except ImportError as error:  # a machine with a GPU may have no matplotlib

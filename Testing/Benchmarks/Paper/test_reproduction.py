@@ -165,6 +165,9 @@ class Reproduction(unittest.TestCase):
         late = run_reproduction(self.folder, "--time-limit", "0")
         self.assertEqual(3, late.returncode, late.stderr)
         self.assertIn("1 parts are left", late.stdout)
+        other = run_reproduction(self.folder, "--parts", "^chain$", "--run-only")
+        self.assertEqual(0, other.returncode, other.stderr)
+        self.assertEqual("", other.stdout)
         again = run_reproduction(self.folder)
         self.assertEqual(0, again.returncode, again.stderr)
         self.assertEqual(1, again.stdout.count(" min left)"))
@@ -183,7 +186,8 @@ class Failures(unittest.TestCase):
                 parts.Part("rival-1-vtk", "one", command, 1, "vtk"),
                 parts.Part("rival-2-vtk", "two", command, 1, "vtk")]})
             arguments = type("Arguments", (), {
-                "output": folder, "program": "", "rivals": None, "time_limit": None})
+                "output": folder, "program": "", "rivals": None, "time_limit": None,
+                "parts": re.compile("rival")})
             self.assertEqual(0, reproduce.Runner(arguments, plan).run_all())
             results = Results(folder)
             self.assertEqual(
