@@ -72,10 +72,11 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return output if isinstance(output, vtkPolyData) else None
 
     def Update(self, *arguments):
-        super().Update(*arguments)
+        status = super().Update(*arguments)
         interrupt, self._interrupt = self._interrupt, None
         if interrupt is not None:
             raise interrupt
+        return status
 
     def FillInputPortInformation(self, port, info):
         if port == 1:

@@ -5,6 +5,8 @@ import dataclasses
 import time
 import typing
 
+import numpy
+
 from . import _vtk_arrays
 from ._errors import InvalidMesh
 from ._session import Session
@@ -57,7 +59,14 @@ class Run:
         """Whether this run can go on: all that decides its result is what it was."""
         old = self._request
         return (request.is_live and old.settings == request.settings
-                and old.options == request.options and self._stamps == _stamp(request))
+                and old.options == request.options and self._stamps == _stamp(request)
+                and self._has_its_points(request.mesh))
+
+    def _has_its_points(self, mesh):
+        """Bit by bit: many programs mark points as modified that they only read."""
+        points = _vtk_arrays.view_points(mesh)
+        return points.dtype == self._input.points.dtype and numpy.array_equal(
+            points.view(numpy.uint8), self._input.points.view(numpy.uint8))
 
     def go_on(self, request):
         """Makes this the run of another update, for which it fits."""
@@ -120,8 +129,8 @@ def _stamp(request):
             arrays = (cells.GetOffsetsArray(), cells.GetConnectivityArray())
             stamps += [cells.GetMTime(), *(array.GetMTime() for array in arrays),
                        *(array.GetNumberOfValues() for array in arrays)]
-        points = mesh.GetPoints()
-        stamps += [points.GetMTime(), points.GetData().GetMTime()] if points else [0, 0]
+    if request.others is not None and request.others.GetPoints():
+        stamps.append(request.others.GetPoints().GetMTime())
     data = request.mesh.GetCellData()
     for name in ("vtkGhostType", request.settings.region_array):
         array = data.GetAbstractArray(name)

@@ -92,6 +92,9 @@ class Wheel(unittest.TestCase):
         self.assertIn("Found 2 errors", run.stdout)
 
 
+FILTER_TESTS = ("test_vtk_delaunay_flip", "test_malformed_input", "test_pipelines")
+
+
 class Vtk(unittest.TestCase):
     """The wheel beside the wheels of VTK and PyVista; these are large."""
 
@@ -101,12 +104,12 @@ class Vtk(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.wheel = build_wheel(folder.name)
 
-    def check(self, *packages):
+    def check(self, *packages, modules=FILTER_TESTS):
         environment = Environment()
         self.addCleanup(environment.close)
         environment.fetch("numpy", *packages)
         environment.install_package(self.wheel)
-        run = environment.test("test_vtk_delaunay_flip", "test_malformed_input", "test_pipelines")
+        run = environment.test(*modules)
         self.assertEqual(run.returncode, 0, run.stderr)
         which = environment.run("-c", "import delaunayflip; print(delaunayflip.vtkDelaunayFlip)")
         self.assertIn("_vtk_filter", which.stdout, which.stderr)
@@ -119,6 +122,10 @@ class Vtk(unittest.TestCase):
 
     def test_newest_vtk(self):
         self.check("vtk")
+
+    def test_newest_pyvista(self):
+        self.check("pyvista[io]", "imageio", "trimesh", "meshio", "nbclient", "ipykernel",
+                   modules=("test_pyvista", *FILTER_TESTS))
 
 
 if __name__ == "__main__":

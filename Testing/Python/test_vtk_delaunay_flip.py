@@ -341,6 +341,17 @@ class Pipeline(unittest.TestCase):
         self.assertEqual(live.filter.GetStopReasonAsString(), "converged")
         self.assertEqual(get_cells(output.GetPolys()), get_cells(at_once.GetPolys()))
 
+    def test_live_update_goes_on_if_points_are_only_read(self):
+        mesh = make_bad_mesh()
+        live = Watched(mesh)
+        live.filter.LiveUpdateOn()
+        steps, goes_on = 0, True
+        while goes_on and steps < 100:
+            live.run()
+            mesh.GetPoints().Modified()
+            goes_on, steps = live.filter.Advance(), steps + 1
+        self.assertLess(steps, 100)
+
     def test_iteration_limit(self):
         watched = Watched(make_bad_mesh())
         watched.filter.SetMaximumIterations(1)
