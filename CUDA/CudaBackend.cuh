@@ -7,6 +7,7 @@
 #include "CudaContext.h"
 #include "CudaError.h"
 #include "CudaKernels.cuh"
+#include "DeviceMesh.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshSteps.h"
 #include "FlipError.h"
@@ -26,10 +27,11 @@
 namespace delaunayflip
 {
 
-/// The caller's mesh in device memory.
-struct DeviceMesh
+/// The caller's mesh in the device's memory.
+struct LocalDeviceMesh
 {
-  TriangleMesh Mesh; ///< Views of the arrays below.
+  TriangleMesh Mesh; ///< Views of the arrays below, or of the caller's if they are on the device.
+  bool IsOnHost = true; ///< Whether the caller's arrays are in the host's memory.
   Array<float> Floats;
   Array<double> Doubles;
   Array<std::int32_t> Triangles, Regions;
@@ -200,9 +202,23 @@ public:
     CallCuda("finish the work", [&] { return cudaStreamSynchronize(this->GetStream()); });
   }
 
+  /// Lets the work that follows wait for what is in a stream of the caller.
+  void WaitFor(const DeviceStream& stream) const
+  {
+    CudaContext& context = *this->Context;
+    CallCuda("record an event",
+      [&]
+      { return cudaEventRecord(context.CallerDone, static_cast<cudaStream_t>(stream.Handle)); });
+    CallCuda("wait for an event",
+      [&] { return cudaStreamWaitEvent(context.Stream, context.CallerDone, 0); });
+  }
+
   /// Copies the caller's arrays to the device.
-  using LocalMesh = DeviceMesh;
+  using LocalMesh = LocalDeviceMesh;
   LocalMesh Localize(const TriangleMesh& mesh) const;
+
+  /// Views the caller's arrays in this device's memory, except points without z, which get one.
+  LocalMesh Localize(const DeviceMesh& mesh) const;
 
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
@@ -234,6 +250,17 @@ public:
       [=](std::int64_t i, std::uint32_t value) { values[i] = static_cast<std::int32_t>(value); });
   }
 
+  /// Calls store(i, target) for i = 0 .. size - 1, to set values of the caller's in this device's
+  /// memory after all that is in the caller's stream. Waits for it.
+  template <typename Target, typename Store>
+  void StoreOnDevice(
+    std::int64_t size, const Target& target, const DeviceStream& stream, const Store& store) const
+  {
+    this->WaitFor(stream);
+    this->ForEach(size, [=] __device__(std::int64_t i) { store(i, target); });
+    this->Synchronize();
+  }
+
   /// Calls launch(stream), which launches a kernel, and checks it.
   template <typename LaunchKernel>
   void Launch(const LaunchKernel& launch) const
@@ -246,7 +273,22 @@ public:
       });
   }
 
+  /// The caller's points with three coordinates each: a view, or a copy in `wide`. Public because
+  /// device lambdas require it.
+  template <typename T>
+  PointArray ViewPoints(const T* values, const DevicePointArray& points, Array<T>& wide) const;
+
 private:
+  /// @throws BackendUnavailable for more points than ids can name.
+  static void RequireCountable(std::int64_t points);
+
+  /// A copy of the host's values.
+  template <typename T>
+  Array<T> Bring(const T* host, std::int64_t size) const;
+
+  /// Sets what the caller knows about edges, with copies of what is per triangle.
+  void BringLabels(const HeldEdges& held, LocalDeviceMesh& local) const;
+
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
   /// slice, while the host still converts the slice before it.
@@ -326,52 +368,100 @@ Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& ke
   return indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
 }
 
-inline DeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
+inline void CudaBackend::RequireCountable(std::int64_t points)
 {
-  DeviceMesh local;
-  StagedCopy copy(*this->Context, this->Threads);
-  const PointArray& points = mesh.Points;
-  if (points.Count > std::numeric_limits<std::int32_t>::max())
+  if (points > std::numeric_limits<std::int32_t>::max())
   {
-    throw BackendUnavailable("the mesh has " + std::to_string(points.Count) +
+    throw BackendUnavailable("the mesh has " + std::to_string(points) +
       " points; the CUDA backend numbers them with 31 bits, use 'threads'");
   }
-  const TriangleArray& triangles = mesh.Triangles;
-  const auto bring = [&](auto& array, const auto* host, std::int64_t size)
+}
+
+template <typename T>
+Array<T> CudaBackend::Bring(const T* host, std::int64_t size) const
+{
+  Array<T> values = this->MakeArray<T>(size);
+  this->Upload(host, size, values.Data());
+  return values;
+}
+
+inline void CudaBackend::BringLabels(const HeldEdges& held, LocalDeviceMesh& local) const
+{
+  const std::int64_t triangles = local.Mesh.Triangles.Count;
+  static_cast<HeldEdges&>(local.Mesh) = held;
+  if (held.Regions)
   {
-    array = this->MakeArray<std::remove_cv_t<std::remove_pointer_t<decltype(host)>>>(size);
-    copy.Upload(size, array.Data(), [host](std::int64_t i) { return host[i]; });
-  };
-  local.Mesh = mesh;
+    local.Regions = this->Bring(held.Regions, triangles);
+    local.Mesh.Regions = local.Regions.Data();
+  }
+  if (held.FrozenTriangles)
+  {
+    local.Frozen = this->Bring(held.FrozenTriangles, triangles);
+    local.Mesh.FrozenTriangles = local.Frozen.Data();
+  }
+}
+
+inline LocalDeviceMesh CudaBackend::Localize(const TriangleMesh& mesh) const
+{
+  RequireCountable(mesh.Points.Count);
+  LocalDeviceMesh local;
+  const PointArray& points = mesh.Points;
+  const TriangleArray& triangles = mesh.Triangles;
   local.Triangles = this->MakeArray<std::int32_t>(3 * triangles.Count);
-  copy.Upload(3 * triangles.Count, local.Triangles.Data(),
-    [&](std::int64_t i)
-    {
-      // An id that does not fit is invalid, and stays invalid.
-      const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
-      return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
-    });
+  StagedCopy(*this->Context, this->Threads)
+    .Upload(3 * triangles.Count, local.Triangles.Data(),
+      [&](std::int64_t i)
+      {
+        // An id that does not fit is invalid, and stays invalid.
+        const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
+        return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
+      });
   local.Mesh.Triangles = TriangleArray(local.Triangles.Data(), triangles.Count);
   if (points.Floats)
   {
-    bring(local.Floats, points.Floats, 3 * points.Count);
+    local.Floats = this->Bring(points.Floats, 3 * points.Count);
     local.Mesh.Points = PointArray(local.Floats.Data(), points.Count);
   }
   else
   {
-    bring(local.Doubles, points.Doubles, 3 * points.Count);
+    local.Doubles = this->Bring(points.Doubles, 3 * points.Count);
     local.Mesh.Points = PointArray(local.Doubles.Data(), points.Count);
   }
-  if (mesh.Regions)
+  this->BringLabels(mesh, local);
+  return local;
+}
+
+template <typename T>
+PointArray CudaBackend::ViewPoints(
+  const T* values, const DevicePointArray& points, Array<T>& wide) const
+{
+  if (points.Components == 3)
   {
-    bring(local.Regions, mesh.Regions, triangles.Count);
-    local.Mesh.Regions = local.Regions.Data();
+    return PointArray(values, points.Count);
   }
-  if (mesh.FrozenTriangles)
-  {
-    bring(local.Frozen, mesh.FrozenTriangles, triangles.Count);
-    local.Mesh.FrozenTriangles = local.Frozen.Data();
-  }
+  wide = this->MakeArray<T>(3 * points.Count);
+  T* xyz = wide.Data();
+  this->ForEach(points.Count,
+    [=] __device__(std::int64_t i)
+    {
+      xyz[3 * i] = values[2 * i];
+      xyz[3 * i + 1] = values[2 * i + 1];
+      xyz[3 * i + 2] = 0;
+    });
+  return PointArray(xyz, points.Count);
+}
+
+inline LocalDeviceMesh CudaBackend::Localize(const DeviceMesh& mesh) const
+{
+  RequireCountable(mesh.Points.Count);
+  this->WaitFor(mesh.Stream);
+  LocalDeviceMesh local;
+  local.IsOnHost = false;
+  local.Mesh.Triangles = mesh.Triangles;
+  local.Mesh.Points = mesh.Points.Floats
+    ? this->ViewPoints(mesh.Points.Floats, mesh.Points, local.Floats)
+    : this->ViewPoints(mesh.Points.Doubles, mesh.Points, local.Doubles);
+  this->BringLabels(mesh, local);
   return local;
 }
 

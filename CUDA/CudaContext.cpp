@@ -128,6 +128,17 @@ std::size_t DeviceMemory::TakePeak()
   return peak;
 }
 
+namespace
+{
+cudaEvent_t MakeEvent()
+{
+  cudaEvent_t event = nullptr;
+  CallCuda(
+    "make an event", [&] { return cudaEventCreateWithFlags(&event, cudaEventDisableTiming); });
+  return event;
+}
+}
+
 CudaContext::CudaContext(int device)
   : Device(device)
 {
@@ -161,13 +172,17 @@ void CudaContext::Open()
   {
     CallCuda("allocate page-locked memory",
       [&] { return cudaHostAlloc(&this->Staging[slot], StagingBytes, cudaHostAllocPortable); });
-    CallCuda("make an event",
-      [&] { return cudaEventCreateWithFlags(&this->StagingDone[slot], cudaEventDisableTiming); });
+    this->StagingDone[slot] = MakeEvent();
   }
+  this->CallerDone = MakeEvent();
 }
 
 void CudaContext::Close() noexcept
 {
+  if (this->CallerDone)
+  {
+    cudaEventDestroy(this->CallerDone);
+  }
   for (int slot = 0; slot < StagingSlots; ++slot)
   {
     if (this->StagingDone[slot])

@@ -58,6 +58,7 @@ public:
   std::size_t CacheBytes = 0; ///< Of the second-level cache.
   cudaStream_t Stream = nullptr;
   std::unique_ptr<DeviceMemory> Pool;
+  cudaEvent_t CallerDone = nullptr; ///< What was in a stream of the caller's.
   void* Staging[StagingSlots] = {};
   cudaEvent_t StagingDone[StagingSlots] = {};
 

@@ -3,25 +3,92 @@
 #include "BackendEngine.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
+#include "DeviceCopies.h"
 #include "FlipError.h"
 
 namespace delaunayflip
 {
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
-  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+namespace
+{
+/// Also stores into arrays in the memory of its device.
+class CudaEngine : public BackendEngine<CudaBackend>
+{
+public:
+  using BackendEngine::BackendEngine;
+
+  bool StoreTrianglesOnDevice(
+    const MutableTriangleArray& triangles, const DeviceStream& stream) const override
+  {
+    if (triangles.Count > 0 && !this->IsHere(triangles.Data()))
+    {
+      return false;
+    }
+    this->GetBackend().StoreOnDevice(triangles.Count, triangles, stream, this->GetStoreStep());
+    return true;
+  }
+
+  bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) const override
+  {
+    const std::int64_t size = this->GetInputReport().Triangles;
+    if (size > 0 && !this->IsHere(counts))
+    {
+      return false;
+    }
+    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(counts), 0, size };
+    this->GetBackend().StoreOnDevice(size, all, stream, this->GetFlipCountStep());
+    return true;
+  }
+
+private:
+  bool IsHere(const void* memory) const
+  {
+    return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
+  }
+};
+
+/// The caller's arrays, wherever they are.
+TriangleMesh View(const TriangleMesh& mesh) { return mesh; }
+TriangleMesh View(const DeviceMesh& mesh)
+{
+  TriangleMesh view;
+  static_cast<HeldEdges&>(view) = mesh;
+  view.Points.Floats = mesh.Points.Floats;
+  view.Points.Doubles = mesh.Points.Doubles;
+  view.Points.Count = mesh.Points.Count;
+  view.Triangles = mesh.Triangles;
+  return view;
+}
+
+template <typename Mesh>
+std::unique_ptr<FlipEngine> MakeEngine(
+  const Mesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   try
   {
     CudaBackend backend(options.Device, options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+    LocalDeviceMesh local = backend.Localize(mesh);
     return std::unique_ptr<FlipEngine>(
-      new BackendEngine<CudaBackend>(mesh, options, std::move(backend), progress));
+      new CudaEngine(View(mesh), std::move(local), options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {
     throw BackendUnavailable(error.what());
   }
+}
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  return MakeEngine(mesh, options, progress);
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  return MakeEngine(mesh, options, progress);
 }
 
 }

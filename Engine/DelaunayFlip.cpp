@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
+#include "CallerMesh.h"
 #include "ConstraintInsertion.h"
+#include "DeviceCopies.h"
 #include "EngineChoice.h"
 #include "FlipLoop.h"
 #include "InputChecks.h"
@@ -77,7 +79,7 @@ class FlipSession::Implementation
 {
 public:
   Implementation(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+    const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
     : Mesh(mesh),
       Options(Checked(mesh, options)),
       Observer(progress)
@@ -113,18 +115,35 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles)
   {
-    const TriangleArray& input = this->Mesh.Triangles;
-    const bool isInput = (triangles.Ids32 && triangles.Ids32 == input.Ids32) ||
-      (triangles.Ids64 && triangles.Ids64 == input.Ids64);
+    const bool isInput = this->Mesh.HasTriangles(triangles.Data());
     if (this->Engine && this->Try([&]() { this->Engine->StoreTriangles(triangles, isInput); }))
     {
       return;
     }
+    const TriangleArray& input = this->Mesh.GetOnHost().Triangles;
     for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
     {
       const int slot = static_cast<int>(id % 3);
-      triangles.Set(id / 3, slot, this->Mesh.Triangles.Get(id / 3, slot));
+      triangles.Set(id / 3, slot, input.Get(id / 3, slot));
     }
+  }
+
+  void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream)
+  {
+    RequireOnDevice(triangles);
+    bool isStored = false;
+    const auto store = [&]()
+    { isStored = this->Engine->StoreTrianglesOnDevice(triangles, stream); };
+    if (this->Engine && this->Try(store) && isStored)
+    {
+      return;
+    }
+    const auto pass = [&](auto* ids)
+    {
+      StoreThroughHost(ids, 3 * triangles.Count, stream,
+        [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
+    };
+    triangles.Ids32 ? pass(triangles.Ids32) : pass(triangles.Ids64);
   }
 
   void StoreFlipCounts(std::int32_t* counts)
@@ -136,16 +155,32 @@ public:
     };
     if (!this->Engine || !this->Try(store))
     {
-      std::fill_n(counts, this->Mesh.Triangles.Count, 0);
+      std::fill_n(counts, this->Mesh.CountTriangles(), 0);
     }
   }
 
+  void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream)
+  {
+    const std::int64_t size = this->Mesh.CountTriangles();
+    RequireOnDevice(counts, size);
+    bool isStored = false;
+    const auto store = [&]() { isStored = this->Engine->StoreFlipCountsOnDevice(counts, stream); };
+    if (this->Engine && !this->Insertion.HasFlips() && this->Try(store) && isStored)
+    {
+      return;
+    }
+    StoreThroughHost(
+      counts, size, stream, [this](std::int32_t* host) { this->StoreFlipCounts(host); });
+  }
+
 private:
-  static const FlipOptions& Checked(const TriangleMesh& mesh, const FlipOptions& options)
+  static FlipOptions Checked(const CallerMesh& mesh, const FlipOptions& options)
   {
     CheckOptions(options);
-    CheckMeshSize(mesh);
-    return options;
+    CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+    FlipOptions checked = options;
+    checked.Device = mesh.ChooseDevice(options.Device);
+    return checked;
   }
 
   /// Calls work(), and forgets all when an observer stops it before there is a mesh to show for it:
@@ -185,14 +220,12 @@ private:
   void BuildEngine(const ProgressObserver& tell)
   {
     const StopWatch watch;
-    this->Insertion = ConstraintInsertion(
-      this->Mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
+    const CallerMesh mesh = this->InsertConstraints(tell);
     const double begin = this->Insertion.HasFlips() ? InsertionShare : 0.0;
     // A copy stays in the engine, for when the CPU must start again.
     const BuildProgress progress(
       [tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
-    this->Engine.emplace(
-      this->Insertion.GetMesh(this->Mesh), this->Insertion.GetOptions(this->Options), progress);
+    this->Engine.emplace(mesh, this->Insertion.GetOptions(this->Options), progress);
     this->Report = this->Engine->GetInputReport();
     this->Insertion.AddTo(this->Report);
     progress.Reach(this->Report.GeometryUsed, BuildStep::Prepared);
@@ -205,13 +238,27 @@ private:
     this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
   }
 
+  /// @returns the mesh that iterations start from.
+  CallerMesh InsertConstraints(const ProgressObserver& tell)
+  {
+    this->Insertion = ConstraintInsertion();
+    if (!this->Mesh.HasConstraintsToInsert())
+    {
+      return this->Mesh;
+    }
+    const TriangleMesh& mesh = this->Mesh.GetOnHost();
+    this->Insertion = ConstraintInsertion(
+      mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
+    return CallerMesh(this->Insertion.GetMesh(mesh));
+  }
+
   void Forget()
   {
     this->Engine.reset();
     this->Insertion = ConstraintInsertion();
     this->Report = FlipReport();
-    this->Report.Points = this->Mesh.Points.Count;
-    this->Report.Triangles = this->Mesh.Triangles.Count;
+    this->Report.Points = this->Mesh.CountPoints();
+    this->Report.Triangles = this->Mesh.CountTriangles();
     this->IsMeasured = true;
   }
 
@@ -380,7 +427,7 @@ private:
     }
   }
 
-  TriangleMesh Mesh;
+  CallerMesh Mesh;
   FlipOptions Options;
   ConstraintInsertion Insertion; ///< The engine starts from its arrays.
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
@@ -393,7 +440,13 @@ private:
 
 FlipSession::FlipSession(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Impl(new Implementation(mesh, options, progress))
+  : Impl(new Implementation(CallerMesh(mesh), options, progress))
+{
+}
+
+FlipSession::FlipSession(
+  const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+  : Impl(new Implementation(CallerMesh(mesh), options, progress))
 {
 }
 
@@ -419,22 +472,15 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
   this->Impl->StoreFlipCounts(counts);
 }
 
-FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
-  const MutableTriangleArray& triangles, const FlipObserver& observer,
-  const ProgressObserver& progress)
+void FlipSession::StoreTriangles(
+  const MutableTriangleArray& triangles, const DeviceStream& stream) const
 {
-  FlipSession session(mesh, options, progress);
-  if (session.GetReport().StopReason != StopReasonKind::Aborted)
-  {
-    session.Advance(-1, observer, progress);
-  }
-  FlipReport report = session.GetReport(); // before anything is written: it takes memory
-  session.StoreTriangles(triangles);
-  if (session.GetReport().Fallback != report.Fallback) // a GPU may fail while its result is fetched
-  {
-    report = session.GetReport();
-  }
-  return report;
+  this->Impl->StoreTriangles(triangles, stream);
+}
+
+void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
+{
+  this->Impl->StoreFlipCounts(counts, stream);
 }
 
 }

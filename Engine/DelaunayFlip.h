@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_DELAUNAYFLIP_H
 #define DELAUNAYFLIP_DELAUNAYFLIP_H
 
+#include "DeviceMesh.h"
 #include "EngineExport.h"
 #include "FlipError.h"
 #include "FlipOptions.h"
@@ -37,6 +38,13 @@ public:
   /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
   FlipSession(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
+
+  /// The same for a mesh in the memory of a GPU, with the same result. FlipOptions::Device must be
+  /// -1 or that GPU. BackendKind::Auto uses it whatever the size of the mesh.
+  /// @throws InvalidOptions if the arrays are not in the memory of that GPU; BackendUnavailable if
+  /// CUDA cannot be used at all, with any BackendKind.
+  FlipSession(
+    const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
   ~FlipSession();
   FlipSession(FlipSession&&) noexcept;
   FlipSession& operator=(FlipSession&&) noexcept;
@@ -62,6 +70,13 @@ public:
   /// numbers.
   void StoreFlipCounts(std::int32_t* counts) const;
 
+  /// The same into arrays in the memory of a GPU, for any session: from the engine's GPU to arrays
+  /// of the same GPU without a copy through the host. An array of the mesh itself may be written
+  /// once there is nothing more to do.
+  /// @throws InvalidOptions if the array is not in the memory of a GPU; BackendUnavailable.
+  void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream) const;
+  void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const;
+
 private:
   class Implementation;
   std::unique_ptr<Implementation> Impl;
@@ -84,6 +99,11 @@ DELAUNAYFLIP_EXPORT GeometryKind FindGeometry(const TriangleMesh& mesh, const Fl
 /// mesh.Triangles views. After an exception nothing has been written.
 /// @throws the same as FlipSession's constructor.
 DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
+  const MutableTriangleArray& triangles, const FlipObserver& observer = {},
+  const ProgressObserver& progress = {});
+
+/// The same for a mesh in the memory of a GPU; `triangles` views device memory too.
+DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const DeviceMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},
   const ProgressObserver& progress = {});
 

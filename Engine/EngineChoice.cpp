@@ -14,11 +14,13 @@ namespace delaunayflip
 
 namespace
 {
-bool WantsCuda(const TriangleMesh& mesh, const FlipOptions& options)
+bool WantsCuda(const CallerMesh& mesh, const FlipOptions& options)
 {
-  return options.Backend == BackendKind::CUDA ||
-    (options.Backend == BackendKind::Auto && mesh.Triangles.Count >= SmallestMeshForCuda &&
-      HasCudaDevice());
+  if (options.Backend != BackendKind::Auto)
+  {
+    return options.Backend == BackendKind::CUDA;
+  }
+  return mesh.GetOnDevice() || (mesh.CountTriangles() >= SmallestMeshForCuda && HasCudaDevice());
 }
 
 /// Stores into a temporary array first, so that the target is unchanged after a failure.
@@ -33,15 +35,14 @@ void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 }
 
 ChosenEngine::ChosenEngine(
-  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+  const CallerMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
   : Mesh(mesh),
     Options(options),
     Progress(progress)
 {
   try
   {
-    this->Engine = WantsCuda(mesh, options) ? MakeCudaEngine(mesh, options, progress)
-                                            : MakeThreadEngine(mesh, options, progress);
+    this->Engine = this->MakeEngine();
   }
   catch (const BackendUnavailable& error)
   {
@@ -51,6 +52,17 @@ ChosenEngine::ChosenEngine(
     }
     this->FallBack(error.what());
   }
+}
+
+std::unique_ptr<FlipEngine> ChosenEngine::MakeEngine()
+{
+  if (!WantsCuda(this->Mesh, this->Options))
+  {
+    return MakeThreadEngine(this->Mesh.GetOnHost(), this->Options, this->Progress);
+  }
+  const DeviceMesh* device = this->Mesh.GetOnDevice();
+  return device ? MakeCudaEngine(*device, this->Options, this->Progress)
+                : MakeCudaEngine(this->Mesh.GetOnHost(), this->Options, this->Progress);
 }
 
 StepCounts ChosenEngine::Detect()
@@ -99,6 +111,19 @@ void ChosenEngine::StoreFlipCounts(std::int32_t* counts)
   this->Run([&](const FlipEngine& engine) { engine.StoreFlipCounts(counts); });
 }
 
+bool ChosenEngine::StoreTrianglesOnDevice(
+  const MutableTriangleArray& triangles, const DeviceStream& stream)
+{
+  return this->Run(
+    [&](const FlipEngine& engine) { return engine.StoreTrianglesOnDevice(triangles, stream); });
+}
+
+bool ChosenEngine::StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream)
+{
+  return this->Run(
+    [&](const FlipEngine& engine) { return engine.StoreFlipCountsOnDevice(counts, stream); });
+}
+
 Defect ChosenEngine::FindTurnedTriangles()
 {
   return this->Run([](const FlipEngine& engine) { return engine.FindTurnedTriangles(); });
@@ -113,7 +138,7 @@ void ChosenEngine::FallBack(const std::string& reason)
 {
   this->Fallback = reason;
   this->Engine.reset();
-  this->Engine = MakeThreadEngine(this->Mesh, this->Options, this->Progress);
+  this->Engine = MakeThreadEngine(this->Mesh.GetOnHost(), this->Options, this->Progress);
   if (this->HasDetected)
   {
     this->Progress.Reach(this->GetInputReport().GeometryUsed, BuildStep::Measured);

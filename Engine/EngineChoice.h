@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_ENGINECHOICE_H
 #define DELAUNAYFLIP_ENGINECHOICE_H
 
+#include "CallerMesh.h"
 #include "FlipEngine.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
@@ -28,7 +29,7 @@ public:
   /// failure.
   /// @throws BackendUnavailable with BackendKind::CUDA; so do all other functions.
   /// @throws RunAborted; so do all other functions.
-  ChosenEngine(const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+  ChosenEngine(const CallerMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
   /// Why the CPU replaced a GPU that exists; else empty.
   const std::string& GetFallback() const { return this->Fallback; }
@@ -45,6 +46,8 @@ public:
   // the whole result is known.
   void StoreTriangles(const MutableTriangleArray& triangles, bool atOnce);
   void StoreFlipCounts(std::int32_t* counts);
+  bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream);
+  bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream);
   Defect FindTurnedTriangles();
   void Audit();
 
@@ -78,7 +81,9 @@ private:
   void FallBack(const std::string& reason);
   void Repeat();
 
-  TriangleMesh Mesh;
+  std::unique_ptr<FlipEngine> MakeEngine();
+
+  CallerMesh Mesh;
   FlipOptions Options;
   BuildProgress Progress;
   std::unique_ptr<FlipEngine> Engine;

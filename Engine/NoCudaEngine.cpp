@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaDevice.h"
+#include "DeviceCopies.h"
 #include "FlipEngine.h"
 #include "FlipError.h"
 
@@ -10,10 +11,34 @@
 namespace delaunayflip
 {
 
+namespace
+{
+constexpr const char* NoArrays =
+  "this build has no CUDA backend, so it can use no arrays in the memory of a GPU";
+}
+
 std::unique_ptr<FlipEngine> MakeCudaEngine(
   const TriangleMesh&, const FlipOptions&, const BuildProgress&)
 {
   throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const DeviceMesh&, const FlipOptions&, const BuildProgress&)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+int FindDeviceOf(const void*) { throw BackendUnavailable(NoArrays); }
+
+void CopyFromDevice(const void*, std::int64_t, void*, const DeviceStream&)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+void CopyToDevice(const void*, std::int64_t, void*, const DeviceStream&)
+{
+  throw BackendUnavailable(NoArrays);
 }
 
 bool HasCudaDevice() { return false; }

@@ -94,6 +94,12 @@ struct BasicTriangleArray
     }
   }
 
+  /// The array, of whichever type; null if there is none.
+  const void* Data() const
+  {
+    return this->Ids32 ? static_cast<const void*>(this->Ids32) : this->Ids64;
+  }
+
   Id32* Ids32 = nullptr;
   Id64* Ids64 = nullptr;
   std::int64_t Count = 0;
@@ -102,13 +108,9 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// A triangle mesh, and what the caller knows about its edges. Any mesh is accepted: non-manifold,
-/// open, with mixed winding, with duplicate, degenerate or unused parts.
-struct TriangleMesh
+/// What the caller knows about the edges of a mesh: which of them must stay.
+struct HeldEdges
 {
-  PointArray Points;
-  TriangleArray Triangles;
-
   /// Edges that must stay: NumberOfConstraintEdges pairs of vertex ids, in any order and direction,
   /// or null.
   const std::int64_t* ConstraintEdges = nullptr;
@@ -126,6 +128,14 @@ struct TriangleMesh
 
   /// One flag per triangle, or null. The edges of triangles with a non-zero flag stay.
   const unsigned char* FrozenTriangles = nullptr;
+};
+
+/// A triangle mesh, and what the caller knows about its edges. Any mesh is accepted: non-manifold,
+/// open, with mixed winding, with duplicate, degenerate or unused parts.
+struct TriangleMesh : HeldEdges
+{
+  PointArray Points;
+  TriangleArray Triangles;
 };
 
 }

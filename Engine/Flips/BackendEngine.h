@@ -41,19 +41,31 @@ struct StoreStep
   }
 };
 
+/// Sets the number of flips of a triangle in the caller's slot.
+struct FlipCountStep
+{
+  const TriangleRecord* Triangles;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const OutputSlice& target) const
+  {
+    target.Set(this->Triangles[t].InputTriangle, this->Triangles[t].Flips / OneFlip);
+  }
+};
+
 /// Makes a loop from the caller's arrays, on a backend.
 template <typename BackendT>
 class BackendEngine : public FlipEngine
 {
 public:
-  /// Keeps no reference to `mesh`.
+  using LocalMesh = typename BackendT::LocalMesh;
+
+  /// @param local `mesh` as made by the backend. No reference to either is kept.
   /// @throws RunAborted.
-  BackendEngine(const TriangleMesh& mesh, const FlipOptions& options, BackendT backend,
-    const BuildProgress& progress)
+  BackendEngine(const TriangleMesh& mesh, LocalMesh local, const FlipOptions& options,
+    BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    LocalMesh local = this->Backend.Localize(mesh);
-    const MeshInput input{ mesh, local.View() };
+    const MeshInput input{ mesh, local.View(), local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
@@ -98,16 +110,12 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    this->Backend.StoreTriangles(
-      triangles, StoreStep{ this->Mesh.Triangles.Data(), this->Order.View() });
+    this->Backend.StoreTriangles(triangles, this->GetStoreStep());
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override
   {
-    const TriangleRecord* records = this->Mesh.Triangles.Data();
-    this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, const OutputSlice& target)
-      { target.Set(records[t].InputTriangle, records[t].Flips / OneFlip); });
+    this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts, this->GetFlipCountStep());
   }
 
   Defect FindTurnedTriangles() const override
@@ -121,9 +129,12 @@ public:
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 
-private:
-  using LocalMesh = typename BackendT::LocalMesh;
+protected:
+  const BackendT& GetBackend() const { return this->Backend; }
+  StoreStep GetStoreStep() const { return { this->Mesh.Triangles.Data(), this->Order.View() }; }
+  FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
+private:
   /// In the plane the caller's points are not needed once they are packed; on surfaces feature
   /// edges are found first.
   void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_FLIPENGINE_H
 
 #include "BuildProgress.h"
+#include "DeviceMesh.h"
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
@@ -41,6 +42,14 @@ public:
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
 
+  /// The same into device memory. @returns false, and writes nothing, if the engine's device cannot
+  /// write it.
+  virtual bool StoreTrianglesOnDevice(const MutableTriangleArray&, const DeviceStream&) const
+  {
+    return false;
+  }
+  virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
+
   /// The triangles that flips have turned over in x and y, on a surface that was a height field or
   /// nearly one; else none.
   virtual Defect FindTurnedTriangles() const = 0;
@@ -58,6 +67,10 @@ std::unique_ptr<FlipEngine> MakeThreadEngine(
 /// mesh needs the CPU. The message says why.
 std::unique_ptr<FlipEngine> MakeCudaEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+
+/// For arrays in the memory of FlipOptions::Device.
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 }
 

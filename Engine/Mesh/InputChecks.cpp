@@ -54,12 +54,12 @@ void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
   }
 }
 
-void CheckMeshSize(const TriangleMesh& mesh)
+void CheckMeshSize(std::int64_t triangles, std::int64_t points)
 {
-  if (mesh.Triangles.Count > LargestMesh || mesh.Points.Count > MostPoints)
+  if (triangles > LargestMesh || points > MostPoints)
   {
-    throw MeshTooLarge("the mesh has " + std::to_string(mesh.Triangles.Count) + " triangles and " +
-      std::to_string(mesh.Points.Count) + " points; at most " + std::to_string(LargestMesh) +
+    throw MeshTooLarge("the mesh has " + std::to_string(triangles) + " triangles and " +
+      std::to_string(points) + " points; at most " + std::to_string(LargestMesh) +
       " triangles and " + std::to_string(MostPoints) +
       " points are supported: split the mesh into parts");
   }

@@ -4,7 +4,8 @@
 #define DELAUNAYFLIP_INPUTCHECKS_H
 
 #include "FlipOptions.h"
-#include "TriangleMesh.h"
+
+#include <cstdint>
 
 namespace delaunayflip
 {
@@ -16,7 +17,7 @@ void CheckOptions(const FlipOptions& options);
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
 /// Throws MeshTooLarge if the mesh has too many triangles for 32-bit half-edges. Allocates nothing.
-void CheckMeshSize(const TriangleMesh& mesh);
+void CheckMeshSize(std::int64_t triangles, std::int64_t points);
 
 }
 

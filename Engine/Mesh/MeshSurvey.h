@@ -24,8 +24,10 @@ namespace delaunayflip
 /// An input as a backend sees it.
 struct MeshInput
 {
-  const TriangleMesh& Caller; ///< The caller's arrays, in the host's memory.
+  const TriangleMesh& Caller; ///< The caller's arrays.
   TriangleMesh Local; ///< The same in the backend's memory; constraints are the caller's.
+  bool IsOnHost = true; ///< Whether the caller's points and triangles are in the host's memory;
+                        ///< else the triangles are those of Local.
 };
 
 /// Which coordinates decide in planar geometry: U and V span the plane's projection along its

@@ -9,9 +9,11 @@
 #include "MeshSurvey.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 /// @file
 /// Makes a MeshSurvey on a backend.
@@ -19,19 +21,33 @@
 namespace delaunayflip
 {
 
-[[noreturn]] inline void ThrowInvalidId(const TriangleMesh& mesh, std::int64_t triangle)
+using PointIds = std::array<std::int64_t, 3>;
+
+/// The ids of one triangle as the caller gave them.
+template <typename Backend>
+PointIds GetPointIds(const MeshInput& input, std::int64_t triangle, const Backend& backend)
 {
-  std::int64_t id = 0;
-  for (int slot = 2; slot >= 0; --slot)
+  const TriangleArray& caller = input.Caller.Triangles;
+  if (input.IsOnHost)
   {
-    const std::int64_t candidate = mesh.Triangles.Get(triangle, slot);
-    if (candidate < 0 || candidate >= mesh.Points.Count)
-    {
-      id = candidate;
-    }
+    return { caller.Get(triangle, 0), caller.Get(triangle, 1), caller.Get(triangle, 2) };
   }
+  const auto download = [&](const auto* ids)
+  {
+    std::array<std::remove_const_t<std::remove_pointer_t<decltype(ids)>>, 3> values;
+    backend.Download(ids + 3 * triangle, 3, values.data());
+    return PointIds{ values[0], values[1], values[2] };
+  };
+  return caller.Ids32 ? download(caller.Ids32) : download(caller.Ids64);
+}
+
+[[noreturn]] inline void ThrowInvalidId(
+  const PointIds& ids, std::int64_t triangle, std::int64_t points)
+{
+  const std::int64_t id =
+    *std::find_if(ids.begin(), ids.end(), [=](std::int64_t p) { return p < 0 || p >= points; });
   throw InvalidMesh("triangle " + std::to_string(triangle) + " names point " + std::to_string(id) +
-      ", but the mesh has points 0 to " + std::to_string(mesh.Points.Count - 1) +
+      ", but the mesh has points 0 to " + std::to_string(points - 1) +
       "; repair the file or remove the triangle",
     triangle, id);
 }
@@ -158,7 +174,8 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
     { SurveyIds(mesh, uses, t, sum); });
   if (ids.Invalid.Count > 0)
   {
-    ThrowInvalidId(input.Caller, ids.Invalid.Smallest[0]);
+    const std::int64_t first = ids.Invalid.Smallest[0];
+    ThrowInvalidId(GetPointIds(input, first, backend), first, mesh.Points.Count);
   }
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }

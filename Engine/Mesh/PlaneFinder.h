@@ -17,11 +17,12 @@ namespace delaunayflip
 /// Points closer to a plane than this share of the bounding box's diagonal lie in it.
 constexpr double PlanarTolerance = 1e-6;
 
-/// A point and a value to be maximised; the first of equals wins.
+/// A point, its scaled position, and a value to be maximised; the first of equals wins.
 struct Farthest
 {
   std::int64_t Point = -1;
   double Value = -1.0;
+  Vector3 Position;
 
   DELAUNAYFLIP_HOST_DEVICE Farthest& operator+=(const Farthest& other)
   {
@@ -91,18 +92,19 @@ public:
       return true;
     }
     // This finds the first used point: the measure is the same for all.
-    const std::int64_t first = this->ArgMax(HeightAbove{});
-    if (first < 0)
+    const Farthest first = this->ArgMax(HeightAbove{});
+    if (first.Point < 0)
     {
       return true;
     }
-    const Vector3 origin = this->Get(first);
-    const Vector3 along = this->Get(this->ArgMax(DistanceFrom{ origin })) - origin;
-    const Vector3 across = this->Get(this->ArgMax(AreaWith{ origin, along })) - origin;
+    const Vector3 origin = first.Position;
+    const Vector3 along = this->ArgMax(DistanceFrom{ origin }).Position - origin;
+    const Vector3 across = this->ArgMax(AreaWith{ origin, along }).Position - origin;
     this->Normal = Cross(along, across);
     const HeightAbove height{ origin, this->Normal };
-    this->Off = this->ArgMax(height);
-    return height(this->Get(this->Off)) <= PlanarTolerance * this->Diagonal * Length(this->Normal);
+    const Farthest off = this->ArgMax(height);
+    this->Off = off.Point;
+    return height(off.Position) <= PlanarTolerance * this->Diagonal * Length(this->Normal);
   }
 
   int DominantAxis() const
@@ -121,30 +123,23 @@ public:
 
   /// The used point with the largest measure. Public because device lambdas require it.
   template <typename Measure>
-  std::int64_t ArgMax(const Measure& measure) const
+  Farthest ArgMax(const Measure& measure) const
   {
     const PointArray points = this->Input.Local.Points;
     const PointUse* uses = this->Uses;
     const PlaneScale scale = this->Scale;
-    return this->Engine
-      .template Sum<Farthest>(points.Count,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
+    return this->Engine.template Sum<Farthest>(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
+      {
+        if (uses[i] == PointUse::Used)
         {
-          if (uses[i] == PointUse::Used)
-          {
-            farthest += { i, measure(scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2))) };
-          }
-        })
-      .Point;
+          const Vector3 position = scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2));
+          farthest += { i, measure(position), position };
+        }
+      });
   }
 
 private:
-  Vector3 Get(std::int64_t i) const
-  {
-    const PointArray& points = this->Input.Caller.Points;
-    return this->Scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2));
-  }
-
   const MeshInput& Input;
   const PointUse* Uses;
   PlaneScale Scale;

@@ -188,6 +188,7 @@ public:
   struct LocalMesh
   {
     TriangleMesh Mesh;
+    static constexpr bool IsOnHost = true;
 
     const TriangleMesh& View() const { return this->Mesh; }
     void DropPoints() {}

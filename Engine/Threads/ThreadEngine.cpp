@@ -14,8 +14,10 @@ namespace delaunayflip
 std::unique_ptr<FlipEngine> MakeThreadEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return std::unique_ptr<FlipEngine>(new BackendEngine<ThreadBackend>(
-    mesh, options, ThreadBackend(options.NumberOfThreads), progress));
+  ThreadBackend backend(options.NumberOfThreads);
+  const ThreadBackend::LocalMesh local = backend.Localize(mesh);
+  return std::unique_ptr<FlipEngine>(
+    new BackendEngine<ThreadBackend>(mesh, local, options, std::move(backend), progress));
 }
 
 namespace
@@ -45,7 +47,7 @@ std::vector<std::int64_t> FindFixedEdges(
   const TriangleMesh& caller, const FlipOptions& options, const ProgressObserver& observer)
 {
   CheckOptions(options);
-  CheckMeshSize(caller);
+  CheckMeshSize(caller.Triangles.Count, caller.Points.Count);
   const ConstraintInsertion insertion(caller, options, {});
   const TriangleMesh mesh = insertion.GetMesh(caller);
   const ThreadBackend backend(options.NumberOfThreads);
@@ -64,7 +66,7 @@ std::vector<std::int64_t> FindFixedEdges(
 GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)
 {
   CheckOptions(options);
-  CheckMeshSize(mesh);
+  CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count);
   if (options.Geometry != GeometryKind::Auto)
   {
     return options.Geometry;

@@ -1,68 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CudaDevice.h"
-#include "FlipEngine.h"
+#include "FakeDevice.h"
 #include "FlipTestSupport.h"
+#include "TestDevice.h"
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 /// @file
-/// What happens where a GPU fails, without one: a program of its own, in which these functions take
-/// the place of the CUDA backend. It works on threads, and fails at one of its calls.
+/// What happens where a GPU fails, without one.
 
 namespace delaunayflip
 {
-
-namespace
-{
-/// Calls of the backend until the one that fails; 0: none does.
-int CallsToFailure = 0;
-
-class FailingEngine : public FlipEngine
-{
-public:
-  explicit FailingEngine(std::unique_ptr<FlipEngine> engine)
-    : Engine(std::move(engine))
-  {
-  }
-
-  std::unique_ptr<DeviceScope> MakeCurrent() const override
-  {
-    if (CallsToFailure > 0 && --CallsToFailure == 0)
-    {
-      throw BackendUnavailable("as the test wants it");
-    }
-    return nullptr;
-  }
-  FlipLoop& GetLoop() override { return this->Engine->GetLoop(); }
-  const FlipReport& GetInputReport() const override { return this->Engine->GetInputReport(); }
-  void StoreTriangles(const MutableTriangleArray& triangles) const override
-  {
-    this->Engine->StoreTriangles(triangles);
-  }
-  void StoreFlipCounts(std::int32_t* counts) const override
-  {
-    this->Engine->StoreFlipCounts(counts);
-  }
-  Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
-  void Audit() const override { this->Engine->Audit(); }
-
-private:
-  std::unique_ptr<FlipEngine> Engine;
-};
-}
-
-std::unique_ptr<FlipEngine> MakeCudaEngine(
-  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
-{
-  return std::unique_ptr<FlipEngine>(new FailingEngine(MakeThreadEngine(mesh, options, progress)));
-}
-
-bool HasCudaDevice() { return true; }
-void ReleaseCudaMemory() {}
-std::size_t TakePeakCudaMemory() { return 0; }
 
 namespace
 {
@@ -185,6 +133,48 @@ TEST_F(FallbackTest, AnAbortMayComeWhileResultsAreFetched)
     this->ExpectInput(session);
     EXPECT_EQ(0, CallsToFailure);
   }
+}
+
+/// The CPU takes a copy of what is on the device.
+TEST_F(FallbackTest, AnyCallMayFailForDeviceArrays)
+{
+  const FlipResult expected = this->FlipOnThreads();
+  const DeviceArrays<double, std::int32_t> device(this->Mesh.View(), 2);
+  for (int call = 1;; ++call)
+  {
+    CallsToFailure = call;
+    FlipSession session(device.View(), {});
+    session.Advance();
+    session.StoreTriangles(device.ViewResult(), {});
+    session.StoreFlipCounts(device.FlipCounts.Data(), {});
+    ASSERT_TRUE(expected.Triangles == device.Result.Get()) << call;
+    ASSERT_TRUE(expected.FlipCounts == device.FlipCounts.Get()) << call;
+    ExpectSameStatistics(expected.Report, session.GetReport());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(5, call);
+      break;
+    }
+    EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
+  }
+}
+
+TEST_F(FallbackTest, NothingPassesThroughTheHost)
+{
+  const DeviceArrays<double, std::int32_t> device(this->Mesh.View(), 3);
+  const std::int64_t copied = CopiedBytes;
+  const std::int64_t edge[] = { 100, 200 };
+  const unsigned char flag = 0;
+  DeviceMesh mesh = device.View();
+  mesh.ConstraintEdges = edge;
+  mesh.NumberOfConstraintEdges = 1;
+  mesh.ConstraintsToInsert = &flag;
+  FlipSession session(mesh, {});
+  session.Advance();
+  session.StoreTriangles(device.ViewResult(), {});
+  session.StoreFlipCounts(device.FlipCounts.Data(), {});
+  EXPECT_EQ(1, session.GetReport().UnmatchedConstraints);
+  EXPECT_EQ(copied, CopiedBytes);
 }
 
 TEST_F(FallbackTest, AForcedGpuFails)

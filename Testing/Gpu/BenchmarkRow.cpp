@@ -4,76 +4,12 @@
 
 #include "CgalDelaunay.h"
 #include "CudaDevice.h"
-#include "DelaunayFlip.h"
-#include "RowTiming.h"
+#include "EngineTiming.h"
 
 #include <algorithm>
 
 namespace delaunayflip
 {
-namespace
-{
-
-struct EngineTimes
-{
-  std::vector<double> Build, Flips, Store, Total;
-};
-
-class EngineBenchmark
-{
-public:
-  EngineBenchmark(
-    const BenchmarkMesh& mesh, const FlipOptions& options, std::vector<std::int64_t>& output)
-    : Mesh(mesh),
-      Options(options),
-      Output(output)
-  {
-    this->Options.Geometry = mesh.Geometry;
-  }
-
-  double RunOnce(bool isWarm)
-  {
-    LapWatch watch;
-    FlipSession session(this->Mesh.View(), this->Options);
-    const double build = watch.Lap();
-    session.Advance();
-    const double flips = watch.Lap();
-    session.StoreTriangles(MutableTriangleArray(this->Output.data(), this->Mesh.CountTriangles()));
-    const double store = watch.Lap();
-    if (isWarm)
-    {
-      this->Times.Build.push_back(build);
-      this->Times.Flips.push_back(flips);
-      this->Times.Store.push_back(store);
-      this->Times.Total.push_back(build + flips + store);
-    }
-    this->Report = session.GetReport();
-    return build + flips + store;
-  }
-
-  void Fill(BenchmarkRow& row) const
-  {
-    row.Program = this->Report.Backend;
-    row.Build = GetMedian(this->Times.Build);
-    row.Flips = GetMedian(this->Times.Flips);
-    row.Store = GetMedian(this->Times.Store);
-    row.Total = GetMedian(this->Times.Total);
-    row.TotalFlips = this->Report.TotalFlips;
-    row.Iterations = static_cast<std::int64_t>(this->Report.Iterations.size());
-    row.Left = this->Report.NonDelaunayAfter;
-    row.HasFailed = this->Mesh.EndsDelaunay && row.Left != 0;
-    row.Note = row.HasFailed ? "FAILED: bad edges left" : "";
-  }
-
-private:
-  const BenchmarkMesh& Mesh;
-  FlipOptions Options;
-  std::vector<std::int64_t>& Output;
-  EngineTimes Times;
-  FlipReport Report;
-};
-
-}
 
 BenchmarkRow TimeEngine(const BenchmarkMesh& mesh, const FlipOptions& options,
   const RepetitionPlan& plan, std::vector<std::int64_t>& output)
@@ -85,10 +21,20 @@ BenchmarkRow TimeEngine(const BenchmarkMesh& mesh, const FlipOptions& options,
     [&]
     {
       output.assign(mesh.Ids.size(), 0);
-      EngineBenchmark benchmark(mesh, options, output);
+      FlipOptions onMesh = options;
+      onMesh.Geometry = mesh.Geometry;
+      const MutableTriangleArray result(output.data(), mesh.CountTriangles());
+      EngineTiming timing;
       TakePeakCudaMemory(); // of earlier runs
-      row.Repetitions = Repeat(plan, [&](bool isWarm) { return benchmark.RunOnce(isWarm); });
-      benchmark.Fill(row);
+      row.Repetitions = Repeat(plan,
+        [&](bool isWarm)
+        {
+          return timing.RunOnce(
+            isWarm, [&]() { return FlipSession(mesh.View(), onMesh); },
+            [&](const FlipSession& session) { session.StoreTriangles(result); });
+        });
+      timing.Fill(row, mesh.EndsDelaunay);
+      row.Program = timing.GetReport().Backend;
       const auto peak = static_cast<double>(TakePeakCudaMemory());
       row.DeviceBytes = onGpu && peak > 0 ? peak / static_cast<double>(row.Points) : NAN;
     });

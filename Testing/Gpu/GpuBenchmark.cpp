@@ -3,6 +3,7 @@
 #include "BenchmarkArguments.h"
 #include "BenchmarkTable.h"
 #include "CudaDevice.h"
+#include "DeviceTiming.h"
 #include "FilterTiming.h"
 #include "GpuDescription.h"
 #include "Machine.h"
@@ -196,6 +197,11 @@ private:
     BenchmarkRow row = TimeEngine(mesh, options, this->Arguments.Plan, this->Output);
     this->CudaTotal = row.Total;
     this->Add(row);
+    if (mesh.CountPoints() <= LargestUntiledMesh)
+    {
+      this->Add(TimeOnDevice<std::int64_t>(mesh, 3, this->Arguments.Plan));
+      this->Add(TimeOnDevice<std::int32_t>(mesh, 2, this->Arguments.Plan));
+    }
 #if defined(DELAUNAYFLIP_HAS_VTK)
     ReleaseCudaMemory(); // the module has its own engine and memory
     this->Add(TimeFilter(mesh, this->Arguments.Plan));

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CALLERMESH_H
+#define DELAUNAYFLIP_CALLERMESH_H
+
+#include "DeviceMesh.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace delaunayflip
+{
+
+/// The caller's mesh, in the host's memory or in a device's.
+class CallerMesh
+{
+public:
+  explicit CallerMesh(const TriangleMesh& mesh);
+  explicit CallerMesh(const DeviceMesh& mesh);
+
+  std::int64_t CountPoints() const { return this->Host.Points.Count; }
+  std::int64_t CountTriangles() const { return this->Host.Triangles.Count; }
+
+  /// Whether there are constraint edges that flips may have to make.
+  bool HasConstraintsToInsert() const;
+
+  /// Whether this array in the host's memory is that of the triangles.
+  bool HasTriangles(const void* ids) const { return ids && ids == this->Host.Triangles.Data(); }
+
+  /// The arrays in device memory; null if they are in the host's.
+  const DeviceMesh* GetOnDevice() const { return this->Device ? &*this->Device : nullptr; }
+
+  /// The arrays in the host's memory. They are copied from a device in the first call; the copies
+  /// belong to this object and to those copied from it.
+  /// @throws BackendUnavailable.
+  const TriangleMesh& GetOnHost();
+
+  /// The GPU to use: `requested`, or if that is -1 the one that has the arrays.
+  /// @throws InvalidOptions if another GPU, or none, has them.
+  int ChooseDevice(int requested) const;
+
+private:
+  struct Copies;
+
+  TriangleMesh Host; ///< Without points and triangles, except counts, until they are copied.
+  std::optional<DeviceMesh> Device;
+  std::shared_ptr<Copies> Copied; ///< Null for a mesh in the host's memory.
+};
+
+/// @throws InvalidOptions if an output is not in the memory of a GPU.
+void RequireOnDevice(const MutableTriangleArray& triangles);
+void RequireOnDevice(const std::int32_t* values, std::int64_t count);
+
+}
+
+#endif

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipError.h"
+#include "FlipTestSupport.h"
+#include "TestDevice.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+/// @file
+/// Meshes in device memory: the result is that of the same mesh in the host's memory, bit for bit.
+/// Runs on a GPU, and with FakeDevice.cpp where there need not be one.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// A mesh in device memory with the types of its arrays.
+template <typename RealT, typename IdT, int ComponentsT>
+struct Layout
+{
+  using Real = RealT;
+  using Id = IdT;
+  static constexpr int Components = ComponentsT;
+};
+
+template <typename Tested>
+class DeviceLayoutTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!HasTestDevice())
+    {
+      GTEST_SKIP() << "no GPU";
+    }
+  }
+};
+
+using Layouts = testing::Types<Layout<float, std::int32_t, 3>, Layout<float, std::int64_t, 2>,
+  Layout<double, std::int32_t, 2>, Layout<double, std::int64_t, 3>>;
+TYPED_TEST_SUITE(DeviceLayoutTest, Layouts);
+
+using Arrays = DeviceArrays<double, std::int32_t>;
+
+class DeviceMeshTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!HasTestDevice())
+    {
+      GTEST_SKIP() << "no GPU";
+    }
+  }
+
+  static FlipOptions On(BackendKind backend)
+  {
+    FlipOptions options;
+    options.Backend = backend;
+    return options;
+  }
+
+  OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(2000, 71);
+};
+
+/// Flips a mesh in device memory, and expects what threads make of the same mesh.
+template <typename Real, typename Id>
+FlipReport ExpectSame(const TriangleMesh& mesh, const FlipOptions& options, int components,
+  const DeviceArrays<Real, Id>& device)
+{
+  const std::vector<Real> before = device.Points.Get();
+  FlipSession session(device.View(), options);
+  session.Advance();
+  session.StoreTriangles(device.ViewResult(), {});
+  session.StoreFlipCounts(device.FlipCounts.Data(), {});
+  FlipOptions onThreads = options;
+  onThreads.Backend = BackendKind::Threads;
+  const FlipResult expected = Flip(mesh, onThreads);
+  const std::vector<Id> ids(expected.Triangles.begin(), expected.Triangles.end());
+  EXPECT_TRUE(ids == device.Result.Get());
+  EXPECT_TRUE(expected.FlipCounts == device.FlipCounts.Get());
+  EXPECT_LT(0, expected.Report.TotalFlips);
+  ExpectSameStatistics(expected.Report, session.GetReport());
+  EXPECT_TRUE((DeviceArrays<Real, Id>::ListIds(mesh.Triangles)) == device.Triangles.Get());
+  EXPECT_TRUE(before == device.Points.Get());
+  EXPECT_EQ(before.size(), static_cast<std::size_t>(components * mesh.Points.Count));
+  return session.GetReport();
+}
+
+FlipReport ExpectSame(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  return ExpectSame(mesh, options, 3, Arrays(mesh, 3));
+}
+
+/// Large enough to be sorted, and to iterate in chunks.
+TYPED_TEST(DeviceLayoutTest, GivesTheSameBits)
+{
+  using Real = typename TypeParam::Real;
+  const OwnedMesh<double> doubles = MakeRandomBadMeshDouble(40000, 70);
+  OwnedMesh<Real> mesh;
+  mesh.Points.assign(doubles.Points.begin(), doubles.Points.end());
+  mesh.Triangles = doubles.Triangles;
+  const DeviceArrays<Real, typename TypeParam::Id> device(mesh.View(), TypeParam::Components);
+  const FlipReport report = ExpectSame(mesh.View(), {}, TypeParam::Components, device);
+  EXPECT_EQ(0u, report.Backend.rfind("CUDA: ", 0)) << report.Backend;
+  EXPECT_EQ("", report.Fallback);
+}
+
+/// The smallest allocation that ends with the mesh shows reads beyond it to compute-sanitizer.
+TYPED_TEST(DeviceLayoutTest, GivesTheSameBitsOfFewTriangles)
+{
+  using Real = typename TypeParam::Real;
+  const OwnedMesh<double> doubles = MakeRandomBadMeshDouble(300, 72);
+  OwnedMesh<Real> mesh;
+  mesh.Points.assign(doubles.Points.begin(), doubles.Points.end());
+  mesh.Triangles = doubles.Triangles;
+  const DeviceArrays<Real, typename TypeParam::Id> device(mesh.View(), TypeParam::Components);
+  ExpectSame(mesh.View(), {}, TypeParam::Components, device);
+}
+
+TEST_F(DeviceMeshTest, SurfacesAndTiltedPlanes)
+{
+  const FlipReport report = ExpectSame(MakeBadSphere(60, 30, 64).View(), {});
+  EXPECT_EQ(0u, report.Backend.rfind("CUDA: ", 0)) << report.Backend;
+  const AffineMap tilt = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0.25, 0.5, 0, 3 } } };
+  const OwnedMesh<double> plane = Transform(this->Mesh, tilt);
+  EXPECT_EQ(GeometryKind::Planar, ExpectSame(plane.View(), {}).GeometryUsed);
+}
+
+TEST_F(DeviceMeshTest, ConstraintsRegionsAndFrozenTrianglesAreTheHosts)
+{
+  std::vector<std::int32_t> regions(this->Mesh.NumberOfTriangles());
+  std::vector<unsigned char> frozen(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i)
+  {
+    regions[i] = static_cast<std::int32_t>(i / 400);
+    frozen[i] = i % 97 == 0;
+  }
+  const std::vector<std::int64_t> edges(
+    this->Mesh.Triangles.begin(), this->Mesh.Triangles.begin() + 60);
+  TriangleMesh mesh = this->Mesh.View();
+  mesh.Regions = regions.data();
+  mesh.FrozenTriangles = frozen.data();
+  mesh.ConstraintEdges = edges.data();
+  mesh.NumberOfConstraintEdges = 30;
+  const FlipReport report = ExpectSame(mesh, {});
+  EXPECT_LT(0, report.Edges.Region);
+  EXPECT_LT(0, report.Edges.Constraint);
+}
+
+TEST_F(DeviceMeshTest, ConstraintsAreInserted)
+{
+  const std::int64_t edge[] = { 100, 200 };
+  const unsigned char flag = 1;
+  TriangleMesh mesh = this->Mesh.View();
+  mesh.ConstraintEdges = edge;
+  mesh.NumberOfConstraintEdges = 1;
+  mesh.ConstraintsToInsert = &flag;
+  for (const BackendKind backend : { BackendKind::Auto, BackendKind::CUDA })
+  {
+    const FlipReport report = ExpectSame(mesh, On(backend));
+    EXPECT_EQ(1, report.InsertedConstraints);
+    EXPECT_LT(0, report.ConstraintFlips);
+  }
+}
+
+TEST_F(DeviceMeshTest, ThreadsGetACopy)
+{
+  const FlipReport report = ExpectSame(this->Mesh.View(), On(BackendKind::Threads));
+  EXPECT_EQ(0u, report.Backend.rfind("Threads: ", 0)) << report.Backend;
+  const OwnedMesh<float> floats = MakeRandomBadMesh(500, 73);
+  const DeviceArrays<float, std::int64_t> device(floats.View(), 2);
+  ExpectSame(floats.View(), On(BackendKind::Threads), 2, device);
+}
+
+TEST_F(DeviceMeshTest, TheResultMayReplaceTheInput)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  const FlipReport report = FlipToDelaunay(device.View(), {}, device.ViewInput());
+  EXPECT_TRUE(report.Converged());
+  EXPECT_TRUE(Flip(this->Mesh.View()).Triangles == device.Triangles.Get());
+}
+
+TEST_F(DeviceMeshTest, EveryStepCanBeStored)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  FlipSession onDevice(device.View(), {});
+  FlipSession onHost(this->Mesh.View(), On(BackendKind::Threads));
+  std::vector<std::int32_t> expected(this->Mesh.Triangles.size());
+  const MutableTriangleArray host(expected.data(), this->Mesh.NumberOfTriangles());
+  bool isRunning = true;
+  while (isRunning)
+  {
+    isRunning = onDevice.Advance(1);
+    EXPECT_EQ(isRunning, onHost.Advance(1));
+    onDevice.StoreTriangles(device.ViewResult(), {});
+    onHost.StoreTriangles(host);
+    ASSERT_TRUE(expected == device.Result.Get());
+    onDevice.StoreTriangles(host);
+    ASSERT_TRUE(expected == device.Result.Get());
+  }
+}
+
+TEST_F(DeviceMeshTest, AnySessionStoresOnADevice)
+{
+  const FlipResult expected = Flip(this->Mesh.View(), On(BackendKind::Threads));
+  for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+  {
+    const DeviceArrays<double, std::int64_t> device(this->Mesh.View(), 3);
+    FlipSession session(this->Mesh.View(), On(backend));
+    session.Advance();
+    session.StoreTriangles(device.ViewResult(), {});
+    session.StoreFlipCounts(device.FlipCounts.Data(), {});
+    const std::vector<std::int64_t> ids = device.Result.Get();
+    EXPECT_TRUE(std::vector<std::int32_t>(ids.begin(), ids.end()) == expected.Triangles);
+    EXPECT_TRUE(expected.FlipCounts == device.FlipCounts.Get());
+  }
+}
+
+TEST_F(DeviceMeshTest, AnAbortedBuildGivesTheInput)
+{
+  const DeviceArrays<double, std::int64_t> device(this->Mesh.View(), 2);
+  FlipSession session(device.View(), {}, [](double) { return false; });
+  EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
+  EXPECT_EQ(2000, session.GetReport().Points);
+  session.StoreTriangles(device.ViewResult(), {});
+  session.StoreFlipCounts(device.FlipCounts.Data(), {});
+  EXPECT_TRUE(device.Triangles.Get() == device.Result.Get());
+  EXPECT_EQ(std::vector<std::int32_t>(this->Mesh.NumberOfTriangles(), 0), device.FlipCounts.Get());
+  EXPECT_FALSE(session.Advance());
+  EXPECT_TRUE(session.GetReport().Converged());
+}
+
+TEST_F(DeviceMeshTest, NothingIsFlippedInAnEmptyMesh)
+{
+  DeviceMesh mesh;
+  EXPECT_TRUE(FlipToDelaunay(mesh, {}, MutableTriangleArray()).Converged());
+  const Arrays device(this->Mesh.View(), 3);
+  mesh.Points = device.View().Points;
+  EXPECT_EQ(2000, FlipToDelaunay(mesh, {}, MutableTriangleArray()).Points);
+}
+
+template <typename Id>
+void ExpectInvalid(const TriangleMesh& mesh, Id id)
+{
+  const DeviceArrays<double, Id> device(mesh, 3);
+  std::vector<Id> ids = device.Triangles.Get();
+  ids[3 * 17 + 2] = id;
+  ids[3 * 19] = -1;
+  device.Triangles.Set(ids);
+  try
+  {
+    FlipToDelaunay(device.View(), {}, device.ViewResult());
+    FAIL() << "no error";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_EQ(17, error.Cell);
+    EXPECT_EQ(id, error.Point);
+  }
+  EXPECT_EQ(77, device.Result.Get()[0]);
+}
+
+TEST_F(DeviceMeshTest, AnInvalidIdIsNamed)
+{
+  ExpectInvalid<std::int32_t>(this->Mesh.View(), 2000);
+  ExpectInvalid<std::int32_t>(this->Mesh.View(), -5);
+  ExpectInvalid<std::int64_t>(this->Mesh.View(), std::int64_t(1) << 33);
+}
+
+TEST_F(DeviceMeshTest, ArraysOfTheHostAreRefused)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  std::vector<std::int32_t> host(this->Mesh.Triangles.size());
+  DeviceMesh points = device.View();
+  points.Points = DevicePointArray(this->Mesh.Points.data(), this->Mesh.NumberOfPoints());
+  EXPECT_THROW(FlipSession(points, {}), InvalidOptions);
+  DeviceMesh triangles = device.View();
+  triangles.Triangles = this->Mesh.View().Triangles;
+  EXPECT_THROW(FlipSession(triangles, {}), InvalidOptions);
+  const FlipSession session(device.View(), {});
+  const MutableTriangleArray result(host.data(), this->Mesh.NumberOfTriangles());
+  EXPECT_THROW(session.StoreTriangles(result, {}), InvalidOptions);
+  EXPECT_THROW(session.StoreFlipCounts(host.data(), {}), InvalidOptions);
+  EXPECT_TRUE(std::vector<std::int32_t>(host.size(), 0) == host);
+}
+
+TEST_F(DeviceMeshTest, AnotherDeviceIsRefused)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  FlipOptions options;
+  options.Device = 77;
+  EXPECT_THROW(FlipSession(device.View(), options), InvalidOptions);
+  options.Device = 0;
+  ExpectSame(this->Mesh.View(), options);
+}
+
+TEST_F(DeviceMeshTest, PointsHaveTwoOrThreeComponents)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  for (const int components : { 0, 1, 4 })
+  {
+    DeviceMesh mesh = device.View();
+    mesh.Points.Components = components;
+    EXPECT_THROW(FlipSession(mesh, {}), InvalidOptions);
+  }
+}
+
+}
+}

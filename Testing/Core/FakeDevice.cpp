@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FakeDevice.h"
+
+#include "CudaDevice.h"
+#include "FlipEngine.h"
+#include "FlipError.h"
+#include "TestDevice.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace delaunayflip
+{
+
+int CallsToFailure = 0;
+std::int64_t CopiedBytes = 0;
+
+namespace
+{
+/// The begin and the end of each allocation.
+std::map<std::uintptr_t, std::uintptr_t> Allocations;
+
+/// What the thread engine reads, and what it needs to keep for that.
+struct WidePoints
+{
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+  TriangleMesh View;
+
+  explicit WidePoints(const DeviceMesh& mesh)
+  {
+    static_cast<HeldEdges&>(this->View) = mesh;
+    this->View.Triangles = mesh.Triangles;
+    if (mesh.Points.Floats)
+    {
+      this->Floats = Widen(mesh.Points.Floats, mesh.Points);
+      this->View.Points = PointArray(this->Floats.data(), mesh.Points.Count);
+    }
+    else
+    {
+      this->Doubles = Widen(mesh.Points.Doubles, mesh.Points);
+      this->View.Points = PointArray(this->Doubles.data(), mesh.Points.Count);
+    }
+  }
+
+  template <typename Real>
+  static std::vector<Real> Widen(const Real* values, const DevicePointArray& points)
+  {
+    std::vector<Real> wide;
+    for (std::int64_t i = 0; i < 3 * points.Count; ++i)
+    {
+      const std::int64_t axis = i % 3;
+      wide.push_back(axis < points.Components ? values[points.Components * (i / 3) + axis] : 0);
+    }
+    return wide;
+  }
+};
+
+class FakeEngine : public FlipEngine
+{
+public:
+  explicit FakeEngine(std::unique_ptr<FlipEngine> engine)
+    : Engine(std::move(engine)),
+      Report(this->Engine->GetInputReport())
+  {
+    this->Report.Backend = "CUDA: fake";
+  }
+
+  std::unique_ptr<DeviceScope> MakeCurrent() const override
+  {
+    if (CallsToFailure > 0 && --CallsToFailure == 0)
+    {
+      throw BackendUnavailable("as the test wants it");
+    }
+    return nullptr;
+  }
+  FlipLoop& GetLoop() override { return this->Engine->GetLoop(); }
+  const FlipReport& GetInputReport() const override { return this->Report; }
+  void StoreTriangles(const MutableTriangleArray& triangles) const override
+  {
+    this->Engine->StoreTriangles(triangles);
+  }
+  void StoreFlipCounts(std::int32_t* counts) const override
+  {
+    this->Engine->StoreFlipCounts(counts);
+  }
+  bool StoreTrianglesOnDevice(
+    const MutableTriangleArray& triangles, const DeviceStream&) const override
+  {
+    this->Engine->StoreTriangles(triangles);
+    return true;
+  }
+  bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream&) const override
+  {
+    this->Engine->StoreFlipCounts(counts);
+    return true;
+  }
+  Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
+  void Audit() const override { this->Engine->Audit(); }
+
+private:
+  std::unique_ptr<FlipEngine> Engine;
+  FlipReport Report;
+};
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  return std::unique_ptr<FlipEngine>(new FakeEngine(MakeThreadEngine(mesh, options, progress)));
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  return MakeCudaEngine(WidePoints(mesh).View, options, progress);
+}
+
+bool HasCudaDevice() { return true; }
+void ReleaseCudaMemory() {}
+std::size_t TakePeakCudaMemory() { return 0; }
+
+int FindDeviceOf(const void* memory)
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  const auto after = Allocations.upper_bound(address);
+  return after != Allocations.begin() && address < std::prev(after)->second ? 0 : -1;
+}
+
+void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream&)
+{
+  std::memcpy(host, device, static_cast<std::size_t>(bytes));
+  CopiedBytes += bytes;
+}
+
+void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream&)
+{
+  std::memcpy(device, host, static_cast<std::size_t>(bytes));
+  CopiedBytes += bytes;
+}
+
+bool HasTestDevice() { return true; }
+
+void* AllocateOnTestDevice(std::size_t bytes)
+{
+  void* memory = std::malloc(bytes);
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  Allocations[address] = address + bytes;
+  return memory;
+}
+
+void FreeOnTestDevice(void* memory)
+{
+  Allocations.erase(reinterpret_cast<std::uintptr_t>(memory));
+  std::free(memory);
+}
+
+}
