@@ -36,15 +36,44 @@ Enumeration ToEnumeration(std::int32_t value, Enumeration last, const char* rule
   return static_cast<Enumeration>(value);
 }
 
-PointArray ToPoints(const delaunayflip_mesh& c)
+void RequirePoints(const delaunayflip_mesh& c)
 {
   Require(c.number_of_points >= 0, "number_of_points is negative");
   Require(c.points || c.number_of_points == 0, "points is null");
   Require(c.point_type == DELAUNAYFLIP_FLOAT32 || c.point_type == DELAUNAYFLIP_FLOAT64,
     "point_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64");
+}
+
+PointArray ToPoints(const delaunayflip_mesh& c)
+{
+  RequirePoints(c);
+  Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
   return c.point_type == DELAUNAYFLIP_FLOAT32
     ? PointArray(static_cast<const float*>(c.points), c.number_of_points)
     : PointArray(static_cast<const double*>(c.points), c.number_of_points);
+}
+
+DevicePointArray ToDevicePoints(const delaunayflip_mesh& c)
+{
+  RequirePoints(c);
+  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
+  return c.point_type == DELAUNAYFLIP_FLOAT32
+    ? DevicePointArray(static_cast<const float*>(c.points), c.number_of_points, c.point_components)
+    : DevicePointArray(
+        static_cast<const double*>(c.points), c.number_of_points, c.point_components);
+}
+
+HeldEdges ToHeldEdges(const delaunayflip_mesh& c)
+{
+  Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
+  Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
+  HeldEdges held;
+  held.ConstraintEdges = c.constraint_edges;
+  held.NumberOfConstraintEdges = c.number_of_constraint_edges;
+  held.ConstraintsToInsert = c.constraints_to_insert;
+  held.Regions = c.regions;
+  held.FrozenTriangles = c.frozen_triangles;
+  return held;
 }
 
 /// Views integers of the caller as `Array`, whose 32-bit ids are Id32 and 64-bit ids are Id64.
@@ -57,6 +86,12 @@ Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
     "id_type is neither DELAUNAYFLIP_INT32 nor DELAUNAYFLIP_INT64");
   return type == DELAUNAYFLIP_INT32 ? Array(static_cast<Id32*>(ids), triangles)
                                     : Array(static_cast<Id64*>(ids), triangles);
+}
+
+TriangleArray ToTriangles(const delaunayflip_mesh& c)
+{
+  return ToIds<TriangleArray, const std::int32_t, const std::int64_t>(
+    c.triangles, c.number_of_triangles, c.id_type);
 }
 
 }
@@ -78,19 +113,30 @@ delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
   return c;
 }
 
+bool IsOnDevice(const delaunayflip_mesh& c)
+{
+  Require(c.memory == DELAUNAYFLIP_HOST || c.memory == DELAUNAYFLIP_CUDA,
+    "memory is neither DELAUNAYFLIP_HOST nor DELAUNAYFLIP_CUDA");
+  return c.memory == DELAUNAYFLIP_CUDA;
+}
+
 TriangleMesh ToMesh(const delaunayflip_mesh& c)
 {
+  Require(!IsOnDevice(c), "this function needs a mesh in the host's memory");
   TriangleMesh mesh;
+  static_cast<HeldEdges&>(mesh) = ToHeldEdges(c);
   mesh.Points = ToPoints(c);
-  mesh.Triangles = ToIds<TriangleArray, const std::int32_t, const std::int64_t>(
-    c.triangles, c.number_of_triangles, c.id_type);
-  Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
-  Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
-  mesh.ConstraintEdges = c.constraint_edges;
-  mesh.NumberOfConstraintEdges = c.number_of_constraint_edges;
-  mesh.ConstraintsToInsert = c.constraints_to_insert;
-  mesh.Regions = c.regions;
-  mesh.FrozenTriangles = c.frozen_triangles;
+  mesh.Triangles = ToTriangles(c);
+  return mesh;
+}
+
+DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
+{
+  DeviceMesh mesh;
+  static_cast<HeldEdges&>(mesh) = ToHeldEdges(c);
+  mesh.Points = ToDevicePoints(c);
+  mesh.Triangles = ToTriangles(c);
+  mesh.Stream.Handle = c.stream;
   return mesh;
 }
 

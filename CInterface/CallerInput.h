@@ -31,8 +31,14 @@ delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given);
 /// The polygons with all members that this library knows.
 delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
 
-/// Views of the arrays of a complete mesh.
+/// Views of the arrays of a complete mesh in the host's memory.
 TriangleMesh ToMesh(const delaunayflip_mesh& mesh);
+
+/// Views of the arrays of a complete mesh in device memory.
+DeviceMesh ToDeviceMesh(const delaunayflip_mesh& mesh);
+
+/// Whether a complete mesh is in device memory.
+bool IsOnDevice(const delaunayflip_mesh& mesh);
 
 /// A view of an array for three ids per triangle, of a delaunayflip_type.
 MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type);

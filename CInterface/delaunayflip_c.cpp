@@ -44,13 +44,22 @@ void RequirePointIds(const TriangleMesh& mesh)
   }
 }
 
+FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
+  const MutableTriangleArray& triangles, const Observers& observers)
+{
+  return IsOnDevice(c)
+    ? FlipToDelaunay(ToDeviceMesh(c), options, triangles, observers.Iteration, observers.Progress)
+    : FlipToDelaunay(ToMesh(c), options, triangles, observers.Iteration, observers.Progress);
+}
+
 }
 
 struct delaunayflip_session
 {
   delaunayflip_session(
     const delaunayflip_mesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(ToMesh(mesh), options, progress),
+    : Session(IsOnDevice(mesh) ? FlipSession(ToDeviceMesh(mesh), options, progress)
+                               : FlipSession(ToMesh(mesh), options, progress)),
       NumberOfTriangles(mesh.number_of_triangles),
       TriangleNumbers(mesh.triangle_numbers)
   {
@@ -80,6 +89,7 @@ extern "C"
     *mesh = MakeEmpty<delaunayflip_mesh>();
     mesh->point_type = DELAUNAYFLIP_FLOAT64;
     mesh->id_type = DELAUNAYFLIP_INT64;
+    mesh->point_components = 3;
   }
 
   void delaunayflip_options_init(delaunayflip_options* options)
@@ -199,6 +209,30 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_store_triangles_on_device(
+    delaunayflip_session* session, void* triangles, std::int32_t id_type, void* stream)
+  {
+    return Try(
+      [=]()
+      {
+        Require(session, "session is null");
+        session->Session.StoreTriangles(
+          ToOutput(triangles, session->NumberOfTriangles, id_type), DeviceStream{ stream });
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_flip_counts_on_device(
+    delaunayflip_session* session, std::int32_t* counts, void* stream)
+  {
+    return Try(
+      [=]()
+      {
+        Require(session, "session is null");
+        Require(counts || session->NumberOfTriangles == 0, "counts is null");
+        session->Session.StoreFlipCounts(counts, DeviceStream{ stream });
+      });
+  }
+
   void delaunayflip_close(delaunayflip_session* session) { delete session; }
 
   delaunayflip_status delaunayflip_flip(const delaunayflip_mesh* mesh,
@@ -213,10 +247,8 @@ extern "C"
         {
           RequireReport(report);
         }
-        const Observers observers(callbacks);
-        const FlipReport result = FlipToDelaunay(ToMesh(c), ToOptions(options),
-          ToOutput(triangles, c.number_of_triangles, c.id_type), observers.Iteration,
-          observers.Progress);
+        const FlipReport result = Flip(c, ToOptions(options),
+          ToOutput(triangles, c.number_of_triangles, c.id_type), Observers(callbacks));
         if (report)
         {
           thread_local std::unique_ptr<KeptReport> kept;

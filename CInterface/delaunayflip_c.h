@@ -18,6 +18,9 @@
  * - A struct begins with its size in bytes. Fill structs with their `_init` function before you set
  *   members; so a program that was compiled with an older header works with a newer library.
  *   Newer headers only add members at the end. Enumerations are passed as int32_t.
+ * - Points, triangles and results may be in the memory of a GPU; everything else is in the host's.
+ *   Work of the caller in the stream that it names is done before such arrays are read or written.
+ *   When a function returns, its results are there.
  * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
  *   reads the arrays of its mesh as long as it exists.
  * - Different sessions may be used by different threads at the same time; one session by one thread
@@ -78,6 +81,12 @@ extern "C"
     DELAUNAYFLIP_INT64 = 3
   } delaunayflip_type;
 
+  typedef enum
+  {
+    DELAUNAYFLIP_HOST = 0,
+    DELAUNAYFLIP_CUDA = 1 /**< The memory of a GPU, as CUDA allocates it. */
+  } delaunayflip_memory;
+
   /** A triangle mesh. Any mesh is accepted: non-manifold, open, of mixed winding, with duplicate,
    * degenerate or unused parts. */
   typedef struct
@@ -99,6 +108,9 @@ extern "C"
                                                 triangle's edges stay. */
     const int64_t* triangle_numbers; /**< A number per triangle by which a report names it, or null:
                                         its index. E.g. the cell from which it was split. */
+    int32_t memory; /**< A delaunayflip_memory: where points and triangles are. [HOST] */
+    int32_t point_components; /**< 3, or with DELAUNAYFLIP_CUDA also 2: x and y; z is 0. [3] */
+    void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
   } delaunayflip_mesh;
 
   typedef enum
@@ -226,6 +238,8 @@ extern "C"
   typedef struct delaunayflip_session delaunayflip_session;
 
   /** Builds the edges of `mesh` and tests them all. `options` and `callbacks` may be null. A
+   * A mesh in DELAUNAYFLIP_CUDA is flipped on its GPU, unless the options want threads or the GPU
+   * fails; then it is copied to the host, as it also is for constraints_to_insert. A
    * progress callback that returns 0 gives a session that holds the input's triangles, aborted. On
    * success `*session` must be given to delaunayflip_close. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
@@ -261,12 +275,19 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, int32_t* counts);
 
+  /** The same into arrays in the memory of a GPU. Any session can do that; if it runs on this GPU,
+   * nothing passes through the host. `stream` is a cudaStream_t; null is the default stream. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles_on_device(
+    delaunayflip_session* session, void* triangles, int32_t id_type, void* stream);
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts_on_device(
+    delaunayflip_session* session, int32_t* counts, void* stream);
+
   /** Ends a session; null is allowed. */
   DELAUNAYFLIP_API void delaunayflip_close(delaunayflip_session* session);
 
   /** The whole run in one call: flips `mesh` and writes the result to `triangles` (integers of the
-   * mesh's id_type), which may be the very array of the mesh. `report` may be null; its strings are
-   * valid until this thread's next call of this function. */
+   * mesh's id_type, in the mesh's memory), which may be the very array of the mesh. `report` may be
+   * null; its strings are valid until this thread's next call of this function. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_flip(const delaunayflip_mesh* mesh,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks, void* triangles,
     delaunayflip_report* report);

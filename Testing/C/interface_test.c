@@ -479,6 +479,38 @@ static void TestBackendUnavailable(void)
   CHECK(strlen(delaunayflip_error_message()) > 0);
 }
 
+/* device_test.c has what needs a GPU. */
+static void TestDeviceMemory(void)
+{
+  delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6] = { 7, 7, 7, 7, 7, 7 };
+  delaunayflip_session* session;
+  delaunayflip_status status;
+  CHECK(mesh.memory == DELAUNAYFLIP_HOST && mesh.point_components == 3 && mesh.stream == NULL);
+  mesh.point_components = 2;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  mesh.memory = 2;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  mesh.memory = DELAUNAYFLIP_CUDA;
+  mesh.point_components = 4;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  /* These arrays are not in the memory of a GPU. */
+  mesh.point_components = 3;
+  status = delaunayflip_has_cuda_device() ? DELAUNAYFLIP_INVALID_OPTIONS
+                                          : DELAUNAYFLIP_BACKEND_UNAVAILABLE;
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == status);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == status);
+  CHECK(delaunayflip_triangle_angles(&mesh, 0, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  mesh.memory = DELAUNAYFLIP_HOST;
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(
+    delaunayflip_store_triangles_on_device(session, triangles, DELAUNAYFLIP_INT64, NULL) == status);
+  CHECK(delaunayflip_store_flip_counts_on_device(session, (int32_t*)triangles, NULL) == status);
+  CHECK(delaunayflip_store_flip_counts_on_device(session, NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(triangles[0] == 7 && triangles[5] == 7);
+  delaunayflip_close(session);
+}
+
 static void TestThreads(void)
 {
   Lattice lattice = MakeLattice(100);
@@ -592,9 +624,9 @@ int main(int argc, char** argv)
     { "null_pointers", TestNullPointers }, { "unset_sizes", TestUnsetSizes },
     { "old_program", TestOldProgram }, { "newer_program", TestNewerProgram },
     { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
-    { "backend_unavailable", TestBackendUnavailable }, { "threads", TestThreads },
-    { "polygons", TestPolygons }, { "polygons_stopped", TestPolygonsCanBeStopped },
-    { "triangle_numbers", TestTriangleNumbers } };
+    { "backend_unavailable", TestBackendUnavailable }, { "device_memory", TestDeviceMemory },
+    { "threads", TestThreads }, { "polygons", TestPolygons },
+    { "polygons_stopped", TestPolygonsCanBeStopped }, { "triangle_numbers", TestTriangleNumbers } };
   size_t i;
   for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)
   {

@@ -1,0 +1,120 @@
+/* SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+ * SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "delaunayflip_c.h"
+
+#include <cuda_runtime_api.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/** @file
+ * Arrays in the memory of a GPU, from C. The exit status is 77 if there is none.
+ */
+
+#define CHECK(condition)                                                                         \
+  do                                                                                             \
+  {                                                                                              \
+    if (!(condition))                                                                            \
+    {                                                                                            \
+      fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, delaunayflip_error_message()); \
+      exit(1);                                                                                   \
+    }                                                                                            \
+  } while (0)
+
+enum
+{
+  Skipped = 77
+};
+
+/* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
+static const float Points[] = { 0, 0, 2, -1, 4, 0, 2, 1 };
+static const int32_t LongDiagonal[] = { 0, 1, 2, 0, 2, 3 };
+
+static void* Upload(const void* values, size_t bytes)
+{
+  void* memory = NULL;
+  CHECK(cudaMalloc(&memory, bytes) == cudaSuccess);
+  CHECK(cudaMemcpy(memory, values, bytes, cudaMemcpyHostToDevice) == cudaSuccess);
+  return memory;
+}
+
+static int HasShortDiagonal(const int32_t* onDevice)
+{
+  int32_t triangles[6];
+  int ends = 0;
+  int i;
+  CHECK(cudaMemcpy(triangles, onDevice, sizeof(triangles), cudaMemcpyDeviceToHost) == cudaSuccess);
+  for (i = 0; i < 6; ++i)
+  {
+    ends += triangles[i] == 1 || triangles[i] == 3;
+  }
+  return ends == 4;
+}
+
+static delaunayflip_mesh MakeMesh(void)
+{
+  delaunayflip_mesh mesh;
+  delaunayflip_mesh_init(&mesh);
+  mesh.memory = DELAUNAYFLIP_CUDA;
+  mesh.points = Upload(Points, sizeof(Points));
+  mesh.number_of_points = 4;
+  mesh.point_type = DELAUNAYFLIP_FLOAT32;
+  mesh.point_components = 2;
+  mesh.triangles = Upload(LongDiagonal, sizeof(LongDiagonal));
+  mesh.number_of_triangles = 2;
+  mesh.id_type = DELAUNAYFLIP_INT32;
+  return mesh;
+}
+
+static void TestFlip(const delaunayflip_mesh* mesh)
+{
+  int32_t* result = Upload(LongDiagonal, sizeof(LongDiagonal));
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  CHECK(delaunayflip_flip(mesh, NULL, NULL, result, &report) == DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(result));
+  CHECK(strncmp(report.backend, "CUDA: ", 6) == 0);
+  CHECK(!HasShortDiagonal(mesh->triangles));
+  CHECK(cudaFree(result) == cudaSuccess);
+}
+
+static void TestSession(const delaunayflip_mesh* mesh)
+{
+  int32_t* result = Upload(LongDiagonal, sizeof(LongDiagonal));
+  int32_t* counts = Upload(LongDiagonal, 2 * sizeof(int32_t));
+  int32_t flips[2];
+  delaunayflip_session* session;
+  CHECK(delaunayflip_open(mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_triangles_on_device(session, result, DELAUNAYFLIP_INT32, NULL) ==
+    DELAUNAYFLIP_OK);
+  CHECK(!HasShortDiagonal(result));
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_triangles_on_device(session, result, DELAUNAYFLIP_INT32, NULL) ==
+    DELAUNAYFLIP_OK);
+  CHECK(HasShortDiagonal(result));
+  CHECK(delaunayflip_store_flip_counts_on_device(session, counts, NULL) == DELAUNAYFLIP_OK);
+  CHECK(cudaMemcpy(flips, counts, sizeof(flips), cudaMemcpyDeviceToHost) == cudaSuccess);
+  CHECK(flips[0] == 1 && flips[1] == 1);
+  delaunayflip_close(session);
+  CHECK(cudaFree(result) == cudaSuccess);
+  CHECK(cudaFree(counts) == cudaSuccess);
+}
+
+int main(void)
+{
+  delaunayflip_mesh mesh;
+  if (!delaunayflip_has_cuda_device())
+  {
+    printf("skipped: no GPU\n");
+    return Skipped;
+  }
+  mesh = MakeMesh();
+  TestFlip(&mesh);
+  TestSession(&mesh);
+  CHECK(cudaFree((void*)mesh.points) == cudaSuccess);
+  CHECK(cudaFree((void*)mesh.triangles) == cudaSuccess);
+  printf("passed\n");
+  return 0;
+}
