@@ -9,6 +9,8 @@ With NumPy arrays:
     result = delaunayflip.flip(points, triangles)
     result.triangles  # better triangles of the same points
 
+Arrays of CuPy, PyTorch or Numba on a GPU are flipped where they are.
+
 As a filter of VTK:
 
     from delaunayflip import vtkDelaunayFlip

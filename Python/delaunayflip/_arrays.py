@@ -53,15 +53,9 @@ class Mesh:
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
                  insert_constraints=True, triangle_numbers=None):
-        self.points = as_points(points)
-        self.triangles = as_ids("triangles", triangles, 3)
         self.struct = _library.Mesh()
         _library.library().delaunayflip_mesh_init(self.struct)
-        self._set("points", self.points)
-        self._set("triangles", self.triangles)
-        is_single = self.points.dtype == numpy.float32
-        self.struct.point_type = _library.FLOAT32 if is_single else _library.FLOAT64
-        self.struct.id_type = id_type(self.triangles)
+        self._take(points, triangles)
         if constraints is not None:
             self.constraints = as_ids("constraints", constraints, 2).astype(numpy.int64, copy=False)
             self.struct.constraint_edges = address(self.constraints)
@@ -83,6 +77,23 @@ class Mesh:
             self.numbers = _per_triangle(
                 "triangle_numbers", triangle_numbers, numpy.int64, len(self.triangles))
             self.struct.triangle_numbers = address(self.numbers)
+
+    def make_triangles(self):
+        """Room for the triangles."""
+        return numpy.empty_like(self.triangles)
+
+    def make_flip_counts(self):
+        """Room for a number per triangle."""
+        return numpy.empty(len(self.triangles), dtype=numpy.int32)
+
+    def _take(self, points, triangles):
+        self.points = as_points(points)
+        self.triangles = as_ids("triangles", triangles, 3)
+        self._set("points", self.points)
+        self._set("triangles", self.triangles)
+        is_single = self.points.dtype == numpy.float32
+        self.struct.point_type = _library.FLOAT32 if is_single else _library.FLOAT64
+        self.struct.id_type = id_type(self.triangles)
 
     def _set(self, name, array):
         setattr(self.struct, name, address(array))

@@ -53,7 +53,7 @@ def flip(
         maximum_iterations: -1: until done; 0: only test.
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
-        device: CUDA's number of the GPU; -1: the current one.
+        device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
         track_quality: Compute the smallest angle after every iteration.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.

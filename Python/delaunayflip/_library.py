@@ -12,6 +12,7 @@ INTERFACE_VERSION = 1
 LIBRARY = f"libdelaunayflip.so.{INTERFACE_VERSION}"
 
 FLOAT32, FLOAT64, INT32, INT64 = range(4)
+HOST, CUDA = range(2)
 
 # In the order of the enumerations of the header.
 GEOMETRIES = ("auto", "planar", "planar-xy", "surface")
@@ -36,6 +37,9 @@ class Mesh(ctypes.Structure):
         ("regions", c_void_p),
         ("frozen_triangles", c_void_p),
         ("triangle_numbers", c_void_p),
+        ("memory", c_int32),
+        ("point_components", c_int32),
+        ("stream", c_void_p),
     ]
 
 
@@ -164,6 +168,8 @@ def library():
         ("get_iterations", c_int32, [c_void_p, c_int64, c_int64, c_void_p, c_int64]),
         ("store_triangles", c_int32, [c_void_p, c_void_p, c_int32]),
         ("store_flip_counts", c_int32, [c_void_p, c_void_p]),
+        ("store_triangles_on_device", c_int32, [c_void_p, c_void_p, c_int32, c_void_p]),
+        ("store_flip_counts_on_device", c_int32, [c_void_p, c_void_p, c_void_p]),
         ("close", None, [c_void_p]),
         ("triangle_angles", c_int32, [pointer(Mesh), c_int32, c_void_p]),
         ("polygons_init", None, [pointer(Polygons)]),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 
-from . import _arrays, _library, _report
+from . import _arrays, _device, _library, _report
 from ._observers import Observers
 from ._options import make_options
 from ._types import Array, Numbers, OnIteration, Options, Progress
@@ -28,6 +28,11 @@ class Session:
     manager; leaving it frees its memory. With `triangle_numbers`, (m,) integers, reports name the
     triangles by these.
 
+    Points and triangles may be arrays of CuPy, PyTorch or Numba in the memory of a GPU: float32 or
+    float64, and int32 or int64. They are flipped there, after what is in the library's current
+    stream, and results are arrays of the same library. Only to insert constraints, for
+    `backend="threads"`, or if the GPU fails, the mesh is copied to the host.
+
     Example:
         >>> import numpy
         >>> points = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
@@ -48,8 +53,8 @@ class Session:
         progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
         self._handle = ctypes.c_void_p()
-        self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
-                                 insert_constraints, triangle_numbers)
+        self._mesh = _device.make_mesh(points, triangles, constraints, regions, frozen,
+                                       insert_constraints, triangle_numbers)
         chosen = make_options(**options)
         observers = Observers(progress)
         with observers.raising() as callbacks:
@@ -111,23 +116,20 @@ class Session:
     @property
     def triangles(self) -> Array:
         """The triangles so far in their input order, a new array of the input's integers, (m, 3)."""
-        triangles = numpy.empty_like(self._mesh.triangles)
+        triangles = self._mesh.make_triangles()
         self.store_triangles(triangles)
         return triangles
 
     def store_triangles(self, target: Array) -> None:
-        """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3)."""
-        fits = target.shape == self._mesh.triangles.shape and target.flags.c_contiguous
-        if not fits or target.dtype not in (numpy.int32, numpy.int64):
-            raise ValueError("the target must be a contiguous (m, 3) array of int32 or int64")
-        _library.call("store_triangles", self._open(), _arrays.address(target),
-                      _arrays.id_type(target))
+        """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3), in the
+        host's memory or on a GPU."""
+        _device.store_triangles(self._open(), target, self._mesh.struct.number_of_triangles)
 
     @property
     def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
-        counts = numpy.empty(len(self._mesh.triangles), dtype=numpy.int32)
-        _library.call("store_flip_counts", self._open(), _arrays.address(counts))
+        counts = self._mesh.make_flip_counts()
+        _device.store_flip_counts(self._open(), counts)
         return counts
 
     def _open(self):

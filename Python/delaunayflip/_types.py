@@ -6,7 +6,16 @@ import typing
 import numpy
 import numpy.typing
 
-Numbers = numpy.typing.ArrayLike
+
+
+class OnDevice(typing.Protocol):
+    """An array in the memory of a GPU, of CuPy, PyTorch or Numba."""
+
+    @property
+    def __cuda_array_interface__(self) -> typing.Any: ...
+
+
+Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice]
 Array = numpy.typing.NDArray[typing.Any]
 Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]

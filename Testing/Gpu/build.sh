@@ -29,7 +29,8 @@ if ! cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; t
   cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=OFF
 fi
 cmake --build "$build" --parallel "${JOBS:-2}" \
-  --target DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
+  --target DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark \
+    DelaunayFlipC delaunayflip-c-device-test
 
 # Usage: find_python - a Python that knows VTK and numpy; the system's may not be the first.
 find_python()

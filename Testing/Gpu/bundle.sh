@@ -14,7 +14,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=$root/build-gpu
 output=${1:-delaunay-flip-gpu.tar.gz}
-programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark)
+programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
+  delaunayflip-c-device-test)
 
 describe()
 {
@@ -34,7 +35,9 @@ fill()
   "$root/Utilities/shared_libraries.sh" "${programs[@]/#/$build/bin/}" | while read -r library; do
     cp -L "$library" "$folder/libs/"
   done
-  cp "$here/run.sh" "$here/summarize.py" "$root/LICENSE" "$folder/"
+  cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" "$root/LICENSE" "$folder/"
+  cp -r "$root/Python/delaunayflip" "$folder/"
+  cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
   if [ -d "$build/meshes" ]; then
     cp -r "$build/meshes" "$folder/"
   fi

@@ -54,12 +54,14 @@ done
 
 if [ -x "$here/DelaunayFlipGpuTests" ]; then
   programs=$here
+  package=$here
   meshes=$here/meshes
   export LD_LIBRARY_PATH=$here/libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 else
   build=$(cd "$here/../.." && pwd)/build-gpu
   "$here/build.sh" "$build"
   programs=$build/bin
+  package=$(dirname "$(find "$build" -path '*/dist-packages/delaunayflip' -print -quit)")
   meshes=$build/meshes
 fi
 if [ -d "$meshes" ]; then
@@ -71,7 +73,7 @@ output=$(cd "$output" && pwd)
 (
   cd "$output"
   rm -f results.txt results.json machine.json steps.tsv benchmarks.* gpu-tests.* sanitizer-*.log \
-    engine-tests-on-cuda.*
+    engine-tests-on-cuda.* program-*.log
 )
 "$programs/delaunay-flip-gpu-benchmark" --describe >"$output/machine.json"
 has_gpu=yes
@@ -99,6 +101,22 @@ run_step()
   fi
 }
 
+# Usage: run_program NAME COMMAND... - the same for a program without a report, which ends with
+# status 77 where it cannot run; the last line that it prints says why.
+run_program()
+{
+  local name=program-$1 status=0
+  shift
+  printf '\n== %s\n' "$name"
+  "$@" >"$output/$name.log" 2>&1 || status=$?
+  tail -n 40 "$output/$name.log"
+  if [ "$status" -eq 77 ]; then
+    note "$name" skipped "$(tail -n 1 "$output/$name.log")"
+  else
+    note "$name" "$status"
+  fi
+}
+
 run_tests()
 {
   local pattern=${filter:-*}
@@ -107,6 +125,11 @@ run_tests()
   run_step engine-tests-on-cuda env DELAUNAYFLIP_TEST_BACKEND=cuda \
     "$programs/DelaunayFlipCoreTests" "--gtest_filter=$pattern" \
     --gtest_brief=1 "--gtest_output=json:$output/engine-tests-on-cuda.json"
+  if [ -z "$filter" ]; then
+    run_program c-device-arrays "$programs/delaunayflip-c-device-test"
+    run_program python-device-arrays env "PYTHONPATH=$package${PYTHONPATH:+:$PYTHONPATH}" \
+      python3 "$here/test_device_arrays.py"
+  fi
 }
 
 find_sanitizer()
@@ -133,7 +156,7 @@ run_sanitizer()
       note "sanitizer-$tool" skipped "no compute-sanitizer"
     else
       run_step "sanitizer-$tool" timeout 300 "$sanitizer" --tool "$tool" --error-exitcode 86 \
-        "$programs/DelaunayFlipGpuTests" --gtest_brief=1 '--gtest_filter=SmallMeshTest.*'
+        "$programs/DelaunayFlipGpuTests" --gtest_brief=1 '--gtest_filter=SmallMeshTest.*:DeviceMesh*:DeviceLayoutTest*FewTriangles'
     fi
   done
 }

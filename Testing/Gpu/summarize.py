@@ -60,7 +60,7 @@ def count_tests(report, status):
     return counts
 
 
-def judge_sanitizer(status, reason):
+def judge(status, reason):
     if status == "skipped":
         return f"skipped: {reason}"
     if status == "0":
@@ -79,6 +79,7 @@ def collect(folder):
         },
         "gpu": machine.get("gpu"),
         "tests": {},
+        "programs": {},
         "sanitizer": {},
         "benchmarks": None,
     }
@@ -89,7 +90,9 @@ def collect(folder):
             rows = (load(folder, "benchmarks.json") or {}).get("rows", [])
             results["benchmarks"] = {"status": status, "rows": rows}
         elif name.startswith("sanitizer-"):
-            results["sanitizer"][name.split("-", 1)[1]] = judge_sanitizer(status, reason)
+            results["sanitizer"][name.split("-", 1)[1]] = judge(status, reason)
+        elif name.startswith("program-"):
+            results["programs"][name.split("-", 1)[1]] = judge(status, reason)
         else:
             results["tests"][name] = count_tests(load(folder, f"{name}.json"), status)
     return results
@@ -115,6 +118,8 @@ def describe_checks(results):
             f"{counts['skipped']} skipped"
         )
         yield from (f"  FAILED {test}" for test in counts["failed_tests"])
+    for program, verdict in results["programs"].items():
+        yield f"{program}: {verdict}"
     for tool, verdict in results["sanitizer"].items():
         yield f"compute-sanitizer {tool}: {verdict}"
 
@@ -123,7 +128,11 @@ def has_failed(results):
     benchmarks = results["benchmarks"]
     return (
         any(counts["failed"] for counts in results["tests"].values())
-        or any(verdict.startswith("FAILED") for verdict in results["sanitizer"].values())
+        or any(
+            verdict.startswith("FAILED")
+            for group in ("programs", "sanitizer")
+            for verdict in results[group].values()
+        )
         or (benchmarks is not None and benchmarks["status"] != "0")
     )
 

@@ -63,6 +63,7 @@ class Summary(unittest.TestCase):
         counts = results["tests"]["gpu-tests"]
         self.assertEqual([counts[key] for key in ("passed", "failed", "skipped")], [1, 0, 1])
         self.assertEqual(results["sanitizer"], {"memcheck": "passed"})
+        self.assertEqual(results["programs"], {})
         self.assertEqual(results["benchmarks"]["rows"], [{}])
 
     def test_no_gpu(self):
@@ -72,12 +73,20 @@ class Summary(unittest.TestCase):
         self.assertEqual(results["tests"]["gpu-tests"]["passed"], 0)
         self.assertEqual(results["sanitizer"], {"memcheck": "skipped: no GPU"})
 
+    def test_programs(self):
+        steps = [("program-c", "0", ""), ("program-python-arrays", "skipped", "no CuPy")]
+        status, results, last = self.summarize(GPU, steps)
+        self.assertEqual((status, last), (0, "nothing failed"))
+        self.assertEqual(
+            results["programs"], {"c": "passed", "python-arrays": "skipped: no CuPy"})
+
     def test_failures(self):
         for steps, reports in (
             ([("gpu-tests", "1", "")], {"gpu_tests": report("COMPLETED", "FAILED")}),
             ([("gpu-tests", "139", "")], {}),  # it crashed before it could write a report
             ([("sanitizer-racecheck", "86", "")], {}),
             ([("sanitizer-racecheck", "124", "")], {}),
+            ([("program-c", "1", "")], {}),
             ([("benchmarks", "1", "")], {}),
         ):
             for gpu in (GPU, None):

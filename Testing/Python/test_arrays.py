@@ -168,6 +168,19 @@ class Errors(unittest.TestCase):
             delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2**40])
 
     @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
+    def test_arrays_on_a_gpu(self):
+        """Testing/Gpu/test_device_arrays.py flips them."""
+
+        class Unknown:
+            __cuda_array_interface__ = {"shape": (4, 3), "typestr": "<f8", "data": (0, False)}
+
+        with self.assertRaisesRegex(TypeError, "triangles must be in the memory of the GPU"):
+            delaunayflip.flip(Unknown(), TRIANGLES)
+        with self.assertRaisesRegex(TypeError, "points must be in the memory of the GPU"):
+            delaunayflip.flip(POINTS, Unknown())
+        with self.assertRaisesRegex(TypeError, f"CuPy, PyTorch or Numba, not of {__name__}"):
+            delaunayflip.flip(Unknown(), Unknown())
+
     def test_backend_unavailable(self):
         with self.assertRaises(delaunayflip.BackendUnavailable):
             delaunayflip.flip(POINTS, TRIANGLES, backend="cuda")

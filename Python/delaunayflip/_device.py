@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of CuPy, PyTorch and Numba in the memory of a GPU."""
+import numpy
+
+from . import _arrays, _library
+
+
+class _CuPy:
+    """What the engine needs of CuPy."""
+
+    @staticmethod
+    def as_contiguous(array):
+        import cupy
+
+        return cupy.ascontiguousarray(array)
+
+    @staticmethod
+    def make_empty(like, shape, dtype):
+        import cupy
+
+        with like.device:
+            return cupy.empty(shape, dtype)
+
+    @staticmethod
+    def get_stream(array):
+        import cupy
+
+        with array.device:
+            return cupy.cuda.get_current_stream().ptr
+
+    @staticmethod
+    def to_host(array):
+        return array.get()
+
+
+class _Torch:
+    """What the engine needs of PyTorch."""
+
+    @staticmethod
+    def as_contiguous(array):
+        return array.detach().contiguous()
+
+    @staticmethod
+    def make_empty(like, shape, dtype):
+        import torch
+
+        return torch.empty(shape, dtype=getattr(torch, numpy.dtype(dtype).name), device=like.device)
+
+    @staticmethod
+    def get_stream(array):
+        import torch
+
+        return torch.cuda.current_stream(array.device).cuda_stream
+
+    @staticmethod
+    def to_host(array):
+        return array.detach().cpu().numpy()
+
+
+class _Numba:
+    """What the engine needs of Numba."""
+
+    @staticmethod
+    def as_contiguous(array):
+        if not array.is_c_contiguous():
+            raise ValueError("arrays of Numba must be contiguous, row by row")
+        return array
+
+    @staticmethod
+    def make_empty(like, shape, dtype):
+        from numba import cuda
+
+        return cuda.device_array(shape, dtype)
+
+    @staticmethod
+    def get_stream(array):
+        return array.__cuda_array_interface__.get("stream") or 0
+
+    @staticmethod
+    def to_host(array):
+        return array.copy_to_host()
+
+
+_ADAPTERS = {"cupy": _CuPy, "torch": _Torch, "numba": _Numba}
+
+
+def _library_name(array):
+    return type(array).__module__.partition(".")[0]
+
+
+def _is_on_device(array):
+    if _library_name(array) == "torch":
+        return array.is_cuda
+    return hasattr(array, "__cuda_array_interface__")
+
+
+def _find_library(arrays):
+    """The name of the library of arrays by name, all of which must be on the device and of it."""
+    for name, array in arrays.items():
+        if not _is_on_device(array):
+            raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
+    names = {name: _library_name(array) for name, array in arrays.items()}
+    for name, library in names.items():
+        if library not in _ADAPTERS:
+            raise TypeError(
+                f"{name} must be an array of CuPy, PyTorch or Numba, not of {library}; "
+                "cupy.from_dlpack or torch.from_dlpack view others without a copy"
+            )
+    if len(set(names.values())) > 1:
+        raise TypeError("points and triangles must be arrays of one library")
+    return next(iter(names.values()))
+
+
+def _to_host(values):
+    """Values per triangle or constraint, which the engine reads in the host's memory."""
+    if values is None or not _is_on_device(values):
+        return values
+    return _ADAPTERS[_find_library({"what must stay": values})].to_host(values)
+
+
+def make_mesh(points, triangles, *held):
+    """The mesh, where its points and triangles are; `held`: what else _arrays.Mesh takes."""
+    if not _is_on_device(points) and not _is_on_device(triangles):
+        return _arrays.Mesh(points, triangles, *held)
+    return Mesh(points, triangles, *(_to_host(values) for values in held))
+
+
+def store_triangles(session, target, count):
+    """Writes the `count` triangles of a session to an array in any memory.
+
+    Raises:
+        ValueError: It is not a contiguous (m, 3) array of int32 or int64.
+    """
+    fits = tuple(target.shape) == (count, 3) and _is_contiguous(target)
+    kind = _type_of(target) if fits else None
+    if kind not in ("int32", "int64"):
+        raise ValueError("the target must be a contiguous (m, 3) array of int32 or int64")
+    if _is_on_device(target):
+        _library.call("store_triangles_on_device", session, _address(target), _TYPES[kind],
+                      _adapter_of(target).get_stream(target))
+    else:
+        _library.call("store_triangles", session, _arrays.address(target), _TYPES[kind])
+
+
+def store_flip_counts(session, counts):
+    """Writes the flip counts of a session to an array of int32 in any memory."""
+    if _is_on_device(counts):
+        _library.call("store_flip_counts_on_device", session, _address(counts),
+                      _adapter_of(counts).get_stream(counts))
+    else:
+        _library.call("store_flip_counts", session, _arrays.address(counts))
+
+
+class Mesh(_arrays.Mesh):
+    """A mesh in arrays on a GPU that live as long as it does."""
+
+    def make_triangles(self):
+        return self._library.make_empty(self.triangles, self.triangles.shape, self._id_type)
+
+    def make_flip_counts(self):
+        return self._library.make_empty(self.triangles, self.triangles.shape[:1], "int32")
+
+    def _take(self, points, triangles):
+        self._library = _ADAPTERS[_find_library({"points": points, "triangles": triangles})]
+        self.points = self._library.as_contiguous(points)
+        self.triangles = self._library.as_contiguous(triangles)
+        point_type = _check("points", self.points, ("float32", "float64"), (3, 2))
+        self._id_type = _check("triangles", self.triangles, ("int32", "int64"), (3,))
+        self._set("points", self.points)
+        self._set("triangles", self.triangles)
+        self.struct.point_type = _TYPES[point_type]
+        self.struct.id_type = _TYPES[self._id_type]
+        self.struct.point_components = self.points.shape[1]
+        self.struct.memory = _library.CUDA
+        self.struct.stream = self._library.get_stream(self.triangles)
+
+    def _set(self, name, array):
+        setattr(self.struct, name, _address(array))
+        setattr(self.struct, f"number_of_{name}", array.shape[0])
+
+
+_TYPES = {
+    "float32": _library.FLOAT32,
+    "float64": _library.FLOAT64,
+    "int32": _library.INT32,
+    "int64": _library.INT64,
+}
+
+
+def _check(name, array, types, columns):
+    """The name of the array's type, if it is one of these and the array has so many columns."""
+    found = _type_of(array)
+    if found not in types:
+        raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {found}")
+    if len(array.shape) != 2 or array.shape[1] not in columns:
+        shapes = " or ".join(f"(n, {count})" for count in columns)
+        raise ValueError(f"{name} must have the shape {shapes}, not {tuple(array.shape)}")
+    return found
+
+
+def _type_of(array):
+    """The name of the type of the array's values, as NumPy's."""
+    if _is_on_device(array):
+        return numpy.dtype(array.__cuda_array_interface__["typestr"]).name
+    return array.dtype.name
+
+
+def _is_contiguous(array):
+    if _is_on_device(array):
+        return _address(_adapter_of(array).as_contiguous(array)) == _address(array)
+    return array.flags.c_contiguous
+
+
+def _adapter_of(array):
+    return _ADAPTERS[_find_library({"the target": array})]
+
+
+def _address(array):
+    return array.__cuda_array_interface__["data"][0]

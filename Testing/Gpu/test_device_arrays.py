@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package with arrays of CuPy, PyTorch and Numba on a GPU. What is not installed is
+skipped. The exit status is 77 where all is, or where there is no GPU. PYTHONPATH names the package.
+"""
+import importlib.util
+import sys
+import unittest
+
+import numpy
+
+import delaunayflip
+
+SKIPPED = 77
+LIBRARIES = ("cupy", "torch", "numba")
+INSTALLED = [name for name in LIBRARIES if importlib.util.find_spec(name)]
+
+
+def sheared_lattice(side):
+    """A lattice whose rows were pushed sideways: many bad edges, all in one plane."""
+    row, column = numpy.divmod(numpy.arange(side * side), side)
+    points = numpy.column_stack([column + 5.25 * row, row, 0 * row]).astype(float)
+    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
+    lower = numpy.column_stack([corner, corner + 1, corner + side + 1])
+    upper = numpy.column_stack([corner, corner + side + 1, corner + side])
+    return points, numpy.concatenate([lower, upper])
+
+
+POINTS, TRIANGLES = sheared_lattice(150)
+
+
+def flip_on_threads(points=POINTS, **keywords):
+    return delaunayflip.flip(points, TRIANGLES, backend="threads", **keywords)
+
+
+def address_of(array):
+    return array.__cuda_array_interface__["data"][0]
+
+
+class Cases:
+    """What holds for every library. `library` is its name, `to_device` and `to_host` convert."""
+
+    def check(self, points, triangles, **keywords):
+        given = self.to_device(points), self.to_device(triangles)
+        result = delaunayflip.flip(*given, **keywords)
+        expected = delaunayflip.flip(points, triangles, backend="threads", **keywords)
+        for found, wanted in (
+            (result.triangles, expected.triangles),
+            (result.flip_counts, expected.flip_counts),
+        ):
+            self.assertIs(type(found), type(given[1]))
+            numpy.testing.assert_array_equal(self.to_host(found), wanted)
+            self.assertEqual(self.to_host(found).dtype, wanted.dtype)
+        self.assertEqual(result.report.total_flips, expected.report.total_flips)
+        self.assertGreater(result.report.total_flips, 0)
+        numpy.testing.assert_array_equal(self.to_host(given[0]), points)
+        numpy.testing.assert_array_equal(self.to_host(given[1]), triangles)
+        self.assertNotEqual(address_of(given[1]), address_of(result.triangles))
+        return result
+
+    def test_all_types(self):
+        for real in (numpy.float32, numpy.float64):
+            for integer in (numpy.int32, numpy.int64):
+                for columns in (2, 3):
+                    with self.subTest(real=real, integer=integer, columns=columns):
+                        points = numpy.ascontiguousarray(POINTS[:, :columns], dtype=real)
+                        result = self.check(points, TRIANGLES.astype(integer))
+                        self.assertTrue(result.report.backend.startswith("CUDA: "))
+                        self.assertEqual(result.report.fallback, "")
+
+    def test_few_triangles_on_the_gpu_and_on_threads(self):
+        points, triangles = sheared_lattice(4)
+        self.assertTrue(self.check(points, triangles).report.backend.startswith("CUDA: "))
+        given = self.to_device(points), self.to_device(triangles)
+        result = delaunayflip.flip(*given, backend="threads")
+        self.assertTrue(result.report.backend.startswith("Threads: "))
+        self.assertIs(type(result.triangles), type(given[1]))
+
+    def test_steps(self):
+        with delaunayflip.Session(self.to_device(POINTS), self.to_device(TRIANGLES)) as session:
+            numpy.testing.assert_array_equal(self.to_host(session.triangles), TRIANGLES)
+            while session.advance(2):
+                self.assertEqual(tuple(session.triangles.shape), TRIANGLES.shape)
+            numpy.testing.assert_array_equal(
+                self.to_host(session.triangles), flip_on_threads().triangles)
+            self.assertEqual(self.to_host(session.flip_counts).sum(),
+                             2 * session.report.total_flips)
+
+    def test_any_session_stores_anywhere(self):
+        expected = flip_on_threads().triangles
+        host = numpy.empty_like(TRIANGLES)
+        device = self.to_device(TRIANGLES.astype(numpy.int32))
+        arrays = POINTS, TRIANGLES
+        for given in (arrays, [self.to_device(array) for array in arrays]):
+            with delaunayflip.Session(*given) as session:
+                session.advance()
+                session.store_triangles(host)
+                numpy.testing.assert_array_equal(host, expected)
+                session.store_triangles(device)
+                numpy.testing.assert_array_equal(self.to_host(device), expected)
+                with self.assertRaisesRegex(ValueError, "the target must be a contiguous"):
+                    session.store_triangles(self.to_device(TRIANGLES[:5].copy()))
+
+    def test_what_must_stay(self):
+        regions = (TRIANGLES[:, 0] // 4000).astype(numpy.int32)
+        frozen = TRIANGLES[:, 0] % 50 == 0
+        constraints = TRIANGLES[:40, :2]
+        keywords = {"regions": regions, "frozen": frozen, "constraints": constraints}
+        self.check(POINTS, TRIANGLES, **keywords)
+        on_device = {
+            "regions": self.to_device(regions),
+            "constraints": self.to_device(numpy.ascontiguousarray(constraints)),
+        }
+        found = delaunayflip.flip(self.to_device(POINTS), self.to_device(TRIANGLES), **on_device)
+        expected = flip_on_threads(regions=regions, constraints=constraints)
+        numpy.testing.assert_array_equal(self.to_host(found.triangles), expected.triangles)
+
+    def test_a_constraint_is_inserted(self):
+        ends = [[0, 150 * 75 + 149]]
+        result = self.check(POINTS, TRIANGLES, constraints=ends)
+        self.assertEqual(result.report.inserted_constraints, 1)
+
+    def test_errors(self):
+        points, triangles = self.to_device(POINTS), self.to_device(TRIANGLES)
+        with self.assertRaisesRegex(TypeError, "triangles must be in the memory of the GPU"):
+            delaunayflip.flip(points, TRIANGLES)
+        with self.assertRaisesRegex(TypeError, "points must be in the memory of the GPU"):
+            delaunayflip.flip(POINTS, triangles)
+        with self.assertRaisesRegex(TypeError, "float32 or float64, not float16"):
+            delaunayflip.flip(self.to_device(POINTS.astype(numpy.float16)), triangles)
+        with self.assertRaisesRegex(TypeError, "int32 or int64, not int16"):
+            delaunayflip.flip(points, self.to_device(TRIANGLES.astype(numpy.int16)))
+        with self.assertRaisesRegex(ValueError, r"points must have the shape \(n, 3\) or \(n, 2\)"):
+            delaunayflip.flip(self.to_device(POINTS.ravel()), triangles)
+        with self.assertRaisesRegex(ValueError, r"triangles must have the shape \(n, 3\), not"):
+            delaunayflip.flip(points, self.to_device(TRIANGLES.reshape(-1, 6)))
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "GPU 7"):
+            delaunayflip.flip(points, triangles, device=7)
+        wrong = TRIANGLES.copy()
+        wrong[5, 1] = len(POINTS)
+        with self.assertRaises(delaunayflip.InvalidMesh) as caught:
+            delaunayflip.flip(points, self.to_device(wrong))
+        self.assertEqual((caught.exception.cell, caught.exception.point), (5, len(POINTS)))
+
+    def test_empty(self):
+        none = self.to_device(numpy.empty((0, 3), dtype=numpy.int64))
+        result = delaunayflip.flip(self.to_device(POINTS), none)
+        self.assertEqual(tuple(result.triangles.shape), (0, 3))
+
+
+@unittest.skipUnless("cupy" in INSTALLED, "CuPy is not installed")
+class CuPy(Cases, unittest.TestCase):
+    def to_device(self, array):
+        import cupy
+
+        return cupy.asarray(array)
+
+    def to_host(self, array):
+        return array.get()
+
+    def test_views(self):
+        columns = self.to_device(numpy.asfortranarray(POINTS))
+        result = delaunayflip.flip(columns[:, :2], self.to_device(TRIANGLES))
+        numpy.testing.assert_array_equal(result.triangles.get(), flip_on_threads().triangles)
+
+    def test_current_stream(self):
+        import cupy
+
+        triangles = self.to_device(TRIANGLES)
+        late = cupy.full_like(triangles, -1)
+        slow = cupy.ones((4096, 4096))
+        cupy.cuda.Device().synchronize()
+        stream = cupy.cuda.Stream(non_blocking=True)
+        with stream:
+            for _ in range(200):
+                slow = cupy.sqrt(slow * slow + 1)
+            late[:] = triangles
+            result = delaunayflip.flip(self.to_device(POINTS), late)
+        numpy.testing.assert_array_equal(result.triangles.get(), flip_on_threads().triangles)
+
+    @unittest.skipUnless("torch" in INSTALLED, "PyTorch is not installed")
+    def test_two_libraries(self):
+        import torch
+
+        with self.assertRaisesRegex(TypeError, "one library"):
+            delaunayflip.flip(self.to_device(POINTS), torch.as_tensor(TRIANGLES, device="cuda"))
+
+
+@unittest.skipUnless("torch" in INSTALLED, "PyTorch is not installed")
+class PyTorch(Cases, unittest.TestCase):
+    def to_device(self, array):
+        import torch
+
+        return torch.as_tensor(array, device="cuda")
+
+    def to_host(self, array):
+        return array.cpu().numpy()
+
+    def test_views_and_gradients(self):
+        points = self.to_device(POINTS.T.copy()).T.requires_grad_()
+        result = delaunayflip.flip(points[:, :2], self.to_device(TRIANGLES))
+        numpy.testing.assert_array_equal(
+            self.to_host(result.triangles), flip_on_threads().triangles)
+
+    def test_tensors_of_the_host(self):
+        import torch
+
+        result = delaunayflip.flip(torch.as_tensor(POINTS), torch.as_tensor(TRIANGLES))
+        numpy.testing.assert_array_equal(result.triangles, flip_on_threads().triangles)
+
+    def test_current_stream(self):
+        import torch
+
+        points, triangles = self.to_device(POINTS), self.to_device(TRIANGLES)
+        late = torch.full_like(triangles, -1)
+        torch.cuda.synchronize()
+        with torch.cuda.stream(torch.cuda.Stream()):
+            torch.cuda._sleep(400_000_000)  # cycles
+            late.copy_(triangles)
+            result = delaunayflip.flip(points, late)
+        numpy.testing.assert_array_equal(
+            self.to_host(result.triangles), flip_on_threads().triangles)
+
+
+@unittest.skipUnless("numba" in INSTALLED, "Numba is not installed")
+class Numba(Cases, unittest.TestCase):
+    def to_device(self, array):
+        from numba import cuda
+
+        return cuda.to_device(array)
+
+    def to_host(self, array):
+        return array.copy_to_host()
+
+    def test_columns(self):
+        with self.assertRaisesRegex(ValueError, "contiguous"):
+            delaunayflip.flip(
+                self.to_device(numpy.asfortranarray(POINTS)), self.to_device(TRIANGLES))
+
+
+def main():
+    if not delaunayflip.has_cuda_device() or not INSTALLED:
+        print("no GPU" if INSTALLED else "none of CuPy, PyTorch and Numba is installed")
+        sys.exit(SKIPPED)
+    unittest.main(verbosity=2)
+
+
+if __name__ == "__main__":
+    main()
