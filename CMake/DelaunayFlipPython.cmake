@@ -9,6 +9,8 @@ if(DELAUNAYFLIP_WHEEL)
     INSTALL_RPATH_USE_LINK_PATH ON)
   install(TARGETS DelaunayFlipC
     LIBRARY DESTINATION delaunayflip COMPONENT wheel NAMELINK_SKIP)
+  install(FILES "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml"
+    DESTINATION delaunayflip COMPONENT wheel)
   return()
 endif()
 
@@ -18,10 +20,13 @@ set(delaunayflip_packages "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
 set(DELAUNAYFLIP_PYTHONPATH "${CMAKE_BINARY_DIR}/${delaunayflip_packages}")
 
 file(GLOB delaunayflip_python_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Python/delaunayflip/*.py")
-list(APPEND delaunayflip_python_files "${PROJECT_SOURCE_DIR}/Python/delaunayflip/py.typed")
+list(APPEND delaunayflip_python_files "${PROJECT_SOURCE_DIR}/Python/delaunayflip/py.typed"
+  "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml") # the properties of paraview_plugin.py
 foreach(file IN LISTS delaunayflip_python_files)
   get_filename_component(name "${file}" NAME)
   configure_file("${file}" "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/${name}" COPYONLY)
 endforeach()
-install(FILES ${delaunayflip_python_files}
-  DESTINATION "${delaunayflip_packages}/delaunayflip" COMPONENT python)
+if(NOT DELAUNAYFLIP_PARAVIEW)
+  install(FILES ${delaunayflip_python_files}
+    DESTINATION "${delaunayflip_packages}/delaunayflip" COMPONENT python)
+endif()

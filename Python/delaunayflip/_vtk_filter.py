@@ -78,6 +78,11 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
             raise interrupt
         return status
 
+    def get_mesh(self, data):
+        """An input, or a block of it, as a mesh, the same object while it is the same; None if it is
+        not a surface. Subclasses that accept more than vtkPolyData override this."""
+        return data if isinstance(data, vtkPolyData) else None
+
     def FillInputPortInformation(self, port, info):
         if port == 1:
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)

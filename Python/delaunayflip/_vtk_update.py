@@ -79,14 +79,20 @@ class Update:
             tell("WarningEvent", describe(self._warnings))
 
     def _flip_mesh(self, source, constraints, output):
-        if not isinstance(source, vtkPolyData):
+        try:
+            mesh = self._filter.get_mesh(source)
+        except _errors.InvalidMesh as error:
+            self.fail(explain(error))
+            output.Initialize()
+            return
+        if mesh is None:
             self.fail((Failure.MESH, "the input is not a surface; apply Extract Surface first"))
         elif constraints is not None and not isinstance(constraints, vtkPolyData):
             self.fail((Failure.OPTIONS,
                        "the constraints of a single mesh cannot be a composite dataset"))
         else:
             is_live = self._filter.GetLiveUpdate() and self._pieces == 1
-            self._try_to_flip((source, constraints, output), is_live)
+            self._try_to_flip((mesh, constraints, output), is_live)
             return
         output.Initialize()
 
@@ -102,10 +108,15 @@ class Update:
         self._has_seams = _vtk_blocks.has_partitions(source)
 
     def _flip_block(self, block, constraints):
-        if block.may_be_mesh and isinstance(block.data, vtkPolyData):
-            flipped = vtkPolyData()
+        flipped = vtkPolyData()
+        try:
+            mesh = self._filter.get_mesh(block.data) if block.may_be_mesh else None
+        except _errors.InvalidMesh as error:
+            self.fail(explain(error), block.name)
+            return flipped
+        if mesh is not None:
             self._part = (block.before, block.share)
-            self._try_to_flip((block.data, constraints, flipped), False, block.name)
+            self._try_to_flip((mesh, constraints, flipped), False, block.name)
             return flipped
         if block.has_cells:
             self._warnings.append((block.name, "not a surface, passed unchanged"))

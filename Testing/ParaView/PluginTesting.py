@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Helpers for the tests of the plugin: load it, write meshes to files, and read results.
 
-Run by pvpython, with the plugin's library in DELAUNAYFLIP_PLUGIN. Meshes are passed in files, as a
+Run by pvpython, with the plugin, a library or a Python file, in DELAUNAYFLIP_PLUGIN. Meshes are passed in files, as a
 user's are, so that a server can read them too.
 """
 
+import inspect
 import os
 import sys
 import tempfile
@@ -19,6 +20,9 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 PLUGIN = os.environ["DELAUNAYFLIP_PLUGIN"]
+if not hasattr(inspect, "getargspec"):
+    # ParaView 5.11 asks for it to load a plugin in Python, but Python 3.11 has no such function.
+    inspect.getargspec = inspect.getfullargspec
 
 
 def make_cells(cells):

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Other datasets of VTK as vtkPolyData: grids of surface cells."""
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
+    VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkCellData, vtkDataSet,
+    vtkPointSet, vtkPolyData, vtkUnstructuredGrid)
+
+from ._errors import InvalidMesh
+
+#: The place of each cell type among the four cell arrays of a vtkPolyData.
+_VERTS, _LINES, _POLYS, _STRIPS = range(4)
+_KINDS = {
+    VTK_VERTEX: _VERTS, VTK_POLY_VERTEX: _VERTS, VTK_LINE: _LINES, VTK_POLY_LINE: _LINES,
+    VTK_TRIANGLE: _POLYS, VTK_QUAD: _POLYS, VTK_PIXEL: _POLYS, VTK_POLYGON: _POLYS,
+    VTK_TRIANGLE_STRIP: _STRIPS,
+}
+
+
+def to_poly_data(data):
+    """The same points and cells, but without blanked cells; None if some cell is no surface.
+
+    Raises:
+        InvalidMesh: The arrays of the cells contradict each other.
+    """
+    if isinstance(data, vtkPolyData):
+        return data
+    if not isinstance(data, vtkDataSet):
+        return None
+    _require_whole_cells(data)
+    types = [data.GetCellType(cell) for cell in range(data.GetNumberOfCells())]
+    if not set(types) <= {VTK_EMPTY_CELL, *_KINDS}:
+        return None
+    output = vtkPolyData()
+    output.SetPoints(_get_points(data))
+    output.GetPointData().PassData(data.GetPointData())
+    output.GetFieldData().PassData(data.GetFieldData())
+    sources = _copy_cells(data, types, output)
+    _copy_cell_data(data, sources, output.GetCellData())
+    return output
+
+
+def _require_whole_cells(data):
+    if not isinstance(data, vtkUnstructuredGrid) or data.GetCells() is None:
+        return
+    cells, types = data.GetCells(), data.GetCellTypesArray()
+    if (not cells.IsValid() or types is None
+            or types.GetNumberOfValues() < cells.GetNumberOfCells()):
+        raise InvalidMesh(
+            "The offsets, the connectivity and the types of the cells contradict each other.")
+
+
+def _get_points(data):
+    if isinstance(data, vtkPointSet):
+        return data.GetPoints()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetNumberOfPoints(data.GetNumberOfPoints())
+    for point in range(data.GetNumberOfPoints()):
+        points.SetPoint(point, data.GetPoint(point))
+    return points
+
+
+def _copy_cells(data, types, output):
+    """Sets the output's cells. Returns the cells of the input in their order."""
+    arrays = [vtkCellArray() for _ in range(4)]
+    sources = [[] for _ in range(4)]
+    ids = vtkIdList()
+    for cell, kind in enumerate(types):
+        if kind == VTK_EMPTY_CELL:
+            continue
+        data.GetCellPoints(cell, ids)
+        if kind == VTK_PIXEL:
+            _turn_pixel(cell, ids)
+        arrays[_KINDS[kind]].InsertNextCell(ids)
+        sources[_KINDS[kind]].append(cell)
+    output.SetVerts(arrays[_VERTS])
+    output.SetLines(arrays[_LINES])
+    output.SetPolys(arrays[_POLYS])
+    output.SetStrips(arrays[_STRIPS])
+    return [cell for some in sources for cell in some]
+
+
+def _turn_pixel(cell, ids):
+    """The points of a pixel are row by row, those of a quad go around it."""
+    if ids.GetNumberOfIds() != 4:
+        raise InvalidMesh(
+            f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
+    third, fourth = ids.GetId(2), ids.GetId(3)
+    ids.SetId(2, fourth)
+    ids.SetId(3, third)
+
+
+def _copy_cell_data(data, sources, output):
+    """Arrays that are too short to be copied come out empty: the filter warns of them."""
+    whole, short = vtkCellData(), []
+    whole.ShallowCopy(data.GetCellData())
+    for i in reversed(range(whole.GetNumberOfArrays())):
+        array = whole.GetAbstractArray(i)
+        if array.GetNumberOfTuples() < data.GetNumberOfCells():
+            short.append(array)
+            whole.RemoveArray(i)
+    output.CopyAllOn()
+    output.CopyAllocate(whole, len(sources))
+    for target, source in enumerate(sources):
+        output.CopyData(whole, source, target)
+    for array in short:
+        empty = array.NewInstance()
+        empty.SetName(array.GetName())
+        output.AddArray(empty)
