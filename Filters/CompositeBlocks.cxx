@@ -11,6 +11,7 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUniformGridAMR.h"
 
 #include <algorithm>
 
@@ -18,6 +19,12 @@ namespace delaunayflip
 {
 namespace
 {
+
+/// Null if not all leaves may be meshes: those of AMR, which is a tree from VTK 9.6 on, are grids.
+vtkDataObjectTree* GetTree(vtkCompositeDataSet* blocks)
+{
+  return vtkUniformGridAMR::SafeDownCast(blocks) ? nullptr : vtkDataObjectTree::SafeDownCast(blocks);
+}
 
 vtkSmartPointer<vtkCompositeDataIterator> Traverse(vtkCompositeDataSet* blocks)
 {
@@ -68,7 +75,7 @@ void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
   const auto blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
   blocks->ShallowCopy(input);
-  const bool holdsMeshes = vtkDataObjectTree::SafeDownCast(input) != nullptr;
+  const bool holdsMeshes = GetTree(input) != nullptr;
   const double all = std::max(1.0, CountCells(blocks));
   double before = 0.0;
   for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
@@ -101,7 +108,7 @@ bool HasPartitions(vtkCompositeDataSet* blocks)
   {
     return true;
   }
-  auto* tree = vtkDataObjectTree::SafeDownCast(blocks);
+  auto* tree = GetTree(blocks);
   if (!tree)
   {
     return false;

@@ -5,7 +5,8 @@ import dataclasses
 import typing
 
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPartitionedDataSet, vtkPolyData)
+    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPartitionedDataSet, vtkPolyData,
+    vtkUniformGridAMR)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,7 +53,7 @@ def transform_blocks(source, output, transform):
         data = leaf.GetCurrentDataObject()
         own = _count_cells(data)
         block = Block(data, leaf.GetCurrentFlatIndex(), _get_name(leaf), own > 0,
-                      isinstance(source, vtkDataObjectTree), before / total, own / total)
+                      _is_tree(source), before / total, own / total)
         output.SetDataSet(leaf, transform(block))
         before += own
 
@@ -61,6 +62,11 @@ def list_meshes(blocks):
     """The polygonal leaves by their numbers."""
     leaves = {leaf.GetCurrentFlatIndex(): leaf.GetCurrentDataObject() for leaf in _leaves(blocks)}
     return {number: data for number, data in leaves.items() if isinstance(data, vtkPolyData)}
+
+
+def _is_tree(blocks):
+    """Whether all leaves may be meshes: those of AMR, which is a tree from VTK 9.6 on, are grids."""
+    return isinstance(blocks, vtkDataObjectTree) and not isinstance(blocks, vtkUniformGridAMR)
 
 
 def _is_divided(data):
@@ -73,7 +79,7 @@ def _is_divided(data):
 
 def has_partitions(blocks):
     """Whether there are edges between partitions of one dataset, which stay as they are."""
-    if _is_divided(blocks) or not isinstance(blocks, vtkDataObjectTree):
+    if _is_divided(blocks) or not _is_tree(blocks):
         return _is_divided(blocks)
     node = blocks.NewTreeIterator()
     node.VisitOnlyLeavesOff()

@@ -18,6 +18,7 @@ from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
+from vtkmodules.vtkFiltersAMR import vtkAMRGaussianPulseSource
 
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
@@ -391,6 +392,16 @@ class Pipeline(unittest.TestCase):
         table = watched.filter.GetOutputDataObject(1)
         self.assertIsInstance(table, vtkTable)
         self.assertEqual(sum(vtk_to_numpy(table.GetRowData().GetArray("Flipped"))), sum(flips))
+
+    def test_amr_holds_no_meshes(self):
+        pulse = vtkAMRGaussianPulseSource()
+        pulse.SetDimension(2)
+        pulse.Update()
+        watched = Watched(pulse.GetOutputDataObject(0))
+        watched.filter.Update()
+        (warning,) = watched.warnings
+        self.assertIn("not a surface, passed unchanged", warning)
+        self.assertNotIn("between pieces", warning)
 
     def test_a_block_that_fails(self):
         broken = make_rhombus()
