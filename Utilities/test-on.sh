@@ -58,11 +58,12 @@ copy_checkout()
 }
 
 # Usage: open_debian FOLDER - in a mount namespace of this script's own, so that nothing stays
-# mounted. Terminals are tested, so /dev comes with its devpts.
+# mounted. Terminals are tested, so /dev comes with its devpts; MPI looks into /sys.
 open_debian()
 {
   cp -L /etc/resolv.conf "$1/etc/resolv.conf"
   mount -t proc proc "$1/proc"
+  mount -t sysfs -o ro sysfs "$1/sys"
   mount --rbind /dev "$1/dev"
 }
 
