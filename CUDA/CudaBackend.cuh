@@ -22,7 +22,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace delaunayflip
 {
@@ -108,16 +107,18 @@ public:
   Result Sum(std::int64_t size, const Work& work) const
   {
     const int blocks = this->GetBlocks(size);
-    Array<Result> partials = this->MakeArray<Result>(blocks);
+    Array<Result> partials = this->MakeArray<Result>(blocks + 1);
+    Result* all = partials.Data() + blocks;
     this->Launch([&](cudaStream_t stream)
       { SumKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(size, work, partials.Data()); });
-    std::vector<Result> parts(blocks);
-    this->Download(partials.Data(), blocks, parts.data());
-    Result total{};
-    for (const Result& part : parts)
-    {
-      total += part;
-    }
+    this->Launch(
+      [&](cudaStream_t stream)
+      {
+        SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(
+          blocks, AddPartial<Result>{ partials.Data() }, all);
+      });
+    Result total;
+    this->Download(all, 1, &total);
     return total;
   }
 

@@ -11,6 +11,19 @@ namespace delaunayflip
 
 namespace
 {
+/// Stores id i of all triangles. Neighbouring threads have the ids of one triangle, so that these
+/// go to memory together.
+struct StoreIdStep
+{
+  StoreStep Triangles;
+
+  __device__ void operator()(std::int64_t i, const MutableTriangleArray& target) const
+  {
+    const auto id = static_cast<std::uint32_t>(i); // divides faster
+    this->Triangles.StoreId(id / 3, static_cast<int>(id % 3), target);
+  }
+};
+
 /// Also stores into arrays in the memory of its device.
 class CudaEngine : public BackendEngine<CudaBackend>
 {
@@ -24,7 +37,8 @@ public:
     {
       return false;
     }
-    this->GetBackend().StoreOnDevice(triangles.Count, triangles, stream, this->GetStoreStep());
+    this->GetBackend().StoreOnDevice(
+      3 * triangles.Count, triangles, stream, StoreIdStep{ this->GetStoreStep() });
     return true;
   }
 

@@ -59,6 +59,15 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   }
 }
 
+/// The sum of partial sums.
+template <typename Result>
+struct AddPartial
+{
+  const Result* Partials;
+
+  __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
+};
+
 /// The item of this thread where a block handles a tile of ThreadsPerBlock.
 __device__ inline std::int64_t GetTileItem()
 {

@@ -30,14 +30,21 @@ struct StoreStep
   template <typename Target>
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const Target& target) const
   {
-    const TriangleRecord& triangle = this->Triangles[t];
-    if (HasTriangle(target, triangle.InputTriangle))
+    if (HasTriangle(target, this->Triangles[t].InputTriangle))
     {
       for (int slot = 0; slot < 3; ++slot)
       {
-        target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
+        this->StoreId(t, slot, target);
       }
     }
+  }
+
+  /// Sets one of the three ids.
+  template <typename Target>
+  DELAUNAYFLIP_HOST_DEVICE void StoreId(std::int64_t t, int slot, const Target& target) const
+  {
+    const TriangleRecord& triangle = this->Triangles[t];
+    target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
   }
 };
 

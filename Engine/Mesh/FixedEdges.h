@@ -291,6 +291,10 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
 {
   const TriangleMesh& caller = input.Input.Caller;
   const std::int64_t count = caller.NumberOfConstraintEdges;
+  if (count == 0)
+  {
+    return;
+  }
   std::vector<std::uint32_t> ends(2 * count);
   for (std::int64_t i = 0; i < 2 * count; ++i)
   {

@@ -60,6 +60,17 @@ private:
 class DeviceStreamTest : public GpuTest
 {
 protected:
+  /// The first use of the GPU would wait for all streams.
+  void SetUp() override
+  {
+    GpuTest::SetUp();
+    if (!this->IsSkipped())
+    {
+      const Arrays device(this->Mesh.View(), 3);
+      FlipToDelaunay(device.View(), {}, device.ViewResult());
+    }
+  }
+
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(2000, 81);
   std::vector<std::int32_t> Expected = Flip(this->Mesh.View()).Triangles;
 };
