@@ -91,7 +91,7 @@ def _library_name(array):
 
 def _is_on_device(array):
     if _library_name(array) == "torch":
-        return array.is_cuda
+        return getattr(array, "is_cuda", False)
     return hasattr(array, "__cuda_array_interface__")
 
 
@@ -112,18 +112,18 @@ def _find_library(arrays):
     return next(iter(names.values()))
 
 
-def _to_host(values):
-    """Values per triangle or constraint, which the engine reads in the host's memory."""
-    if values is None or not _is_on_device(values):
-        return values
-    return _ADAPTERS[_find_library({"what must stay": values})].to_host(values)
+def to_host(array):
+    """The array, or None, in the host's memory: a copy if it is on a GPU."""
+    if array is None or not _is_on_device(array):
+        return array
+    return _ADAPTERS[_find_library({"an array": array})].to_host(array)
 
 
 def make_mesh(points, triangles, *held):
     """The mesh, where its points and triangles are; `held`: what else _arrays.Mesh takes."""
     if not _is_on_device(points) and not _is_on_device(triangles):
         return _arrays.Mesh(points, triangles, *held)
-    return Mesh(points, triangles, *(_to_host(values) for values in held))
+    return Mesh(points, triangles, *(to_host(values) for values in held))
 
 
 def store_triangles(session, target, count):

@@ -6,7 +6,7 @@ from typing import Optional, Union
 
 import numpy
 
-from . import _arrays, _library
+from . import _arrays, _device, _library
 from ._report import Report
 from ._session import Session
 from ._types import Array, Backend, Criterion, Geometry, Numbers, OnIteration, Progress, TieRule
@@ -90,7 +90,7 @@ def smallest_angles(
     """The smallest angle of each triangle.
 
     Args:
-        points: As for `flip`.
+        points: As for `flip`. What is on a GPU is copied to the host.
         triangles: As for `flip`.
         geometry: "planar-xy" measures by x and y, every other in space.
 
@@ -104,7 +104,7 @@ def smallest_angles(
         >>> smallest_angles([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
         array([45.])
     """
-    mesh = _arrays.Mesh(points, triangles)
+    mesh = _arrays.Mesh(_device.to_host(points), _device.to_host(triangles))
     angles = numpy.empty(len(mesh.triangles))
     _library.call("triangle_angles", mesh.struct, _library.GEOMETRIES.index(geometry),
                   _arrays.address(angles))

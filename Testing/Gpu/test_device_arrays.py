@@ -143,6 +143,12 @@ class Cases:
             delaunayflip.flip(points, self.to_device(wrong))
         self.assertEqual((caught.exception.cell, caught.exception.point), (5, len(POINTS)))
 
+    def test_smallest_angles(self):
+        points, triangles = self.to_device(POINTS), self.to_device(TRIANGLES)
+        numpy.testing.assert_array_equal(
+            delaunayflip.smallest_angles(points, triangles),
+            delaunayflip.smallest_angles(POINTS, TRIANGLES))
+
     def test_empty(self):
         none = self.to_device(numpy.empty((0, 3), dtype=numpy.int64))
         result = delaunayflip.flip(self.to_device(POINTS), none)

@@ -168,6 +168,18 @@ class Errors(unittest.TestCase):
             delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2**40])
 
     @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
+    def test_smallest_angles_of_arrays_on_a_gpu(self):
+        class Array:
+            __module__ = "cupy"
+            __cuda_array_interface__ = {}
+
+            def __init__(self, values):
+                self.get = lambda: values
+
+        numpy.testing.assert_array_equal(
+            delaunayflip.smallest_angles(Array(POINTS), Array(TRIANGLES)),
+            delaunayflip.smallest_angles(POINTS, TRIANGLES))
+
     def test_arrays_on_a_gpu(self):
         """Testing/Gpu/test_device_arrays.py flips them."""
 
