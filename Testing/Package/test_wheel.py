@@ -55,6 +55,13 @@ class Wheel(unittest.TestCase):
         self.assertRegex(pathlib.Path(self.wheel).name,
                          r"^delaunayflip-[0-9.]+-py3-none-(many)?linux\w*_x86_64\.whl$")
 
+    def test_serves_other_machines(self):
+        """If it says so: an old glibc, and a size that an index takes."""
+        tag = re.search(r"manylinux_2_(\d+)_", self.wheel)
+        if tag:
+            self.assertLessEqual(int(tag.group(1)), 31)
+            self.assertLess(pathlib.Path(self.wheel).stat().st_size, 60e6)
+
     def test_flips_without_vtk(self):
         self.assertEqual(self.run_python(FLIP).strip(), self.get_version())
 
