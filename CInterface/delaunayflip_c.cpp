@@ -6,6 +6,7 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "KeptReport.h"
+#include "PolygonSplit.h"
 #include "Status.h"
 #include "TriangleAngles.h"
 
@@ -268,6 +269,23 @@ extern "C"
         Require(angles || view.Triangles.Count == 0, "angles is null");
         RequirePointIds(view);
         FindSmallestAngles(view, ToGeometry(geometry), 0, angles);
+      });
+  }
+
+  delaunayflip_status delaunayflip_triangle_normals(const delaunayflip_mesh* mesh, double* normals)
+  {
+    return Try(
+      [=]()
+      {
+        const TriangleMesh view = ToMesh(CompleteMesh(mesh));
+        Require(normals || view.Triangles.Count == 0, "normals is null");
+        RequirePointIds(view);
+        for (std::int64_t t = 0; t < view.Triangles.Count; ++t)
+        {
+          const std::int64_t ids[3] = { view.Triangles.Get(t, 0), view.Triangles.Get(t, 1),
+            view.Triangles.Get(t, 2) };
+          TriangleNormal(view.Points, ids, normals + 3 * t);
+        }
       });
   }
 

@@ -297,6 +297,26 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_angles(
     const delaunayflip_mesh* mesh, int32_t geometry, double* angles);
 
+  /** The unit normal of each triangle by the right-hand rule, to `normals`: 3 * number_of_triangles
+   * numbers; 0, 0, 0 for a triangle without area. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_normals(
+    const delaunayflip_mesh* mesh, double* normals);
+
+  /** The geometry in which a run with these options judges edges, to `*geometry`:
+   * options->geometry, or what AUTO chooses. `options` may be null. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_find_geometry(
+    const delaunayflip_mesh* mesh, const delaunayflip_options* options, int32_t* geometry);
+
+  /** Finds the edges with two triangles that never flip in a run with these options, and writes
+   * them as pairs of point ids to `pairs`, which has room for 3 * number_of_triangles integers; how
+   * many there are to `*count`. To keep exactly these edges after points have been moved, pass them
+   * as constraint edges, with a feature angle of 180, to a run over the same or the flipped
+   * triangles. If `progress` of `callbacks` returns 0 the call fails with DELAUNAYFLIP_STOPPED.
+   * `options` and `callbacks` may be null. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_find_fixed_edges(const delaunayflip_mesh* mesh,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks, int64_t* pairs,
+    int64_t* count);
+
   /** Polygon i has the corners corners[offsets[i]] .. corners[offsets[i + 1] - 1], ids of points.
    */
   typedef struct

@@ -19,9 +19,9 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. What differs: if points are
-    moved during a live run, the next update starts from the input's triangles, and in a parallel
-    run each rank reports on its own piece.
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. What differs: in a parallel run
+    each rank reports on its own piece, and in a live run points that were marked as modified but are
+    the same do not count as moved.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """

@@ -6,7 +6,7 @@ import dataclasses
 import numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellData
 
-from . import _vtk_arrays, _vtk_regions
+from . import _arrays, _library, _vtk_arrays, _vtk_regions
 from ._flip import smallest_angles
 from ._vtk_arrays import Cells, make, make_ids, new_cells, view
 from ._vtk_constraints import Constraints
@@ -51,11 +51,12 @@ class MeshInput:
             "triangle_numbers": self.slots.cells,
         }
 
-    def describe_defects(self, of_engine):
-        """The text of a warning: the engine's, then those about this input's arrays."""
+    def describe_defects(self, of_engine, is_warm):
+        """The text of a warning: the engine's, then those about this input's arrays. A warm start
+        does not say again what the first run has said of constraints."""
         texts = [of_engine] if of_engine else []
         count = self.constraints.unmatched
-        if count:
+        if count and not is_warm:
             edges = "edge" if count == 1 else "edges"
             texts.append(f"{count} constraint {edges} of the second input that the mesh does not have")
         texts += _vtk_regions.describe_malformed_arrays(self.mesh, self.slots.in_place)
@@ -171,10 +172,10 @@ def _gather(cells, chosen):
 
 def _find_normals(points, triangles):
     """Unit normals by the right-hand rule; 0 for triangles without area."""
-    a, b, c = (points[triangles[:, i]].astype(float) for i in range(3))
-    normals = numpy.cross(b - a, c - a)
-    lengths = numpy.sqrt((normals * normals).sum(axis=1, keepdims=True))
-    return numpy.divide(normals, lengths, out=numpy.zeros_like(normals), where=lengths > 0)
+    mesh = _arrays.Mesh(points, triangles)
+    normals = numpy.empty((len(triangles), 3))
+    _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
+    return normals
 
 
 def _take_whole_arrays(mesh):

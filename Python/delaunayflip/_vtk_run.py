@@ -13,6 +13,7 @@ from ._session import Session
 from ._vtk_mesh import MeshInput, Settings
 from ._vtk_plan import Plan
 from ._vtk_report import Totals, describe_trouble
+from ._vtk_warm import keeps_geometry, make_start
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,14 +29,19 @@ class Request:
 
 
 class Run:
-    """A run, which a live update keeps for the next one."""
+    """A run, which a live update keeps for the next one. `start`: where it begins instead of at the
+    input's triangles."""
 
-    def __init__(self, request):
+    def __init__(self, request, start=None):
         self._request = request
+        self._start = start
         self._stamps = _stamp(request)
         self._plan = self._make_plan(request)
         self._input = MeshInput(request.mesh, request.others, request.settings, self._plan,
                                 request.is_live)
+        if start is not None and not keeps_geometry(
+                start, self._input.get_session_arguments(), request.options):
+            self._start = None
         self._time = request.mesh.GetMTime()
         self._current = self._input
         self._session = self._open()
@@ -47,20 +53,31 @@ class Run:
 
     def _open(self):
         progress = self._plan.part("session")
+        arguments, options = self._input.get_session_arguments(), self._request.options
+        if self._start is not None:
+            arguments = self._start.change_arguments(arguments)
+            options = self._start.change_options(options)
         try:
-            return Session(progress=progress, **self._input.get_session_arguments(),
-                           **self._request.options)
+            return Session(progress=progress, **arguments, **options)
         except InvalidMesh as error:
             slots = self._input.slots  # name the cell, not the triangle
             raise _vtk_arrays.name_out_of_range(
                 "cell", int(slots.cells[error.cell]), error.point, len(self._input.points)) from None
 
-    def fits(self, request):
-        """Whether this run can go on: all that decides its result is what it was."""
+    def prepare(self, request):
+        """The run for another update: this one, if all that decides its result is what it was; a
+        warm start, if only points were moved; else a new run."""
         old = self._request
-        return (request.is_live and old.settings == request.settings
-                and old.options == request.options and self._stamps == _stamp(request)
-                and self._has_its_points(request.mesh))
+        fits = (request.is_live and old.settings == request.settings
+                and old.options == request.options and self._stamps == _stamp(request))
+        if not fits:
+            return Run(request)
+        if not self._has_its_points(request.mesh):
+            arguments = self._input.get_session_arguments()
+            return Run(request, make_start(
+                self._session, arguments, request.options, self.get_totals(), self._start))
+        self._go_on(request)
+        return self
 
     def _has_its_points(self, mesh):
         """Bit by bit: many programs mark points as modified that they only read."""
@@ -68,8 +85,7 @@ class Run:
         return points.dtype == self._input.points.dtype and numpy.array_equal(
             points.view(numpy.uint8), self._input.points.view(numpy.uint8))
 
-    def go_on(self, request):
-        """Makes this the run of another update, for which it fits."""
+    def _go_on(self, request):
         self._request, self.is_stopped = request, False
         self._plan = self._make_plan(request)
         if self._time != request.mesh.GetMTime():
@@ -110,20 +126,22 @@ class Run:
         return True
 
     def get_totals(self):
-        return Totals.of_run(
-            self._session.report, self._session.iterations, self._input.constraints.unmatched)
+        unmatched = self._input.constraints.unmatched
+        totals = Totals.of_run(self._session.report, self._session.iterations, unmatched)
+        return totals if self._start is None else self._start.change_totals(totals)
 
     def describe_trouble(self):
         """The text of a warning, or ""."""
         report = self._session.report
         has_limit = self._request.options["maximum_iterations"] >= 0
-        return describe_trouble(self._current.describe_defects(report.defects), report, has_limit)
+        defects = self._current.describe_defects(report.defects, self._start is not None)
+        return describe_trouble(defects, report, has_limit)
 
 
 def _stamp(request):
     """Modification times and sizes of all that decides which edges exist and which are fixed."""
     meshes = [mesh for mesh in (request.mesh, request.others) if mesh is not None]
-    stamps = []
+    stamps = [request.mesh.GetNumberOfPoints()]
     for mesh in meshes:
         for cells in (mesh.GetPolys(), mesh.GetStrips(), mesh.GetLines()):
             arrays = (cells.GetOffsetsArray(), cells.GetConnectivityArray())

@@ -162,10 +162,7 @@ class Update:
             raise _errors.Stopped("in another block")
         request = Request(mesh, others, self._get_settings(), self._get_options(), is_live,
                           self._observe_progress)
-        if run is not None and run.fits(request):
-            run.go_on(request)
-        else:
-            run = Run(request)
+        run = Run(request) if run is None else run.prepare(request)
         self.totals = run.get_totals()
         if is_live:
             filter_._run = run

@@ -608,6 +608,38 @@ static void TestTriangleNumbers(void)
   CHECK(strstr(report.defects, "(first: 7)") != NULL);
 }
 
+static void TestNormals(void)
+{
+  double normals[6];
+  const int64_t flat[] = { 0, 1, 2, 2, 2, 3 };
+  delaunayflip_mesh mesh = MakeMesh();
+  mesh.triangles = flat;
+  CHECK(delaunayflip_triangle_normals(&mesh, normals) == DELAUNAYFLIP_OK);
+  CHECK(normals[0] == 0 && normals[1] == 0 && normals[2] == 1);
+  CHECK(normals[3] == 0 && normals[4] == 0 && normals[5] == 0);
+  mesh.number_of_points = 3;
+  CHECK(delaunayflip_triangle_normals(&mesh, normals) == DELAUNAYFLIP_INVALID_MESH);
+}
+
+/* The rhombus is planar, and its constraint is its only fixed edge with two triangles. */
+static void TestWarmStart(void)
+{
+  const int64_t diagonal[] = { 2, 0 };
+  int64_t pairs[6];
+  int64_t count = -1;
+  int32_t geometry = -1;
+  delaunayflip_mesh mesh = MakeMesh();
+  CHECK(delaunayflip_find_geometry(&mesh, NULL, &geometry) == DELAUNAYFLIP_OK);
+  CHECK(geometry == DELAUNAYFLIP_GEOMETRY_PLANAR);
+  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, &count) == DELAUNAYFLIP_OK);
+  CHECK(count == 0);
+  mesh.constraint_edges = diagonal;
+  mesh.number_of_constraint_edges = 1;
+  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, &count) == DELAUNAYFLIP_OK);
+  CHECK(count == 1 && pairs[0] + pairs[1] == 2 && pairs[0] * pairs[1] == 0);
+  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, NULL) == DELAUNAYFLIP_INVALID_CALL);
+}
+
 typedef struct
 {
   const char* name;
@@ -626,7 +658,8 @@ int main(int argc, char** argv)
     { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
     { "backend_unavailable", TestBackendUnavailable }, { "device_memory", TestDeviceMemory },
     { "threads", TestThreads }, { "polygons", TestPolygons },
-    { "polygons_stopped", TestPolygonsCanBeStopped }, { "triangle_numbers", TestTriangleNumbers } };
+    { "polygons_stopped", TestPolygonsCanBeStopped }, { "triangle_numbers", TestTriangleNumbers },
+    { "warm_start", TestWarmStart }, { "normals", TestNormals } };
   size_t i;
   for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)
   {

@@ -318,6 +318,34 @@ class Same(unittest.TestCase):
         self.assertGreater(steps, 3)
 
 
+    def test_warm_start(self):
+        """Points are moved between the updates of a live run, at last out of their plane."""
+        mesh = make_polygon_mesh()
+        flat = vtk_to_numpy(mesh.GetPoints().GetData())
+        flat[:, 2] = 0
+        mesh.SetLines(make_cells([(0, 40), (9, 10)]))
+        constraints = make_constraints(mesh, numpy.float64)
+
+        def prepare(flip):
+            flip.LiveUpdateOn()
+            flip.InsertLinesOn()
+            flip.GenerateFlipCountOn()
+            flip.SetIterationsPerUpdate(3)
+            flip.SetConstraintsData(constraints)
+
+        both = Both(mesh, prepare)
+        started = []
+        for axis, amount in ((0, 0.0), (0, 0.4), (1, 0.3), (1, 0.05), (2, 2.0), (0, 0.1)):
+            points = vtk_to_numpy(mesh.GetPoints().GetData())
+            points[:, axis] += amount * numpy.sin(numpy.arange(len(points)))
+            mesh.GetPoints().Modified()
+            cxx, python = both.read()
+            for key in cxx:
+                self.assertEqual(cxx[key], python[key], (key, axis, amount))
+            started.append(cxx["answers"][ANSWERS.index("GetTotalFlips")])
+        self.assertGreater(started[0], 10)
+
+
 class TwoEngines(unittest.TestCase):
     """libvtkDelaunayFlipFilters and libdelaunayflip each have an engine of their own."""
 
