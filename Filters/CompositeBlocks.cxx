@@ -23,7 +23,8 @@ namespace
 /// Null if not all leaves may be meshes: those of AMR, which is a tree from VTK 9.6 on, are grids.
 vtkDataObjectTree* GetTree(vtkCompositeDataSet* blocks)
 {
-  return vtkUniformGridAMR::SafeDownCast(blocks) ? nullptr : vtkDataObjectTree::SafeDownCast(blocks);
+  return vtkUniformGridAMR::SafeDownCast(blocks) ? nullptr
+                                                 : vtkDataObjectTree::SafeDownCast(blocks);
 }
 
 vtkSmartPointer<vtkCompositeDataIterator> Traverse(vtkCompositeDataSet* blocks)

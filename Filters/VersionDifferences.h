@@ -30,10 +30,7 @@ inline bool IsAbortRequested(vtkAlgorithm* filter)
 
 /// Ends a request to abort with the update that obeyed it. From VTK 9.3 on the executive does not,
 /// and all later updates would be aborted too.
-inline void ForgetAbortRequest(vtkAlgorithm* filter)
-{
-  filter->SetAbortExecute(0);
-}
+inline void ForgetAbortRequest(vtkAlgorithm* filter) { filter->SetAbortExecute(0); }
 
 }
 

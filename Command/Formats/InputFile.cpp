@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <vector>
 
 namespace delaunayflip
@@ -90,7 +91,7 @@ int InputFile::OpenFile() const
   const int file = open(this->Path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0)
   {
-    this->Fail(std::string("cannot be read: ") + std::strerror(errno));
+    this->FailToRead();
   }
   return file;
 }
@@ -110,7 +111,7 @@ int InputFile::Spool(int pipe) const
   }
   if (size < 0)
   {
-    this->Fail(std::string("cannot be read: ") + std::strerror(errno));
+    this->FailToRead();
   }
   if (size > 0)
   {
@@ -132,9 +133,19 @@ void InputFile::Map()
   void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, this->Descriptor, 0);
   if (bytes == MAP_FAILED)
   {
-    this->Fail(std::string("cannot be read: ") + std::strerror(errno));
+    this->FailToRead();
   }
   this->Bytes = { static_cast<const char*>(bytes), size };
+}
+
+/// After a system call that failed.
+void InputFile::FailToRead() const
+{
+  if (errno == ENOMEM)
+  {
+    throw std::bad_alloc();
+  }
+  this->Fail(std::string("cannot be read: ") + std::strerror(errno));
 }
 
 void InputFile::Fail(const std::string& reason) const

@@ -37,6 +37,7 @@ private:
   int OpenFile() const;
   int Spool(int pipe) const;
   void Map();
+  [[noreturn]] void FailToRead() const;
 
   std::string Name;
   std::string Path;

@@ -98,6 +98,15 @@ class Greed(BadFileTest):
             ):
                 self.refuse_soon("a.ply", good.replace(old, new).replace("ascii", encoding))
 
+    def test_a_file_larger_than_memory(self):
+        with open(self.path("a.ply"), "wb") as file:
+            file.truncate(2 * MOST_MEMORY)  # a hole, which takes no room on the disk
+        limit = (MOST_MEMORY, MOST_MEMORY)
+        result = self.run_command(
+            "a.ply", "out.vtk", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit))
+        self.assertEqual(result.returncode, 3)
+        self.assertEqual(result.stderr, "error: a.ply: cannot be read: not enough memory\n")
+
     def test_memory_that_is_really_needed(self):
         """A large file may take as much as it needs."""
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 300000)
