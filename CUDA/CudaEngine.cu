@@ -5,6 +5,7 @@
 #include "CudaFlipLoop.cuh"
 #include "DeviceCopies.h"
 #include "FlipError.h"
+#include "LocalDeviceMesh.cuh"
 
 namespace delaunayflip
 {
