@@ -30,7 +30,7 @@ class NewVtk(unittest.TestCase):
         mesh, table = pipeline.update().output
         self.assertEqual(mesh.GetNumberOfCells(), 18)
         self.assertEqual(table.GetColumnName(0), "Iteration")
-        mesh, _ = (flip >> vtkDelaunayFlip())(mesh)
+        mesh, _ = (vtkDelaunayFlip() >> vtkDelaunayFlip())(mesh)
         self.assertEqual(mesh.GetNumberOfCells(), 18)
 
 
