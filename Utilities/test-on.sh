@@ -46,15 +46,23 @@ make_debian()
   mv "$partial" "$1"
 }
 
-# What git tracks or would track, in the place of an earlier copy, but not of its build folders.
+# What git tracks or would track, in the place of an earlier copy, but with its build folders. Files
+# that are the same keep their times, so that only what depends on others is built again.
 copy_checkout()
 {
-  mkdir -p "$root$copy"
-  find "$root$copy" -mindepth 1 -maxdepth 1 ! -name 'build*' -exec rm -rf {} +
+  local old=$root$copy new=$root$copy.new file
+  rm -rf "$new"
+  mkdir -p "$old" "$new"
   git -C "$checkout" ls-files --cached --others --exclude-standard -z |
     (cd "$checkout" && while IFS= read -r -d '' file; do
       [ ! -f "$file" ] || printf '%s\0' "$file"
-    done) | tar -C "$checkout" --null -T - -c | tar -C "$root$copy" --no-same-owner -x
+    done) | tar -C "$checkout" --null -T - -c | tar -C "$new" --no-same-owner --touch -x
+  (cd "$new" && find . -type f -print0) | while IFS= read -r -d '' file; do
+    ! cmp -s "$new/$file" "$old/$file" || touch -r "$old/$file" "$new/$file"
+  done
+  find "$old" -mindepth 1 -maxdepth 1 -name 'build*' -exec mv -t "$new" {} +
+  rm -rf "$old"
+  mv "$new" "$old"
 }
 
 # Usage: open_debian FOLDER - in a mount namespace of this script's own, so that nothing stays

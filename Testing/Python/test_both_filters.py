@@ -95,7 +95,7 @@ def list_arrays(data):
 
 def read_array(array):
     values = [str(array.GetVariantValue(i)) for i in range(array.GetNumberOfValues())]
-    return array.GetName(), array.GetClassName(), array.GetNumberOfComponents(), values
+    return array.GetName(), array.GetDataTypeAsString(), array.GetNumberOfComponents(), values
 
 
 def read_mesh(mesh):
