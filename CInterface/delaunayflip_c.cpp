@@ -28,23 +28,6 @@ void RequireReport(const delaunayflip_report* report)
     "report is null, or its size is not set: call delaunayflip_report_init first");
 }
 
-void RequirePointIds(const TriangleMesh& mesh)
-{
-  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::int64_t id = mesh.Triangles.Get(t, slot);
-      if (id < 0 || id >= mesh.Points.Count)
-      {
-        throw InvalidMesh("triangle " + std::to_string(t) + " names point " + std::to_string(id) +
-            ", but the points are 0 to " + std::to_string(mesh.Points.Count - 1),
-          t, id);
-      }
-    }
-  }
-}
-
 FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
   const MutableTriangleArray& triangles, const Observers& observers)
 {
@@ -267,7 +250,6 @@ extern "C"
       {
         const TriangleMesh view = ToMesh(CompleteMesh(mesh));
         Require(angles || view.Triangles.Count == 0, "angles is null");
-        RequirePointIds(view);
         FindSmallestAngles(view, ToGeometry(geometry), 0, angles);
       });
   }

@@ -29,10 +29,17 @@ endif()
 set(DELAUNAYFLIP_DATA_DIR "${CMAKE_CURRENT_SOURCE_DIR}/../shared/data" CACHE PATH
   "Folder of real meshes for the real-data tests")
 
-# Usage: delaunayflip_instrument(TARGET) - adds warnings and what DELAUNAYFLIP_SANITIZER names.
+option(DELAUNAYFLIP_LIBFUZZER "Instrument for libFuzzer and build its targets (Clang)" OFF)
+
+# Usage: delaunayflip_instrument(TARGET) - adds warnings, and what DELAUNAYFLIP_SANITIZER and
+# DELAUNAYFLIP_LIBFUZZER ask for.
 function(delaunayflip_instrument target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wall -Wextra -Wshadow>)
+  if(DELAUNAYFLIP_LIBFUZZER)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+    target_link_options(${target} PUBLIC -fsanitize=fuzzer-no-link)
+  endif()
   if(DELAUNAYFLIP_SANITIZER STREQUAL "address")
     set(flags -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   elseif(DELAUNAYFLIP_SANITIZER STREQUAL "thread")

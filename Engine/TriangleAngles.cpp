@@ -3,6 +3,7 @@
 #include "TriangleAngles.h"
 
 #include "MeshSurvey.h"
+#include "MeshSurveyBuilder.h"
 #include "ScaledOffsets.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
@@ -20,6 +21,25 @@ namespace
 {
 
 using Corners = std::array<std::int64_t, 3>;
+
+Corners GetCorners(const TriangleMesh& mesh, std::int64_t t)
+{
+  return { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1), mesh.Triangles.Get(t, 2) };
+}
+
+void RequireValidIds(const TriangleMesh& mesh)
+{
+  const std::int64_t points = mesh.Points.Count;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const Corners ids = GetCorners(mesh, t);
+    if (!std::all_of(
+          ids.begin(), ids.end(), [points](std::int64_t id) { return id >= 0 && id < points; }))
+    {
+      ThrowInvalidId(ids, t, points);
+    }
+  }
+}
 
 /// The angle between two edges from a corner, in degrees.
 double ToDegrees(const Vector3& first, const Vector3& second)
@@ -46,8 +66,7 @@ double SmallestAngle(const PointArray& points, const Corners& ids, int axes)
 double FindSmallestAngle(const TriangleMesh& mesh, GeometryKind geometry, std::int64_t t)
 {
   const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
-  const Corners ids = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
-    mesh.Triangles.Get(t, 2) };
+  const Corners ids = GetCorners(mesh, t);
   const bool isFinite = std::all_of(ids.begin(), ids.end(),
     [&](std::int64_t id) { return IsFinitePoint(mesh.Points, id, geometry); });
   return isFinite ? SmallestAngle(mesh.Points, ids, axes)
@@ -60,6 +79,7 @@ void FindSmallestAngles(const TriangleMesh& mesh, GeometryKind geometry, int thr
   double* degrees, const ProgressObserver& progress)
 {
   constexpr std::int64_t TrianglesBetweenCalls = 131072; // tens of milliseconds on one thread
+  RequireValidIds(mesh);
   const std::int64_t count = mesh.Triangles.Count;
   const ThreadBackend backend(threads);
   for (std::int64_t first = 0; first < count; first += TrianglesBetweenCalls)

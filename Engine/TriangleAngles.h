@@ -16,11 +16,11 @@ namespace delaunayflip
 
 /// Writes the smallest angle of every triangle in degrees, 0 to 60: mesh.Triangles.Count numbers.
 /// It is 0 for a triangle without area, and NaN for one with a coordinate that is NaN or infinite.
-/// @param mesh the points and triangles; all ids must be valid.
+/// @param mesh the points and triangles; nothing else of it matters.
 /// @param geometry PlanarXY measures in the projection, all others in space.
 /// @param threads the number of threads; 0: as many as the machine has. The result does not depend
 /// on it.
-/// @throws RunAborted.
+/// @throws InvalidMesh when a triangle names a point that does not exist; RunAborted.
 DELAUNAYFLIP_EXPORT void FindSmallestAngles(const TriangleMesh& mesh, GeometryKind geometry,
   int threads, double* degrees, const ProgressObserver& progress = {});
 

@@ -131,5 +131,24 @@ TEST(TriangleAngles, NaNWhereACoordinateThatMattersIsNotFinite)
   }
 }
 
+TEST(TriangleAngles, NameATriangleWithoutItsPoint)
+{
+  const std::vector<double> points{ 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  const std::vector<std::int64_t> triangles{ 0, 1, 2, 0, 3, 2, 0, 1, -1 };
+  TriangleMesh mesh;
+  mesh.Points = PointArray(points.data(), 3);
+  mesh.Triangles = TriangleArray(triangles.data(), 3);
+  try
+  {
+    FindAngles(mesh, GeometryKind::Planar);
+    FAIL() << "no exception";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_EQ(1, error.Cell);
+    EXPECT_EQ(3, error.Point);
+  }
+}
+
 }
 }
