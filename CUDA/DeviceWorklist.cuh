@@ -166,11 +166,11 @@ public:
   {
     EdgeId* found = team.GetList();
     UnitCursor cursor = this->StartUnits(team);
-    for (bool goOn = true; goOn;)
+    for (bool hasMore = true; hasMore;)
     {
       int size = 0;
       unsigned unit = 0;
-      while (size <= Enough && (goOn = GetNextUnit(cursor, unit)))
+      while (size <= Enough && (hasMore = GetNextUnit(cursor, unit)))
       {
         const EdgeByte byte = this->GetByte(unit);
         const unsigned bits = look(byte);
@@ -207,13 +207,13 @@ public:
   {
     EdgeId* found = team.GetListOfBlock();
     UnitCursor cursor = this->StartUnits(team);
-    bool goOn = true;
-    for (bool anyGoesOn = true; anyGoesOn;)
+    bool hasMore = true;
+    for (bool anyHasMore = true; anyHasMore;)
     {
       int* size = team.GetSizeOfList();
       unsigned unit = 0;
       while (__shfl_sync(WholeWarp, AtomicLoad(size), 0) <= MostBeforeUnit &&
-        (goOn = goOn && GetNextUnit(cursor, unit)))
+        (hasMore = hasMore && GetNextUnit(cursor, unit)))
       {
         const EdgeByte byte = this->GetByte(unit);
         const unsigned bits = look(byte);
@@ -226,7 +226,7 @@ public:
         before = __shfl_sync(WholeWarp, before, WarpSize - 1);
         Write(bits, byte, found + before + end - __popc(bits));
       }
-      anyGoesOn = __syncthreads_or(goOn) != 0;
+      anyHasMore = __syncthreads_or(hasMore) != 0;
       const int total = *size;
       WorkOn(mesh, found, total, LoopThreads, threadIdx.x, work);
       __syncthreads();

@@ -111,15 +111,16 @@ public:
   __device__ int Run()
   {
     int done = 0;
-    for (bool goOn = true; goOn;)
+    for (bool isRunning = true; isRunning;)
     {
       IterationSums* iteration = &this->Loop.Sums[done++];
       this->Flip(iteration);
-      goOn = this->HasRoom(iteration);
-      if (goOn)
+      isRunning = this->HasRoom(iteration);
+      if (isRunning)
       {
         this->Detect(iteration);
-        goOn = this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(iteration);
+        isRunning =
+          this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(iteration);
       }
     }
     return done;

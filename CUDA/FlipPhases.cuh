@@ -170,7 +170,7 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
         ++counts.Flipped;
         if (HasGuard<Worklist>(loop))
         {
-          TellGuard(loop.Guard, edge, quad, counts);
+          UpdateGuard(loop.Guard, edge, quad, counts);
         }
         MarkOuter(loop, outer);
       }

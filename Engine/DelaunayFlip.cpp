@@ -196,7 +196,7 @@ private:
     }
     catch (const RunAborted&)
     {
-      this->Forget();
+      this->Reset();
       this->Report.StopReason = StopReasonKind::Aborted;
       return false;
     }
@@ -212,7 +212,7 @@ private:
     }
     catch (...)
     {
-      this->Forget();
+      this->Reset();
       throw;
     }
   }
@@ -252,7 +252,7 @@ private:
     return CallerMesh(this->Insertion.GetMesh(mesh));
   }
 
-  void Forget()
+  void Reset()
   {
     this->Engine.reset();
     this->Insertion = ConstraintInsertion();
@@ -361,12 +361,12 @@ private:
   /// Calls the observer for the iterations from `first` on, once all of them are in the report.
   void Tell(const FlipObserver& observer, std::size_t first)
   {
-    bool goOn = true;
+    bool continues = true;
     for (std::size_t i = first; observer && i < this->Report.Iterations.size(); ++i)
     {
-      goOn = observer(this->Report.Iterations[i]) && goOn;
+      continues = observer(this->Report.Iterations[i]) && continues;
     }
-    if (!goOn && this->IsRunning())
+    if (!continues && this->IsRunning())
     {
       this->Report.StopReason = StopReasonKind::Aborted;
     }
@@ -412,11 +412,11 @@ private:
     {
       this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     }
-    this->FindHarm();
+    this->UpdateDefects();
   }
 
   /// Defects of the input and, at the end of a run, those that flips have caused.
-  void FindHarm()
+  void UpdateDefects()
   {
     this->Report.Defects = this->Engine->GetInputReport().Defects;
     this->Insertion.AddTo(this->Report.Defects);

@@ -198,7 +198,7 @@ FlipOptions FlipRun::GetStartOptions() const
 }
 
 //------------------------------------------------------------------------------
-void FlipRun::GoOn(std::unique_ptr<FlipRun>& run, const Request& request)
+void FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request)
 {
   if (!run || !run->Fits(request))
   {
@@ -207,7 +207,7 @@ void FlipRun::GoOn(std::unique_ptr<FlipRun>& run, const Request& request)
   }
   else if (run->Input.Current->Points != StampPoints(request.Input))
   {
-    StartWarmly(run, request);
+    WarmStart(run, request);
   }
   else
   {
@@ -229,7 +229,7 @@ bool FlipRun::Fits(const Request& request) const
 /// A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
 /// So Auto must choose this geometry both for the triangles that flips have made and, as it does
 /// without LiveUpdate, for those of the input.
-void FlipRun::StartWarmly(std::unique_ptr<FlipRun>& run, const Request& request)
+void FlipRun::WarmStart(std::unique_ptr<FlipRun>& run, const Request& request)
 {
   const UpdatePlan plan = MakePlan(request, true);
   Start start = run->GetEnd(plan.ForFixedEdges());

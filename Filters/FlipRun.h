@@ -55,7 +55,7 @@ public:
   /// with the triangles of the last one and the edges that were fixed in it. Otherwise, or if it is
   /// null, it becomes a new run.
   /// @throws as the constructor. After RunAborted, `run` is what it was, or null.
-  static void GoOn(std::unique_ptr<FlipRun>& run, const Request& request);
+  static void ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request);
 
   FlipSession& GetSession() { return this->Session; }
 
@@ -120,7 +120,7 @@ private:
   static UpdatePlan MakePlan(const Request& request, bool isWarm);
   static Stamps StampEdges(const Request& request);
   static Stamps StampPoints(vtkPolyData* mesh);
-  static void StartWarmly(std::unique_ptr<FlipRun>& run, const Request& request);
+  static void WarmStart(std::unique_ptr<FlipRun>& run, const Request& request);
   static TriangleMesh GetMesh(const Snapshots& input, const Start& start);
   bool Fits(const Request& request) const;
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }

@@ -20,18 +20,18 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double elapsed = 0.0;
   double iterations = 1.0;
-  bool mayGoOn = false;
+  bool isRunning = false;
   do
   {
     const double before = elapsed;
-    mayGoOn = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
+    isRunning = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
     elapsed = getElapsed();
     // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
     // take longer than those before, so batches grow slowly.
     const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
     iterations = std::min(fitting, 2.0 * iterations);
-  } while (mayGoOn && iterations >= 1.0);
-  return mayGoOn;
+  } while (isRunning && iterations >= 1.0);
+  return isRunning;
 }
 
 }

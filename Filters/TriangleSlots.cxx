@@ -30,12 +30,12 @@ bool AreTriangleOffsets(ArrayT* offsets)
   vtkSMPTools::For(0, offsets->GetNumberOfValues(),
     [values, &are](vtkIdType begin, vtkIdType end)
     {
-      bool areHere = true;
+      bool areTriangles = true;
       for (vtkIdType i = begin; i < end; ++i)
       {
-        areHere = areHere && values[i] == 3 * i;
+        areTriangles = areTriangles && values[i] == 3 * i;
       }
-      if (!areHere)
+      if (!areTriangles)
       {
         are = false;
       }

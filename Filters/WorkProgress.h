@@ -25,7 +25,7 @@ inline ProgressObserver MakePart(const ProgressObserver& whole, double begin, do
 }
 
 /// @throws RunAborted.
-inline void Ask(const ProgressObserver& observer, double share)
+inline void ReportOrThrow(const ProgressObserver& observer, double share)
 {
   if (observer && !observer(share))
   {
@@ -89,7 +89,7 @@ void ForPieces(vtkIdType count, const ProgressObserver& progress, const Work& wo
   constexpr vtkIdType ItemsBetweenCalls = 32768; // some milliseconds
   for (vtkIdType begin = 0; begin < count; begin += ItemsBetweenCalls)
   {
-    Ask(progress, static_cast<double>(begin) / static_cast<double>(count));
+    ReportOrThrow(progress, static_cast<double>(begin) / static_cast<double>(count));
     vtkSMPTools::For(begin, std::min(begin + ItemsBetweenCalls, count), work);
   }
 }

@@ -131,18 +131,18 @@ int vtkDelaunayFlip::RequestDataObject(
 //------------------------------------------------------------------------------
 bool vtkDelaunayFlip::Advance()
 {
-  const bool goesOn = this->LiveUpdate && this->MayGoOn;
-  if (goesOn)
+  const bool continues = this->LiveUpdate && this->CanContinue;
+  if (continues)
   {
     this->Modified();
   }
-  return goesOn;
+  return continues;
 }
 
 void vtkDelaunayFlip::Restart()
 {
   this->Run.reset();
-  this->MayGoOn = true;
+  this->CanContinue = true;
   this->Modified();
 }
 

@@ -612,8 +612,8 @@ private:
     vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
   delaunayflip::MeshOutcome TryToFlip(const Connection& data);
   void Flip(const Connection& data);
-  void GiveUp(vtkDataObject* output);
-  void Tell(const delaunayflip::UpdateSummary& summary, bool aloud);
+  void DiscardRun(vtkDataObject* output);
+  void Publish(const delaunayflip::UpdateSummary& summary, bool withMessages);
   delaunayflip::FlipOptions GetOptions() const;
   void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);
   void Flip(const Connection& data, std::unique_ptr<delaunayflip::FlipRun>& run);
@@ -626,7 +626,7 @@ private:
   std::string StopReasonText; ///< After an error.
   bool HasExecuted = false;
   bool IsAtWork = false; ///< An update is running.
-  bool MayGoOn = true; ///< Whether another live update can change the mesh.
+  bool CanContinue = true; ///< Whether another live update can change the mesh.
   std::unique_ptr<delaunayflip::FlipRun> Run; ///< Null without LiveUpdate.
   /// During an update that of the current mesh, afterwards the sum over all meshes.
   std::unique_ptr<delaunayflip::UpdateReport> Report;

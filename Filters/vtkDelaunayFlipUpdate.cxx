@@ -93,11 +93,11 @@ int vtkDelaunayFlip::RequestData(
   if (failure)
   {
     summary = UpdateSummary();
-    this->GiveUp(output);
+    this->DiscardRun(output);
     summary.AddMesh({ *this->Report, failure, "" }, 0, "");
   }
   const bool isFirst = JoinRanks(summary, piece); // every rank comes here, whatever has failed
-  const FlipFailure untold = Attempt(
+  const FlipFailure unreported = Attempt(
     [&]()
     {
       // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
@@ -106,15 +106,15 @@ int vtkDelaunayFlip::RequestData(
       {
         RenewFieldData(summary.Report, mesh->GetFieldData());
       }
-      this->Tell(summary, isFirst);
+      this->Publish(summary, isFirst);
     });
-  if (untold)
+  if (unreported)
   {
-    this->GiveUp(output);
+    this->DiscardRun(output);
     table->Initialize();
     UpdateSummary nothing;
-    nothing.AddMesh({ *this->Report, untold, "" }, 0, "");
-    this->Tell(nothing, true);
+    nothing.AddMesh({ *this->Report, unreported, "" }, 0, "");
+    this->Publish(nothing, true);
   }
   ForgetAbortRequest(this);
   // Even after an error: 0 would keep filters downstream from executing, and a representation of
@@ -124,16 +124,16 @@ int vtkDelaunayFlip::RequestData(
 
 //------------------------------------------------------------------------------
 /// Leaves nothing half done.
-void vtkDelaunayFlip::GiveUp(vtkDataObject* output)
+void vtkDelaunayFlip::DiscardRun(vtkDataObject* output)
 {
   this->Run.reset();
-  this->MayGoOn = false;
+  this->CanContinue = false;
   *this->Report = UpdateReport();
   output->Initialize();
 }
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlip::Tell(const UpdateSummary& summary, bool aloud)
+void vtkDelaunayFlip::Publish(const UpdateSummary& summary, bool withMessages)
 {
   *this->Report = summary.Report;
   this->Failure = summary.Failure;
@@ -146,11 +146,11 @@ void vtkDelaunayFlip::Tell(const UpdateSummary& summary, bool aloud)
   {
     warnings.push_back({ "", "edges between pieces of the mesh stayed as they were" });
   }
-  if (aloud && this->Failure)
+  if (withMessages && this->Failure)
   {
     vtkErrorMacro(<< this->ErrorMessage);
   }
-  if (aloud && !warnings.empty())
+  if (withMessages && !warnings.empty())
   {
     vtkWarningMacro(<< Describe(warnings));
   }
@@ -248,7 +248,7 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
   outcome.Failure = Attempt([&]() { this->Flip(data); });
   if (outcome.Failure)
   {
-    this->GiveUp(data.Output);
+    this->DiscardRun(data.Output);
   }
   outcome.Report = *this->Report;
   outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);
@@ -264,7 +264,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
 {
   std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
-  this->MayGoOn = false;
+  this->CanContinue = false;
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
   {
     this->PassInput(data, StopReasonKind::Converged);
@@ -281,7 +281,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   catch (const RunAborted&)
   {
     this->PassInput(data, StopReasonKind::Aborted);
-    this->MayGoOn = data.IsLive;
+    this->CanContinue = data.IsLive;
   }
   if (data.IsLive)
   {
@@ -297,20 +297,21 @@ void vtkDelaunayFlip::Flip(const Connection& data, std::unique_ptr<FlipRun>& run
   {
     throw RunAborted(); // in another block
   }
-  FlipRun::GoOn(run,
+  FlipRun::ContinueOrStart(run,
     { data.Input, data.Constraints,
       { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
         this->RegionArray },
       this->GetOptions(), data.IsLive, { this->GenerateFlipCount, this->GenerateQuality },
       [this](double fraction) { return this->ObserveProgress(fraction); } });
   *this->Report = UpdateReport(run->GetReport());
-  const bool mayGoOn = !run->IsStopped() && this->Advance(*run, data.IsLive);
+  const bool isRunning = !run->IsStopped() && this->Advance(*run, data.IsLive);
   const bool isWhole = run->Store(data.Output);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
   this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
   AddFieldData(*this->Report, data.Output->GetFieldData());
-  this->MayGoOn = data.IsLive && (mayGoOn || this->Report->StopReason == StopReasonKind::Aborted);
+  this->CanContinue =
+    data.IsLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
 }
 
 /// Passes the input to the output unchanged.

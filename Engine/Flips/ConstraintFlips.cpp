@@ -55,7 +55,7 @@ ConstraintPath ConstraintFlips::FindFreePath(VertexId from, VertexId to)
   ConstraintPath path = FindPath(this->Mesh, this->Fans, from, to);
   while (path.Result == PathResult::IsBarred)
   {
-    if (!this->Unbar(path.Bar))
+    if (!this->RemoveBar(path.Bar))
     {
       path.Result = PathResult::Overlaps;
       break;
@@ -141,7 +141,7 @@ bool ConstraintFlips::ListFan(HalfEdgeId first, HalfEdgeId second)
 
 /// Flips a triangle without area away, and before it others on which it leans with its long side:
 /// the next one's is longer, so that there is a last one.
-bool ConstraintFlips::Unbar(TriangleId bar)
+bool ConstraintFlips::RemoveBar(TriangleId bar)
 {
   std::vector<EdgeId> sides;
   for (TriangleId flat = bar; this->IsFlat(flat);)

@@ -43,7 +43,7 @@ private:
   bool IsEar(HalfEdgeId first, HalfEdgeId second) const;
   bool CutEar(HalfEdgeId first, HalfEdgeId second);
   bool ListFan(HalfEdgeId first, HalfEdgeId second);
-  bool Unbar(TriangleId bar);
+  bool RemoveBar(TriangleId bar);
   HalfEdgeId GetLongSide(TriangleId flat) const;
   bool IsFlat(TriangleId triangle) const;
   bool TryFlip(EdgeId edge);

@@ -46,7 +46,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
 
 /// Pass 6, after a flip with a guard: releases the claim and replaces the old vertex pair by the
 /// new one.
-DELAUNAYFLIP_HOST_DEVICE inline void TellGuard(
+DELAUNAYFLIP_HOST_DEVICE inline void UpdateGuard(
   const EdgeGuardView& guard, EdgeId edge, const Quad& quad, StepCounts& counts)
 {
   bool fresh = false;

@@ -41,7 +41,7 @@ EarClipper::Triangles EarClipper::Clip()
 }
 
 /// Calls the observer from time to time.
-bool EarClipper::MayGoOn()
+bool EarClipper::ReportProgress()
 {
   constexpr std::int64_t VisitsBetweenCalls = std::int64_t(1) << 15; // about a millisecond
   if (this->Progress && this->Tree.GetVisits() - this->VisitsTold >= VisitsBetweenCalls)
@@ -56,7 +56,7 @@ bool EarClipper::MayGoOn()
 /// The first ear from a vertex on, all the way around; the vertex itself if there is none.
 std::int64_t EarClipper::FindEar(std::int64_t from)
 {
-  while (!this->Candidates.empty() && this->MayGoOn())
+  while (!this->Candidates.empty() && this->ReportProgress())
   {
     auto next = this->Candidates.lower_bound(from);
     next = next == this->Candidates.end() ? this->Candidates.begin() : next;

@@ -37,7 +37,7 @@ public:
   Triangles Clip();
 
 private:
-  bool MayGoOn();
+  bool ReportProgress();
   std::int64_t FindEar(std::int64_t from);
   bool IsEar(std::int64_t vertex);
   std::int64_t CutOff(std::int64_t vertex);

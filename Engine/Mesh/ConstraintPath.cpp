@@ -23,7 +23,7 @@ public:
       Fans(fans),
       From(from),
       To(to),
-      GoesUp(IsBefore(mesh.GetPoint(from), mesh.GetPoint(to)))
+      IsAscending(IsBefore(mesh.GetPoint(from), mesh.GetPoint(to)))
   {
   }
 
@@ -32,7 +32,7 @@ public:
     VertexId at = this->From;
     while (at != this->To && this->Path.Result == PathResult::Found)
     {
-      at = this->GoOn(at);
+      at = this->Step(at);
     }
     return std::move(this->Path);
   }
@@ -57,7 +57,8 @@ private:
     const PlanePoint p = this->Mesh.GetPoint(a);
     const PlanePoint q = this->Mesh.GetPoint(b);
     const PlanePoint end = this->Mesh.GetPoint(this->To);
-    return this->GoesUp ? IsBefore(p, q) && !IsBefore(end, q) : IsBefore(q, p) && !IsBefore(q, end);
+    return this->IsAscending ? IsBefore(p, q) && !IsBefore(end, q)
+                             : IsBefore(q, p) && !IsBefore(q, end);
   }
 
   VertexId Fail(PathResult result, TriangleId bar = NoTriangle)
@@ -68,7 +69,7 @@ private:
   }
 
   /// @returns the next vertex.
-  VertexId GoOn(VertexId at)
+  VertexId Step(VertexId at)
   {
     const Exits exits = this->FindExits(at);
     if (exits.Along != NoHalfEdge)
@@ -181,7 +182,7 @@ private:
   const PlaneMesh& Mesh;
   const VertexFans& Fans;
   const VertexId From, To;
-  const bool GoesUp; ///< Along the constraint u, or v, grows.
+  const bool IsAscending; ///< Along the constraint u, or v, grows.
   ConstraintPath Path;
 };
 

@@ -78,7 +78,7 @@ public:
   /// Sets HalfEdges to the other corners, as OtherCornerStep expects.
   PairSums Run()
   {
-    this->DealCorners();
+    this->DistributeCorners();
     return this->Backend.SumRanges<PairSums>(
       this->CountBuckets(),
       [this](std::int64_t begin, std::int64_t end)
@@ -171,7 +171,7 @@ private:
   }
 
   /// Lists the corners of every bucket. Their order does not affect the result.
-  void DealCorners()
+  void DistributeCorners()
   {
     this->Corners = this->Backend.MakeArray<CornerId>(this->Starts.back());
     std::vector<std::uint32_t> ends(this->Starts.begin(), this->Starts.end() - 1);

@@ -197,7 +197,7 @@ protected:
     ++counts.Flipped;
     if (this->Guard.Active)
     {
-      TellGuard(this->Guard, edge, quad, counts);
+      UpdateGuard(this->Guard, edge, quad, counts);
     }
     AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     this->Mark(EdgeOf(outer.AP), excluded);

@@ -113,9 +113,9 @@ std::string Update(vtkAlgorithm* reader)
     return "VTK's reader crashed; the file is probably truncated or corrupt";
   }
   reader->Update();
-  const std::string complaint = messages.GetFirst();
+  const std::string problem = messages.GetFirst();
   const bool isEmpty = GetMesh(reader)->GetNumberOfCells() == 0;
-  return complaint.empty() && isEmpty ? "no mesh in it" : complaint;
+  return problem.empty() && isEmpty ? "no mesh in it" : problem;
 }
 
 }
@@ -130,10 +130,10 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& file)
     throw std::runtime_error(file + ": no such file, or no permission to read it");
   }
   const auto reader = MakeReader(file);
-  const std::string complaint = Update(reader);
-  if (!complaint.empty())
+  const std::string problem = Update(reader);
+  if (!problem.empty())
   {
-    throw std::runtime_error(file + ": cannot be read: " + complaint);
+    throw std::runtime_error(file + ": cannot be read: " + problem);
   }
   return GetMesh(reader);
 }

@@ -78,7 +78,7 @@ def fail(status, message):
     sys.exit(status)
 
 
-def complaints_of(reader):
+def find_problems(reader):
     """Makes a reader of VTK read. Returns what was wrong, or ""."""
     # Some truncated files crash the reader, so a child process tries first.
     child = multiprocessing.get_context("fork").Process(target=reader.Update)
@@ -104,11 +104,11 @@ def read_mesh(file):
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkOutputWindow.SetInstance(vtkStringOutputWindow())  # collects the messages
-    complaints = complaints_of(reader)
+    problems = find_problems(reader)
     vtkOutputWindow.SetInstance(None)
     vtkLogger.SetStderrVerbosity(verbosity)
-    if complaints:
-        fail(BAD_FILE, f"{file}: cannot be read: {complaints}")
+    if problems:
+        fail(BAD_FILE, f"{file}: cannot be read: {problems}")
     return join_points(reader) if get_extension(file) == ".obj" else reader.GetOutput()
 
 

@@ -32,7 +32,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         self._is_at_work = False
         self._interrupt = None
         self._run = None  # of a live update
-        self._may_go_on = True
+        self._can_continue = True
         self._update = Update(self)
         for name, value in properties.items():
             setattr(self, _require_property(name), value)
@@ -162,17 +162,17 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return self.GetOutputDataObject(1)
 
     def Advance(self):
-        goes_on = self.GetLiveUpdate() and self._may_go_on
-        if goes_on:
+        continues = self.GetLiveUpdate() and self._can_continue
+        if continues:
             self.Modified()
-        return goes_on
+        return continues
 
     def Step(self):
         return self.Advance()
 
     def Restart(self):
         self._run = None
-        self._may_go_on = True
+        self._can_continue = True
         self.Modified()
 
     def GetNeedsUpdate(self):

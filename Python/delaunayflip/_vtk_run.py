@@ -76,7 +76,7 @@ class Run:
             arguments = self._input.get_session_arguments()
             return Run(request, make_start(
                 self._session, arguments, request.options, self.get_totals(), self._start))
-        self._go_on(request)
+        self._continue_for(request)
         return self
 
     def _has_its_points(self, mesh):
@@ -85,7 +85,7 @@ class Run:
         return points.dtype == self._input.points.dtype and numpy.array_equal(
             points.view(numpy.uint8), self._input.points.view(numpy.uint8))
 
-    def _go_on(self, request):
+    def _continue_for(self, request):
         self._request, self.is_stopped = request, False
         self._plan = self._make_plan(request)
         if self._time != request.mesh.GetMTime():
@@ -102,13 +102,13 @@ class Run:
     def _advance_for(self, seconds, on_iteration):
         """Batches are faster than single iterations, but an iteration may take longer than those
         before. So batches grow slowly."""
-        start, elapsed, batch, goes_on = time.perf_counter(), 0.0, 1.0, True
-        while goes_on and batch >= 1.0:
+        start, elapsed, batch, is_running = time.perf_counter(), 0.0, 1.0, True
+        while is_running and batch >= 1.0:
             before = elapsed
-            goes_on = self.advance(int(batch), on_iteration)
+            is_running = self.advance(int(batch), on_iteration)
             elapsed = time.perf_counter() - start
             batch = min((seconds - elapsed) * batch / (elapsed - before), 2.0 * batch)
-        return goes_on
+        return is_running
 
     def store(self, output, counts, angles):
         """Writes the mesh as it is now, with the cell arrays that are wanted.

@@ -130,7 +130,7 @@ class Update:
         try:
             trouble = self._flip(data, is_live)
         except Exception as error:
-            self._filter._run, self._filter._may_go_on = None, False
+            self._filter._run, self._filter._can_continue = None, False
             self.fail(explain(error), where)
             data[2].Initialize()
             return
@@ -141,7 +141,7 @@ class Update:
     def _flip(self, data, is_live):
         """Returns the text of a warning, or ""."""
         mesh, _, output = data
-        run, self._filter._run, self._filter._may_go_on = self._filter._run, None, False
+        run, self._filter._run, self._filter._can_continue = self._filter._run, None, False
         if mesh.GetNumberOfPolys() == 0 and mesh.GetNumberOfStrips() == 0:
             self.totals = Totals("converged")
             output.ShallowCopy(mesh)
@@ -153,7 +153,7 @@ class Update:
                 self._filter._interrupt = stop  # raised when VTK is left
             self.totals = Totals("aborted")
             output.ShallowCopy(mesh)
-            self._filter._may_go_on = is_live
+            self._filter._can_continue = is_live
             return ""
 
     def _flip_triangles(self, data, run, is_live):
@@ -167,13 +167,13 @@ class Update:
         if is_live:
             filter_._run = run
         iterations = filter_.GetIterationsPerUpdate() if is_live else -1
-        goes_on = not run.is_stopped and run.advance(iterations, self._observe)
+        is_running = not run.is_stopped and run.advance(iterations, self._observe)
         is_whole = run.store(output, filter_.GetGenerateFlipCount(), filter_.GetGenerateQuality())
         self.totals = run.get_totals()
         if not is_whole:
             self.totals.stop_reason = "aborted"
         self.totals.add_field_data(output.GetFieldData())
-        filter_._may_go_on = is_live and (goes_on or self.totals.stop_reason == "aborted")
+        filter_._can_continue = is_live and (is_running or self.totals.stop_reason == "aborted")
         trouble = run.describe_trouble()
         is_known, run.warning = trouble == run.warning, trouble
         return "" if is_known else trouble  # live updates give each warning once

@@ -44,7 +44,7 @@ Owner FindOwner(void* address)
 }
 
 /// Whether the call from `caller` is the one to fail.
-bool IsToFail(std::size_t bytes, void* caller, bool isArray)
+bool ShouldFail(std::size_t bytes, void* caller, bool isArray)
 {
   if (!isOn || bytes < smallestCounted)
   {
@@ -57,7 +57,7 @@ bool IsToFail(std::size_t bytes, void* caller, bool isArray)
 
 void* AllocateOrThrow(std::size_t bytes, void* caller)
 {
-  void* memory = IsToFail(bytes, caller, false) ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
+  void* memory = ShouldFail(bytes, caller, false) ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
   if (!memory)
   {
     throw std::bad_alloc();
@@ -96,14 +96,14 @@ void* operator new[](std::size_t bytes)
 
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 {
-  return IsToFail(bytes, __builtin_return_address(0), false) ? nullptr
-                                                             : std::malloc(bytes > 0 ? bytes : 1);
+  return ShouldFail(bytes, __builtin_return_address(0), false) ? nullptr
+                                                               : std::malloc(bytes > 0 ? bytes : 1);
 }
 
 void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
 {
-  return IsToFail(bytes, __builtin_return_address(0), false) ? nullptr
-                                                             : std::malloc(bytes > 0 ? bytes : 1);
+  return ShouldFail(bytes, __builtin_return_address(0), false) ? nullptr
+                                                               : std::malloc(bytes > 0 ? bytes : 1);
 }
 
 void operator delete(void* memory) noexcept { std::free(memory); }
@@ -125,19 +125,21 @@ extern "C"
   /// VTK's arrays come from here, and from realloc.
   void* malloc(std::size_t bytes)
   {
-    const bool fails = isOn && bytes >= 1024 && IsToFail(bytes, __builtin_return_address(0), true);
+    const bool fails =
+      isOn && bytes >= 1024 && ShouldFail(bytes, __builtin_return_address(0), true);
     return fails ? nullptr : __libc_malloc(bytes);
   }
 
   void* realloc(void* memory, std::size_t bytes)
   {
-    const bool fails = isOn && bytes >= 1024 && IsToFail(bytes, __builtin_return_address(0), true);
+    const bool fails =
+      isOn && bytes >= 1024 && ShouldFail(bytes, __builtin_return_address(0), true);
     return fails ? nullptr : __libc_realloc(memory, bytes);
   }
 
   int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes)
   {
-    *memory = IsToFail(bytes, __builtin_return_address(0), true)
+    *memory = ShouldFail(bytes, __builtin_return_address(0), true)
       ? nullptr
       : __libc_memalign(alignment, bytes);
     return *memory ? 0 : ENOMEM;
@@ -145,7 +147,7 @@ extern "C"
 
   void* mmap(void* place, std::size_t bytes, int protection, int flags, int file, off_t offset)
   {
-    if (IsToFail(bytes, __builtin_return_address(0), true))
+    if (ShouldFail(bytes, __builtin_return_address(0), true))
     {
       errno = ENOMEM;
       return MAP_FAILED;

@@ -175,9 +175,9 @@ std::set<TriangleSet> ListTriangulations(const Judge& judge, const TriangleSet& 
 void CoverBoundary(OwnedMesh<double>& mesh)
 {
   const Judge judge(mesh);
-  for (bool goOn = true; goOn;)
+  for (bool changed = true; changed;)
   {
-    goOn = false;
+    changed = false;
     const std::map<Edge, std::int64_t> opposites = FindOpposites(ToTriangleSet(mesh.Triangles));
     std::map<std::int64_t, std::int64_t> next;
     for (const auto& [edge, opposite] : opposites)
@@ -190,13 +190,13 @@ void CoverBoundary(OwnedMesh<double>& mesh)
     for (const auto& [p, m] : next)
     {
       const std::int64_t q = next[m];
-      if (!goOn && judge.GetArea(p, m, q) == 0)
+      if (!changed && judge.GetArea(p, m, q) == 0)
       {
         for (const std::int64_t id : { m, p, q })
         {
           mesh.Triangles.push_back(static_cast<std::int32_t>(id));
         }
-        goOn = true;
+        changed = true;
       }
     }
   }

@@ -194,7 +194,7 @@ TEST_F(EdgeGuardTest, HearsOfFlips)
   const EdgeGuardView guard = this->Guard.View();
   guard.Claims.Claim(quad.A, quad.B, Priority(edge));
   StepCounts counts;
-  TellGuard(guard, edge, quad, counts);
+  UpdateGuard(guard, edge, quad, counts);
   EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Find(EdgeKey(quad.P, quad.Q)));
   EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Find(EdgeKey(quad.A, quad.B)));
   EXPECT_EQ(0, counts.LostInserts);
@@ -220,7 +220,7 @@ TEST_F(EdgeGuardTest, CountsTheSlotsThatFlipsUseFirst)
     // Edges that are not in the mesh, each in place of one that is not either.
     const Quad quad{ 0, 0, i, 60 + i, 1000 + i, 30 + i };
     guard.Claims.Claim(quad.A, quad.B, Priority(i));
-    TellGuard(guard, i, quad, counts);
+    UpdateGuard(guard, i, quad, counts);
   }
   EXPECT_GT(counts.FreshSlots, 0);
   EXPECT_EQ(before - countEmpty(), counts.FreshSlots);

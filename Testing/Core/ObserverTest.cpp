@@ -64,7 +64,7 @@ TEST_F(ObserverTest, SeesEveryIterationOnTheCallingThread)
   EXPECT_EQ(this->Complete.Report.Iterations.size(), seen.size());
 }
 
-TEST_F(ObserverTest, MayAbortAndTheRunMayGoOn)
+TEST_F(ObserverTest, MayAbortAndTheRunCanContinue)
 {
   if (IsTestBackendCuda())
   {

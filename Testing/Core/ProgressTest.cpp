@@ -144,7 +144,7 @@ TEST_P(ProgressTest, EndsTheRunAtAnyCall)
   EXPECT_TRUE(endedBeforeFlips);
 }
 
-TEST_P(ProgressTest, LetsTheRunGoOn)
+TEST_P(ProgressTest, LetsTheRunContinue)
 {
   const FlipResult unwatched = Flip(this->Mesh.View(), this->Options);
   for (std::size_t call : { 1, 4, 12 })

@@ -137,7 +137,7 @@ TEST(Errors, OfAMeshEndWithTheMesh)
   }
 }
 
-TEST(Errors, LetFiltersBelowGoOn)
+TEST(Errors, LetDownstreamFiltersExecute)
 {
   WatchedFilter filter(MakeBadSphere());
   vtkNew<vtkAppendPolyData> below;

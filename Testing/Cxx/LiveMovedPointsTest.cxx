@@ -31,7 +31,7 @@ Cells FlipAtOnceXY(vtkPolyData* mesh)
 
 }
 
-TEST(LiveUpdate, MovedPointsStartWarmly)
+TEST(LiveUpdate, MovedPointsWarmStart)
 {
   auto mesh = MakeBadPlane();
   LiveFilter filter(mesh);
@@ -135,7 +135,7 @@ TEST(LiveUpdate, SteepHillsThatBecomeGentleStartAgain)
   EXPECT_EQ(FlipAtOnceXY(mesh), filter.GetTriangles());
 }
 
-TEST(LiveUpdate, QuadsStartWarmly)
+TEST(LiveUpdate, QuadsWarmStart)
 {
   auto mesh =
     MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });

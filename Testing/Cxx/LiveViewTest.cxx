@@ -26,7 +26,7 @@ Cells FlipAtOnce(vtkPolyData* mesh)
 }
 
 /// Timers that fire only when the test makes them fire.
-void GiveTimers(vtkGenericRenderWindowInteractor* interactor)
+void EnableTimers(vtkGenericRenderWindowInteractor* interactor)
 {
   OnEvent(interactor, vtkCommand::CreateTimerEvent,
     [interactor]() { interactor->SetTimerEventPlatformId(7); });
@@ -196,7 +196,7 @@ TEST(LiveView, RestartKeepsItsPace)
   EXPECT_EQ(view->GetFrameNumber(), steps);
 }
 
-TEST(LiveView, MovedPointsGoOnAfterTheEnd)
+TEST(LiveView, MovedPointsContinueAfterTheEnd)
 {
   auto mesh = MakeBadPlane();
   WatchedView view(mesh);
@@ -316,7 +316,7 @@ TEST(LiveView, TimersOfOthersAreLeftAlone)
   view->Run();
   EXPECT_EQ(view.Errors.size(), 1u); // nothing makes timers
   EXPECT_FALSE(view->IsRunning());
-  GiveTimers(interactor);
+  EnableTimers(interactor);
   view->Run();
   ASSERT_TRUE(view->IsRunning());
   int mine = interactor->GetTimerEventId();
@@ -340,7 +340,7 @@ TEST(LiveView, AnyOrderOfDeletion)
     auto window = vtkSmartPointer<vtkRenderWindow>::New();
     window->OffScreenRenderingOn();
     interactor->SetRenderWindow(window);
-    GiveTimers(interactor);
+    EnableTimers(interactor);
     filter->SetInputData(MakeRhombus());
     view->SetFilter(filter);
     view->SetInteractor(interactor);

@@ -320,7 +320,7 @@ TEST(FilterProgress, AbortsWhileAnglesAreFound)
 }
 
 /// Wherever it is stopped: the same mesh in the end.
-TEST(FilterProgress, WarmStartsGoOn)
+TEST(FilterProgress, WarmStartsContinue)
 {
   std::size_t events = SIZE_MAX;
   Cells expected;
@@ -374,7 +374,7 @@ TEST(FilterProgress, ABlockAfterAnAbortPasses)
 }
 
 /// Wherever it is stopped, a live run continues with the next update.
-TEST(FilterProgress, LiveRunsGoOn)
+TEST(FilterProgress, LiveRunsContinue)
 {
   for (const vtkSmartPointer<vtkPolyData>& input : { MakeQuads(), MakeLongRun() })
   {

@@ -308,13 +308,13 @@ class Same(unittest.TestCase):
             flip.SetIterationsPerUpdate(2)
 
         both = Both(make_bad_mesh(), prepare)
-        steps, goes_on = 0, True
-        while goes_on:
+        steps, continues = 0, True
+        while continues:
             cxx, python = both.read()
             self.assertEqual(cxx, python)
             answers = [watched.filter.Advance() for watched in both.pair]
             self.assertEqual(*answers)
-            goes_on, steps = answers[0], steps + 1
+            continues, steps = answers[0], steps + 1
         self.assertGreater(steps, 3)
 
 
