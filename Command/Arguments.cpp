@@ -44,7 +44,7 @@ CLI::Validator Within(double low, double high, const std::string& range)
   return CLI::Validator(check, "");
 }
 
-/// A decimal number, also with zeros in front, where CLI would read octal.
+/// A decimal number. It may have leading zeros, which CLI would take for octal.
 CLI::Validator WholeNumber(std::int64_t low, std::int64_t high, const std::string& range)
 {
   const auto check = [low, high, range](std::string& text)

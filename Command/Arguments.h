@@ -34,8 +34,8 @@ struct Arguments
   bool Quiet = false;
 };
 
-/// Reads the command line into `arguments`. Prints help, the version, or what was wrong.
-/// @returns the exit code when there is nothing left to do, else nothing.
+/// Reads the command line into `arguments`. Prints help or the version if asked for, else errors.
+/// @returns the exit code if there is nothing left to do, else nothing.
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments);
 
 }

@@ -35,7 +35,7 @@ bool IsIgnored(int signal)
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/// The signals by which a user or the system ends a program, without those ignored (nohup).
+/// The signals by which a user or the system ends a program, except ignored ones (nohup).
 sigset_t EndingSignals()
 {
   sigset_t signals;
@@ -133,7 +133,7 @@ ChildOutcome ChildProcess::Wait(int child)
     }
   }
   outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-  outcome.DiedOf = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  outcome.KilledBy = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   outcome.LastPhase = this->Shared->Value;
   return outcome;
 }

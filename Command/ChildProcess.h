@@ -29,14 +29,14 @@ using ChildWork = std::function<int(const std::function<void(Phase)>&)>;
 struct ChildOutcome
 {
   int ExitCode = 0; ///< What the work returned, if it was not killed.
-  int DiedOf = 0; ///< The signal that killed the child, or 0.
+  int KilledBy = 0; ///< The signal that killed the child, or 0.
   int InterruptedBy = 0; ///< The signal that made this process kill the child, or 0.
   Phase LastPhase = Phase::Reading;
 };
 
-/// Watches one child. From its construction to its destruction SIGINT, SIGTERM and SIGHUP do not
-/// end this process but wait for Run, where they kill the child, so the caller can always clean up.
-/// Must be constructed before any thread is started.
+/// Watches one child. While this object lives, SIGINT, SIGTERM and SIGHUP do not end this process.
+/// They stay pending until Run, which then kills the child; so the caller can always clean up. Must
+/// be constructed before any thread is started.
 class ChildProcess
 {
 public:
@@ -54,7 +54,7 @@ private:
   ChildOutcome Wait(int child);
 
   struct SharedPhase;
-  SharedPhase* Shared; ///< In memory that both processes see.
+  SharedPhase* Shared; ///< In memory shared by both processes.
   sigset_t Watched;
   sigset_t Before;
   int Parent;

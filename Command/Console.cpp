@@ -57,7 +57,7 @@ public:
 
 vtkStandardNewMacro(CollectingWindow);
 
-/// Joins the lines, repeated ones only once.
+/// Joins the lines; repeated lines appear once.
 std::string Joined(const std::vector<std::string>& lines)
 {
   std::string joined;
@@ -82,7 +82,7 @@ CollectingWindow* Window()
   return CollectingWindow::SafeDownCast(vtkOutputWindow::GetInstance());
 }
 
-/// On a terminal, first erases the progress bar that may be there.
+/// On a terminal, first erases a progress bar.
 void PrintLine(const std::string& line)
 {
   std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << line << std::endl;
@@ -119,12 +119,12 @@ std::string VTKMessages::TakeErrors()
   return joined;
 }
 
-std::string VTKMessages::TakeComplaints()
+std::string VTKMessages::TakeProblems()
 {
   std::vector<std::string>& warnings = Window()->Warnings;
-  const auto complaints = std::stable_partition(warnings.begin(), warnings.end(), IsAboutVersion);
-  Window()->Errors.insert(Window()->Errors.end(), complaints, warnings.end());
-  warnings.erase(complaints, warnings.end());
+  const auto problems = std::stable_partition(warnings.begin(), warnings.end(), IsAboutVersion);
+  Window()->Errors.insert(Window()->Errors.end(), problems, warnings.end());
+  warnings.erase(problems, warnings.end());
   return this->TakeErrors();
 }
 

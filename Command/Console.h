@@ -7,7 +7,7 @@
 #include <vector>
 
 /// @file
-/// One-line messages on stderr, VTK's included.
+/// One-line messages on stderr, including VTK's.
 
 namespace delaunayflip
 {
@@ -28,12 +28,12 @@ public:
   /// The errors since the last call, joined, or an empty string.
   std::string TakeErrors();
 
-  /// The errors and warnings since the last call, joined, or an empty string. A warning that the
-  /// file has a newer version than VTK knows is left to PrintWarnings.
-  std::string TakeComplaints();
+  /// The errors and warnings since the last call, joined, or an empty string. Leaves out warnings
+  /// that the file has a newer version than VTK knows; PrintWarnings prints these.
+  std::string TakeProblems();
 };
 
-/// Discards stderr during its lifetime: what a crashing reader prints helps nobody.
+/// Discards what is written to stderr while it lives: the output of a crashing reader helps nobody.
 class MutedStandardError
 {
 public:

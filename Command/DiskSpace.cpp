@@ -25,8 +25,8 @@ std::string ExplainFailedWrite(const std::string& path)
   rlimit limit = {};
   if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
   {
-    return "; files have a limit of " + Counted(static_cast<std::int64_t>(limit.rlim_cur), "byte") +
-      " here";
+    return "; the size of files is limited to " +
+      Counted(static_cast<std::int64_t>(limit.rlim_cur), "byte") + " here";
   }
   return {};
 }

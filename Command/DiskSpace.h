@@ -8,8 +8,8 @@
 namespace delaunayflip
 {
 
-/// Why a file may not have been written completely, as the end of a message: a full disk or a file
-/// size limit; empty if there is neither.
+/// The end of a message, which explains why a file may be incomplete: a full disk or a limit on the
+/// size of files. Empty if neither is the cause.
 std::string ExplainFailedWrite(const std::string& path);
 
 }

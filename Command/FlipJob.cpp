@@ -38,7 +38,7 @@ double SecondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Finds contradicting options and a missing backend before a large file is read.
+/// Reports contradicting options and a missing backend before a large file is read.
 void TryOptions(const FlipOptions& options)
 {
   const double points[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };

@@ -8,7 +8,7 @@ namespace delaunayflip
 std::filesystem::path FollowLinks(const std::string& path)
 {
   namespace fs = std::filesystem;
-  constexpr int most = 40; // as Linux follows
+  constexpr int most = 40; // the limit of Linux
   std::error_code error;
   fs::path file = fs::absolute(path, error);
   for (int links = 0; links < most && fs::is_symlink(fs::symlink_status(file, error)); ++links)

@@ -9,8 +9,8 @@
 namespace delaunayflip
 {
 
-/// The absolute path of the file that `path` means, symbolic links followed, also those to files
-/// that do not exist yet. A link where links form a loop.
+/// The absolute path of the file that `path` refers to, with symbolic links resolved, including
+/// links to files that do not exist yet. If links form a loop, the path of one of these links.
 std::filesystem::path FollowLinks(const std::string& path);
 
 }

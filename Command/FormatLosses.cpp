@@ -50,7 +50,7 @@ bool NeedsDoubles(vtkPoints* points)
     for (int axis = 0; axis < 3; ++axis)
     {
       const double value = coordinates[axis];
-      // A NaN, which differs from itself, is no loss: float has NaN too.
+      // NaN differs from itself, but it is not lost: float has NaN too.
       if (value == value && static_cast<double>(static_cast<float>(value)) != value)
       {
         return true;
@@ -141,7 +141,7 @@ std::string DescribeXmlLosses(vtkPolyData* mesh)
   for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
          static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
   {
-    losses.push_back(LostArrays("that an array holds ids", data,
+    losses.push_back(LostArrays("the id attribute of arrays", data,
       [data](vtkAbstractArray* array) { return IsOrdinary(data, array); }));
   }
   return Joined(losses);

@@ -12,7 +12,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Lists in words what of `mesh` a file of this format cannot store; empty if it stores all.
+/// Lists in words which parts of `mesh` a file of this format cannot store; empty if it can store
+/// all of them.
 std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format);
 
 }

@@ -8,8 +8,8 @@ namespace delaunayflip
 namespace
 {
 
-// Time per triangle, relative to that of build and flips of a badly triangulated terrain. Writing
-// includes the reading back. What takes longest is the compression of .vtp files.
+// Times per triangle, relative to building the edges of a badly triangulated terrain and flipping
+// them. Writing includes reading the file back. Compressing .vtp files takes longest.
 constexpr double Flips = 4.0;
 
 double GetReadCost(MeshFormat format)

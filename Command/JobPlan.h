@@ -8,14 +8,15 @@
 namespace delaunayflip
 {
 
-/// At which share of a job's time, 0 .. 1, its parts are expected to end. The rest is for writing.
+/// The shares of a job's time, 0 .. 1, at which its parts are expected to end. Writing takes the
+/// rest.
 struct JobPlan
 {
   double Read;
   double Flip;
 };
 
-/// By what each part took per triangle in files of these formats.
+/// Estimated from the measured times per triangle for these formats.
 JobPlan PlanJob(MeshFormat input, MeshFormat output);
 
 }

@@ -69,7 +69,7 @@ vtkSmartPointer<vtkCellArray> Renumbered(vtkCellArray* cells, const std::vector<
   return renumbered;
 }
 
-/// The new id of every point; `kept` receives the old ids of those that stay.
+/// The new id of every point; `kept` receives the old ids of the points that stay.
 std::vector<vtkIdType> NumberDistinct(vtkPoints* points, std::vector<vtkIdType>& kept)
 {
   std::vector<vtkIdType> ids(points->GetNumberOfPoints());

@@ -10,8 +10,9 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Merges points with equal coordinates. The first of them stays, with its point data; the order of
-/// the points stays too. Cells keep their number and order; a triangle that collapses stays a cell.
+/// Merges points with equal coordinates into the first of them, which keeps its point data. The
+/// order of the points stays. So do the number and order of cells: a collapsed triangle stays a
+/// cell.
 /// @returns how many points were removed.
 vtkIdType MergeCoincidentPoints(vtkPolyData* mesh);
 

@@ -13,10 +13,10 @@ namespace delaunayflip
 
 class VTKMessages;
 
-/// Reads a surface mesh. A corrupt file may end the process, by a crash of VTK's reader or by
-/// ReadingLimits: to be called in a child process.
-/// @param repeated what to do with points that .stl repeats for every triangle, and .obj often for
-/// texture coordinates and normals
+/// Reads a surface mesh. Call this in a child process: a corrupt file may crash VTK's reader, or
+/// ReadingLimits may end the process.
+/// @param repeated what to do with repeated points: .stl repeats points for every triangle, .obj
+/// often for texture coordinates and normals
 /// @throws CommandError (BadFile) that names the file and the reason.
 FileMesh ReadMesh(
   const std::string& path, MeshFormat format, RepeatedPoints repeated, VTKMessages& messages);

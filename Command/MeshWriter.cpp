@@ -33,14 +33,14 @@ void Run(Writer* writer, const std::string& path, VTKMessages& messages)
 {
   writer->SetFileName(path.c_str());
   const bool written = writer->Write() != 0;
-  const std::string complaints = messages.TakeComplaints();
+  const std::string problems = messages.TakeProblems();
   if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
   {
     throw CommandError(ExitCode::BadFile, "no space for the whole file");
   }
-  if (!written || !complaints.empty() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  if (!written || !problems.empty() || writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    throw CommandError(ExitCode::BadFile, complaints.empty() ? "the writer failed" : complaints);
+    throw CommandError(ExitCode::BadFile, problems.empty() ? "the writer failed" : problems);
   }
 }
 
@@ -57,7 +57,7 @@ void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
   (*static_cast<const WriteObserver*>(tell))(vtkAlgorithm::SafeDownCast(writer)->GetProgress());
 }
 
-/// The one format whose writing takes long.
+/// Reports progress, because this is the one format that takes long to write.
 void WriteXml(
   vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell)
 {
@@ -94,8 +94,8 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
   }
 }
 
-/// VTK's writers crash on cells of fewer points than their kind has (.vtp), or write what nothing
-/// can read.
+/// On cells with fewer points than their kind needs, VTK's writers crash (.vtp) or write files that
+/// no program can read.
 void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
 {
   const bool isXml = format == MeshFormat::VTP;
@@ -133,7 +133,7 @@ void WriteUnchecked(const FileMesh& file, const std::string& path, MeshFormat fo
   }
 }
 
-/// Whether the last line is complete: text that is cut short there may be readable, but wrong.
+/// Whether the last line is complete: text cut off within it may be readable, but wrong.
 bool IsEnded(const std::string& path, MeshFormat format)
 {
   if (format == MeshFormat::PLY || format == MeshFormat::STL)
@@ -151,7 +151,7 @@ bool IsEnded(const std::string& path, MeshFormat format)
 bool HasSameCounts(const FileMesh& file, vtkPolyData* written, MeshFormat format)
 {
   vtkPolyData* const mesh = file.Mesh;
-  // Where a texture has seams, the reader chooses the number of points.
+  // Along seams of a texture the reader repeats points, so their number may differ.
   const bool keepsPoints = format != MeshFormat::STL && file.CopiesOf.empty();
   const bool keepsAll = format == MeshFormat::VTK || format == MeshFormat::VTP;
   return mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
@@ -178,7 +178,7 @@ void WriteMesh(const FileMesh& file, const std::string& path, MeshFormat format,
   }
   catch (const CommandError& error)
   {
-    // Do not name the temporary file, which the user does not know.
+    // The user does not know the temporary file, so the message does not name it.
     difference = error.what();
     const std::size_t name = difference.find(path + ": ");
     difference.erase(0, name == 0 ? path.size() + 2 : 0);

@@ -14,7 +14,7 @@ namespace delaunayflip
 struct FileMesh;
 class VTKMessages;
 
-/// Is told how much has been written, 0 .. 1, where the format takes long.
+/// Called with the share that has been written, 0 .. 1, if writing the format takes long.
 using WriteObserver = std::function<void(double)>;
 
 /// Writes a mesh to `path`, in binary where the format allows it. Then reads the file back to check

@@ -51,7 +51,7 @@ struct OutputFiles
     }
   }
 
-  /// The mesh last, which matters most.
+  /// The mesh comes last, because it matters most.
   std::vector<PendingFile*> GetAll()
   {
     std::vector<PendingFile*> all;

@@ -38,8 +38,8 @@ std::string ExtensionOf(const fs::path& path)
   return extension;
 }
 
-/// Calls `make` with names in the folder of `path` until it succeeds or fails for another reason
-/// than that the name is in use. Returns the name, or nothing and leaves errno.
+/// Calls `make` with different names in the folder of `path`, as long as the name is in use.
+/// Returns the name, or an empty string if `make` fails for another reason, which errno holds.
 template <typename Function>
 std::string MakeUnused(const fs::path& path, const Function& make)
 {
@@ -64,7 +64,7 @@ bool MakeEmpty(const char* name)
   return file >= 0 && close(file) == 0;
 }
 
-/// Gives a file the owner, the group and the mode of another, as far as the system lets it.
+/// Copies the owner, group and mode of a file to another, as far as the system permits.
 void CopyOwner(const std::string& from, const std::string& to)
 {
   struct stat status = {};
@@ -75,9 +75,9 @@ void CopyOwner(const std::string& from, const std::string& to)
   const bool isOwned = chown(to.c_str(), status.st_uid, status.st_gid) == 0;
   if (!isOwned && chown(to.c_str(), static_cast<uid_t>(-1), status.st_gid) != 0)
   {
-    errno = 0; // then both are the caller's
+    errno = 0; // both stay the caller's
   }
-  // Set-user-ID and the like were meant for the owner.
+  // Set-user-ID and similar bits were meant for the original owner.
   chmod(to.c_str(), status.st_mode & (isOwned ? 07777 : 0777));
 }
 
@@ -123,7 +123,7 @@ PendingFile::~PendingFile()
 void PendingFile::Commit()
 {
   CopyOwner(this->Resolved, this->Temporary);
-  // Where the system allows no second name for the old file, there is no way back.
+  // Some file systems allow no second name for the old file; then Undo cannot bring it back.
   this->Backup = MakeUnused(
     this->Resolved, [this](const char* name) { return link(this->Resolved.c_str(), name) == 0; });
   this->HadNone = this->Backup.empty() && errno == ENOENT;

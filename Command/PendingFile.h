@@ -11,8 +11,8 @@
 namespace delaunayflip
 {
 
-/// An empty temporary file beside `target`. Commit() replaces the target by it; without that, the
-/// destructor removes it.
+/// An empty temporary file beside `target`. Commit() replaces the target with it; if Commit() is
+/// not called, the destructor removes it.
 class PendingFile
 {
 public:
@@ -35,7 +35,7 @@ public:
 
 private:
   std::string Target;
-  std::string Resolved; ///< The target, symbolic links followed.
+  std::string Resolved; ///< The target, with symbolic links resolved.
   std::string Temporary;
   std::string Backup; ///< Another name of the file that was replaced.
   bool HadNone = false; ///< Whether there was no such file.

@@ -9,8 +9,8 @@
 namespace delaunayflip
 {
 
-/// One line on stderr that shows how much of a job of several parts is done. It never goes back.
-/// Drawn on a terminal only, so logs do not contain it.
+/// One line on stderr that shows how much of a job of several parts is done. It never goes
+/// backwards. It is drawn on a terminal only, so logs do not contain it.
 class ProgressBar
 {
 public:
@@ -20,10 +20,10 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// The next part begins, which lasts until this share of the job, 0 .. 1. Draws at once.
+  /// Begins the next part, which ends at this share of the job, 0 .. 1. Draws at once.
   void Begin(double end, const std::string& text);
 
-  /// `fraction` of the part, 0 .. 1. Draws at most ten times per second.
+  /// Shows that `fraction` of the part, 0 .. 1, is done. Draws at most ten times per second.
   void Show(double fraction, const std::string& text);
 
   /// Wipes the line.

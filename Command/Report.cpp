@@ -120,7 +120,7 @@ std::string DescribeLeft(const FlipReport& flip)
   return blocked > 0 ? left + " (" + Grouped(blocked) + " blocked: " + reasons + ")" : left;
 }
 
-/// A line of the summary, or nothing where there are no constraints.
+/// A line of the summary, or nothing if there are no constraints.
 std::string DescribeConstraints(const FlipReport& flip)
 {
   if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)

@@ -8,7 +8,7 @@
 #include <ostream>
 
 /// @file
-/// What is reported about a run.
+/// The reports on a run: JSON, CSV and a summary.
 
 namespace delaunayflip
 {

@@ -45,7 +45,7 @@ int Guarded(const Function& work)
   return static_cast<int>(ExitCode::BadFile);
 }
 
-/// The file in hand and what was being done to it, as the beginning of a message.
+/// The file that was in use and what was being done to it, as the beginning of a message.
 std::string DescribeWork(const Arguments& arguments, Phase phase)
 {
   switch (phase)
@@ -59,7 +59,7 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
   }
 }
 
-/// What is said of an exception that names no file.
+/// The rest of the message for an exception that names no file.
 std::string Explain(const std::exception& error)
 {
   const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) ||
@@ -95,14 +95,14 @@ int RunNamed(
 std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
-  const std::string death = std::string(" (") + strsignal(outcome.DiedOf) + ")";
+  const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
   const std::string work = DescribeWork(arguments, outcome.LastPhase);
   switch (outcome.LastPhase)
   {
     case Phase::Reading:
       return work +
-        (outcome.DiedOf == SIGXCPU ? "reading takes far more time than a file of its size needs"
-                                   : "the reader crashed" + death) +
+        (outcome.KilledBy == SIGXCPU ? "reading takes far more time than a file of its size needs"
+                                     : "the reader crashed" + death) +
         "; the file is probably truncated or corrupt";
     case Phase::Flipping:
       return work + "it crashed" + death + "; was there enough memory? Nothing was written";
@@ -119,7 +119,7 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
     PrintError("interrupted; nothing was written");
     return 128 + outcome.InterruptedBy;
   }
-  if (outcome.DiedOf != 0)
+  if (outcome.KilledBy != 0)
   {
     throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome));
   }

@@ -23,7 +23,7 @@ namespace
 
 constexpr std::int64_t None = CornerVectors::None;
 
-/// An array of `size` vectors, given by their numbers; NaN if a number is None.
+/// An array of `size` vectors, chosen by their numbers; NaN where a number is None.
 vtkSmartPointer<vtkDoubleArray> Gathered(
   const char* name, const CornerVectors& vectors, const std::vector<std::int64_t>& numbers)
 {
@@ -60,7 +60,7 @@ void ForEachCorner(vtkCellArray* cells, const Function& visit)
   }
 }
 
-/// Finds a point for every corner: among the points at its place, one with the same texture.
+/// Finds a point for every corner: one at the same place with the same texture coordinates.
 class SeamSplitter
 {
 public:
@@ -142,7 +142,7 @@ private:
   vtkIdType Originals;
 };
 
-/// The vector of each of `size` groups of corners, or nothing if some corners of one disagree.
+/// The vector of each of `size` groups of corners, or nothing if corners within a group disagree.
 template <typename Function>
 std::vector<std::int64_t> GroupVectors(
   vtkPolyData* mesh, const CornerVectors& vectors, vtkIdType size, const Function& groupOf)

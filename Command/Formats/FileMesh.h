@@ -18,7 +18,7 @@ struct FileMesh
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
   std::vector<std::string> Notes; ///< What reading changed or left out, one line each.
   std::vector<std::string> Warnings; ///< What may be wrong with the file.
-  /// The last points are copies of these, for the sides of seams of the texture.
+  /// The originals of the last points, which were repeated along seams of the texture.
   std::vector<vtkIdType> CopiesOf;
 
   vtkIdType GetNumberOfOriginals() const

@@ -11,8 +11,8 @@
 #include <cstring>
 
 /// @file
-/// Reads the numbers of a file one by one, in text or binary, by one interface: Next; StartRow and
-/// EndRow around a row of numbers; and Fail, which says where.
+/// One interface to the numbers of text and binary files: Next reads a number, StartRow and EndRow
+/// enclose a row, and Fail throws an error that says where the file is wrong.
 
 namespace delaunayflip
 {
@@ -44,7 +44,7 @@ public:
 
   std::size_t GetBytesLeft() const { return this->Cursor.GetBytesLeft(); }
 
-  /// How much there is after the last row, except blanks.
+  /// The number of bytes after the last row, without blanks.
   std::size_t Finish()
   {
     this->Cursor.SkipSpace();

@@ -115,7 +115,7 @@ int InputFile::Spool(int pipe) const
   }
   if (size > 0)
   {
-    this->Fail("is a pipe that does not end, or delivers more bytes than this machine has memory");
+    this->Fail("is a pipe that does not end, or that delivers more bytes than fit into memory");
   }
   std::fclose(temporary);
   return copy;

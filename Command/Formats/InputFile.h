@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// The bytes of a file, in memory as long as this exists. A pipe is read to its end first.
+/// The bytes of a file, in memory as long as this object lives. A pipe is read to its end first.
 class InputFile
 {
 public:

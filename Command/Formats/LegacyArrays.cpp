@@ -265,8 +265,8 @@ std::size_t LegacyArrays::NextStringLength()
   return static_cast<std::size_t>(length);
 }
 
-/// A binary value takes its size; a value in text takes at least a digit and, except the last, a
-/// blank.
+/// A binary value takes `size` bytes. A value in text takes at least a digit and, unless it is the
+/// last one, a blank.
 void LegacyArrays::RequireBytes(vtkIdType count, std::size_t size) const
 {
   const std::size_t left = this->Cursor.GetBytesLeft();

@@ -41,9 +41,10 @@ public:
   /// @throws CommandError (BadFile): the file, the line and the reason.
   [[noreturn]] void Fail(const std::string& reason) const { this->Cursor.Fail(reason); }
 
-  /// Reads an array of a type, named as in the format, and the names of its components if they
-  /// follow. Other information that follows, such as ranges, is ignored.
-  /// @throws CommandError (BadFile); if the file is too short, before it allocates memory.
+  /// Reads an array and, if they follow, the names of its components. `type` is named as in the
+  /// format. Other metadata that follow, such as ranges, are ignored.
+  /// @throws CommandError (BadFile). If the file is too short, this happens before memory is
+  /// allocated.
   vtkSmartPointer<vtkAbstractArray> Read(
     const std::string& type, vtkIdType tuples, vtkIdType components);
 

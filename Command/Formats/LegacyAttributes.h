@@ -22,7 +22,7 @@ public:
   {
   }
 
-  /// Attributes that are read from here on belong to `data`.
+  /// Attributes read after this call belong to `data`.
   void Begin(vtkDataSetAttributes* data, vtkIdType tuples)
   {
     this->Data = data;

@@ -24,7 +24,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Converts ghost levels, of files before VTK 6.3, to ghost types.
+/// Converts the ghost levels of files before VTK 6.3 to ghost types.
 void UpdateGhosts(vtkAbstractArray* array)
 {
   auto* levels = vtkUnsignedCharArray::SafeDownCast(array);
@@ -109,7 +109,7 @@ private:
       char number[32];
       std::snprintf(number, sizeof(number), "%g", version);
       this->Result.Warnings.push_back(
-        this->File.GetName() + ": its version, " + number + ", is newer than those known here");
+        this->File.GetName() + ": is of version " + number + ", newer than any known here");
     }
   }
 
@@ -254,7 +254,7 @@ private:
     this->Attributes.Begin(attributes, tuples);
   }
 
-  /// Named arrays of the points, of the cells, or, before both, of the whole mesh.
+  /// Named arrays: point data, cell data or, before either has begun, field data.
   void ReadField()
   {
     this->Arrays.NextName();

@@ -45,8 +45,8 @@ public:
     }
   }
 
-  /// Indices may refer to what comes later in the file.
-  bool NamesTooMuch() const
+  /// Checked at the end, because indices may refer to later lines.
+  bool HasInvalidIndices() const
   {
     const Corner counts = this->Count();
     return !std::equal(
@@ -266,7 +266,7 @@ ObjContent ParseObj(const InputFile& file)
   constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
   ObjParser parser(file, { any, any, any });
   parser.Parse();
-  if (parser.NamesTooMuch())
+  if (parser.HasInvalidIndices())
   {
     ObjParser(file, parser.Count()).Parse(); // fails, on the line
   }

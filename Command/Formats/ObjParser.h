@@ -15,7 +15,7 @@
 namespace delaunayflip
 {
 
-/// A keyword that names the group, material and so on of the cells after it.
+/// A keyword that names the group, the material or the like of the cells after it.
 struct ObjLabel
 {
   const char* Keyword;

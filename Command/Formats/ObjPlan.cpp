@@ -43,7 +43,7 @@ vtkDataArray* FindColors(vtkPointData* data, vtkIdType size)
   return nullptr;
 }
 
-/// Whether a name stays what it is at the end of a line of text.
+/// Whether a name can be written at the end of a line and read back unchanged.
 bool IsNameOfLine(const std::string& name)
 {
   const auto isBad = [](unsigned char letter) { return std::iscntrl(letter) || letter == '#'; };

@@ -11,14 +11,14 @@ namespace delaunayflip
 
 /// Reads a Wavefront .obj in double precision, with a point for every vertex of the file.
 ///
-/// Point data: TCoords, Normals and Colors, if the file has them; see CornerVectors.h for corners
-/// of a point that differ. Cell data: MaterialIds, GroupIds, ObjectIds and SmoothingIds,
-/// for the keywords that the file uses; each counts the names in the field data MaterialNames,
-/// GroupNames, ObjectNames or SmoothingNames, and is -1 before the first. Field data also:
-/// MaterialLibraries. Lines of other keywords are left out, with a note.
+/// Point data: TCoords, Normals and Colors, if the file has them. CornerVectors.h says what happens
+/// if the corners at a point differ. Cell data, for the keywords that the file uses: MaterialIds,
+/// GroupIds, ObjectIds and SmoothingIds. Each is an index into the names in the field data
+/// MaterialNames, GroupNames, ObjectNames or SmoothingNames, or -1 before the first name. The field
+/// data also have MaterialLibraries. Lines with other keywords are left out, with a note.
 ///
-/// Files with texture coordinates or normals often repeat vertices because of these; `repeated`
-/// says whether vertices at the same place are merged.
+/// Files with texture coordinates or normals often repeat vertices because of them; `repeated` says
+/// whether vertices at the same place are merged.
 /// @throws CommandError (BadFile) with the file, the line and the reason.
 FileMesh ReadObj(const InputFile& file, RepeatedPoints repeated);
 

@@ -61,7 +61,7 @@ private:
     vtkIdType Begin; ///< The first of them among all cells.
   };
 
-  /// Those that begin without a material come first, because many readers fail on a usemtl without
+  /// Kinds that begin without a material come first, because many readers fail on a usemtl without
   /// a name.
   std::array<Kind, 3> SortKinds() const
   {
@@ -160,7 +160,7 @@ private:
     return ids ? static_cast<vtkIdType>(ids->GetTuple1(cell)) : -1;
   }
 
-  /// A keyword without a name ends what another began.
+  /// A keyword without a name ends the group, material or the like that an earlier one began.
   void AddLabels(vtkIdType cell)
   {
     for (std::size_t label = 0; label < ObjLabels.size(); ++label)

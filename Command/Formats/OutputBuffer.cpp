@@ -37,7 +37,7 @@ void OutputBuffer::AddNumber(double number)
 {
   char text[32];
   char* const end = std::to_chars(text, text + sizeof(text), number).ptr;
-  // Without the sign that a NaN may have.
+  // A NaN may have a sign, which is left out.
   this->Add(
     std::isnan(number) ? "nan" : std::string_view(text, static_cast<std::size_t>(end - text)));
 }

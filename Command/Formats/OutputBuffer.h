@@ -19,7 +19,7 @@ public:
 
   void Add(std::string_view text);
 
-  /// In decimal, whatever the locale, with as many digits as a double needs to be read back
+  /// Adds a decimal number, in any locale, with as many digits as a double needs to be read back
   /// exactly.
   void AddNumber(double number);
   void AddNumber(std::int64_t number);

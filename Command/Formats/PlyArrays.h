@@ -16,7 +16,7 @@ class vtkDataSetAttributes;
 namespace delaunayflip
 {
 
-/// Stores the values of a property one after the other; ignores those of a list.
+/// Stores the values of a scalar property one after the other; ignores the values of a list.
 class PlyColumn
 {
 public:

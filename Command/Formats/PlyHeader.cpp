@@ -167,7 +167,7 @@ private:
     const auto body = static_cast<std::int64_t>(this->Cursor.GetBytesLeft());
     for (const PlyElement& element : this->Header.Elements)
     {
-      // The last line may lack its end.
+      // The last line may lack its line break.
       const std::int64_t least = std::max<std::int64_t>(this->LeastSize(element), 1);
       if (element.Count > (body + 1) / least)
       {

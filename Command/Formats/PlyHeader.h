@@ -84,7 +84,7 @@ struct PlyHeader
   std::int64_t CountOf(const std::string& element) const;
 };
 
-/// Reads the head of a .ply. Its counts are possible in a file of that length.
+/// Reads the header of a .ply. The file is long enough for the counts in it.
 /// @throws CommandError (BadFile) that names the file, the line and the reason.
 PlyHeader ReadPlyHeader(const InputFile& file);
 

@@ -17,8 +17,8 @@ namespace
 
 using Names = std::vector<std::string>;
 
-/// The smallest type for all values of an array of 64-bit integers; none if not even double is
-/// exact.
+/// The smallest type that holds all values of an array of 64-bit integers exactly; none if double
+/// does not either.
 std::optional<PlyType> FitLargeIntegers(vtkDataArray* array)
 {
   constexpr double exact = 9007199254740992.0; // 2^53

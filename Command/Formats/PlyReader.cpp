@@ -34,7 +34,7 @@ bool IsTexture(const PlyProperty& property)
   return property.CountType && property.Type >= PlyType::Float32 && property.Name == "texcoord";
 }
 
-/// Reads the body, element after element. `Values` is where its numbers come from.
+/// Reads the body, one element after the other. `Values` is the source of its numbers.
 template <typename Values>
 class PlyBody
 {
@@ -289,7 +289,7 @@ private:
       element.Name + "'");
   }
 
-  /// Whether there is one list of vertices, and of texture coordinates at most one.
+  /// Requires one list of vertices and at most one of texture coordinates.
   void RequireIndices(const PlyElement& element) const
   {
     const auto& lists = element.Properties;

@@ -20,8 +20,8 @@ public:
   void Add(double coordinate) { this->Corners.Values.push_back(coordinate); }
   void EndFace() { this->Ends.push_back(static_cast<std::int64_t>(this->Corners.Values.size())); }
 
-  /// Gives them to the points of the mesh, if there are some.
-  /// @throws CommandError (BadFile) when a face has another number of them.
+  /// Attaches the coordinates, if there are any, to the points of the mesh.
+  /// @throws CommandError (BadFile) if a face does not have two for each corner.
   void Attach(FileMesh& mesh, const InputFile& file);
 
 private:

@@ -16,11 +16,11 @@ namespace delaunayflip
 namespace
 {
 
-// Text of one-digit numbers grows 16 times when every number becomes a few doubles; compressed
-// data can grow a thousand times, but only of what is nearly constant.
+// Text of one-digit numbers grows 16 times when every number becomes a few doubles. Compressed data
+// can grow a thousand times, but only if they are nearly constant.
 constexpr double MemoryPerByte = 200;
 constexpr double LeastMemory = 1 << 30;
-// The slowest readers take 0.2 microseconds a byte.
+// The slowest readers take 0.2 microseconds per byte.
 constexpr double SecondsPerByte = 5e-6;
 constexpr double LeastSeconds = 30;
 

@@ -10,9 +10,9 @@
 namespace delaunayflip
 {
 
-/// While it lives, this process can take no more memory and processor time than reading a file of
-/// `bytes` can need, many times over: a corrupt file shall not take all there is. What asks for
-/// more memory fails; more time ends the process by SIGXCPU.
+/// Keeps a corrupt file from using all memory and time. While this object lives, the memory and
+/// processor time of the process are limited to many times what a valid file of `bytes` needs.
+/// Allocations beyond the limit fail; beyond the limit of time, SIGXCPU ends the process.
 class ReadingLimits
 {
 public:

@@ -53,7 +53,7 @@ void AttachTriangles(vtkPolyData* mesh, vtkDataArray* coordinates)
   mesh->SetPolys(triangles);
 }
 
-/// The number of triangles that the head of a binary file announces.
+/// The number of triangles according to the header of a binary file.
 std::uint32_t AnnouncedTriangles(const InputFile& file)
 {
   return BinaryValues<false>(file, HeadSize).Next<std::uint32_t>();
@@ -189,11 +189,11 @@ private:
     }
   }
 
-  void Require(bool holds, const char* complaint) const
+  void Require(bool holds, const char* problem) const
   {
     if (!holds)
     {
-      this->Cursor.Fail(complaint);
+      this->Cursor.Fail(problem);
     }
   }
 

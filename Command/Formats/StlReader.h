@@ -11,12 +11,12 @@ namespace delaunayflip
 
 /// Reads a .stl: binary, in the single precision that it has, or text, in double precision.
 ///
-/// Cell data: Attributes, the two bytes behind every triangle of a binary file where some are not
-/// zero; SolidIds where a text has several solids, which counts the names in the field data
+/// Cell data: Attributes, the two bytes after every triangle of a binary file, if some are not
+/// zero; and SolidIds, if a text has several solids, an index into the names in the field data
 /// SolidNames.
 ///
-/// The format repeats the points for every triangle; `repeated` says whether those in the same
-/// place become one.
+/// The format repeats the points for every triangle; `repeated` says whether points at the same
+/// place are merged.
 /// @throws CommandError (BadFile) that names the file, the line and the reason.
 FileMesh ReadStl(const InputFile& file, RepeatedPoints repeated);
 

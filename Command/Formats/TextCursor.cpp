@@ -24,8 +24,8 @@ std::string Quoted(std::string_view word)
   return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-/// What is closer to zero than any number of the type is rounded to zero or to the smallest; what
-/// is larger than all becomes infinite. std::from_chars does neither.
+/// Numbers below the smallest of the type are rounded to it or to zero; numbers above the largest
+/// become infinite. std::from_chars does neither.
 template <typename T>
 T Rounded(std::string_view word)
 {

@@ -12,20 +12,20 @@
 namespace delaunayflip
 {
 
-/// Walks over the text of a file, by words and lines. Lines end with \n, \r\n or \r; words are
-/// separated by blanks. Numbers are what std::from_chars reads, whatever the locale, rounded
-/// correctly; NaN and infinity are numbers.
+/// Reads the text of a file by words and lines. Lines end with \n, \r\n or \r; words are separated
+/// by blanks. Numbers are read as by std::from_chars, in any locale, and rounded correctly; NaN and
+/// infinity are numbers.
 class TextCursor
 {
 public:
-  /// From byte `begin`, at 0 behind a byte order mark if there is one, to byte `end`.
+  /// Reads from byte `begin` to byte `end`. If `begin` is 0, skips a byte order mark.
   explicit TextCursor(
     const InputFile& file, std::size_t begin = 0, std::size_t end = std::string_view::npos);
 
-  /// From here on a backslash at the end of a line continues it.
+  /// After this call, a backslash at the end of a line continues the line.
   void ContinueLines() { this->Continues = true; }
 
-  /// From here on lines end for words and numbers where this begins a comment.
+  /// After this call, `mark` begins a comment: words and numbers of a line end before it.
   void EndLinesAt(char mark) { this->CommentMark = mark; }
 
   bool IsAtEnd() const { return this->Here == this->End; }
@@ -33,10 +33,10 @@ public:
   /// Whether nothing but blanks and a comment is left of the line.
   bool IsAtLineEnd();
 
-  /// Goes on to the next line.
+  /// Moves to the next line.
   void SkipLine();
 
-  /// Goes on to the next word, in this line or another.
+  /// Moves to the next word, in this line or a later one.
   void SkipSpace();
 
   /// The next word of this line; empty where there is none.
@@ -50,7 +50,7 @@ public:
   template <typename T>
   T NextNumber();
 
-  /// Goes over `size` bytes as they are.
+  /// Moves past `size` bytes, whatever they contain, and returns them.
   const char* NextBytes(std::size_t size);
 
   std::size_t GetOffset() const { return this->Here - this->File->GetBytes().data(); }

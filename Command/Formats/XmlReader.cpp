@@ -40,7 +40,7 @@ std::string AttributeOf(vtkXMLDataElement* element, const char* name)
   return value ? value : "";
 }
 
-/// Looks at the elements of a file before VTK believes them.
+/// Checks the elements of a file before VTK trusts them.
 class XmlCheck
 {
 public:
@@ -51,7 +51,7 @@ public:
 
   void Check(vtkXMLDataElement* root)
   {
-    // As many bytes as a byte of the file can stand for, by compression at its best.
+    // The most bytes that one compressed byte of the file can expand to.
     constexpr double compression = 10000;
     this->Growth = root->GetAttribute("compressor") ? compression : 1.0;
     for (vtkXMLDataElement* dataSet : Children(root))
@@ -100,13 +100,13 @@ private:
     }
   }
 
-  /// Whether the file can hold so many tuples. Removes what VTK would misread.
+  /// Fails if the file is too short for so many tuples. Removes attributes that VTK would misread.
   void CheckArray(vtkXMLDataElement* array, double tuples)
   {
     const double values = tuples * this->GetCount(array, "NumberOfComponents", 1);
     int type = 0;
     const bool isBits = array->GetWordTypeAttribute("type", type) && type == VTK_BIT;
-    // A value takes a byte at least.
+    // A value takes at least a byte.
     if (values >
       (isBits ? 8.0 : 1.0) * this->Growth * static_cast<double>(this->File.GetBytes().size()))
     {
@@ -117,7 +117,7 @@ private:
     array->RemoveAttribute("RangeMax");
     for (vtkXMLDataElement* key : Children(array))
     {
-      // Ranges are found anew; VTK writes infinite ones, which it cannot read.
+      // VTK computes ranges again; it writes infinite ones, which it cannot read.
       if (AttributeOf(key, "name").find("RANGE") != std::string::npos)
       {
         array->RemoveNestedElement(key);
@@ -125,7 +125,7 @@ private:
     }
   }
 
-  /// A number that is not negative, and not zero where `least` is one.
+  /// A number that is at least `least`, 0 or 1.
   double GetCount(vtkXMLDataElement* element, const char* name, int least)
   {
     const std::string text = AttributeOf(element, name);
@@ -192,7 +192,7 @@ private:
       AttributeOf(element, "NumberOfTuples") != "0";
   }
 
-  /// What is between the tag of an element and the next tag.
+  /// The text between the tag of an element and the next tag.
   TextCursor FindText(vtkXMLDataElement* element) const
   {
     const std::string_view bytes = this->File->GetBytes();
@@ -246,13 +246,13 @@ FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
     const MutedStandardError muted;
     reader->Update();
   }
-  // Whatever the reader complained of means that something of the file is missing.
-  const std::string complaints = messages.TakeComplaints();
+  // Any warning of the reader means that a part of the file is missing.
+  const std::string problems = messages.TakeProblems();
   FileMesh result;
   result.Mesh = reader->GetOutput();
-  if (!complaints.empty() || !result.Mesh)
+  if (!problems.empty() || !result.Mesh)
   {
-    file.Fail("cannot be read: " + (complaints.empty() ? "it contains no mesh" : complaints));
+    file.Fail("cannot be read: " + (problems.empty() ? "it contains no mesh" : problems));
   }
   if (!result.Mesh->GetPoints())
   {

@@ -11,9 +11,9 @@ namespace delaunayflip
 
 class VTKMessages;
 
-/// Reads a .vtp by VTK's reader. What VTK believes of a file is checked before: sizes against its
-/// length; ranges, which VTK writes but cannot always read, are not read; and numbers as text are
-/// read here, exactly. May die on a corrupt file: to be called in a child process.
+/// Reads a .vtp with VTK's reader, after some checks: sizes are compared with the length of the
+/// file, ranges are ignored because VTK cannot read all that it writes, and numbers in text are
+/// read here, exactly. Call this in a child process: VTK may crash on a corrupt file.
 /// @throws CommandError (BadFile) that names the file and the reason.
 FileMesh ReadXml(const InputFile& file, VTKMessages& messages);
 

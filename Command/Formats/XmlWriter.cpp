@@ -27,8 +27,8 @@ double Finite(double value)
   return std::isnan(value) ? 0.0 : std::clamp(value, -most, most);
 }
 
-/// VTK writes the range of vectors with an array, as it is known or else found; and cannot read an
-/// infinite one. The squares of coordinates above 1e154 are infinite.
+/// VTK writes the range of the vectors' lengths with an array, and cannot read an infinite one. The
+/// squares of coordinates above 1e154 are infinite.
 void LimitRange(vtkDataArray* array)
 {
   double range[2];

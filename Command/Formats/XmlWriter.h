@@ -15,8 +15,8 @@ namespace delaunayflip
 /// Whether VTK can write and read an array of this type as global or pedigree ids.
 bool CanBeXmlIds(vtkAbstractArray* array);
 
-/// Gives the writer the mesh, without what VTK crashes on or writes so that it cannot read it:
-/// ids of other types become ordinary arrays, and ranges, which VTK stores with arrays, finite.
+/// Gives the writer a mesh that VTK can write and read back: ids of types that it crashes on become
+/// ordinary arrays, and the ranges that it stores with arrays become finite.
 void SetXmlInput(vtkXMLPolyDataWriter* writer, vtkPolyData* mesh);
 
 }

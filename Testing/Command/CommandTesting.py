@@ -39,7 +39,7 @@ FORMATS = list(READERS)
 
 
 class CommandTest(unittest.TestCase):
-    """Runs the command in a folder of its own, in which it must leave no temporary file."""
+    """Runs the command in a new folder, in which it must leave no temporary file."""
 
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
@@ -127,7 +127,7 @@ def make_array(name, values):
 
 
 def worst_case(size):
-    """The slow case of the literature, with 2 * size points in two rows and 2 * size - 2
+    """The known slow case for flipping, with 2 * size points in two rows and 2 * size - 2
     triangles. It takes 2 * size - 3 iterations and (size - 1)^2 flips."""
     upper = [(size + 1.0 + i, 1.0, 0.0) for i in range(size)]
     lower = [(float(j), -1.0, 0.0) for j in range(size)]
@@ -219,7 +219,7 @@ def triangles_of(mesh):
 
 
 def triangle_set(mesh):
-    """The triangles as coordinates, whatever their order and first corner."""
+    """The triangles as coordinates, independent of their order and first corner."""
     points = points_of(mesh)
     corners = [[points[i] for i in triangle] for triangle in triangles_of(mesh)]
     return sorted(

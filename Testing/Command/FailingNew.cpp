@@ -7,8 +7,8 @@
 #include <new>
 
 /// @file
-/// A library to be preloaded. In child processes, the allocation by new whose number the variable
-/// FAILING_NEW gives fails.
+/// A library to preload. In child processes it makes one allocation by `new` fail: the one whose
+/// number is in the environment variable FAILING_NEW.
 
 namespace
 {

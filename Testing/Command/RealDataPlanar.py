@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real planar meshes, and terrain judged by x and y, by request or by Auto. The answers are exact:
-the Delaunay triangulation is unique except for co-circular points."""
+"""Real planar meshes, and terrain judged by x and y, as requested or chosen by Auto. The answers
+are exact: the Delaunay triangulation is unique except for co-circular points."""
 
 import csv
 import os

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from CommandTesting import CommandTest, edge_counts, read_mesh, triangles_of
 from RealDataTesting import FOLDER, RealDataTest
 
-# The known answers take coordinates as exact.
+# The known answers treat coordinates as exact.
 AS_GIVEN = ("--tolerance", "1e-9")
 OFF = ("--feature-angle", "180", *AS_GIVEN)
 
@@ -20,7 +20,7 @@ class Known(NamedTuple):
     triangles: int
     bad: int  # before
     flips: int
-    left: int  # the most edges that may be left, all blocked
+    left: int  # at most so many bad edges may be left, all blocked
     non_manifold: int = 0
     boundary: int = 0
     share: float = 0.05  # how much the counts may differ

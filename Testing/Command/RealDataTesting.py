@@ -18,10 +18,10 @@ KEPT = ["points", "triangles", "edges", "boundary_edges", "non_manifold_edges"]
 
 class RealDataTest(CommandTest):
     def flip(self, name, *arguments):
-        """Flips a real mesh to out.vtk, checks that its counts are kept, and returns the report."""
+        """Flips a real mesh to out.vtk and checks that its counts stay. Returns the report."""
         report = self.report(os.path.join(FOLDER, name), "out.vtk", *arguments)
         self.assertTrue(report["converged"], name)
-        # The counts of the output by the command itself, which reads the file and makes no flips.
+        # The command itself counts the edges of the output, without flipping any.
         result = self.run_command(
             *("out.vtk", "again.vtk", "--max-iterations", "0", "--report", "again.json", *arguments)
         )

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Truncated or corrupt input gives an exit code and a one-line explanation, never a crash or half a
-mesh."""
+"""Truncated or corrupt input gives an exit code and a one-line explanation, never a crash or part
+of a mesh."""
 
 import os
 import random
@@ -68,7 +68,7 @@ class Truncated(BadFileTest):
         self.cut("b.stl", SetFileTypeToASCII=())
 
     def test_obj(self):
-        """The format has no end mark: truncation can be noticed only within a line."""
+        """The format has no end mark, so only truncation within a line can be noticed."""
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1")
         self.refuse("a.obj", "line 3", "three coordinates")
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2")
@@ -171,7 +171,7 @@ class OtherData(BadFileTest):
         self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
 
     def test_no_triangles(self):
-        """That there is nothing to do is not an error."""
+        """An input without triangles is not an error."""
         write_mesh(make_mesh([(0, 0, 0), (1, 0, 0)], []), self.path("points.vtk"))
         for extension in (".vtk", ".vtp", ".ply", ".obj"):
             result = self.succeed("points.vtk", "out" + extension)

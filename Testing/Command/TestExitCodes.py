@@ -95,7 +95,7 @@ class BadFile(CommandTest):
 
     def test_nothing_is_written_when_one_file_cannot_be(self):
         self.fail_with(3, self.mesh, "out.vtk", "--report", "none/r", naming=["none/r"])
-        # A pipe, as an example of special files, which must not be replaced by regular ones.
+        # A pipe: special files must not be replaced by regular ones.
         os.mkfifo(self.path("pipe"))
         self.fail_with(3, self.mesh, "out.vtk", "--statistics", "pipe", naming=["pipe"])
         self.assertEqual(sorted(os.listdir(self.folder)), ["mesh.vtk", "pipe"])
@@ -130,7 +130,7 @@ class Success(CommandTest):
         self.assertEqual(len(triangles_of(read_mesh(self.path("out.vtk")))), 6)
 
     def test_numbers_are_decimal(self):
-        """Leading zeros make no octal number."""
+        """Leading zeros do not make a number octal."""
         mesh = write_mesh(worst_case(20), self.path("mesh.vtk"))
         for text, iterations in (("010", 10), ("08", 8), ("+9", 9), ("-01", 37), ("000", 0)):
             report = self.report(

@@ -161,7 +161,7 @@ class Kept(CommandTest):
 
 class Lost(CommandTest):
     def losses(self, mesh, name):
-        """The one line on losses, or an empty string."""
+        """The line that lists losses, or an empty string."""
         result = self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
         lines = [line for line in result.stderr.splitlines() if "cannot store" in line]
         self.assertLessEqual(len(lines), 1)

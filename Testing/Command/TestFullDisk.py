@@ -27,7 +27,7 @@ class FullDisk(CommandTest):
         self.assertEqual(len(errors), 1, result.stderr)
         self.assertIn(naming, errors[0])
         self.assertIn("cannot be written", errors[0])
-        self.assertIn(f"limit of {limit} byte", errors[0])
+        self.assertIn(f"limited to {limit} byte", errors[0])
         self.assertEqual(before, {name: self.content(name) for name in os.listdir(self.folder)})
 
     def content(self, name):

@@ -59,7 +59,7 @@ def strings(name, values):
 def add_attributes(data, tuples):
     """One of each kind, and one more of some."""
     for kind in TYPES:
-        components = 1 if kind is core.vtkBitArray else 2  # VTK loses the bits of more
+        components = 1 if kind is core.vtkBitArray else 2  # of more components VTK loses the bits
         data.AddArray(numbers(kind, kind.__name__ + " %x", tuples, components))
     named = numbers(core.vtkDoubleArray, "named", tuples, 3, 1 / 3)
     named.SetComponentName(0, "a b")
@@ -100,7 +100,7 @@ def rich_mesh():
 
 
 def read_all(path):
-    """VTK reads only the first attribute of each kind unless told."""
+    """VTK reads only the first attribute of each kind unless told otherwise."""
     reader = vtkPolyDataReader()
     reader.SetFileName(path)
     for kind in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields"):
@@ -140,7 +140,7 @@ class AsVtkReads(BadFileTest):
             self.same_array(*tables, label)
 
     def written(self, mesh):
-        """The mesh in every version and encoding, by VTK: names and labels."""
+        """Writes the mesh with VTK in every version and encoding. Yields the names of the files."""
         for version in (42, 51):
             for encoding in ("ASCII", "Binary"):
                 name = f"{encoding}{version}.vtk"
@@ -202,7 +202,7 @@ class AsVtkReads(BadFileTest):
         self.assertEqual(numbers_found, [41, 42, 43, 71, 72, 73])
 
     def test_levels_of_ghosts(self):
-        """As VTK wrote them before it had types of ghosts."""
+        """As written by VTK before it had ghost types."""
         self.write(
             "in.vtk",
             "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small files that ask for much, numbers at the end of their range, and files that are pipes."""
+"""Small files that ask for much memory, numbers at the ends of their ranges, and pipes as files."""
 
 import math
 import os
@@ -21,13 +21,13 @@ from TestBadFiles import BadFileTest
 from TestNumbers import TRIANGLE, as_text
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 
-MOST_MEMORY = 3 << 30  # of a process that refuses a file of some hundred bytes
+MOST_MEMORY = 3 << 30  # for refusing a file of a few hundred bytes
 
 
-class Greed(BadFileTest):
-    """Refused soon, by a process that could not have taken much."""
+class ExcessiveSizes(BadFileTest):
+    """Such a file must be refused within a few seconds, by a process with little memory."""
 
-    def refuse_soon(self, name, content, *naming):
+    def refuse_quickly(self, name, content, *naming):
         self.write(name, content)
         result = self.run_command(
             name,
@@ -54,7 +54,7 @@ class Greed(BadFileTest):
                 "POINTS 1 float\n0 0 0\nPOLYGONS 1000000000 4000000000\n3 0 0 0\n",
                 "POINTS 0 float\nPOLYGONS 9000000000000000000 9\n3 0 0 0\n",
             ):
-                self.refuse_soon("a.vtk", head.format(encoding) + body, "line ")
+                self.refuse_quickly("a.vtk", head.format(encoding) + body, "line ")
 
     def test_offsets_of_vtk(self):
         text = "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
@@ -64,7 +64,7 @@ class Greed(BadFileTest):
         self.succeed("good.vtk", "out.vtk")
         os.remove(self.path("out.vtk"))
         for last in (4, 999999999999, -1, 2):
-            self.refuse_soon("a.vtk", text.format(last), "line ")
+            self.refuse_quickly("a.vtk", text.format(last), "line ")
 
     def test_counts_of_vtp(self):
         good = as_text(TRIANGLE, "a.vtp")
@@ -81,11 +81,11 @@ class Greed(BadFileTest):
             (">3<", ">99999999999<"),
         ):
             self.assertIn(old, good)
-            self.refuse_soon("a.vtp", good.replace(old, new))
+            self.refuse_quickly("a.vtp", good.replace(old, new))
         field = '<FieldData><DataArray type="{}" Name="f" NumberOfTuples="4000000000"/></FieldData>'
         for kind in ("Float64", "String", "Bit"):
             content = good.replace("<Piece", field.format(kind) + "<Piece", 1)
-            self.refuse_soon("a.vtp", content, "'f'")
+            self.refuse_quickly("a.vtp", content, "'f'")
 
     def test_counts_of_ply(self):
         good = as_text(TRIANGLE, "a.ply")
@@ -96,7 +96,7 @@ class Greed(BadFileTest):
                 ("element face 1", "element face 1\nelement other 4000000000000"),
                 ("3 0 1 2", "4000000000 0 1 2"),
             ):
-                self.refuse_soon("a.ply", good.replace(old, new).replace("ascii", encoding))
+                self.refuse_quickly("a.ply", good.replace(old, new).replace("ascii", encoding))
 
     def test_a_file_larger_than_memory(self):
         with open(self.path("a.ply"), "wb") as file:
@@ -108,7 +108,7 @@ class Greed(BadFileTest):
         self.assertEqual(result.stderr, "error: a.ply: cannot be read: not enough memory\n")
 
     def test_memory_that_is_really_needed(self):
-        """A large file may take as much as it needs."""
+        """A large file may use as much memory as it needs."""
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 300000)
         self.assertEqual(self.report("a.obj", "out.stl")["triangles"], 300000)
 

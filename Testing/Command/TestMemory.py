@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Allocations that fail: what is said names a file and what was being done to it."""
+"""Allocations that fail: the message names a file and what was being done to it."""
 
 import os
 import re
@@ -28,7 +28,7 @@ class Memory(CommandTest):
         self.assertEqual(seen, set(NAMED))
 
     def fail_at(self, number, source, target, seen):
-        """Whether the run fails whose allocation of this number fails."""
+        """Makes the allocation with this number fail. Returns whether to try the next number."""
         environment = dict(os.environ, FAILING_NEW=str(number))
         environment["LD_PRELOAD"] = os.environ["DELAUNAYFLIP_FAILING_NEW"]
         result = self.run_command(

@@ -14,7 +14,7 @@ TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
 
 def as_text(points, name):
-    """A triangle as a text file, with the coordinates as they are given."""
+    """A triangle as a text file, with the coordinates written as given."""
     rows = [" ".join(map(str, point)) for point in points]
     body = "\n".join(rows)
     extension = name.rsplit(".", 1)[1]
@@ -69,7 +69,7 @@ class Exact(BadFileTest):
             self.assertTrue(mesh.GetPoints().GetData().IsA("vtkDoubleArray"))
 
     def test_utm_grid_keeps_its_points(self):
-        """In single precision the 400 points are 4."""
+        """Rounded to single precision, the 400 points would become 4."""
         size = 20
         points = [
             (581311.123 + 0.001 * i, 4785270.456 + 0.001 * j, 0)
@@ -109,7 +109,7 @@ class Exact(BadFileTest):
                 self.assertEqual(mesh.GetPoint(2), (0, 1, 0))
 
     def test_single_precision_is_rounded_once(self):
-        """Half of a float's last place and a little more, which a double cannot tell from half."""
+        """Slightly more than half of a float's last place; as a double it would be exactly half."""
         text = "1.00000005960464477539062500000000000001"
         content = as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], "a.vtk").replace("double", "float")
         self.assertEqual(self.read("a.vtk", content).GetPoint(1)[0], 1 + 2**-23)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a .obj holds besides points and faces."""
+"""What a .obj contains besides points and faces."""
 
 import math
 import unittest
@@ -21,7 +21,7 @@ def strings_of(array):
 
 class ObjTest(BadFileTest):
     def read(self, text):
-        """The mesh, and what was said of it."""
+        """The mesh of a file with this text, and the messages."""
         self.write("a.obj", text)
         result = self.succeed("a.obj", "out.vtp")
         return read_mesh(self.path("out.vtp")), result.stderr

@@ -35,7 +35,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh, "--ignore-lines"), 1)
 
     def test_constraints(self):
-        """A kite cut along its short diagonal 1-3. The long one is in a file of the same points."""
+        """A kite cut along its short diagonal 1-3. A file with the same points has the long one."""
         tall = [(0, -2, 0), (1, 0, 0), (0, 2, 0), (-1, 0, 0)]
         mesh = make_mesh(tall, [(0, 1, 3), (1, 2, 3)])
         path = write_mesh(mesh, self.path("in.vtk"))
@@ -54,7 +54,7 @@ class Options(CommandTest):
         self.assertFalse(self.has_edge(0, 2))
 
     def has_edge(self, a, b):
-        """Whether the output has it."""
+        """Whether the output has this edge."""
         triangles = triangles_of(read_mesh(self.path("out.vtk")))
         return any(a in triangle and b in triangle for triangle in triangles)
 

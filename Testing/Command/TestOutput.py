@@ -41,7 +41,7 @@ class Summary(CommandTest):
         self.assertLessEqual(len(text.splitlines()), 8)
 
     def test_why_edges_are_left(self):
-        """A tetrahedron, of which every flip would repeat an edge, beside a folded sheet."""
+        """A tetrahedron, in which every flip would duplicate an edge, beside a folded sheet."""
         points = [(-2, 0, 0), (2, 0, 0), (0, -1, 0.1), (0, 1, 0.1),
                   (-4, 9, 0), (4, 9, 0), (-3, 11, 0), (3, 12, 1)]
         triangles = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2), (6, 4, 5), (7, 5, 4)]

@@ -46,7 +46,7 @@ def pack(order, properties, row):
 
 class PlyTest(BadFileTest):
     def read_all(self, *elements):
-        """The mesh of each encoding, and what was said of it."""
+        """Yields the mesh read from each encoding, and the messages."""
         for encoding in ENCODINGS:
             self.write("a.ply", make_ply(encoding, *elements))
             result = self.succeed("a.ply", "out.vtp")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""How files that exist are replaced: through links, with their owner, all of them or none."""
+"""How existing files are replaced: links are followed, owners stay, all files change or none."""
 
 import os
 import stat

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each format keeps of a mesh, attribute by attribute, there and back."""
+"""What each format keeps of a mesh that is written and read back, attribute by attribute."""
 
 import math
 import unittest
@@ -40,7 +40,7 @@ def values_of(array):
 
 
 def same(first, second):
-    """Equality by which a NaN equals itself."""
+    """Equality for which a NaN equals itself."""
     return len(first) == len(second) and all(
         a == b or (a != a and b != b) for a, b in zip(first, second)
     )
@@ -56,7 +56,7 @@ class WriterTest(CommandTest):
             return file.read().decode("latin-1")
 
     def convert(self, mesh, *names):
-        """Passes a mesh through files of these names, of which nothing is lost; the last mesh."""
+        """Passes a mesh through files with these names without losses. Returns the last mesh."""
         source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
         for name in names:
             self.assertEqual(self.succeed(source, name).stderr, "", name)
@@ -64,17 +64,17 @@ class WriterTest(CommandTest):
         return read_mesh(self.path(names[-1]))
 
     def read_plainly(self, name):
-        """What VTK's own reader makes of a file, without complaints."""
-        complaints = []
+        """The mesh that VTK's own reader reads, without errors or warnings."""
+        problems = []
         window = vtk.vtkStringOutputWindow()
         before = vtk.vtkOutputWindow.GetInstance()
         vtk.vtkOutputWindow.SetInstance(window)
         try:
             mesh = read_mesh(self.path(name))
-            complaints.append(window.GetOutput())
+            problems.append(window.GetOutput())
         finally:
             vtk.vtkOutputWindow.SetInstance(before)
-        self.assertEqual(complaints, [""], name)
+        self.assertEqual(problems, [""], name)
         return mesh
 
     def assert_array(self, array, kind, values):
@@ -167,7 +167,7 @@ class Ply(WriterTest):
         self.read_plainly("out.ply")
 
     def convert_by_vtk(self, mesh, name):
-        """As convert, but from a .vtk, which holds more."""
+        """Like convert, but from a .vtk, which can hold more."""
         self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
         self.succeed(name, "out.vtk")
         return read_mesh(self.path("out.vtk"))
@@ -206,10 +206,10 @@ SEAM = (
 
 
 class Seams(WriterTest):
-    """Points that the reader repeats along seams of a texture are one in the file again."""
+    """Points that the reader repeats along texture seams become one vertex in the file again."""
 
     def corners(self, name):
-        """Position and texture coordinates of the corners of each triangle."""
+        """Positions and texture coordinates of the corners of each triangle."""
         self.succeed(name, "corners.vtp")
         mesh = read_mesh(self.path("corners.vtp"))
         texture = mesh.GetPointData().GetTCoords()
@@ -250,7 +250,7 @@ class Seams(WriterTest):
 
 class Obj(WriterTest):
     def round_trip(self, text):
-        """The meshes of an .obj and of what the command makes of it."""
+        """The mesh of an .obj, and the mesh of the file that the command makes from it."""
         self.write("in.obj", text)
         self.succeed("in.obj", "first.vtp")
         self.assertNotIn("cannot store", self.succeed("in.obj", "out.obj").stderr)
@@ -265,7 +265,7 @@ class Obj(WriterTest):
                 self.assert_array(other, array.GetClassName(), values_of(array))
 
     def labels(self, mesh, kind):
-        """The name of the material, group ... of each cell; their numbers may change."""
+        """The names of the material, group and so on of each cell; their numbers may change."""
         ids = mesh.GetCellData().GetArray(kind + "Ids")
         names = values_of(mesh.GetFieldData().GetAbstractArray(kind + "Names"))
         return [names[i] if i >= 0 else None for i in values_of(ids)]
@@ -346,7 +346,7 @@ class Obj(WriterTest):
 
 class Xml(WriterTest):
     def test_ids_of_any_type(self):
-        """VTK's writer crashes on pedigree ids of strings, its reader complains of other types."""
+        """VTK's writer crashes on pedigree ids that are strings; its reader fails on other types."""
         for kind in ("vtkStringArray", "vtkDoubleArray", "vtkUnsignedCharArray", "vtkIntArray"):
             make = str if kind == "vtkStringArray" else int
             mesh = bumpy_grid(3, 0)
@@ -367,7 +367,7 @@ class Xml(WriterTest):
         mesh.GetPointData().SetGlobalIds(
             make_values("vtkFloatArray", "ids", [(i,) for i in range(9)]))
         source = write_mesh(mesh, self.path("in.vtk"))
-        self.assertIn("that an array holds ids (ids)", self.succeed(source, "out.vtp").stderr)
+        self.assertIn("the id attribute of arrays (ids)", self.succeed(source, "out.vtp").stderr)
         self.assertIsNone(
             self.read_plainly("out.vtp").GetPointData().GetAbstractAttribute(GLOBAL_IDS))
 
@@ -389,7 +389,7 @@ class Xml(WriterTest):
                 self.keep(mesh)
 
     def keep(self, mesh):
-        """VTK reads all values of the .vtp that the command writes, and complains of nothing."""
+        """VTK reads all values of the .vtp that the command writes, without warnings."""
         self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtp")
         out = self.read_plainly("out.vtp")
         self.assertTrue(same(values_of(mesh.GetPoints().GetData()),
