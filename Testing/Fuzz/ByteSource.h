@@ -10,8 +10,9 @@
 namespace delaunayflip
 {
 
-/// Choices made from the bytes of a case. When these are used up, a generator that they have seeded
-/// goes on, so that a few bytes make a whole case and a fuzzer may shape its beginning.
+/// Random choices made from the bytes of a case. When all bytes are used, a generator seeded by
+/// them continues, so that a few bytes make a whole case. A fuzzer that changes the first bytes
+/// changes the first choices.
 class ByteSource
 {
 public:
@@ -40,7 +41,7 @@ public:
   /// True once in `times`.
   bool Once(std::uint32_t times) { return this->Draw(times) == 0; }
 
-  /// For what draws from a generator of its own.
+  /// A generator for functions that need one.
   std::mt19937 MakeRandom() { return std::mt19937(this->Draw(0xFFFFFFFFu)); }
 
 private:
@@ -54,7 +55,7 @@ private:
     return static_cast<std::uint8_t>(this->State >> 56);
   }
 
-  /// SplitMix64, a bijection that scatters.
+  /// SplitMix64, a bijection that mixes all bits.
   static std::uint64_t Mix(std::uint64_t x)
   {
     x += 0x9E3779B97F4A7C15u;

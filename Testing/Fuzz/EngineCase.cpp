@@ -20,7 +20,7 @@ namespace
 
 using Mesh = OwnedMesh<double>;
 
-/// Points of one family, on which predicates go wrong.
+/// Points of one family, chosen because inexact predicates fail on it.
 std::vector<Point3> DrawPoints(ByteSource& source, std::uint32_t most)
 {
   static const std::vector<PointFamily> families = ListPointFamilies();
@@ -36,7 +36,7 @@ std::vector<Point3> DrawPoints(ByteSource& source, std::uint32_t most)
   return points;
 }
 
-/// Any triangulation of the distinct ones among points; z is 0.
+/// A triangulation of the distinct points, in x and y; z is 0.
 Mesh Triangulate(const std::vector<Point3>& points)
 {
   std::set<std::array<double, 2>> distinct;
@@ -49,7 +49,7 @@ Mesh Triangulate(const std::vector<Point3>& points)
 
 Mesh MakePlane(ByteSource& source) { return Triangulate(DrawPoints(source, 48)); }
 
-/// A lattice with all its ties, and holes in it.
+/// A lattice, which has ties everywhere, with holes.
 Mesh MakeLattice(ByteSource& source)
 {
   const std::uint32_t size = 2 + source.Draw(6);
@@ -62,7 +62,7 @@ Mesh MakeLattice(ByteSource& source)
   return Triangulate(points);
 }
 
-/// Triangulated in x and y, with heights of the same family.
+/// A triangulation in x and y, with heights of the same family.
 Mesh MakeTerrain(ByteSource& source)
 {
   Mesh mesh = MakePlane(source);
@@ -74,7 +74,7 @@ Mesh MakeTerrain(ByteSource& source)
   return mesh;
 }
 
-/// A plane triangulation in a tilted plane of whole numbers, exactly.
+/// A triangulation in a tilted plane. Coordinates are integers, so the points lie in it exactly.
 Mesh MakeTiltedPlane(ByteSource& source)
 {
   Mesh mesh = MakeLattice(source);
@@ -113,7 +113,7 @@ Mesh MakeSurface(ByteSource& source)
   }
 }
 
-/// Any three points, again and again.
+/// Triangles of any three points.
 Mesh MakeSoup(ByteSource& source)
 {
   Mesh mesh;
@@ -131,14 +131,14 @@ Mesh MakeSoup(ByteSource& source)
 
 Mesh MakeMess(ByteSource& source) { return MakeRandomMess(source.Draw(0xFFFFFFFFu)).Mesh; }
 
-/// Large enough that several threads have work.
+/// A mesh large enough to give work to several threads.
 Mesh MakeLarge(ByteSource& source)
 {
   const Mesh mesh = MakeRandomBadMeshDouble(1000 + source.Draw(6000), source.Draw(10000));
   return source.Once(2) ? mesh : RepeatTriangles(mesh);
 }
 
-/// Whether it is a triangulation that overlaps nowhere.
+/// @param isClean receives whether the mesh is a triangulation without overlaps.
 Mesh DrawMesh(ByteSource& source, bool& isClean)
 {
   isClean = false;
@@ -176,7 +176,7 @@ double DrawBadNumber(ByteSource& source)
   return Numbers[source.Draw(sizeof(Numbers) / sizeof(Numbers[0]))];
 }
 
-/// One fault in the points or the triangles.
+/// Adds one fault to the points or the triangles.
 void Spoil(Mesh& mesh, ByteSource& source)
 {
   const auto drawPoint = [&]
@@ -187,20 +187,20 @@ void Spoil(Mesh& mesh, ByteSource& source)
   double* point = &mesh.Points[3 * drawPoint()];
   switch (source.Draw(6))
   {
-    case 0: // turns it over
+    case 0: // reverses it
       std::swap(corners[0], corners[1]);
       break;
     case 1:
       corners[source.Draw(3)] = static_cast<std::int32_t>(drawPoint());
       break;
-    case 2: // twice, perhaps the other way round
+    case 2: // repeats it, perhaps reversed
       mesh.Triangles.insert(mesh.Triangles.end(),
         { corners[0], corners[1 + source.Draw(2)], corners[2 - source.Draw(2)] });
       break;
     case 3:
       point[source.Draw(3)] = DrawBadNumber(source);
       break;
-    case 4: // onto another one, or between two
+    case 4: // moves a point onto another one, or between two
     {
       const double* p = &mesh.Points[3 * drawPoint()];
       const double* q = source.Once(2) ? p : &mesh.Points[3 * drawPoint()];
@@ -216,7 +216,7 @@ void Spoil(Mesh& mesh, ByteSource& source)
   }
 }
 
-/// Times a power of two, which changes no judgement unless numbers overflow or vanish.
+/// Multiplies by a power of two, which changes no decision unless numbers overflow or underflow.
 void Scale(Mesh& mesh, ByteSource& source)
 {
   constexpr int Exponents[] = { -1040, -300, -20, 20, 300 };

@@ -13,7 +13,7 @@
 namespace delaunayflip
 {
 
-/// A mesh with all that a caller may say of it, and options, drawn from bytes.
+/// A mesh, with constraints, regions and frozen triangles, and options; all drawn from bytes.
 struct EngineCase
 {
   std::vector<double> Points; ///< x, y, z.
@@ -22,8 +22,8 @@ struct EngineCase
   std::vector<std::int32_t> Regions; ///< One per triangle, or none.
   std::vector<unsigned char> Frozen; ///< One per triangle, or none.
   FlipOptions Options;
-  bool HasFloats = false; ///< The engine gets points of type float,
-  bool HasLongIds = false; ///< and 64-bit ids.
+  bool HasFloats = false; ///< The engine gets points of type float.
+  bool HasLongIds = false; ///< The engine gets 64-bit ids.
 
   /// A triangulation of distinct points: all triangles turn left in x and y, and nothing overlaps.
   bool IsClean = false;
@@ -42,10 +42,10 @@ private:
   std::vector<std::int64_t> LongIds;
 };
 
-/// The same for the same bytes on every machine.
+/// Draws a case. The same bytes give the same case on every machine.
 EngineCase MakeEngineCase(const std::uint8_t* bytes, std::size_t size);
 
-/// Writes a case as C++ that a test can take over.
+/// Writes a case as C++ code for a test.
 void Print(const EngineCase& drawn, std::ostream& stream);
 
 }

@@ -44,7 +44,7 @@ FlipResult FlipInSteps(const TriangleMesh& mesh, const FlipOptions& options, std
   return result;
 }
 
-/// Only options that do not suit the mesh may be refused.
+/// The engine may refuse options only if they do not suit the mesh.
 std::optional<FlipResult> TryToFlip(
   const TriangleMesh& mesh, const FlipOptions& options, std::int64_t step = -1)
 {
@@ -83,7 +83,7 @@ void ExpectUntouchedTrianglesStay(const TriangleMesh& mesh, const FlipResult& re
   EXPECT_EQ(2 * result.Report.TotalFlips, touches);
 }
 
-/// Whether no rounding decides when an edge is bad.
+/// Whether edges are judged exactly, without rounding.
 bool IsExact(const FlipOptions& options, const FlipReport& report)
 {
   return report.GeometryUsed != GeometryKind::Surface &&
@@ -94,7 +94,7 @@ void ExpectRightStop(const FlipOptions& options, const FlipReport& report)
 {
   if (options.MaximumIterations < 0)
   {
-    // With a fixed tolerance flips may go round in circles (Documentation/method.md).
+    // With a fixed tolerance flips may cycle (Documentation/method.md).
     const bool mayCycle = !IsExact(options, report) && options.Tolerance >= 0.0;
     EXPECT_TRUE(report.Converged() || mayCycle) << ToString(report.StopReason);
     return;
@@ -106,7 +106,7 @@ void ExpectRightStop(const FlipOptions& options, const FlipReport& report)
 /// Larger meshes would take seconds in rational arithmetic.
 constexpr std::int64_t MostExactTriangles = 400;
 
-/// The constraints that are edges of a mesh. The others hold nothing, even where flips make them.
+/// The constraints that are edges of a mesh. Others fix no edge, even one that flips create.
 std::vector<std::int64_t> FindConstraintEdges(const EngineCase& drawn)
 {
   std::vector<std::int64_t> found;
@@ -122,7 +122,7 @@ std::vector<std::int64_t> FindConstraintEdges(const EngineCase& drawn)
   return found;
 }
 
-/// Whether the products in angles of any two points neither overflow nor vanish.
+/// Whether the products from which angles are computed neither overflow nor underflow.
 bool IsModerate(const EngineCase& drawn)
 {
   const double most = drawn.HasFloats ? 1e15 : 1e60;
@@ -143,7 +143,7 @@ bool IsLevel(const TriangleMesh& mesh)
   return true;
 }
 
-/// What is left bad must be what others find.
+/// The bad edges left must be those that the audit and exact arithmetic find.
 void ExpectRightRest(const EngineCase& drawn, const TriangleMesh& after, const FlipReport& report)
 {
   FlipOptions options = drawn.Options;
@@ -153,10 +153,10 @@ void ExpectRightRest(const EngineCase& drawn, const TriangleMesh& after, const F
   {
     const std::int64_t audited = CountNonDelaunayEdges(after, options);
     EXPECT_LE(audited, report.NonDelaunayAfter);
-    // The audit knows no ties.
+    // The audit does not count ties.
     EXPECT_TRUE(audited == report.NonDelaunayAfter || options.TieRule == TieRuleKind::Canonical);
   }
-  // Feature edges are those of the input, which are not seen afterwards.
+  // Feature edges are found in the input; the output does not show which edges they were.
   const bool isKnown = options.Geometry == GeometryKind::Surface
     ? options.FeatureAngle == 180.0
     : options.Geometry == GeometryKind::PlanarXY || IsLevel(after);
@@ -168,13 +168,13 @@ void ExpectRightRest(const EngineCase& drawn, const TriangleMesh& after, const F
   }
 }
 
-/// The smallest angle as the audit measures it.
+/// The smallest angle must be the one that the audit measures.
 void ExpectRightAngle(const EngineCase& drawn, const TriangleMesh& after, const FlipReport& report)
 {
   const bool isFinite = std::all_of(
     drawn.Points.begin(), drawn.Points.end(), [](double x) { return std::isfinite(x); });
   const double measured = MinimumAngle(after, report.GeometryUsed);
-  // Large numbers become infinite as float: then no triangle has an angle.
+  // Numbers too large for float become infinite; then no triangle has an angle.
   if (isFinite && IsModerate(drawn) &&
     !(std::isnan(measured) && std::isnan(report.MinimumAngleAfter)))
   {
@@ -182,7 +182,7 @@ void ExpectRightAngle(const EngineCase& drawn, const TriangleMesh& after, const 
   }
 }
 
-/// A triangulation that nothing holds back.
+/// A clean mesh must stay a triangulation without overlaps and become Delaunay.
 void ExpectDelaunay(const EngineCase& drawn, const TriangleMesh& after, const FlipResult& result)
 {
   if (!drawn.IsClean || after.Triangles.Count > MostExactTriangles)
@@ -202,7 +202,7 @@ void ExpectDelaunay(const EngineCase& drawn, const TriangleMesh& after, const Fl
   }
 }
 
-/// With canonical ties, triangle for triangle.
+/// With canonical ties the mesh must be Lawson's, triangle for triangle.
 void ExpectLawsonsMesh(const EngineCase& drawn, const TriangleMesh& after, const FlipResult& result)
 {
   const bool applies = drawn.IsClean && IsExact(drawn.Options, result.Report) &&
@@ -224,7 +224,7 @@ void ExpectLawsonsMesh(const EngineCase& drawn, const TriangleMesh& after, const
   EXPECT_EQ(oracle.GetTriangles(), ToTriangleSet(result.Triangles));
 }
 
-/// Doubling is exact, so that it changes nothing.
+/// Doubling the coordinates is exact, so it must not change the triangles.
 void ExpectSameWhenDoubled(const EngineCase& drawn, const FlipResult& result)
 {
   if (!IsExact(drawn.Options, result.Report) && !IsModerate(drawn))

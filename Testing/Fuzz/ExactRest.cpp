@@ -62,7 +62,7 @@ struct ExactAngle
   Real Cosine, Sine, First, Second;
 };
 
-/// What makes an opposite-angle sum too large.
+/// Judges opposite-angle sums.
 class AngleCriterion
 {
 public:
@@ -72,7 +72,7 @@ public:
   {
   }
 
-  /// @returns whether the sum exceeds pi and the tolerance for certain, and whether it may.
+  /// @returns whether the sum certainly exceeds pi plus the tolerance, and whether it may.
   std::pair<bool, bool> Judge(const QuadCorners& apqb) const
   {
     const ExactAngle a(apqb[0], apqb[1], apqb[2]);
@@ -86,7 +86,7 @@ public:
     const auto cosine = static_cast<double>(a.Cosine * b.Cosine - a.Sine * b.Sine);
     const double sum = std::atan2(sine, cosine);
     const bool isObtuse = a.Cosine < 0 && b.Cosine < 0;
-    // atan2 says -pi to pi; the sum is 0 to 2 pi.
+    // atan2 gives -pi to pi; the sum is in 0 .. 2 pi.
     const double excess = isObtuse || sum < 0.0 ? (sum > 0.0 ? sum - Pi : sum + Pi) : sum - Pi;
     const double limit = this->GetLimit(a, b, apqb);
     const double margin = 1e-9 * std::max(std::min(1.0, limit), 1e-5);
@@ -120,7 +120,7 @@ private:
 struct EdgeSide
 {
   std::int64_t Triangle, Opposite;
-  bool Upwards; ///< Runs from the smaller id to the larger.
+  bool Upwards; ///< Whether the half-edge runs from the smaller id to the larger.
 };
 using EdgeSides = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<EdgeSide>>;
 
@@ -227,7 +227,7 @@ private:
     {
       return this->JudgeFlat(apqb);
     }
-    const int turn = upper + lower; // 0 where the triangles turn to different sides
+    const int turn = upper + lower; // 0 if the triangles have opposite orientations
     if (this->Options.Criterion == CriterionKind::OppositeAngles)
     {
       return turn == 0 ? std::make_pair(false, false) : this->Angles.Judge(apqb);
@@ -240,7 +240,7 @@ private:
     return { isBad, isBad };
   }
 
-  /// Of a quad without area: bad where the flip would make a shorter edge within the edge.
+  /// Judges a quad without area: bad if the flip would make a shorter edge within the edge.
   std::pair<bool, bool> JudgeFlat(const QuadCorners& apqb) const
   {
     const auto edge = std::minmax(apqb[1], apqb[2]);
@@ -255,7 +255,7 @@ private:
   const TriangleMesh& Mesh;
   const FlipOptions& Options;
   bool IsPlane;
-  bool HasDepth; ///< z counts.
+  bool HasDepth; ///< Whether z is used.
   AngleCriterion Angles;
   std::set<std::pair<std::int64_t, std::int64_t>> Constraints;
 };

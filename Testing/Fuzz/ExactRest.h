@@ -11,18 +11,18 @@
 namespace delaunayflip
 {
 
-/// How many edges a run must leave as bad: the number lies between the two, which differ by those
-/// whose angle sum is within rounding of the tolerance.
+/// Bounds on the number of bad edges that a run must leave. They differ by the edges whose angle
+/// sum is within rounding of the tolerance.
 struct RestBounds
 {
   std::int64_t Certain = 0, Possible = 0;
 };
 
-/// The edges of a mesh that the options call bad and nothing holds: by rational arithmetic for the
-/// in-circle criterion, with 300 bits for angles. Independent of the engine.
-/// @param mesh with the constraints that are edges of it.
-/// @param geometry PlanarXY; Planar where z is the same for all points; or Surface, where feature
-/// edges are not seen.
+/// Counts the edges of a mesh that are bad and not fixed, in rational arithmetic for the in-circle
+/// criterion and with 300 bits for angles. Independent of the engine.
+/// @param mesh with those constraints that are edges of it.
+/// @param geometry PlanarXY; Planar if z is the same for all points; or Surface, without feature
+/// edges.
 RestBounds BoundRest(const TriangleMesh& mesh, const FlipOptions& options, GeometryKind geometry);
 
 }

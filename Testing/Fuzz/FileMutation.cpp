@@ -30,7 +30,7 @@ void ChangeByte(std::string& text, ByteSource& source)
                         : static_cast<char>(Values[source.Draw(sizeof(Values))]);
 }
 
-/// Four or eight bytes of a binary number.
+/// Changes four or eight bytes, as of a binary number.
 void ChangeWord(std::string& text, ByteSource& source)
 {
   static const std::string words[] = { std::string(4, '\0'), std::string(4, '\xFF'),
@@ -49,7 +49,7 @@ bool IsOfNumber(char letter)
     letter == 'e' || letter == '+';
 }
 
-/// Another number in place of one that is written in decimals.
+/// Replaces a decimal number with another.
 void ChangeNumber(std::string& text, ByteSource& source)
 {
   constexpr const char* Numbers[] = { "0", "-1", "1", "2", "3", "4294967296", "2147483648",
@@ -82,7 +82,7 @@ void ChangePiece(std::string& text, ByteSource& source)
   }
 }
 
-/// The same with a line.
+/// Removes, repeats or moves a line.
 void ChangeLine(std::string& text, ByteSource& source)
 {
   const Size place = DrawPlace(text, source);
@@ -144,7 +144,7 @@ void MutateOnce(std::string& text, const std::string& other, ByteSource& source)
 
 std::string MutateFile(std::string bytes, const std::string& other, ByteSource& source)
 {
-  // Most files keep enough order to get past the first check.
+  // Most files stay regular enough to pass the first checks.
   for (Size faults = 1 + source.Draw(source.Once(4) ? 12 : 3); faults > 0; --faults)
   {
     MutateOnce(bytes, other, source);

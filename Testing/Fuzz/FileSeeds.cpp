@@ -74,7 +74,7 @@ vtkSmartPointer<Array> MakeArray(const char* name, int components, vtkIdType tup
   return array;
 }
 
-/// Also vertices, lines, a quad, a strip, and attributes of several types.
+/// A mesh with vertices, lines, a quad and a strip too, and attributes of several types.
 vtkSmartPointer<vtkPolyData> MakeRichMesh()
 {
   vtkSmartPointer<vtkPolyData> mesh = MakeTriangles();

@@ -15,10 +15,10 @@ struct SeedFile
   std::string Bytes;
 };
 
-/// Small valid files of every format that the command reads, in each of its encodings, with what
-/// the format can hold beside triangles. VTK's writers make them in a process of its own, because
-/// they start threads, which a process that forks must not have.
-/// @param folder where they may put files for a moment.
+/// Small valid files of every format that the command reads, in each of its encodings, with all
+/// that the format can hold besides triangles. VTK's writers make them in a separate process: they
+/// start threads, and a process that forks must not have any.
+/// @param folder for temporary files.
 std::vector<SeedFile> MakeSeedFiles(const std::string& folder);
 
 }

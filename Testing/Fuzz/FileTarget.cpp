@@ -22,10 +22,10 @@
 /// The command as a target for fuzzers: mutated files of the five formats. The program forks for
 /// every file and calls the command's own main, so that VTK is loaded once.
 ///
-/// Whatever the file holds, the command must end by itself with an exit code that its help names,
-/// say on one line or more what is wrong and with which file, leave the input and an earlier output
-/// as they are, and leave no other file behind. Where it succeeds, it must be able to read what it
-/// wrote, which is tried once in four times.
+/// Whatever the file contains, the command must end by itself with one of the exit codes in its
+/// help. If it fails, it must say what is wrong and with which file, and keep an earlier output. It
+/// must never change the input or leave other files behind. If it succeeds, it must be able to read
+/// its output, which is tried in one of four cases.
 
 /// Command/main.cpp's main.
 int RunCommand(int argc, char** argv);
@@ -37,7 +37,7 @@ using namespace delaunayflip;
 namespace fs = std::filesystem;
 
 constexpr const char* Formats[] = { "vtk", "vtp", "ply", "stl", "obj" };
-constexpr rlim_t MostMemory = rlim_t(4) << 30; // of addresses; files are of a few kB
+constexpr rlim_t MostMemory = rlim_t(4) << 30; // address space; files have a few kB
 constexpr unsigned MostSeconds = 20;
 constexpr const char* EarlierOutput = "what was here before";
 
@@ -54,10 +54,10 @@ void WriteFile(const fs::path& path, const std::string& bytes)
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A folder that goes with the program, and the seed files.
-struct Workshop
+/// A temporary folder, removed at the end of the program, and the seed files.
+struct FuzzFolder
 {
-  Workshop()
+  FuzzFolder()
   {
     std::string name = (fs::temp_directory_path() / "delaunay-flip-fuzz-XXXXXX").string();
     if (!mkdtemp(name.data()))
@@ -68,7 +68,7 @@ struct Workshop
     this->Owner = getpid();
     this->Seeds = MakeSeedFiles(name);
   }
-  ~Workshop()
+  ~FuzzFolder()
   {
     if (getpid() == this->Owner)
     {
@@ -82,26 +82,26 @@ struct Workshop
   std::vector<SeedFile> Seeds;
 };
 
-const Workshop& GetWorkshop()
+const FuzzFolder& GetFuzzFolder()
 {
-  static const Workshop workshop;
-  return workshop;
+  static const FuzzFolder folder;
+  return folder;
 }
 
-/// A case: a file, and what the command is to do with it.
+/// A case: a file, and what the command does with it.
 struct FileCase
 {
-  std::string Input, Output; ///< Names in the folder of the case.
+  std::string Input, Output; ///< Names within the folder of the case.
   std::string Bytes;
   bool HasEarlierOutput = false;
-  bool IsReadAgain = false; ///< The output, if there is one.
+  bool IsReadAgain = false; ///< Whether the command reads its output, if there is one.
 };
 
 FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
 {
-  const std::vector<SeedFile>& seeds = GetWorkshop().Seeds;
+  const std::vector<SeedFile>& seeds = GetFuzzFolder().Seeds;
   ByteSource source(bytes, size);
-  // Every format as often as the others, however many seeds it has.
+  // All formats are equally likely, whatever their numbers of seed files.
   const char* format = Formats[source.Draw(5)];
   std::vector<const SeedFile*> candidates;
   for (const SeedFile& seed : seeds)
@@ -122,7 +122,7 @@ FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
   return drawn;
 }
 
-/// In the child: the command as a shell runs it, its output in a file.
+/// In the child: runs the command like a shell, with its output in a file.
 [[noreturn]] void RunInChild(const fs::path& folder, const std::string& in, const std::string& out)
 {
   const int text = open((folder / "text").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
@@ -160,8 +160,8 @@ int Run(const fs::path& folder, const std::string& in, const std::string& out)
   }
   if (WIFSIGNALED(status))
   {
-    const bool isHang = WTERMSIG(status) == SIGALRM;
-    Fail(isHang ? "hangs" : std::string("died of ") + strsignal(WTERMSIG(status)));
+    const bool hasHung = WTERMSIG(status) == SIGALRM;
+    Fail(hasHung ? "hangs" : std::string("died of ") + strsignal(WTERMSIG(status)));
   }
   return WEXITSTATUS(status);
 }
@@ -178,7 +178,7 @@ void ExpectNoOtherFiles(const fs::path& folder, const FileCase& drawn)
   }
 }
 
-/// A failure changes nothing and says which file it is about.
+/// A failure must change nothing and name a file.
 void ExpectFailure(const fs::path& folder, const FileCase& drawn, const std::string& text)
 {
   const bool exists = fs::exists(folder / drawn.Output);
@@ -238,11 +238,11 @@ void JudgeFileCase(const fs::path& folder, const FileCase& drawn)
 
 }
 
-void SetUpTarget(int* /*argc*/, char** /*argv*/) { GetWorkshop(); }
+void SetUpTarget(int* /*argc*/, char** /*argv*/) { GetFuzzFolder(); }
 
 void RunTarget(const std::uint8_t* bytes, std::size_t size)
 {
-  const fs::path folder = GetWorkshop().Folder / "case";
+  const fs::path folder = GetFuzzFolder().Folder / "case";
   fs::create_directory(folder);
   try
   {

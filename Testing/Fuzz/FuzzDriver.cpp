@@ -16,9 +16,10 @@
 #include <string>
 
 /// @file
-/// Runs cases without a fuzzer: case i of seed s is made from the sixteen bytes of s and i, the
-/// same on every machine. A case that breaks a promise is named, and the rest goes on; a signal, or
-/// a case that takes longer than a minute, is named and ends the program.
+/// Runs cases without a fuzzer. Case i of seed s is made from the sixteen bytes of s and i, so it
+/// is the same on every machine. If a case breaks a promise, the driver prints its number and
+/// continues. If a case is ended by a signal or takes longer than a minute, the driver prints its
+/// number and stops.
 
 namespace
 {
@@ -35,7 +36,7 @@ struct Range
   bool IsPrinted = false;
 };
 
-/// Says which case it was, with what a signal handler may call.
+/// Prints the number of the case. Calls only functions that are allowed in a signal handler.
 void NameCase(int signal)
 {
   std::array<char, 64> text{};

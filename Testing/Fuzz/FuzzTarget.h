@@ -7,16 +7,16 @@
 #include <cstdint>
 
 /// @file
-/// What FuzzDriver.cpp and LibFuzzer.cpp ask of a target.
+/// The functions of a target that FuzzDriver.cpp and LibFuzzer.cpp call.
 
-/// Once, before all cases.
+/// Called once, before all cases.
 void SetUpTarget(int* argc, char** argv);
 
-/// Makes a case of the bytes and judges it.
-/// @throws std::exception for a promise that was broken.
+/// Makes a case from the bytes and judges it.
+/// @throws std::exception if a promise was broken.
 void RunTarget(const std::uint8_t* bytes, std::size_t size);
 
-/// Writes the case to standard output, for people.
+/// Writes the case to standard output in readable form.
 void PrintTarget(const std::uint8_t* bytes, std::size_t size);
 
 #endif

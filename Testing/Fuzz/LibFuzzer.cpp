@@ -3,7 +3,7 @@
 #include "FuzzTarget.h"
 
 /// @file
-/// The entry points of libFuzzer. An exception that leaves is a crash to it.
+/// The entry points of libFuzzer, which counts an exception that leaves them as a crash.
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {

@@ -4,15 +4,16 @@
 #
 # Usage: run.sh [engine|files] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J processes
-# (default: all cores), a thousand a process. The engine (default) is built in build-fuzz/ with
+# (default: all cores), a thousand per process. The engine (default) is built in build-fuzz/ with
 # AddressSanitizer, UndefinedBehaviorSanitizer and the leak check; the command, which gets mutated
-# files, in build-fuzz-files/ without. What is done is kept in results/ there: run it again to go on
-# after a stop. The exit status is 0 only when no case failed. One case again, with its mesh or file:
+# files, is built in build-fuzz-files/ without them. Results are kept in results/ there: after a
+# stop, run the script again to continue. The exit status is 0 only if no case failed. To run one
+# case again and print its mesh or file:
 #
 #   build-fuzz/bin/delaunay-flip-fuzz-engine --seed S --first CASE --cases 1 --print
 #
 # --libfuzzer lets libFuzzer (Clang) search for that long instead, guided by the branches that a case
-# of the engine takes. FUZZ_PROGRAM, a program that is built already, is run instead of building one.
+# of the engine takes. FUZZ_PROGRAM names a built program to run; then none is built.
 set -euo pipefail
 
 target=engine cases=1000000 seed=1 jobs=$(nproc) seconds=0
@@ -77,7 +78,7 @@ if [ -z "${FUZZ_PROGRAM:-}" ]; then
   build_target "delaunay-flip-fuzz-$target" "${options[@]}"
 fi
 
-# Usage: run_part FIRST CASES - one process; its output is kept, and its last line if it got there.
+# Usage: run_part FIRST CASES - runs one process and keeps its output.
 run_part()
 {
   local log="$results/$target-$seed-$1.log"

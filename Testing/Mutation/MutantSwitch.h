@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 /// @file
-/// Chooses one fault of those that mutate.py has planted, by the environment. Every file of the
-/// mutated engine includes this first.
+/// An environment variable chooses which of the faults planted by mutate.py is active. Every file
+/// of the mutated engine includes this header first.
 
 namespace delaunayflip
 {

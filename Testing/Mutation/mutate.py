@@ -5,12 +5,13 @@
 
     mutate.py plan          copies the sources to build-mutation/, with 200 faults in the files below
     mutate.py build         builds the tests there
-    mutate.py run           runs them once for every fault; goes on where it was stopped
-    mutate.py report        what was caught, and the faults that survived
+    mutate.py run           runs them once for every fault; continues where it was stopped
+    mutate.py report        prints how many faults were caught, and which survived
 
 A fault is a comparison, a sign or a constant changed, two arguments swapped, or a statement left
-out. All are in the sources at once and off; DELAUNAYFLIP_MUTANT=NUMBER in the environment turns one
-on, so that the tests are built once. Needs python3-clang and clang (Debian).
+out. The sources contain all faults at once, switched off; DELAUNAYFLIP_MUTANT=NUMBER in the
+environment switches one on. So the tests are built only once. Needs python3-clang and clang
+(Debian).
 """
 
 import argparse
@@ -29,7 +30,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "build-mutation"
 SOURCE = FOLDER / "source"
 
-# What decides results: the predicates, the rules, the flip, the guard, the claims and the surveys.
+# The code that decides results: predicates, rules, the flip, the guard, claims and surveys.
 TOPICS = {
     "predicates": ["Geometry/FilteredPredicates.h", "Geometry/ExactPredicates.h",
                    "Geometry/FixedPoint.h", "Geometry/WideInteger.cpp",
@@ -42,17 +43,17 @@ TOPICS = {
                "Mesh/MeshSurvey.h", "Mesh/MeshSurveyBuilder.h", "Mesh/GeometryChoice.h",
                "Mesh/PlaneFinder.h", "Mesh/PlaneScale.h"],
 }
-UNITS = ["Threads/ThreadEngine.cpp", "Geometry/WideInteger.cpp"]  # that include all of these
+UNITS = ["Threads/ThreadEngine.cpp", "Geometry/WideInteger.cpp"]  # these include all of the files above
 INCLUDES = ["Engine", "Engine/Geometry", "Engine/Mesh", "Engine/Flips", "Engine/Threads"]
 
 OPPOSITES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||",
              "||": "&&", "+": "-", "-": "+", "*": "+", "|": "&", "&": "|"}
 
-# Functions whose arguments may change places.
+# Functions whose first two arguments may be swapped.
 SYMMETRIC = ["Dot", "EdgeKey", "Claim", "Holds", "Release", "MakeWord", "min", "max", "minmax"]
 
-# The fuzzer first, which finds most in a second; then the engine's tests but for those that take
-# seconds each.
+# The fuzzer comes first, because it finds most faults within a second; then the engine's tests,
+# without those that take seconds each.
 SLOW = ["*/100000*", "*/30000*", "*/10000P*", "Meshes/DeterminismTest.*", "Meshes/ProgressTest.*",
         "TiltedPlane.SimilarMeshes*", "LawsonOracle.*", "RandomMess.*", "PaperMethod.*"]
 TESTS = [
@@ -63,7 +64,7 @@ TESTS = [
 
 
 class Fault:
-    """A place in a file and what stands there with the fault."""
+    """A place in a file, and the text that makes it a fault."""
 
     def __init__(self, path, extent, kind, mutated, declares=None):
         self.path = path
@@ -71,7 +72,7 @@ class Fault:
         self.end = extent[1]
         self.kind = kind
         self.mutated = mutated
-        self.declares = declares  # "constexpr" or "static constexpr", which must go
+        self.declares = declares  # "constexpr" or "static constexpr", which must be removed
 
 
 # --- finding places ------------------------------------------------------------------------------
@@ -152,7 +153,7 @@ class Finder:
             self.add_swap(cursor)
 
     def add_swap(self, cursor):
-        """The first two arguments of a call with round brackets that differ, the other way round."""
+        """Swaps the first two arguments of a call with parentheses, if they differ."""
         arguments = [extent_of(a) for a in cursor.get_arguments() if a is not None]
         extent = extent_of(cursor)
         if (len(arguments) < 2 or not self.get(extent).endswith(")") or
@@ -171,7 +172,7 @@ def is_in_file(cursor, path):
 
 
 def top_cursors(cursor, path):
-    """The outermost cursors that stand in a file."""
+    """The outermost cursors in a file."""
     for child in cursor.get_children():
         if is_in_file(child, path):
             yield child
@@ -194,7 +195,7 @@ def find_faults(paths, units):
 # --- planting ------------------------------------------------------------------------------------
 
 def guard(number, fault, original):
-    """The text in which the fault can be turned on."""
+    """The source text with a switch for the fault."""
     if fault.kind == "statement":
         return f"if (!MUTANT({number})) {{ {original}; }}"
     if fault.declares:
@@ -235,7 +236,8 @@ def choose(faults, count, chosen, bad, generator):
 
 
 def share(count, sizes):
-    """The faults of each topic: by the square root of what there is, so that none is left out."""
+    """How many faults to draw for each topic: in proportion to the square root of its places, so
+    that small topics are represented too."""
     weights = {topic: size ** 0.5 for topic, size in sizes.items()}
     total = sum(weights.values())
     return {topic: max(1, round(count * weight / total)) for topic, weight in weights.items()}
@@ -252,7 +254,7 @@ def lines_of(fault):
 
 
 def compile_errors():
-    """(file, line) of everything that a compiler rejects in the mutated engine."""
+    """(file, line) of each error of the compiler in the mutated engine."""
     found = set()
     for unit in UNITS + ["MeshAudit.cpp", "Predicates.cpp"]:
         command = ["g++", "-std=c++17", "-fsyntax-only", "-fmax-errors=0",
