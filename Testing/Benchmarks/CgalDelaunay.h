@@ -13,12 +13,12 @@ namespace delaunayflip
 
 struct CgalTime
 {
-  double Seconds; ///< Inserting the range of points; copying them to CGAL's type not included.
+  double Seconds; ///< For inserting the points as a range, without copying them to CGAL's type.
   std::int64_t Triangles;
 };
 
-/// CGAL's Delaunay_triangulation_2 with exact predicates of a mesh's points. Inserting a range
-/// sorts it in space first, CGAL's fastest way.
+/// Times CGAL's Delaunay_triangulation_2, with exact predicates, of a mesh's points. Inserting a
+/// range is CGAL's fastest way, because it sorts the points in space first.
 CgalTime TimeCgalDelaunay(const OwnedMesh<float>& mesh);
 
 /// The triangles of that triangulation: three ids each.

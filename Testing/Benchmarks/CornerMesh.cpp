@@ -13,7 +13,7 @@ namespace
 
 struct Side
 {
-  std::uint64_t Ends; ///< Smaller vertex id above the larger.
+  std::uint64_t Ends; ///< The smaller vertex id in the upper half, the larger one in the lower.
   std::int32_t Corner;
 };
 

@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// Triangles with neighbours, as in textbooks. A corner stands for the edge opposite to it.
+/// Triangles with neighbours, as in textbooks. A corner represents the edge opposite to it.
 struct CornerMesh
 {
   /// Finds the twins by sorting vertex pairs.
@@ -27,12 +27,12 @@ struct CornerMesh
 
   std::int32_t CountCorners() const { return static_cast<std::int32_t>(this->Vertices.size()); }
 
-  /// Whether `corner` stands for an edge of two triangles, and is the smaller of its two corners.
+  /// Whether `corner` represents an edge of two triangles and is the smaller of its two corners.
   bool IsInterior(std::int32_t corner) const { return corner < this->Twins[corner]; }
 
-  /// Triangles (a, p, q) and (b, q, p) become (a, p, b) and (b, q, a). The outer edges are those of
-  /// a, previous(a), b and previous(b) then.
-  /// @param a of an edge of two triangles.
+  /// Triangles (a, p, q) and (b, q, p) become (a, p, b) and (b, q, a). Then the corners a,
+  /// previous(a), b and previous(b) represent the outer edges.
+  /// @param a a corner that represents an edge of two triangles.
   void Flip(std::int32_t a)
   {
     const std::int32_t b = this->Twins[a];

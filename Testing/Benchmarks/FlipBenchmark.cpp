@@ -17,9 +17,9 @@
 #include <vector>
 
 /// @file
-/// Usage: delaunay-flip-benchmark [Google Benchmark's options]. Edge build and flips of random bad
-/// meshes beside CGAL's Delaunay triangulation of the same points and a sequential Lawson; ends
-/// with a table of the medians, their ratios and the peak memory, all of this one run.
+/// Usage: delaunay-flip-benchmark [Google Benchmark's options]. Times the building of edges and the
+/// flips on random bad meshes, CGAL's Delaunay triangulation of the same points, and a sequential
+/// Lawson. Ends with a table of the medians, their ratios and the peak memory, all from this run.
 
 namespace delaunayflip
 {
@@ -139,7 +139,7 @@ public:
     ConsoleReporter::ReportRuns(runs);
   }
 
-  /// Median of the repetitions in milliseconds, or 0 when it did not run.
+  /// Median of the repetitions in milliseconds; 0 if the benchmark did not run.
   double GetMedian(const std::string& function, const std::string& arguments) const
   {
     const auto found = this->Milliseconds.find(function + "/" + arguments);
@@ -210,7 +210,7 @@ void PrintRatios(const KeepingReporter& reporter)
   }
 }
 
-/// Bytes a point above input and output, by size and number of threads.
+/// Bytes per point beyond input and output, by size and number of threads.
 using MemoryTable = std::map<std::pair<std::int64_t, int>, double>;
 
 MemoryTable MeasureMemory()
@@ -254,7 +254,7 @@ int main(int argc, char** argv)
   {
     return 1;
   }
-  const MemoryTable memory = MeasureMemory(); // forks, so before any thread
+  const MemoryTable memory = MeasureMemory(); // forks, so it must come before any thread
   RegisterAll();
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -38,7 +38,7 @@ std::int64_t ReadStatus(const std::string& name)
 std::int64_t RunAndMeasure(const OwnedMesh<float>& mesh, const FlipOptions& options)
 {
   std::vector<std::int32_t> output = mesh.Triangles;
-  // Memory that the parent freed but kept would hide what the run needs.
+  // Memory that the parent has freed but not returned would hide what the run needs.
   malloc_trim(0);
   const std::int64_t before = ReadStatus("VmRSS");
   FlipToDelaunay(

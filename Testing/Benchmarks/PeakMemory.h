@@ -9,12 +9,12 @@
 namespace delaunayflip
 {
 
-/// The peak resident memory of a whole run above that of its input and output arrays, in bytes; -1
-/// if the system does not report it.
+/// The peak resident memory of a whole run beyond its input and output arrays, in bytes; -1 if the
+/// system does not report it.
 ///
-/// A forked child, which shares the input and has filled its output array already, reads its
-/// resident size (VmRSS), runs, and reads the peak since the fork (VmHWM). Threads do not survive a
-/// fork, so call this before anything has started one.
+/// A forked child shares the input and fills its output array first. It reads its resident size
+/// (VmRSS), runs, and reads the peak since the fork (VmHWM). Threads do not survive a fork, so call
+/// this before any thread is started.
 std::int64_t MeasurePeakMemory(const OwnedMesh<float>& mesh, const FlipOptions& options);
 
 }

@@ -43,7 +43,7 @@ struct Case
   GeometryKind Geometry;
 };
 
-/// The calls of a run, with its begin and end.
+/// The calls of a run, and its begin and end.
 std::vector<Call> WatchRun(const TriangleMesh& mesh, const FlipOptions& options)
 {
   std::vector<std::int32_t> result(static_cast<std::size_t>(3 * mesh.Triangles.Count));
@@ -78,21 +78,22 @@ double GetFraction(const std::vector<Call>& calls, double seconds)
 }
 
 /// The share of the time in which progress is off by at most 15 percentage points.
-double MeasureHonesty(const std::vector<Call>& calls)
+double MeasureAccuracy(const std::vector<Call>& calls)
 {
   constexpr int Samples = 1000;
   constexpr double Tolerance = 0.15;
-  int honest = 0;
+  int accurate = 0;
   for (int i = 0; i < Samples; ++i)
   {
     const double time = (i + 0.5) / Samples;
-    const double told = GetFraction(calls, time * calls.back().Seconds);
-    honest += std::fabs(told - time) <= Tolerance ? 1 : 0;
+    const double reported = GetFraction(calls, time * calls.back().Seconds);
+    accurate += std::fabs(reported - time) <= Tolerance ? 1 : 0;
   }
-  return static_cast<double>(honest) / Samples;
+  return static_cast<double>(accurate) / Samples;
 }
 
-/// The run with the shortest longest wait, because other programs may slow the machine.
+/// Repeats the run, because other programs may slow the machine. Returns the run whose longest wait
+/// is the shortest.
 std::vector<Call> WatchBestRun(const TriangleMesh& mesh, const FlipOptions& options)
 {
   constexpr int Runs = 5;
@@ -117,7 +118,7 @@ void Print(const Case& mesh, int threads)
   const std::vector<Call> calls = WatchBestRun(mesh.Mesh.View(), options);
   std::printf("| %s | %d | %.0f | %zu | %.0f | %.0f %% |", mesh.Name, threads,
     1000 * calls.back().Seconds, calls.size() - 2, 1000 * FindLongestWait(calls),
-    100 * MeasureHonesty(calls));
+    100 * MeasureAccuracy(calls));
   for (int tenth = 1; tenth < 10; ++tenth)
   {
     std::printf(" %.0f |", 100 * GetFraction(calls, 0.1 * tenth * calls.back().Seconds));
@@ -141,7 +142,7 @@ OwnedMesh<double> MoveDelaunayPoints(OwnedMesh<double> mesh, double share)
   return mesh;
 }
 
-/// The points of a plane, raised to hills.
+/// A plane mesh as hills: its points get heights.
 OwnedMesh<double> Raise(OwnedMesh<double> mesh)
 {
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)

@@ -14,9 +14,9 @@ namespace delaunayflip
 {
 
 /// The textbook algorithm: a stack of edges to test, one flip at a time.
-/// @param mesh has no bad edges afterwards.
+/// @param mesh is flipped in place. Afterwards it has no bad edges, unless the limit was reached.
 /// @param isBad whether the edge of a corner with a twin is bad.
-/// @param maximumFlips where to stop, for criteria with which flips may never end.
+/// @param maximumFlips a limit, for criteria with which the flips may never end.
 /// @returns the number of flips.
 template <typename IsBad>
 std::int64_t RunLawson(CornerMesh& mesh, const IsBad& isBad, std::int64_t maximumFlips)
@@ -59,7 +59,7 @@ std::int64_t RunLawson(CornerMesh& mesh, const IsBad& isBad, std::int64_t maximu
   return flips;
 }
 
-/// For planar, counter-clockwise, embedded meshes; by x and y, exactly.
+/// For planar, counter-clockwise meshes without overlaps. Edges are judged by x and y, exactly.
 class SequentialLawson
 {
 public:

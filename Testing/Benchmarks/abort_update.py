@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""How long an update of the filter goes on after it is asked to stop. Prints, never judges.
+"""Measures how long an update of the filter continues after a request to abort. Prints the times
+without judging them.
 
     PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/abort_update.py [TRIANGLES]
 
-TRIANGLES: of each mesh, some 1,000,000 if not given. Each row is a mesh or an option. `update` is
-the time of a whole update, `events` how many progress events it sends. Then the update is stopped
-at each of its events in turn. The wait is the time from the event before, where the request may
-have been made at the earliest, to the end of the update: `longest` is the longest one, `at` the
-progress at which it ended. All times are milliseconds of the processor, on one thread: others at
-work on the machine do not show in them. Of RUNS (1) runs the best one counts.
+TRIANGLES: the approximate number of triangles of each mesh, by default 1,000,000. Each row is a
+mesh or an option. `update` is the time of a whole update, `events` the number of its progress
+events. Then the update is aborted at each of its events in turn. The wait is the time from the
+event before, the earliest moment at which the request may have been made, to the end of the update.
+`longest` is the longest wait, `at` the progress at which it ended. All times are processor time in
+milliseconds, on one thread, so other programs hardly affect them. The best of RUNS (1) runs counts.
 """
 import os
 import sys
@@ -43,7 +44,7 @@ def make_points(xyz):
 
 
 def make_quads(triangles, height=0.0):
-    """A jittered lattice, sheared; with a height it is a surface. Gives points and quads."""
+    """Points and quads of a jittered, sheared lattice; a surface if it has a height."""
     random = numpy.random.default_rng(1)
     side = int((triangles / 2) ** 0.5) + 1
     x, y = numpy.meshgrid(numpy.arange(side), numpy.arange(side))
@@ -81,7 +82,7 @@ def add_cell_array(mesh, name, values):
 
 
 class Cases:
-    """Each method gives the input and makes the settings of a filter."""
+    """Each method returns an input and sets the options of a filter."""
 
     def __init__(self, triangles):
         self.triangles = triangles
@@ -148,7 +149,7 @@ class Cases:
         return mesh
 
     def inserted_constraints(self, flip):
-        """Lines through the whole mesh: each crosses thousands of edges at the least."""
+        """Lines through the whole mesh: each crosses thousands of edges."""
         side = int(len(self.xyz) ** 0.5)
         ends = numpy.arange(0, side, max(1, side // 100))
         edges = vtkPolyData()
@@ -184,7 +185,7 @@ class Cases:
         return make_mesh(self.xyz, self.cells)
 
     def warm_start(self, flip):
-        """Points that are moved after a whole run; the update that is watched comes after that."""
+        """Points are moved after a whole run; the next update is the one that is measured."""
         flip.LiveUpdateOn()
         flip.SetIterationsPerUpdate(10000)
         mesh = make_mesh(self.xyz, self.cells)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Usage: host_threads.py [ROUNDS]
 
-Whether VTK's threads and the engine's disturb each other in one process: runs a threaded filter of
-VTK and vtkDelaunayFlip alone, then in turns, and prints the time of each, the processor time of all
-threads, how many threads the process has, and the copies of oneTBB in it. Needs PYTHONPATH as in
-the README.
+Tests whether VTK's threads and the engine's disturb each other in one process. Runs a threaded
+filter of VTK and vtkDelaunayFlip, each alone and then in turns. Prints the time of each, the
+processor time of all threads, the number of threads in the process, and its copies of oneTBB. Needs
+PYTHONPATH as in the README.
 """
 import os
 import re
@@ -71,7 +71,7 @@ def main():
     for algorithm in (contour, flip):  # threads start here
         measure(algorithm)
     alone, turns = ([], []), ([], [])
-    for _ in range(rounds):  # so that slower minutes of the machine are in all
+    for _ in range(rounds):  # so that slow periods of the machine affect all of them
         alone[0].extend(measure(contour) for _ in range(RUNS))
         alone[1].extend(measure(flip) for _ in range(RUNS))
         for _ in range(RUNS):

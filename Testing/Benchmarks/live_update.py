@@ -75,7 +75,7 @@ def main():
             ("cell normals", True, lambda flip: None),
             ("flip counts", False, lambda flip: flip.GenerateFlipCountOn()),
             ("angles", False, lambda flip: flip.GenerateQualityOn()),
-            ("50 ms an update", False, lambda flip: flip.SetIterationsPerUpdate(0))):
+            ("50 ms per update", False, lambda flip: flip.SetIterationsPerUpdate(0))):
         updates, iterations = time_run(make_mesh(points, normals), configure)
         rest = [update - done for update, done in zip(updates, iterations)]
         print(f"{name:24}{len(updates):8}{updates[0]:8.1f}{statistics.median(updates[1:]):9.1f}"

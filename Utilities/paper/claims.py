@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims, one a row, beside what was measured here."""
+"""The paper's claims, one per row, and what was measured here."""
 
 import plots
 from results import median

@@ -5,8 +5,8 @@
        document.py --check
 
 Puts a reproduction into Documentation/: its numbers into paper.json, its plots into images/paper/,
-and its report into paper.md, between the two marked lines. --check says whether that text is still
-what the numbers give.
+and its report into paper.md, between the two marked lines. --check tells whether that text still
+agrees with the numbers.
 """
 
 import json
@@ -24,7 +24,7 @@ OF_THE_DAY = ("commit", "system", "when")
 
 
 def strip(part, with_times):
-    """A part without what belongs to that day alone."""
+    """A part without the data that are specific to the day of its run."""
     kept = {name: value for name, value in part.items() if name in ("rows", "command", "failed")}
     if not with_times:
         kept["rows"] = [{name: value for name, value in row.items() if not name.endswith("_ms")}
@@ -39,7 +39,7 @@ def make_numbers(merged, with_times):
 
 
 def write_numbers(numbers):
-    """A row a line."""
+    """JSON with one row per line."""
     text = json.dumps(numbers, separators=(",", ":"), ensure_ascii=False)
     text = re.sub(r'(\{"program":|"[a-z0-9-]+":\{"(?:rows|command|failed)")', r"\n\1", text)
     with open(NUMBERS, "w", encoding="utf-8") as file:
@@ -47,7 +47,7 @@ def write_numbers(numbers):
 
 
 def make_text(folder):
-    """The Markdown that the numbers give; draws the plots into `folder`."""
+    """Makes the Markdown from the numbers, and draws the plots into `folder`."""
     import report
     from results import Results, read_json
 
@@ -56,11 +56,11 @@ def make_text(folder):
     results.machine, results.parts = numbers["machine"], numbers["parts"]
     sections, tables = report.gather(results)
     text = report.make_markdown(sections, tables, "images/paper")
-    return text[text.index("\n## ") :].strip()  # the page has an introduction of its own
+    return text[text.index("\n## ") :].strip()  # the page has its own introduction
 
 
 def read_document():
-    """What stands before, between and after the marked lines."""
+    """The text before, between and after the marked lines."""
     with open(DOCUMENT, encoding="utf-8") as file:
         before, rest = file.read().split(BEGIN)
     return (before, *rest.split(END))
@@ -85,7 +85,7 @@ def main():
 
         with tempfile.TemporaryDirectory() as folder:
             same = make_text(folder) == read_document()[1].strip()
-        print("paper.md is what paper.json gives" if same else "paper.md is not what paper.json gives")
+        print(f"paper.md {'agrees' if same else 'does not agree'} with paper.json")
         return 0 if same else 1
     if len(sys.argv) < 2:
         sys.exit(__doc__)

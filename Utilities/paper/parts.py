@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is run: the parts of a reproduction, each a command that writes one JSON file and ends within
-nine minutes."""
+"""The parts of a reproduction: each is a command that writes one JSON file and ends within nine
+minutes."""
 
 from dataclasses import dataclass
 
@@ -14,13 +14,13 @@ SURFACE_THRESHOLD = 30  # degrees; the paper does not say which it took
 
 @dataclass(frozen=True)
 class Part:
-    """A command. In it {program}, {rivals}, {python} and {folder} stand for what runs it and where
-    its files are; it is given --output FILE at the end."""
+    """A command. {program}, {rivals}, {python} and {folder} in it are replaced by programs and the
+    folder of its files; --output FILE is added at its end."""
 
     name: str
     what: str
     command: tuple
-    seconds: float  # that it takes on a machine with two cores, about
+    seconds: float  # estimated time on a machine with two cores
     group: str = ""  # after a failure, later parts of the same group are skipped
 
 
@@ -52,8 +52,8 @@ SCALES = {
                   ("--repetitions", "5", "--seconds", "20")),
 }
 
-# Seconds of one run with a million points on two quiet cores, about: what the estimates of the parts
-# are made of.
+# Approximate seconds of one run with a million points on two idle cores, from which the times of
+# the parts are estimated.
 PROGRAM_SECONDS = {
     "ours-gpu": 0.05, "ours-1": 1, "ours-all": 0.6, "no-chunks": 1.5, "paper-gpu": 0.2,
     "paper-1": 14, "paper-all": 8, "lawson": 4, "cgal": 0.7,
@@ -96,7 +96,7 @@ class Plan:
             self.add_quality(size)
 
     def groups_of(self, size):
-        """The programs that run together: all at once only while they are quick."""
+        """Groups the programs into parts: all in one part only if they are quick."""
         gpu = (("ours-gpu", "paper-gpu"),) if self.has_gpu else ()
         groups = (("ours-1", "ours-all", "no-chunks"), ("paper-all",), ("lawson", "cgal"))
         if self.scale.name == "full":

@@ -58,13 +58,13 @@ def style_of(program):
 
 
 def time_of(row):
-    """What is compared: everything from arrays or points to the mesh; of the paper's method and on
-    surfaces the flips alone."""
+    """The time to compare: from arrays or points to the mesh; for the paper's method and on
+    surfaces that of the flips alone."""
     return median(row, "total_ms") or median(row, "flips_ms")
 
 
 def save(figure, results, name):
-    """@returns the name of the plot, or None where there was nothing to draw."""
+    """@returns the name of the plot, or None if there was nothing to draw."""
     if not any(axes.lines or axes.patches for axes in figure.axes):
         plt.close(figure)
         return None
@@ -84,7 +84,7 @@ def show_legend(axes, beside=False):
 
 
 def curve(axes, rows, x, y, program):
-    """A line of a program's rows that have both numbers."""
+    """Draws a line through those rows of a program that have both numbers."""
     points = sorted((row[x], y(row)) for row in rows if row["program"] == program and y(row))
     if points:
         axes.plot(*zip(*points), **style_of(program))

@@ -39,7 +39,7 @@ def write(results):
 
 
 def gather(results):
-    """All sections, and (title, table) of what comes after them."""
+    """All sections, and (title, table) of the tables after them."""
     sections = make_sections(results)
     for section in sections:
         section.plots = [plot for plot in section.plots if plot]

@@ -26,18 +26,18 @@ def parse_arguments():
     parser.add_argument("--rivals", help="a Python that has other people's packages")
     parser.add_argument("--meshes", help="folder of .ply, .stl and .vtk surfaces")
     parser.add_argument("--time-limit", type=float, metavar="SECONDS",
-                        help="begin no part that would end later; call again for the rest")
+                        help="start no part that would end after this time; call again for the rest")
     parser.add_argument("--parts", type=re.compile, metavar="PATTERN", default=re.compile(""),
-                        help="run only parts with such names, a regular expression")
+                        help="run only the parts whose names match this regular expression")
     parser.add_argument("--no-times", action="store_true",
-                        help="run every program once, for what is not time, on a busy machine")
+                        help="run every program once, without times, as on a busy machine")
     parser.add_argument("--run-only", action="store_true", help="do not draw; do that later")
-    parser.add_argument("--draw-only", action="store_true", help="run nothing; draw what is there")
+    parser.add_argument("--draw-only", action="store_true", help="run nothing; draw the results that exist")
     return parser.parse_args()
 
 
 def ask(command):
-    """The output of a command; empty where it fails."""
+    """The output of a command; empty if it fails."""
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
@@ -45,7 +45,7 @@ def ask(command):
 
 
 def describe_machine(arguments, program_path):
-    """What the report says of the machine."""
+    """The machine, as described in the report."""
     machine = read_json(program_path)
     folder = os.path.dirname(os.path.abspath(__file__))
     machine["system"] = platform.platform()

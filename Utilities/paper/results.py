@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a reproduction: OUTPUT/parts/NAME.json, one for each part, and what they hold
-together."""
+"""The files of a reproduction, OUTPUT/parts/NAME.json, one for each part, and their combined
+results."""
 
 import json
 import os
@@ -32,7 +32,7 @@ class Results:
         ]
 
     def failures(self):
-        """(part, reason) of what did not run to its end."""
+        """(part, reason) for each part that did not run to its end."""
         return [(name, part["failed"]) for name, part in self.parts.items() if "failed" in part]
 
     def write_merged(self):
@@ -48,7 +48,7 @@ def read_json(path):
 
 
 def write_json(path, value):
-    """Whole or not at all: a part that was stopped leaves no file."""
+    """Writes the whole file or none: a part that was stopped leaves no file."""
     with open(path + ".new", "w", encoding="utf-8") as file:
         json.dump(value, file, indent=1)
         file.write("\n")
@@ -56,6 +56,6 @@ def write_json(path, value):
 
 
 def median(row, name="total_ms"):
-    """Milliseconds, or None where the row has no such time."""
+    """Milliseconds, or None if the row has no such time."""
     time = row.get(name)
     return time["median"] if time else None

@@ -4,8 +4,8 @@
 """Usage: rivals.py list|scipy|triangle|startinpy|vtk|meshlib [OPTION...]
 
 Other people's programs on the meshes of the experiments, in the form of delaunay-flip-paper's rows.
-They come from packages in a virtual environment of reproduce_paper.sh; nothing of this project links
-or ships them. `list` says which are here.
+They come from packages in the virtual environment of reproduce_paper.sh; nothing in this project
+links or ships them. `list` prints which are installed.
 """
 
 import argparse
@@ -107,7 +107,7 @@ def time_call(call):
 
 
 def repeat(arguments, run):
-    """The spread of the times of run(), and what it returned last."""
+    """The spread of the times of run(), and its last result."""
     times, result = [], None
     start = time.monotonic()
     while not times or (
@@ -148,7 +148,7 @@ def run_from_points(arguments):
 
 
 def run_meshlib(arguments):
-    """MeshLib's flips of a surface, with its default limits but as many passes as it wants."""
+    """MeshLib's flips of a surface, with its default limits but no limit on passes."""
     import surfaces
     from meshlib import mrmeshnumpy, mrmeshpy
 

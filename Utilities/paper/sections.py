@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each figure and table of the paper says, what was measured here, and where the two depart."""
+"""For each figure and table of the paper: what it says, what was measured here, and how and why the
+two differ."""
 
 from dataclasses import dataclass, field
 
@@ -64,7 +65,7 @@ def per_iteration(row):
 
 
 def time_rows(results):
-    """Rows of Fig. 8a, a size after the other, by program."""
+    """Rows of Fig. 8a, by size and then by program."""
     order = list(plots.STYLES)
     rows = [row for row in results.rows("random") + results.rows("rival")
             if row["program"] != "no-chunks" and (plots.time_of(row) or "flips" in row)]
@@ -102,7 +103,7 @@ def ratio(row, own):
 
 
 def speed_up_sentences(rows):
-    """Of flips alone, the paper's method and Lawson against this project in the same place."""
+    """The paper's method and Lawson compared with this project on the same hardware, flips alone."""
     flips = {(row["program"], row["points"]): median(row, "flips_ms") for row in rows}
     pairs = (("paper-gpu", "ours-gpu"), ("paper-all", "ours-all"), ("lawson", "ours-gpu"),
              ("lawson", "ours-all"))
@@ -153,7 +154,7 @@ def format_epsilon(row):
 
 
 def unique(rows):
-    """Without the runs of this project that every part repeats."""
+    """Rows without the runs of this project that every part repeats."""
     seen, kept = set(), []
     for row in sorted(rows, key=lambda row: row["points"]):
         key = (row["points"], row["program"], row.get("precision"), row.get("epsilon"))

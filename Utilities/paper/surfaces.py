@@ -10,11 +10,11 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SUFFIXES = (".ply", ".stl", ".vtk")
-DECIMATED_SHARE = 0.9  # of the noisy torus's triangles that go
+DECIMATED_SHARE = 0.9  # of the noisy torus's triangles, which are removed
 
 
 def prepare(arguments, points):
-    """Makes the files that are not there. @returns the names of all, the generated ones first."""
+    """Makes the files that do not exist. @returns the names of all, the generated ones first."""
     folder = os.path.join(arguments.output, "meshes")
     os.makedirs(folder, exist_ok=True)
     for name in ("torus", "noisy-torus"):
@@ -36,7 +36,7 @@ def prepare(arguments, points):
 
 
 def find_python(arguments):
-    """One that has VTK and numpy."""
+    """A Python that has VTK and numpy."""
     for python in (arguments.rivals, sys.executable, "/usr/bin/python3"):
         test = [python, "-c", "import numpy, vtkmodules.vtkIOGeometry, vtkmodules.vtkFiltersCore"]
         if python and subprocess.run(test, capture_output=True, check=False).returncode == 0:
@@ -74,7 +74,7 @@ def read(path):
 
 
 def decimate(points, triangles):
-    """What vtkQuadricDecimation leaves of a surface."""
+    """A surface reduced by vtkQuadricDecimation."""
     import numpy
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints

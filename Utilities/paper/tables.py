@@ -12,14 +12,14 @@ class Table:
     rows: list
 
     def trimmed(self):
-        """Without columns that are empty in every row."""
+        """The table without columns that are empty in every row."""
         kept = [i for i in range(len(self.headers))
                 if not self.rows or any(number(row[i]) not in ("-", "") for row in self.rows)]
         return Table(tuple(self.headers[i] for i in kept),
                      [tuple(row[i] for i in kept) for row in self.rows])
 
     def in_markdown(self):
-        """Lines."""
+        """The table as lines of Markdown."""
         table = self.trimmed()
         lines = ["| " + " | ".join(table.headers) + " |", "|---" * len(table.headers) + "|"]
         for row in table.rows:
@@ -37,7 +37,7 @@ class Table:
 
 
 def number(value):
-    """Three digits, thousands apart; a dash for nothing."""
+    """Three significant digits, thousands separated; a dash for nothing."""
     if value is None:
         return "-"
     if isinstance(value, (str, bool)):

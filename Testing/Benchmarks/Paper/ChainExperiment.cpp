@@ -33,7 +33,7 @@ OwnedMesh<float> MakeChain(std::int64_t triangles)
   return mesh;
 }
 
-/// Long lists of flips only repeat what "is_ramp" says.
+/// Removes long lists of flips, which only repeat what "is_ramp" says.
 Json Shorten(Json row, std::int64_t triangles)
 {
   constexpr std::int64_t LongestList = 100;

@@ -13,14 +13,14 @@
 #include <vector>
 
 /// @file
-/// What several experiments need.
+/// Functions and types shared by several experiments.
 
 namespace delaunayflip
 {
 
 /// The epsilon of eq. 5 for float angles, "experimentally estimated" like the paper's: with 5e-4
-/// the loop has no end on a random bad mesh of 1 M points. acos alone errs by 3.5e-4 near pi, where
-/// the cosine's last bit is worth that much.
+/// the loop does not end on a random bad mesh of 1 M points. Near pi a change of the cosine's last
+/// bit changes acos by 3.5e-4.
 constexpr double FloatEpsilon = 1e-3;
 
 /// Milliseconds that a call takes.
@@ -42,8 +42,8 @@ public:
   {
   }
 
-  /// Calls run(), which returns an object of milliseconds; the first time to warm up, unless that
-  /// alone took more than half of the time there is.
+  /// Calls run(), which returns an object of milliseconds, several times. The first call warms up
+  /// and does not count, unless it took more than half of the available time.
   template <typename Run>
   void Repeat(const Run& run)
   {
@@ -64,7 +64,7 @@ public:
     }
   }
 
-  /// Adds the spread of every time to a row, unless there shall be none.
+  /// Adds the spread of every time to a row, unless the settings exclude times.
   void Store(Json& row) const
   {
     for (const auto& [name, times] : this->Samples.items())
@@ -95,7 +95,7 @@ private:
   Json Samples = Json::object();
 };
 
-/// A result of either method: what a row says besides times.
+/// A result of either method: all that a row contains except times.
 struct MethodRun
 {
   std::vector<std::int32_t> Triangles;
@@ -108,7 +108,7 @@ struct MethodRun
 MethodRun RunOurs(const ExperimentSettings& settings, const TriangleMesh& mesh,
   const FlipOptions& options, const std::string& program);
 
-/// The same for the paper's method. Flips are counted in a run of their own.
+/// The same for the paper's method. Flips are counted in a separate run.
 MethodRun RunPapers(const ExperimentSettings& settings, const TriangleMesh& mesh,
   const PaperOptions& options, const std::string& program);
 
@@ -120,7 +120,7 @@ TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int3
 /// Edges that violate the exact in-circle criterion by x and y.
 std::int64_t CountExactViolations(const TriangleMesh& mesh);
 
-/// Triangles of `found` that are not in `expected`, whatever their order and winding.
+/// The number of triangles of `found` that are not in `expected`, in any order and winding.
 std::int64_t CountDifferentTriangles(
   const std::vector<std::int32_t>& found, const std::vector<std::int32_t>& expected);
 

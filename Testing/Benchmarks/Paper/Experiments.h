@@ -21,16 +21,16 @@ namespace delaunayflip
 
 using Json = nlohmann::ordered_json;
 
-/// What all experiments share.
+/// The settings of all experiments.
 struct ExperimentSettings
 {
-  int Repetitions = 5; ///< Of what is timed, after one run to warm up.
+  int Repetitions = 5; ///< Of each timed program, after one run to warm up.
   double Seconds = 20.0; ///< No repetition begins after this time.
   bool OnGpu = false; ///< Whether to use the GPU, too.
   bool HasTimes = true; ///< Without times every program runs once, and no row has a time.
 };
 
-/// Which programs of an experiment run. Empty: all.
+/// The programs of an experiment to run. Empty: all.
 using ProgramList = std::vector<std::string>;
 
 /// Fig. 6: the chain of `triangles` triangles (even, at least 4).
@@ -45,7 +45,8 @@ Json RunRandom(
 Json RunQuality(
   const ExperimentSettings& settings, std::int64_t points, const std::vector<double>& epsilons);
 
-/// Triangles of a file of 32-bit ids that differ from CGAL's for the same random bad mesh.
+/// Counts the triangles in a file of 32-bit ids that differ from CGAL's for the same random bad
+/// mesh.
 Json RunComparison(std::int64_t points, const std::string& path);
 
 /// Fig. 11 and Table 2: a surface, by the paper's method, sequential Lawson and ours, with the

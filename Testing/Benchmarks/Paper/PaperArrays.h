@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// A position of the paper's type (x, y), loaded in one instruction.
+/// A position (x, y) as in the paper, loaded in one instruction.
 template <typename Real>
 struct alignas(2 * sizeof(Real)) PaperPoint2
 {
@@ -23,7 +23,7 @@ struct alignas(2 * sizeof(Real)) PaperPoint2
   Real X, Y;
 };
 
-/// A position of type (x, y, z); the fourth number only makes room.
+/// A position (x, y, z); the fourth number is padding.
 template <typename Real>
 struct alignas(4 * sizeof(Real)) PaperPoint3
 {
@@ -32,14 +32,14 @@ struct alignas(4 * sizeof(Real)) PaperPoint3
   Real X, Y, Z, Unused;
 };
 
-/// Two indices: of an edge's ends in Vertices, or of where a triangle names them in Triangles.
+/// Two indices: of an edge's ends in Vertices, or of their places in Triangles.
 struct alignas(8) IndexPair
 {
   std::int32_t First, Second;
 };
 
-/// Views of all arrays. Those of edges are kept one by one, so that neighbouring threads read
-/// neighbouring words.
+/// Views of all arrays. Each value of an edge has an array of its own, so that neighbouring threads
+/// read neighbouring words.
 template <typename Point>
 struct PaperArrays
 {
@@ -49,7 +49,7 @@ struct PaperArrays
   IndexPair* TriangleA; ///< ta: where in Triangles v1 and v2 are.
   IndexPair* TriangleB; ///< tb, the same in the other triangle; -1, -1 at a boundary.
   IndexPair* Opposites; ///< Where in Triangles the opposite vertices are, in ta and in tb.
-  std::int32_t* Flags; ///< By triangle: the iteration in which it was taken last.
+  std::int32_t* Flags; ///< By triangle: the last iteration in which a thread claimed it.
   std::int32_t* Rotations; ///< By triangle: the one that it rotated with last.
 };
 

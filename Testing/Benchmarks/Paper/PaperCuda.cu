@@ -13,7 +13,7 @@ namespace
 
 constexpr int ThreadsOfBlock = 256;
 
-/// One thread an edge, as the paper has it.
+/// One thread per edge, as in the paper.
 template <typename Step>
 __global__ void PhaseKernel(std::int64_t size, Step step)
 {
@@ -26,7 +26,7 @@ __global__ void PhaseKernel(std::int64_t size, Step step)
 
 }
 
-// Not in the unnamed namespace, where the loop's template would not find them.
+// Not in the unnamed namespace, because the loop's template would not find them there.
 template <typename Step>
 void RunPhase(const CudaBackend& backend, std::int64_t size, const Step& step)
 {

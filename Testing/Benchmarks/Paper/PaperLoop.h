@@ -73,7 +73,7 @@ private:
   Array<std::int32_t> Flags, Rotations;
 };
 
-/// What a run takes besides its mesh.
+/// The parameters of a run besides its mesh.
 template <typename Test>
 struct PaperPlan
 {
@@ -146,7 +146,7 @@ private:
   Array<PaperCounts> Counts;
 };
 
-/// Copies a mesh to the backend, runs the loop there and brings the triangles back.
+/// Copies a mesh to the backend, runs the loop there and copies the triangles back.
 template <typename Point, typename Test, typename Backend>
 PaperResult RunPaperLoop(
   const PaperMesh<Point>& mesh, const PaperPlan<Test>& plan, const Backend& backend)
@@ -170,7 +170,7 @@ PaperResult RunPaperLoop(
   return result;
 }
 
-/// The same on a GPU, the current one (PaperCuda.cu). @throws BackendUnavailable.
+/// The same on the current GPU (PaperCuda.cu). @throws BackendUnavailable.
 template <typename Point, typename Test>
 PaperResult RunPaperLoopOnGpu(const PaperMesh<Point>& mesh, const PaperPlan<Test>& plan);
 

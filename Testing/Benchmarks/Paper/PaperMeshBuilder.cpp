@@ -9,10 +9,10 @@ namespace delaunayflip
 namespace
 {
 
-/// The edge opposite to a corner, seen from its smaller end.
+/// The edge opposite to a corner, as an entry in the list of its end with the smaller id.
 struct PairedCorner
 {
-  std::int32_t Larger; ///< The other end.
+  std::int32_t Larger; ///< The end with the larger id.
   std::int32_t Corner;
   bool Rises; ///< Whether the triangle runs from the smaller end to the larger.
 };

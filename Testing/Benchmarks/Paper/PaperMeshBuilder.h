@@ -14,9 +14,9 @@
 namespace delaunayflip
 {
 
-/// For every corner the one across the edge opposite to it, or -1 where that edge belongs to one
+/// For every corner the one across the edge opposite to it. -1 if that edge belongs to one
 /// triangle, to three or more, or to two that run through it the same way: such edges become
-/// boundary edges, one for each of their triangles, since ta and tb hold two triangles only.
+/// boundary edges, one for each of their triangles, because ta and tb hold two triangles only.
 std::vector<std::int32_t> FindTwinCorners(
   const std::vector<std::int32_t>& triangles, std::int64_t points, const ThreadBackend& threads);
 
@@ -43,7 +43,7 @@ inline std::int32_t PreviousCorner(std::int32_t corner)
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-/// Fills the arrays of edges; the vertices' and the triangles' are there.
+/// Fills the arrays of edges from those of vertices and triangles.
 template <typename Point>
 void FillEdges(
   PaperMesh<Point>& mesh, const std::vector<std::int32_t>& twins, const ThreadBackend& threads)

@@ -13,7 +13,7 @@
 namespace delaunayflip
 {
 
-// Not in the unnamed namespace, where the loop's template would not find them.
+// Not in the unnamed namespace, because the loop's template would not find them there.
 template <typename Step>
 void RunPhase(const ThreadBackend& backend, std::int64_t size, const Step& step)
 {
@@ -67,7 +67,7 @@ private:
   PaperPlan<Test> Plan;
 };
 
-/// 1 where the triangles' areas in x and y sum to a positive number, or -1.
+/// 1 if the sum of the triangles' areas in x and y is positive, else -1.
 double FindSide(const TriangleMesh& mesh)
 {
   double sum = 0.0;

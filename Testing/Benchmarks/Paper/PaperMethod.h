@@ -13,12 +13,13 @@
 /// @file
 /// The method of the paper itself, as a baseline for benchmarks: C. A. Navarro, N.
 /// Hitschfeld-Kahler, E. Scheihing, GRAPP 2013. Written from the text of the paper alone. It works
-/// on its four arrays, with one thread an edge over all edges in every iteration, on a GPU or on
-/// threads of the CPU.
+/// on the paper's four arrays, with one thread per edge for all edges in every iteration, on a GPU
+/// or on threads of the CPU.
 ///
-/// Where the paper is silent:
-/// - a triangle that a thread took in vain stays taken until the end of the iteration;
-/// - the loop ends when an iteration found no bad edge, or at a limit;
+/// Choices where the paper says nothing:
+/// - if a thread claims only one triangle of its edge, that triangle stays claimed until the end of
+///   the iteration;
+/// - the loop ends after an iteration that found no bad edge, or at a limit;
 /// - cosines are clamped to -1 .. 1 before acos.
 
 namespace delaunayflip
@@ -27,20 +28,20 @@ namespace delaunayflip
 enum class PaperTestKind
 {
   OppositeAngles, ///< The paper's own.
-  InCircle ///< What it wants to compare that with. Planar only.
+  InCircle ///< The test that the paper names as future work. Planar only.
 };
 
 struct PaperOptions
 {
   PaperTestKind Test = PaperTestKind::OppositeAngles;
-  bool InDouble = false; ///< Coordinates and arithmetic; the paper's are float.
+  bool InDouble = false; ///< Coordinates and arithmetic in double; the paper uses float.
   int Dimension = 2; ///< 2: by x and y; 3: in space.
 
   /// Of eq. 5, in radians; of InCircle, relative to the magnitude of the determinant's terms.
   double Epsilon = 1e-3;
 
-  /// In space, edges whose two triangles' normals differ by more than this many degrees stay, as
-  /// far as they differ when the edge is tested; 180: none.
+  /// In space, an edge stays if the normals of its two triangles differ by more than this many
+  /// degrees when it is tested; 180 turns this off.
   double NormalThreshold = 180.0;
 
   std::int64_t MaximumIterations = 1000; ///< The paper has no limit.
@@ -58,12 +59,12 @@ struct PaperIteration
 struct PaperResult
 {
   std::vector<std::int32_t> Triangles;
-  std::int64_t Iterations = 0; ///< That found a bad edge.
-  bool Converged = false; ///< The last iteration found none.
+  std::int64_t Iterations = 0; ///< Iterations that found a bad edge.
+  bool Converged = false; ///< Whether the last iteration found no bad edge.
   std::vector<PaperIteration> Counts; ///< By iteration, if asked for.
   std::string Backend; ///< E.g. "CUDA: NVIDIA H200".
-  double CopySeconds = 0.0; ///< To where the loop runs.
-  double FlipSeconds = 0.0; ///< The loop.
+  double CopySeconds = 0.0; ///< For copying the mesh to the backend.
+  double FlipSeconds = 0.0; ///< For the loop.
 
   std::int64_t CountFlips() const;
 };
@@ -73,12 +74,12 @@ class PaperMethod
 {
 public:
   /// Builds the arrays on the host.
-  /// @param mesh of valid ids, fewer than 2^31 / 3 triangles; read here only.
+  /// @param mesh with valid ids and fewer than 2^31 / 3 triangles; not used after the constructor.
   PaperMethod(const TriangleMesh& mesh, const PaperOptions& options);
   ~PaperMethod();
 
   /// Runs the loop on a copy of the arrays.
-  /// @throws BackendUnavailable without a GPU, where that is asked for.
+  /// @throws BackendUnavailable if a GPU is requested and there is none.
   PaperResult Run() const;
 
   class Runner;

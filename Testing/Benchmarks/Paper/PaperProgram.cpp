@@ -59,7 +59,7 @@ void WriteRows(const PaperArguments& arguments, const Json& rows)
   Write(arguments, json);
 }
 
-/// x and y of a random bad mesh's points in single precision, for programs that start from points.
+/// Writes x and y of a random bad mesh's points in single precision, for other programs.
 void WritePoints(const PaperArguments& arguments)
 {
   const OwnedMesh<float> mesh = MakePaperRandomMesh(arguments.Points);

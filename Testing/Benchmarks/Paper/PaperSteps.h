@@ -11,12 +11,13 @@
 #include <cstdint>
 
 /// @file
-/// The two phases of the paper's section 3 as what one thread does for one edge, for both backends.
+/// The two phases of the paper's section 3, written as the work of one thread for one edge. Both
+/// backends run them.
 
 namespace delaunayflip
 {
 
-/// What an iteration did, for statistics.
+/// Statistics of an iteration.
 struct PaperCounts
 {
   std::uint32_t Bad = 0;
@@ -25,9 +26,9 @@ struct PaperCounts
 
 /// Phase 1: detection, exclusion and processing.
 ///
-/// Threads read triangles that others are flipping. That is harmless: a thread that then takes both
-/// triangles of its edge knows that nobody has flipped them in this iteration, so that it has read
-/// them whole; every other thread changes nothing.
+/// Threads read triangles that others are flipping. That is harmless: only a thread that afterwards
+/// claims both triangles of its edge changes anything, and then no other thread has flipped them in
+/// this iteration, so what it has read is consistent.
 template <typename Point, typename Test>
 struct DetectAndFlip
 {
@@ -70,7 +71,7 @@ private:
     return this->EdgeTest.IsBad(p, q, a, b) && this->Normals.Admits(p, q, a, b);
   }
 
-  /// Whether this thread is the first to take the triangle in this iteration.
+  /// Claims a triangle. Returns whether this thread is the first to do so in this iteration.
   DELAUNAYFLIP_HOST_DEVICE bool Take(const IndexPair& corners) const
   {
     std::int32_t* flag = this->Mesh.Flags + corners.First / 3;
@@ -97,8 +98,8 @@ private:
   }
 };
 
-/// Phase 2: an edge whose triangle no longer has its ends where ta (tb) says (eqs. 3 and 4) finds
-/// them in the triangle that its own rotated with.
+/// Phase 2: if an edge's ends are no longer where ta (tb) says (eqs. 3 and 4), finds them in the
+/// triangle with which its own was rotated.
 template <typename Point>
 struct RepairReferences
 {
@@ -126,7 +127,7 @@ private:
       this->Mesh.Triangles[corners.Second] != ends.Second;
   }
 
-  /// @param opposite becomes the index of the third corner.
+  /// @param opposite receives the index of the third corner.
   DELAUNAYFLIP_HOST_DEVICE IndexPair Find(
     const IndexPair& ends, const IndexPair& stale, std::int32_t& opposite) const
   {

@@ -22,7 +22,7 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// In [0, 1), the same with every standard library.
+/// A random number in [0, 1), the same with every standard library.
 double DrawUnit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
 
 std::int32_t DrawIndex(std::mt19937& random, std::int64_t count)
@@ -32,7 +32,7 @@ std::int32_t DrawIndex(std::mt19937& random, std::int64_t count)
 
 using Quad = std::array<std::int32_t, 4>;
 
-/// Along the diagonal 0-2 or, with `otherDiagonal`, 1-3.
+/// Adds two triangles, divided by the diagonal 0-2 or, with `otherDiagonal`, 1-3.
 void AddQuad(OwnedMesh<double>& mesh, const Quad& q, bool otherDiagonal)
 {
   const Quad turned = otherDiagonal ? Quad{ q[1], q[2], q[3], q[0] } : q;

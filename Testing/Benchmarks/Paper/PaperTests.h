@@ -9,9 +9,9 @@
 #include <cmath>
 
 /// @file
-/// The test of an edge by rounded arithmetic: the paper's (eq. 5), and the one that it wants to
-/// compare it with. Both answer whether the edge p-q of the triangles (p, q, a) and (q, p, b) is
-/// bad, and both say no where a number is NaN.
+/// Tests of an edge in floating-point arithmetic: the paper's (eq. 5) and the in-circle test, which
+/// the paper names as future work. Both return whether the edge p-q of the triangles (p, q, a) and
+/// (q, p, b) is bad, and false if a number is NaN.
 
 namespace delaunayflip
 {
@@ -49,7 +49,7 @@ DELAUNAYFLIP_HOST_DEVICE PaperPoint3<Real> Cross(
   return { p.Y * q.Z - p.Z * q.Y, p.Z * q.X - p.X * q.Z, p.X * q.Y - p.Y * q.X, Real(0) };
 }
 
-/// Angle p, apex, q in radians. Rounding may bring the cosine out of -1 .. 1.
+/// The angle p, apex, q in radians. Because of rounding the cosine may lie outside -1 .. 1.
 template <typename Point>
 DELAUNAYFLIP_HOST_DEVICE typename Point::Number FindAngle(
   const Point& apex, const Point& p, const Point& q)
@@ -81,7 +81,7 @@ template <typename Real>
 struct InCircleTest
 {
   Real Epsilon;
-  Real Side; ///< 1, or -1 for a clockwise mesh.
+  Real Side; ///< 1, but -1 for a clockwise mesh.
 
   DELAUNAYFLIP_HOST_DEVICE bool IsBad(const PaperPoint2<Real>& p, const PaperPoint2<Real>& q,
     const PaperPoint2<Real>& a, const PaperPoint2<Real>& b) const
@@ -110,7 +110,7 @@ private:
 template <typename Real>
 struct NormalThreshold
 {
-  Real Cosine; ///< Of the threshold; -1 and less: no threshold.
+  Real Cosine; ///< Of the threshold; at most -1: no threshold.
 
   DELAUNAYFLIP_HOST_DEVICE bool Admits(const PaperPoint2<Real>&, const PaperPoint2<Real>&,
     const PaperPoint2<Real>&, const PaperPoint2<Real>&) const

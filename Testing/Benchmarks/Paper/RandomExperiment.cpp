@@ -62,8 +62,8 @@ Json RunCgalOn(const ExperimentSettings& settings, const OwnedMesh<float>& mesh)
   return row;
 }
 
-/// Surfaces have no chunks. Judged as one, by opposite angles, a plane is flipped by a schedule
-/// that spans the mesh from the first iteration on.
+/// Surfaces are flipped without chunks. So a plane that is treated as a surface is flipped in
+/// iterations over the whole mesh from the first one on.
 FlipOptions WithoutChunks()
 {
   FlipOptions options = OnThreads(0);
@@ -110,7 +110,8 @@ bool IsWanted(
   return programs.empty() || std::find(programs.begin(), programs.end(), name) != programs.end();
 }
 
-/// "different" and "percent" of the triangles of CGAL's, and edges that are not Delaunay.
+/// Adds "different" and "percent", the triangles that differ from CGAL's, and the number of edges
+/// that are not Delaunay.
 Json Compare(Json row, const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles,
   const std::vector<std::int32_t>& expected)
 {

@@ -22,7 +22,7 @@ namespace
 constexpr std::uint32_t Seed = 12;
 constexpr double JudgeTolerance = 1e-6;
 
-/// A good surface of about this many points, as far as flips can make it one.
+/// A surface of about this many points, improved by flips.
 OwnedMesh<double> MakeGoodSurface(const std::string& shape, std::int64_t points)
 {
   const double side = std::sqrt(static_cast<double>(points) / 2.0);
@@ -36,7 +36,7 @@ OwnedMesh<double> MakeGoodSurface(const std::string& shape, std::int64_t points)
   return mesh;
 }
 
-/// Twenty times as dense along the torus as around its tube, cut at random.
+/// A torus with points twenty times as dense along it as around its tube, and random diagonals.
 OwnedMesh<double> MakeAnisotropic(std::int64_t points)
 {
   const double around = std::sqrt(static_cast<double>(points) / 40.0);
@@ -62,7 +62,7 @@ OwnedMesh<double> MakeRuinedSurface(
   }
   else
   {
-    throw std::invalid_argument("no way to ruin a surface is called " + kind);
+    throw std::invalid_argument("unknown way to ruin a surface: " + kind);
   }
   return mesh;
 }

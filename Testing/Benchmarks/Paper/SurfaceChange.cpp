@@ -82,7 +82,7 @@ double FindSquaredDistance(const OwnedMesh<double>& mesh, const EdgeSet& edges,
     {
       const auto p = GetPoint(mesh, static_cast<std::int64_t>(edge >> 32));
       const auto q = GetPoint(mesh, static_cast<std::int64_t>(edge & 0xffffffffu));
-      // Both surfaces pass through p, so the nearest point is not further away.
+      // Both surfaces contain p, so the nearest point is at most that far away.
       largest = std::max(largest, tree.squared_distance(CGAL::midpoint(p, q), p));
     }
   }

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// @file
-/// What flips have changed on a closed surface, and what they have left.
+/// What flips have changed on a closed surface, and which bad edges they have left.
 
 namespace delaunayflip
 {
@@ -18,12 +18,12 @@ namespace delaunayflip
 /// How far a surface is from another one over the same points.
 struct SurfaceChange
 {
-  double Distance = 0.0; ///< See MeasureChange; by the diagonal of the bounding box.
-  double Volume = 0.0; ///< Change of the enclosed volume, by that of the first.
+  double Distance = 0.0; ///< See MeasureChange; relative to the bounding box's diagonal.
+  double Volume = 0.0; ///< Change of the enclosed volume, relative to that of the first surface.
 };
 
-/// The distance is the largest from the middle of an edge that only one of the two has to the other
-/// surface.
+/// The distance is the largest one from the middle of an edge that only one of the surfaces has to
+/// the other surface.
 SurfaceChange MeasureChange(
   const OwnedMesh<double>& before, const std::vector<std::int32_t>& after);
 

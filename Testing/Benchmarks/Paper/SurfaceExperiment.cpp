@@ -20,7 +20,7 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr double Epsilon = 1e-6; ///< Of eq. 5, for sequential Lawson in double precision.
 
-/// How all results are judged.
+/// The options by which all results are judged.
 FlipOptions MakeJudge(double threshold)
 {
   FlipOptions options;
@@ -30,7 +30,7 @@ FlipOptions MakeJudge(double threshold)
   return options;
 }
 
-/// What flips did to a surface, beside the counts of a run.
+/// Adds the duplicate edges, the bad edges left and the smallest angles.
 void DescribeResult(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles, Json& row)
 {
   const TriangleMesh after = WithTriangles(mesh, triangles);
@@ -57,7 +57,7 @@ public:
     }
   }
 
-  /// The paper knows no theorem that ends this; neither do we.
+  /// No theorem is known, to the paper or to us, by which this must end.
   std::int64_t Run()
   {
     const std::int64_t limit = 50 * std::int64_t(this->Mesh.Vertices.size());

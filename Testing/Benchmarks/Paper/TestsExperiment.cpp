@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 /// @file
-/// Future work 1: the in-circle test against that of opposite angles. Every row is judged on the
-/// points as its precision holds them.
+/// Future work 1: the in-circle test against that of opposite angles. The exact results for a row
+/// are computed from the points as rounded to its precision.
 
 namespace delaunayflip
 {
@@ -23,7 +23,7 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr std::uint32_t Seed = 6;
 
-/// A survey's plane coordinates in metres: a square kilometre far from the origin.
+/// Like a survey's plane coordinates in metres: a square kilometre far from the origin.
 OwnedMesh<double> MoveFarAway(OwnedMesh<double> mesh)
 {
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
@@ -45,7 +45,7 @@ OwnedMesh<double> MakeTestMesh(const std::string& name, std::int64_t points)
   }
   if (name != "grid" && name != "circles")
   {
-    throw std::invalid_argument("no mesh is called " + name);
+    throw std::invalid_argument("unknown mesh: " + name);
   }
   mesh = name == "grid" ? MakeGridMesh(side - 1, side - 1) : MakeCircles(2 * side, side / 2);
   RuinByFlips(mesh, 3.0, Seed);
@@ -63,7 +63,7 @@ struct TestChoice
 template <typename Real>
 std::vector<TestChoice> ListTests()
 {
-  // Shewchuk's bound on the rounding of the whole determinant: a larger one has the right sign.
+  // Shewchuk's bound on the rounding error: a determinant of larger magnitude has the right sign.
   const double unit = 0.5 * std::numeric_limits<Real>::epsilon();
   const double bound = (10.0 + 96.0 * unit) * unit;
   const double epsilon = sizeof(Real) == 4 ? FloatEpsilon : 1e-7;
@@ -73,8 +73,8 @@ std::vector<TestChoice> ListTests()
     { PaperTestKind::InCircle, bound, "in-circle, error bound" } };
 }
 
-/// Adds the decisions of a test on the edges of a mesh, and those that are not those of exact
-/// arithmetic.
+/// Adds how many edges of a mesh a test has judged, and how many of its decisions exact arithmetic
+/// contradicts.
 template <typename Real, typename Test>
 void CountWrongDecisions(const PaperMesh<PaperPoint2<Real>>& mesh, const Test& test, Json& row)
 {

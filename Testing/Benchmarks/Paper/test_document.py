@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/paper.md says what Documentation/paper.json holds, and shows pictures that are
-there. Usage: test_document.py SOURCE_FOLDER [TEST...]"""
+"""The numbers in Documentation/paper.md are those of Documentation/paper.json, and its pictures
+exist. Usage: test_document.py SOURCE_FOLDER [TEST...]"""
 
 import os
 import re
@@ -35,7 +35,7 @@ class Document(unittest.TestCase):
         self.assertEqual(sorted(names), sorted(os.listdir(document.IMAGES)))
 
     def test_hand_written_text_has_no_measured_numbers(self):
-        """But for powers, years, degrees and names of files."""
+        """Numbers are allowed only in powers, years, degrees and names of files."""
         before, text, after = document.read_document()
         words = re.findall(r"(?<![\w.`])\d[\d.,]*(?:e-?\d+)?(?![\w`])", before + after)
         allowed = {"2013", "2013.", "180", "3.5e-4", "5", "5,"}

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The reproduction of the paper in a small run: what is not time, and that the report has all of
-it. Usage: test_reproduction.py PROGRAM SOURCE_FOLDER [TEST...]"""
+"""A small reproduction of the paper: tests all results but times, and that the report has all of
+them. Usage: test_reproduction.py PROGRAM SOURCE_FOLDER [TEST...]"""
 
 import os
 import re
@@ -175,7 +175,7 @@ class Reproduction(unittest.TestCase):
 
 
 class Failures(unittest.TestCase):
-    """A program that fails leaves a reason, and its larger meshes are skipped."""
+    """The report says why a program failed; the program is not run on larger meshes."""
 
     def test_reasons_are_kept(self):
         with tempfile.TemporaryDirectory() as folder:
