@@ -5,9 +5,9 @@
 
 #include <QObject>
 
-/// Keeps the filter's field data, one array per column of its table, out of the menu Color By. Adds
-/// an expression to those by which ParaView hides arrays; those of the user stay, and the new one
-/// is not written to the settings file.
+/// Keeps the filter's field data, one array per column of its table, out of the menu Color By. It
+/// adds an expression to those by which ParaView hides arrays. The user's expressions stay, and the
+/// new one is not written to the settings file.
 class pqDelaunayFlipHiddenArrays : public QObject
 {
 public:

@@ -14,7 +14,7 @@ class QComboBox;
 class vtkSMProperty;
 
 /// A list of the sources of polygonal data for an optional input, and "(none)". Unlike ParaView's
-/// own list, it leaves out what is downstream of the filter: a loop would crash ParaView.
+/// own list, it leaves out sources downstream of the filter: a loop would crash ParaView.
 class pqDelaunayFlipSourceList : public pqPropertyWidget
 {
   Q_OBJECT
@@ -49,7 +49,7 @@ private:
   QComboBox* Choices;
   QVector<Source> Sources; ///< The entries of the list.
   bool IsEdited = false; ///< Whether edited since the last Apply or Reset.
-  QTimer Changes; ///< Fires once after several changes.
+  QTimer Changes; ///< Fires once after one or more changes.
 };
 
 #endif

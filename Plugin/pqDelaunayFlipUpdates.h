@@ -9,13 +9,12 @@ class pqPipelineSource;
 
 /// What the client does after every update of the plugin's filters.
 ///
-/// Delaunay Flip: reads the group Last Update of the Properties panel again. ParaView reads such
-/// properties when it applies the others, which is before the pipeline runs. Also renders what
-/// other filters make of the output, since ParaView renders only the views of the live source
-/// itself.
+/// Delaunay Flip: reads the group Last Update of the Properties panel again, because ParaView reads
+/// such properties when it applies the others, before the pipeline runs. It also renders the views
+/// of downstream filters, because ParaView renders only those of the live source itself.
 ///
-/// Plot Delaunay Flips: gives the axis of the chart the scale for which the filter prepared the
-/// data.
+/// Plot Delaunay Flips: sets the axis of the chart to the scale, linear or logarithmic, for which
+/// the filter prepared the data.
 class pqDelaunayFlipUpdates : public QObject
 {
 public:

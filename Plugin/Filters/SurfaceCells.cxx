@@ -103,7 +103,7 @@ void RequireWholeCells(vtkUnstructuredGrid* grid)
   }
 }
 
-/// Reorders the points of a pixel, which are row by row, so that they go around the quad.
+/// Reorders the points of a pixel from row by row to around the quad.
 void TurnPixel(vtkIdType cell, vtkIdList* ids)
 {
   if (ids->GetNumberOfIds() != 4)
@@ -157,7 +157,7 @@ void SortCells(vtkDataSet* input, CellsByKind& cells)
   }
 }
 
-/// Takes the arrays that have no tuple for some cell out of `data`.
+/// Removes the arrays that have too few tuples for the cells from `data` and returns them.
 std::vector<vtkSmartPointer<vtkAbstractArray>> TakeShortArrays(vtkIdType cells, vtkCellData* data)
 {
   std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
@@ -173,7 +173,7 @@ std::vector<vtkSmartPointer<vtkAbstractArray>> TakeShortArrays(vtkIdType cells, 
   return arrays;
 }
 
-/// Arrays that are too short to be copied come out empty: the filter warns of them.
+/// Arrays that are too short to be copied become empty, so that the filter warns of them.
 void CopyCellData(vtkDataSet* input, const CellsByKind& cells, vtkCellData* output)
 {
   vtkNew<vtkCellData> source;

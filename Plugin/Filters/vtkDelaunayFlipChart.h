@@ -6,7 +6,7 @@
  *
  * The input is the table of iterations. The output has the columns to draw: Iteration, Flipped,
  * Excluded, Blocked, NonDelaunay, Tested and MinimumAngle, as double. Columns that the input lacks
- * are left out. A single row is repeated, since a line needs two points.
+ * are left out. A single row is repeated, because a line needs two points.
  */
 #ifndef vtkDelaunayFlipChart_h
 #define vtkDelaunayFlipChart_h
@@ -23,8 +23,8 @@ public:
 
   ///@{
   /**
-   * For a logarithmic axis: leave out counts of 0, which have no logarithm, by making them NaN.
-   * With a single 0, ParaView would draw a linear axis and give a warning. Default off.
+   * For a logarithmic axis: replace counts of 0, which have no logarithm, by NaN, which is not
+   * drawn. Even a single 0 would make ParaView draw a linear axis and warn. Default off.
    */
   vtkSetMacro(LogScale, bool);
   vtkGetMacro(LogScale, bool);

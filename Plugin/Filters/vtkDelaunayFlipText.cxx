@@ -30,7 +30,7 @@ vtkAbstractArray* FindArray(vtkFieldData* data, const std::string& name)
   return data->GetAbstractArray(("DelaunayFlip:" + name).c_str());
 }
 
-/// The last value of an array; NaN without any.
+/// The last value of an array; NaN if there is none.
 double GetLast(vtkFieldData* data, const std::string& name)
 {
   auto* array = vtkDataArray::SafeDownCast(FindArray(data, name));
@@ -38,7 +38,7 @@ double GetLast(vtkFieldData* data, const std::string& name)
   return count > 0 ? array->GetTuple1(count - 1) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// 1234567 -> "1,234,567"; NaN, of no iteration -> "0".
+/// 1234567 -> "1,234,567"; NaN, which means no iteration -> "0".
 std::string Group(double number)
 {
   std::string text = std::isnan(number) ? "0" : std::to_string(std::llround(number));

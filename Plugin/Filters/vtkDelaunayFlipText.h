@@ -4,10 +4,11 @@
  * @class   vtkDelaunayFlipText
  * @brief   statistics of vtkDelaunayFlip as a text for a render view
  *
- * In goes the mesh of vtkDelaunayFlip, whose field data have its statistics; out comes a table with
- * one string in a column Text, which ParaView draws in its render views: iterations, flips, bad
- * edges left, the smallest angle where it is known, and whether the run goes on. During a live run
- * the text follows every frame. For another mesh the text says that there are no statistics.
+ * The input is the mesh of vtkDelaunayFlip, with its statistics as field data. The output is a
+ * table with one string in a column Text, which ParaView draws in its render views: iterations,
+ * flips, bad edges left, the smallest angle if it is known, and whether the run continues. During a
+ * live run the text is updated with every frame. For another mesh the text says that there are no
+ * statistics.
  */
 #ifndef vtkDelaunayFlipText_h
 #define vtkDelaunayFlipText_h

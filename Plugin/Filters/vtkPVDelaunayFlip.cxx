@@ -29,7 +29,7 @@ int vtkPVDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-/// The input as vtkPolyData; the same object while the input is unchanged.
+/// The input as vtkPolyData; the same object as long as the input is unchanged.
 vtkSmartPointer<vtkPolyData> vtkPVDelaunayFlip::GetMesh(vtkDataObject* input)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(input))

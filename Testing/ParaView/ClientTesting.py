@@ -3,7 +3,7 @@
 """Drives ParaView's Qt client from inside, as a user would: menus, the Apply button, waiting.
 
 For scripts that the client runs by --script. The script's session is a generator: it yields a
-function where the client is to continue until that function returns true.
+function, and the client continues until that function returns true.
 """
 
 import os
@@ -130,7 +130,7 @@ def start_filter(client, source, menu_entry="Delaunay Flip"):
 
 
 def idle(seconds):
-    """A function to wait for that returns true after some time."""
+    """A function to wait for, which returns true after so many seconds."""
     end = time.monotonic() + seconds
     return lambda: time.monotonic() > end
 
@@ -150,10 +150,10 @@ class _Player:
         self.deadline = time.monotonic() + PATIENCE
 
     def look(self):
-        self.timer.stop()  # the following may process events itself
+        self.timer.stop()  # the calls below may process events themselves
         try:
             if self.condition():
-                self.go_on()
+                self.resume()
             elif time.monotonic() > self.deadline:
                 raise TimeoutError(f"nothing happened for {PATIENCE} s")
             self.timer.start(TICK)
@@ -161,7 +161,7 @@ class _Player:
             traceback.print_exc()
             self.end(1)
 
-    def go_on(self):
+    def resume(self):
         condition = next(self.session, None)
         if condition is None:
             self.end(0)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Helpers for the tests of the plugin: load it, write meshes to files, and read results.
 
-Run by pvpython, with the plugin, a library or a Python file, in DELAUNAYFLIP_PLUGIN. Meshes are passed in files, as a
-user's are, so that a server can read them too.
+Run by pvpython. DELAUNAYFLIP_PLUGIN names the plugin, a library or a Python file. Meshes are passed
+in files, as by a user, so that a server can read them too.
 """
 
 import inspect
@@ -33,7 +33,7 @@ def make_cells(cells):
 
 
 def make_fan(number_of_points):
-    """Points on a parabola, all joined to the last one: the worst case, with about n^2 / 2 flips.
+    """Points on a parabola, all connected to the last one: the worst case, about n^2 / 2 flips.
 
     Its cell array Side distinguishes the triangles of the left half from those of the right.
     """
@@ -73,7 +73,7 @@ def make_surface(size, kind):
 
 
 def convert_surface(size, kind):
-    """A surface that is another type of dataset."""
+    """A surface as another type of dataset."""
     mesh = make_surface(size, kind)
     if kind == "vtkImageData":
         result = vtkImageData()
@@ -121,7 +121,7 @@ def fetch(proxy, port=0):
 
 
 def refresh(proxy):
-    """Updates a filter, and its information properties, as the Properties panel does."""
+    """Updates a filter and its information properties, like the Properties panel."""
     proxy.UpdatePipeline()
     proxy.SMProxy.UpdatePipelineInformation()
 
@@ -179,8 +179,8 @@ class PluginTest(unittest.TestCase):
 
 
 def main():
-    """Runs the tests of the script and ends pvpython, which must not end with views open: it may
-    crash."""
+    """Runs the tests of the script and ends pvpython. Closes the views first: with open views it
+    may crash."""
     program = unittest.main(module="__main__", verbosity=2, exit=False)
     simple.Disconnect()
     sys.exit(0 if program.result.wasSuccessful() else 1)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A user's session in the client with ten updates that fail, and updates between them that do not.
+"""A user's session in the client, in which ten updates fail and those between them succeed.
 
 Played by test_client.py.
 """
@@ -16,7 +16,7 @@ def count_cells(flip):
 
 
 def fail(client, panel, flip, limit):
-    """Apply shows nothing, and the panel says why at once."""
+    """Apply shows no mesh, and the panel says why at once."""
     panel.choose("Geometry", "Planar")
     panel.write("MaximumIterations", str(limit))
     client.apply()

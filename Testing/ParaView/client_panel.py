@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A user's session in the client with the Properties panel: buttons of a live run, the source of
-constraints, results to read, and no flood of arrays in Color By.
+"""A user's session in the client with the Properties panel: the buttons of a live run, the list of
+constraints, the results, and a Color By menu without the filter's statistics.
 
 Played by test_client.py; leaves the pictures panel*.png.
 """
@@ -55,12 +55,12 @@ def use_buttons(client, panel, flip):
     panel.press("Step")
     yield lambda: flip.NumberOfIterations == held + 1
     yield idle(QUIET)
-    expect(flip.NumberOfIterations == held + 1, "a step made more")
+    expect(flip.NumberOfIterations == held + 1, "a step made more than one iteration")
     expect(panel.read("NumberOfIterations") == str(held + 1), "the panel lags behind")
     panel.press("Restart")
     yield lambda: flip.NumberOfIterations == 1
     yield idle(QUIET)
-    expect(flip.NumberOfIterations == 1, "a paused run went on after its restart")
+    expect(flip.NumberOfIterations == 1, "a paused run continued after its restart")
     panel.press("Paused")
     yield lambda: flip.StopReason == "converged"
     panel.click("LiveUpdate")
@@ -69,14 +69,14 @@ def use_buttons(client, panel, flip):
 
 
 def step_pauses(client, panel, flip):
-    """Step pauses a running run."""
+    """Step pauses a run that is not paused."""
     panel.click("LiveUpdate")
     client.apply()
     yield lambda: flip.NumberOfIterations >= 2
     panel.press("Step")
     yield idle(QUIET)
-    expect(flip.StopReason == "running", "the run went on")
-    expect(panel.find("Paused", QtWidgets.QPushButton).isChecked(), "the button does not tell")
+    expect(flip.StopReason == "running", "the run continued")
+    expect(panel.find("Paused", QtWidgets.QPushButton).isChecked(), "the button does not show it")
     panel.press("Paused")
     yield lambda: flip.StopReason == "converged"
     panel.click("LiveUpdate")
@@ -105,8 +105,8 @@ def choose_constraints(client, panel, flip):
     yield lambda: choices.currentText() == "(none)"
 
 
-def offer_no_loop(panel, flip):
-    """The list of constraints leaves out what is downstream of the filter, a loop."""
+def omit_loops(panel, flip):
+    """The list of constraints omits sources downstream of the filter, which would make a loop."""
     simple.SetActiveSource(flip)
     later = simple.Transform(registrationName="Later", Input=flip)
     last = simple.FeatureEdges(registrationName="Last", Input=later)
@@ -121,7 +121,7 @@ def offer_no_loop(panel, flip):
     for source in (last, later, simple.FindSource("Beside")):
         simple.Delete(source)
     yield idle(0.5)
-    expect(choices.findText("Beside") == -1, "a source that is gone")
+    expect(choices.findText("Beside") == -1, "a deleted source is listed")
 
 
 def get_color_choices(flip):
@@ -131,7 +131,7 @@ def get_color_choices(flip):
 
 
 def look_at_color_by(flip):
-    """Color By does not offer the filter's field data, whatever else the user hides."""
+    """Color By does not list the filter's field data, whatever other arrays the user hides."""
     information = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
     expect(information.GetArrayInformation("DelaunayFlip:TotalFlips"), "no field data")
     settings = servermanager._getPyProxy(
@@ -158,7 +158,7 @@ def session(client):
     read_results(panel, flip)
     look_at_color_by(flip)
     yield from choose_constraints(client, panel, flip)
-    yield from offer_no_loop(panel, flip)
+    yield from omit_loops(panel, flip)
     yield from use_buttons(client, panel, flip)
     yield from step_pauses(client, panel, flip)
     read_results(panel, flip)

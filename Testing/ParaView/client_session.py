@@ -25,7 +25,7 @@ def has_converged(flip):
 
 
 def use_menu(client):
-    """Creates the filter from the menu, and applies it as it is."""
+    """Creates the filter from the menu and applies it with its defaults."""
     where = client.find_actions("Delaunay Flip")
     expect({"Alphabetical", "Delaunay Flip"} <= set(where), f"menu entries: {list(where)}")
     client.choose("Delaunay Flip", "Delaunay Flip")
@@ -35,7 +35,7 @@ def use_menu(client):
 
 
 def look_at_panel(client, panel):
-    """Widgets that do not apply are hidden."""
+    """Widgets that have no effect are hidden."""
     expect(panel.is_shown("FeatureAngle"), "FeatureAngle is not shown")
     expect(not panel.is_shown("IterationsPerUpdate"), "IterationsPerUpdate is shown")
     panel.choose("Geometry", "Planar")
@@ -62,7 +62,7 @@ def undo(client, panel, flip):
 
 
 def watch_live(client, panel, flip):
-    """Live update: the mesh improves by itself, step by step, and polling ends with it."""
+    """Live update: the mesh improves by itself, step by step; polling ends when the run ends."""
     at_once = get_triangles(flip)
     iterations = int(flip.NumberOfIterations)
     renders, seen = [], []

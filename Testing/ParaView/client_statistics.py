@@ -23,7 +23,7 @@ def read_view():
 
 
 def expect_text(flip):
-    """What is drawn is what the panel says."""
+    """The text in the view agrees with the panel."""
     text = read_view()
     expect(text.startswith(f"iteration {flip.NumberOfIterations}, {flip.StopReason}\n"), text)
     counts = f"{flip.TotalFlips} flips, {flip.NumberOfNonDelaunayEdges} bad edges left"

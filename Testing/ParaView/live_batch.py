@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by test_live.py in pvbatch: flips the mesh of a file with live update on; prints the end."""
+"""Run by test_live.py in pvbatch. Flips the mesh of a file with live update on and prints the
+result."""
 
 import os
 import sys

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run by test_parallel.py in pvbatch with two ranks, each of which has its own meshes.
 
-Prints one line of JSON for each case that is named: the messages and results of the filter.
+Prints one line of JSON for each requested case: the messages and results of the filter.
 """
 
 import json
@@ -55,7 +55,7 @@ CASES = {
     "unstructured pieces": ({0: 20}, {0: 30}),
     "blocks of other types": ({0: 20, 3: 6}, {1: 9, 2: 7}),
 }
-# What the meshes of a case are, by their blocks, where they are not polygonal data.
+# By case and block: the types of meshes that are not polygonal data.
 KINDS = {
     "unstructured pieces": {0: "vtkUnstructuredGrid"},
     "blocks of other types": {
@@ -75,7 +75,7 @@ def make_source(case):
 
 
 def get_flipped(table):
-    column = table.GetRowData().GetArray("Flipped")  # none where ParaView joined empty tables
+    column = table.GetRowData().GetArray("Flipped")  # missing if ParaView joined empty tables
     return [int(column.GetTuple1(i)) for i in range(column.GetNumberOfTuples())] if column else []
 
 
@@ -89,8 +89,8 @@ def describe(flip, messages):
 
 
 def run(case):
-    """Updates the filter, changes an option and updates it again, so that a rank which was left
-    behind would be found."""
+    """Updates the filter, changes an option and updates it again. This would hang if a rank had
+    missed an update."""
     flip = simple.DelaunayFlip(Input=make_source(case))
     flip.LiveUpdate = int(case == "pieces")
     for tie_rule in ("Keep", "Canonical"):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The client's side of test_remote.py: uses the plugin on the server at the given port."""
+"""The client's part of test_remote.py: uses the plugin on the server at the given port."""
 
 import sys
 

@@ -28,7 +28,7 @@ def find_client():
         print("skipped: no ParaView client", client)
         sys.exit(SKIPPED)
     if importlib.util.find_spec(f"PyQt{QT}") is None:
-        print(f"skipped: no PyQt{QT} (Debian: python3-pyqt{QT}), which looks at the client's widgets")
+        print(f"skipped: no PyQt{QT} (Debian: python3-pyqt{QT}), which is needed to read the client's widgets")
         sys.exit(SKIPPED)
     return client
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors are reported to the user in words, and the session continues."""
+"""Errors are explained to the user, and the session continues."""
 
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkCellArray

@@ -14,13 +14,13 @@ from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter, vtkXMLUnstructuredG
 from PluginTesting import (
     Messages, PluginTest, fetch, get_triangles, main, make_fan, refresh)
 
-# Over the points of make_fan(9), none above another cell.
+# Cells on the points of make_fan(9) that do not overlap.
 MIXED = [(VTK_TRIANGLE, (0, 1, 2)), (VTK_PIXEL, (2, 3, 8, 4)), (VTK_LINE, (0, 8)),
          (VTK_VERTEX, (5,)), (VTK_TRIANGLE_STRIP, (4, 5, 8, 6)), (VTK_QUAD, (0, 2, 8, 7))]
 
 
 def number_cells(data):
-    """Gives every cell a number, to recognise it."""
+    """Gives every cell a number by which it can be recognised."""
     numbers = vtkIdTypeArray()
     numbers.SetName("Number")
     for i in range(data.GetNumberOfCells()):

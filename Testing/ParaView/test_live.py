@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Live update without polling: scripts make the steps; pvbatch and several ranks do not."""
+"""Live update without polling: scripts make the steps; pvbatch and several ranks make none."""
 
 import os
 import shutil
@@ -50,7 +50,7 @@ class Batch(PluginTest):
         if not os.path.exists(pvbatch):
             self.skipTest("no pvbatch")
         script = os.path.join(HERE, "live_batch.py")
-        # pvpython is a run of MPI itself, within which mpirun would start no other.
+        # pvpython runs under MPI itself; within it, mpirun would start no other run.
         environment = {name: value for name, value in os.environ.items()
                        if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
         run = subprocess.run(

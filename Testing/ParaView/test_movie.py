@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/ParaView/flip_movie.py: one frame per iteration, of which three are compared with
-baselines, the formats that it reads, and its messages in case of an error.
+"""Examples/ParaView/flip_movie.py: it writes one frame per iteration, three of which are compared
+with baselines; the formats that it reads; and its error messages.
 
-The pictures may differ by TOLERANCE, an error of vtkImageDifference that VTK's own image tests
-allow, because drivers draw edges a little differently.
+The pictures may differ by TOLERANCE, the error of vtkImageDifference that VTK's own image tests
+allow, because drivers draw edges slightly differently.
 """
 
 import os

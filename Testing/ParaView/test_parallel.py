@@ -17,7 +17,7 @@ from PluginTesting import PluginTest, fetch, main, make_surface
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPT = os.path.join(HERE, "parallel_batch.py")
-PATIENCE = 200  # seconds: a rank must not wait for another one for ever
+PATIENCE = 200  # seconds: a rank must not wait forever for another one
 
 
 def read_table(name):
@@ -43,7 +43,7 @@ def find_launcher():
 
 def run_cases():
     """The messages and results of the filter, by case."""
-    # pvpython is a run of MPI itself, within which mpirun would start no other.
+    # pvpython runs under MPI itself; within it, mpirun would start no other run.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
     environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")

@@ -36,7 +36,7 @@ def wait_for_text(stream, text):
 
 class Remote(unittest.TestCase):
     def start(self, *command):
-        """Starts a program that never outlives the test."""
+        """Starts a program, which is ended with the test at the latest."""
         program = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT)
         self.addCleanup(program.stdout.close)

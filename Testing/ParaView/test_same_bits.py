@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin's meshes equal those of the command, which is built with another VTK.
 
-Skipped where that command, DELAUNAYFLIP_COMMAND, does not exist.
+Skipped if that command, DELAUNAYFLIP_COMMAND, does not exist.
 """
 
 import os

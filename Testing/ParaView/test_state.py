@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""State files and Python traces bring back the same filter and the same picture."""
+"""State files and Python traces restore the same filter and the same picture."""
 
 import hashlib
 
