@@ -56,9 +56,9 @@ std::vector<std::int64_t> Split(
     RequirePoints(corners, points.Count, i);
     const auto part = [&](double share)
     { return !progress || progress((static_cast<double>(i) + share) / all); };
-    const bool goesOn = (i % PolygonsBetweenCalls != 0 || part(0.0)) &&
+    const bool continues = (i % PolygonsBetweenCalls != 0 || part(0.0)) &&
       (corners.Count < 3 || SplitPolygon(points, corners.Ids, corners.Count, triangles, part));
-    if (!goesOn)
+    if (!continues)
     {
       throw RunAborted();
     }

@@ -150,12 +150,12 @@ def animate(
         plotter.add_mesh(shown, **_look())
         plotter.camera_position = _choose_camera(mesh) or "iso"
         plotter.write_frame()
-        goes_on = True
-        while goes_on:
+        is_running = True
+        while is_running:
             flipped = _update(filter_)
             shown.copy_from(_color_by_quality(flipped))
             plotter.write_frame()
-            goes_on = filter_.Advance()
+            is_running = filter_.Advance()
     finally:
         plotter.close()
     return flipped

@@ -346,11 +346,11 @@ class Pipeline(unittest.TestCase):
         mesh = make_bad_mesh()
         live = Watched(mesh)
         live.filter.LiveUpdateOn()
-        steps, goes_on = 0, True
-        while goes_on and steps < 100:
+        steps, continues = 0, True
+        while continues and steps < 100:
             live.run()
             mesh.GetPoints().Modified()
-            goes_on, steps = live.filter.Advance(), steps + 1
+            continues, steps = live.filter.Advance(), steps + 1
         self.assertLess(steps, 100)
 
     def test_iteration_limit(self):
