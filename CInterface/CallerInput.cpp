@@ -15,8 +15,8 @@ namespace delaunayflip
 namespace
 {
 
-/// The caller's struct as this library knows it: members that a program compiled with an older
-/// header does not have keep their defaults.
+/// Completes the caller's struct: a program compiled with an older header has fewer members; the
+/// others keep their defaults.
 template <typename Struct>
 Struct Complete(const Struct& given, void (*initialize)(Struct*))
 {
@@ -76,7 +76,7 @@ HeldEdges ToHeldEdges(const delaunayflip_mesh& c)
   return held;
 }
 
-/// Views integers of the caller as `Array`, whose 32-bit ids are Id32 and 64-bit ids are Id64.
+/// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
 template <typename Array, typename Id32, typename Id64, typename Void>
 Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
 {

@@ -10,8 +10,8 @@
 #include <cstdint>
 
 /// @file
-/// The structs of a C program as the engine's types. Every function throws InvalidCall where the
-/// program breaks a rule of delaunayflip_c.h.
+/// Converts the structs of a C program to the engine's types. Every function throws InvalidCall if
+/// the program breaks a rule of delaunayflip_c.h.
 
 namespace delaunayflip
 {
@@ -48,7 +48,7 @@ GeometryKind ToGeometry(std::int32_t value);
 /// The engine's defaults where `given` is null.
 FlipOptions ToOptions(const delaunayflip_options* given);
 
-/// The engine's observers that call the functions of the caller, who may have none.
+/// The engine's observers that call the caller's functions, if there are any.
 struct Observers
 {
   explicit Observers(const delaunayflip_callbacks* given);

@@ -65,7 +65,8 @@ void SetFlips(delaunayflip_report& c, const FlipReport& report)
   c.flip_seconds = report.FlipSeconds;
 }
 
-/// Several triangles of one number are named once.
+/// Replaces the triangles of defects by their numbers. Triangles with the same number are named
+/// once.
 void NumberTriangles(std::vector<Defect>& defects, const std::int64_t* numbers)
 {
   for (Defect& defect : defects)

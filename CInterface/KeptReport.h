@@ -11,7 +11,7 @@
 #include <string>
 
 /// @file
-/// The engine's report as C structs.
+/// Converts the engine's report to C structs.
 
 namespace delaunayflip
 {
@@ -22,7 +22,7 @@ delaunayflip_iteration ToC(const IterationRecord& record);
 class KeptReport
 {
 public:
-  /// @param numbers what triangles are called, or null: their indices.
+  /// @param numbers the numbers by which the report names triangles; null: their indices.
   KeptReport(FlipReport report, const std::int64_t* numbers);
 
   /// Fills as many bytes of `target` as target.size says.

@@ -10,7 +10,7 @@
 #include <string>
 
 /// @file
-/// Exceptions become status codes here: none may leave a C function.
+/// Converts exceptions to status codes: none may leave a C function.
 
 namespace delaunayflip
 {
@@ -25,7 +25,7 @@ public:
 /// @throws InvalidCall
 void Require(bool isKept, const char* rule);
 
-/// What failed last in a thread.
+/// The last error in a thread.
 struct LastError
 {
   std::string Message;
@@ -35,7 +35,7 @@ struct LastError
 
 LastError& GetLastError();
 
-/// Keeps what the exception being handled says, and returns its status.
+/// Stores the message of the exception being handled as the last error, and returns its status.
 delaunayflip_status FailByException();
 
 template <typename Work>

@@ -15,12 +15,12 @@
  * - Every function that can fail returns a delaunayflip_status. After a failure,
  *   delaunayflip_error_message() says what was wrong, where, and what to do. A failing call writes
  *   none of its outputs.
- * - A struct begins with its size in bytes. Fill structs with their `_init` function before you set
- *   members; so a program that was compiled with an older header works with a newer library.
- *   Newer headers only add members at the end. Enumerations are passed as int32_t.
+ * - A struct begins with its size in bytes. Call its `_init` function before you set members. Newer
+ *   headers only add members at the end, so a program compiled with an older header works with a
+ *   newer library. Enumerations are passed as int32_t.
  * - Points, triangles and results may be in the memory of a GPU; everything else is in the host's.
- *   Work of the caller in the stream that it names is done before such arrays are read or written.
- *   When a function returns, its results are there.
+ *   Such arrays are read or written after the work that is already in the caller's stream. When a
+ *   function returns, its results are complete.
  * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
  *   reads the arrays of its mesh as long as it exists.
  * - Different sessions may be used by different threads at the same time; one session by one thread
@@ -61,7 +61,7 @@ extern "C"
     DELAUNAYFLIP_INVALID_CALL =
       6, /**< A null pointer, an unknown type, or a struct without a size. */
     DELAUNAYFLIP_FAILED = 7, /**< Anything else. */
-    DELAUNAYFLIP_STOPPED = 8 /**< A callback stopped a call that has no part of a result. */
+    DELAUNAYFLIP_STOPPED = 8 /**< A callback stopped a call that cannot return a partial result. */
   } delaunayflip_status;
 
   /** The message of the last failing call of this thread, in English; "" if there was none. Valid
@@ -117,7 +117,7 @@ extern "C"
   {
     DELAUNAYFLIP_GEOMETRY_AUTO = 0, /**< Planar, else planar-xy for terrain, else surface. */
     DELAUNAYFLIP_GEOMETRY_PLANAR = 1, /**< In the plane of the points; an error if there is none. */
-    DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z rides along. */
+    DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z has no effect. */
     DELAUNAYFLIP_GEOMETRY_SURFACE = 3 /**< In space. */
   } delaunayflip_geometry;
 
@@ -180,7 +180,7 @@ extern "C"
     double seconds;
   } delaunayflip_iteration;
 
-  /** What a run did. Strings are valid until the session's next call, or its end. */
+  /** The report on a run. Strings are valid until the session's next call, or its end. */
   typedef struct
   {
     int64_t size;
@@ -209,7 +209,7 @@ extern "C"
     int64_t fixed_edges; /**< Edges that never flip, for any reason. */
     int64_t unmatched_constraints; /**< Constraint edges that the mesh does not have. */
     int64_t inserted_constraints; /**< Constraint edges that flips made before the iterations. */
-    int64_t constraint_flips; /**< How many flips that took; not in total_flips. */
+    int64_t constraint_flips; /**< Flips that inserted these edges; not in total_flips. */
     int64_t euler_characteristic; /**< Used points - edges + triangles; flips keep it. */
     double
       minimum_angle_before; /**< Degrees; 0 with a degenerate triangle; NaN without triangles. */
@@ -234,20 +234,20 @@ extern "C"
   DELAUNAYFLIP_API void delaunayflip_report_init(delaunayflip_report* report);
   DELAUNAYFLIP_API void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks);
 
-  /** A mesh in the course of its flips. */
+  /** A mesh that is being flipped. */
   typedef struct delaunayflip_session delaunayflip_session;
 
   /** Builds the edges of `mesh` and tests them all. `options` and `callbacks` may be null. A
-   * A mesh in DELAUNAYFLIP_CUDA is flipped on its GPU, unless the options want threads or the GPU
-   * fails; then it is copied to the host, as it also is for constraints_to_insert. A
-   * progress callback that returns 0 gives a session that holds the input's triangles, aborted. On
-   * success `*session` must be given to delaunayflip_close. */
+   * A mesh in DELAUNAYFLIP_CUDA is flipped on its GPU. It is copied to the host if the options
+   * request threads, if the GPU fails, or for constraints_to_insert. If a progress callback returns
+   * 0, the session is aborted and has the input's triangles. On success `*session` must be passed
+   * to delaunayflip_close. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
-  /** Runs at most `iterations` more iterations; -1: until there is nothing more to flip, or a
-   * limit.
+  /** Runs at most `iterations` more iterations; -1: until nothing is left to flip or a limit is
+   * reached.
    * `*is_running` (may be null) becomes 1 if there is more to do, else 0. `callbacks` may be null.
    */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_advance(delaunayflip_session* session,
@@ -265,8 +265,8 @@ extern "C"
 
   /** Writes the triangles in their input slots: 3 * number_of_triangles integers of `id_type`
    * (DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64). A triangle that no flip touched keeps its three ids
-   * in their order. `triangles` may be the array of the mesh itself, once the session has nothing
-   * more to do. */
+   * in their order. If the session has nothing left to do, `triangles` may be the mesh's own array.
+   */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles(
     delaunayflip_session* session, void* triangles, int32_t id_type);
 
@@ -275,8 +275,8 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, int32_t* counts);
 
-  /** The same into arrays in the memory of a GPU. Any session can do that; if it runs on this GPU,
-   * nothing passes through the host. `stream` is a cudaStream_t; null is the default stream. */
+  /** The same for arrays in the memory of a GPU, from any session. If the session runs on this GPU,
+   * nothing is copied through the host. `stream` is a cudaStream_t; null is the default stream. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles_on_device(
     delaunayflip_session* session, void* triangles, int32_t id_type, void* stream);
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts_on_device(

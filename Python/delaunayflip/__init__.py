@@ -22,8 +22,8 @@ As a filter of VTK:
 
 delaunayflip.vtkDelaunayFlipLiveView, if it was built, shows the filter at work in a window.
 
-Everything is loaded at its first use: the functions for arrays need NumPy and no VTK, the filter
-needs VTK and no OpenGL, and the live view needs VTK's OpenGL modules too.
+Modules are imported at their first use: the functions for arrays need NumPy but no VTK, the filter
+needs VTK but no OpenGL, and the live view needs VTK's OpenGL modules too.
 """
 import importlib
 import typing

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of the caller as the engine takes them, without a copy where they already are."""
+"""Converts the caller's arrays for the engine; arrays that already fit are not copied."""
 import numpy
 
 from . import _library
@@ -49,7 +49,7 @@ def _per_triangle(name, values, kind, count):
 
 
 class Mesh:
-    """A mesh in arrays that live as long as it does."""
+    """A mesh as C struct, and its arrays, which live as long."""
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
                  insert_constraints=True, triangle_numbers=None):

@@ -7,7 +7,7 @@ from . import _arrays, _library
 
 
 class _CuPy:
-    """What the engine needs of CuPy."""
+    """The functions of CuPy that the package needs."""
 
     @staticmethod
     def as_contiguous(array):
@@ -35,7 +35,7 @@ class _CuPy:
 
 
 class _Torch:
-    """What the engine needs of PyTorch."""
+    """The functions of PyTorch that the package needs."""
 
     @staticmethod
     def as_contiguous(array):
@@ -59,7 +59,7 @@ class _Torch:
 
 
 class _Numba:
-    """What the engine needs of Numba."""
+    """The functions of Numba that the package needs."""
 
     @staticmethod
     def as_contiguous(array):
@@ -120,7 +120,7 @@ def to_host(array):
 
 
 def make_mesh(points, triangles, *held):
-    """The mesh, where its points and triangles are; `held`: what else _arrays.Mesh takes."""
+    """The mesh in the memory of its points and triangles. `held`: the other arguments."""
     if not _is_on_device(points) and not _is_on_device(triangles):
         return _arrays.Mesh(points, triangles, *held)
     return Mesh(points, triangles, *(to_host(values) for values in held))
@@ -130,7 +130,7 @@ def store_triangles(session, target, count):
     """Writes the `count` triangles of a session to an array in any memory.
 
     Raises:
-        ValueError: It is not a contiguous (m, 3) array of int32 or int64.
+        ValueError: The target is not a contiguous (m, 3) array of int32 or int64.
     """
     fits = tuple(target.shape) == (count, 3) and _is_contiguous(target)
     kind = _type_of(target) if fits else None
@@ -153,7 +153,7 @@ def store_flip_counts(session, counts):
 
 
 class Mesh(_arrays.Mesh):
-    """A mesh in arrays on a GPU that live as long as it does."""
+    """A mesh on a GPU as C struct, and its arrays, which live as long."""
 
     def make_triangles(self):
         return self._library.make_empty(self.triangles, self.triangles.shape, self._id_type)
@@ -200,7 +200,7 @@ def _check(name, array, types, columns):
 
 
 def _type_of(array):
-    """The name of the type of the array's values, as NumPy's."""
+    """NumPy's name for the type of the array's values."""
     if _is_on_device(array):
         return numpy.dtype(array.__cuda_array_interface__["typestr"]).name
     return array.dtype.name

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The exceptions of the engine, with its words. Running out of memory is MemoryError."""
+"""The exceptions of the engine, with its messages. If memory runs out, MemoryError is raised."""
 
 
 class FlipError(Exception):
@@ -30,7 +30,7 @@ class MeshTooLarge(FlipError, ValueError):
 
 
 class Stopped(FlipError):
-    """A callback stopped a call that has no part of a result."""
+    """A callback stopped a call that cannot return a partial result."""
 
 
 class BackendUnavailable(FlipError, RuntimeError):

@@ -133,8 +133,8 @@ class Callbacks(ctypes.Structure):
 
 
 def _candidates():
-    """Where the library may be: in the package (a wheel, a build), in the lib folder that the
-    package was installed under, or wherever the system looks."""
+    """Where the library may be: in the package (a wheel or a build), in the lib folder under which
+    the package was installed, or where the system searches."""
     package = pathlib.Path(__file__).resolve().parent
     for folder in (package, *list(package.parents)[1:3]):
         if (folder / LIBRARY).exists():
@@ -147,7 +147,7 @@ def library():
     """The loaded library, with the types of its functions.
 
     Raises:
-        ImportError: It is not there, or of another interface version.
+        ImportError: The library does not exist, or has another interface version.
     """
     loaded = ctypes.CDLL(next(_candidates()))
     if loaded.delaunayflip_interface_version() != INTERFACE_VERSION:
@@ -200,7 +200,7 @@ _EXCEPTIONS = {
 
 
 def call(name, *arguments):
-    """Calls delaunayflip_<name> and raises what its status means."""
+    """Calls delaunayflip_<name> and raises the exception that belongs to its status."""
     status = getattr(library(), f"delaunayflip_{name}")(*arguments)
     if status == 0:
         return

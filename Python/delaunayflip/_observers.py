@@ -11,7 +11,7 @@ from . import _library
 @contextlib.contextmanager
 def _interrupt_as(note):
     """While the block runs, Ctrl-C calls `note` instead of raising KeyboardInterrupt, which ctypes
-    would swallow in a callback. Other handlers than Python's own are left alone."""
+    would swallow in a callback. Only Python's own handler is replaced."""
     is_ours = (
         threading.current_thread() is threading.main_thread()
         and signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -27,9 +27,10 @@ def _interrupt_as(note):
 
 
 class Observers:
-    """Callbacks for one call of the engine. What they raise aborts the run and is raised after it.
+    """Callbacks for one call of the engine. If one raises an exception, the run is aborted and the
+    exception raised after it.
 
-    The progress callback is there even if nobody asked for it: while Python runs in it, the
+    There is always a progress callback, even without an observer: while Python runs in it, the
     interpreter handles signals, so Ctrl-C works.
     """
 
@@ -45,7 +46,7 @@ class Observers:
 
     @contextlib.contextmanager
     def raising(self):
-        """Raises after the block what a callback raised in it, or KeyboardInterrupt."""
+        """Raises, after the block, an exception of a callback in it, or KeyboardInterrupt."""
         with _interrupt_as(self._note):
             yield self.struct
         if self._raised is not None:
@@ -63,7 +64,7 @@ class Observers:
         self._raised = error
 
     def _ask(self, function, value):
-        """0, which aborts, if the function returned False (None means go on) or raised."""
+        """Returns 0, which aborts, if the function returned False or raised an exception."""
         try:
             if function is not None and function(value) is False:
                 return 0

@@ -13,7 +13,7 @@ _NAMES = {"threads": "number_of_threads"}
 
 
 def make_options(**keywords):
-    """A _library.Options with the engine's defaults for what is not given.
+    """A _library.Options with the engine's defaults for options that are not given.
 
     Raises:
         TypeError: A keyword that is no option.

@@ -54,7 +54,7 @@ class Report:
 
 
 def from_struct(struct: _library.Report) -> Report:
-    """The report in a _library.Report."""
+    """The Report for a _library.Report."""
     values: typing.Dict[str, typing.Any] = {}
     for name, _ in struct._fields_[1:]:
         value = getattr(struct, name)

@@ -80,7 +80,7 @@ class Session:
         self, iterations: int = -1, *, progress: Optional[Progress] = None,
         on_iteration: Optional[OnIteration] = None,
     ) -> bool:
-        """Runs at most so many more iterations; -1: until there is nothing more to flip.
+        """Runs at most so many more iterations; -1: until nothing is left to flip.
 
         Args:
             iterations: How many, or -1.
@@ -98,7 +98,7 @@ class Session:
 
     @property
     def report(self) -> _report.Report:
-        """What has happened so far, a `Report`."""
+        """The `Report` on the run so far."""
         struct = _library.Report()
         _library.library().delaunayflip_report_init(struct)
         _library.call("get_report", self._open(), struct)

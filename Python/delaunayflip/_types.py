@@ -21,7 +21,7 @@ Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]
 TieRule = typing.Literal["keep", "canonical"]
 Backend = typing.Literal["auto", "cuda", "threads"]
-#: False aborts; anything else goes on.
+#: Returning False aborts; any other value continues.
 Progress = typing.Callable[[float], typing.Optional[bool]]
 OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bool]]
 

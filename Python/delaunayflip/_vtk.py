@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter of VTK: the C++ class where it was built for the VTK that Python imports, and else the
-class in Python. So a process never loads two VTKs."""
+"""The filter of VTK: the C++ class if it was built for the VTK that Python imports, else the class
+in Python. So a process never loads two VTKs."""
 import ctypes
 import importlib.util
 import os
@@ -13,7 +13,7 @@ import vtkmodules.vtkCommonExecutionModel
 
 
 def is_built_for_this_vtk():
-    """Whether this package has modules in C++ that link the libraries of VTK already loaded."""
+    """Whether this package has C++ modules that link the libraries of VTK already loaded."""
     try:
         from ._vtk_build import COMMON_CORE
     except ImportError:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""VTK's arrays and cells as NumPy arrays, without a copy where that is possible."""
+"""VTK's arrays and cells as NumPy arrays, without a copy if possible."""
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
@@ -20,7 +20,7 @@ def view(array):
 
 
 def copy(array):
-    """A deep copy in plain memory, of the same type (bits become bytes)."""
+    """A deep copy in contiguous memory, of the same type (bits become bytes)."""
     kind = 3 if isinstance(array, vtkBitArray) else array.GetDataType()  # VTK_UNSIGNED_CHAR
     plain = vtkDataArray.CreateDataArray(kind)
     plain.DeepCopy(array)
@@ -28,7 +28,7 @@ def copy(array):
 
 
 def make(name, values):
-    """A VTK array of its own with these values."""
+    """A new VTK array with a copy of these values."""
     array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
     array.SetName(name)
     return array
@@ -57,7 +57,7 @@ class Cells:
     """A vtkCellArray: ids `corners[offsets[i]:offsets[i + 1]]` are the points of cell i."""
 
     def __init__(self, array, what, first):
-        """`what` and `first`, what messages call the cells and the number of the first one.
+        """`what` is the word for the cells in messages, `first` the number of the first one.
 
         Raises:
             InvalidMesh: Offsets and connectivity contradict each other.

@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import (
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """A leaf. `before` and `share` are parts of all cells."""
+    """A leaf. `before` is the share of all cells in earlier leaves, `share` that of this one."""
 
     data: typing.Any
     number: int
@@ -59,7 +59,7 @@ def transform_blocks(source, output, transform):
 
 
 def list_meshes(blocks):
-    """The polygonal leaves by their numbers."""
+    """{flat index: leaf} of the polygonal leaves."""
     leaves = {leaf.GetCurrentFlatIndex(): leaf.GetCurrentDataObject() for leaf in _leaves(blocks)}
     return {number: data for number, data in leaves.items() if isinstance(data, vtkPolyData)}
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The edges along lines and polygons of VTK's meshes, as pairs of the mesh's points."""
+"""The edges along lines and polygons of VTK's meshes, as pairs of point ids."""
 import numpy
 
 from ._vtk_arrays import Cells, view_points
@@ -11,8 +11,8 @@ class Constraints:
 
     Attributes:
         pairs: (k, 2) int64, unique, in the order given, the smaller id of each pair first.
-        to_insert: (k,) whether a pair is to be inserted where the mesh does not have it.
-        unmatched: how many edges of the second input have no points in the mesh.
+        to_insert: (k,) whether a pair is to be inserted if the mesh does not have it.
+        unmatched: how many edges of the second input end at no point of the mesh.
     """
 
     def __init__(self, mesh, others, settings, points, triangles):
@@ -44,12 +44,12 @@ def _list_pairs(cells, are_closed):
 
 
 def _drop_points(pairs):
-    """Without pairs of equal ends; the smaller end first."""
+    """The pairs without those of equal ends; the smaller end comes first."""
     return numpy.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)
 
 
 def _unite(pairs, flags, count):
-    """Each pair once, where it is first; its flag is set if any of its flags is."""
+    """Each pair once, at its first position; its flag is set if any of its flags is."""
     if not pairs:
         return numpy.empty((0, 2), dtype=numpy.int64), numpy.empty(0, dtype=numpy.uint8)
     pairs, flags = numpy.concatenate(pairs), numpy.concatenate(flags)
@@ -70,7 +70,7 @@ def _list_other_pairs(others, count):
 
 
 def _find_others(others, points, triangles):
-    """The pairs of the second input, and how many of its edges have no points in the mesh."""
+    """The pairs of the second input, and how many of its edges end at no point of the mesh."""
     other_points = view_points(others)
     has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
                      and other_points.tobytes() == points.tobytes())
@@ -81,7 +81,8 @@ def _find_others(others, points, triangles):
 
 
 def _number_places(points, other_points):
-    """For the points of both, numbers of their places; -1, -2, ... where one is not finite."""
+    """Numbers of the places of the points of both meshes; -1, -2, ... for points that are not
+    finite."""
     single = numpy.float32 in (points.dtype, other_points.dtype)
     kind = numpy.float32 if single else numpy.float64
     with numpy.errstate(over="ignore"):

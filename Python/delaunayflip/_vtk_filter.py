@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkDelaunayFlip for every VTK with Python: the C++ class's interface over libdelaunayflip."""
+"""vtkDelaunayFlip for every VTK with Python: the interface of the C++ class, on libdelaunayflip."""
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
@@ -19,9 +19,9 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. What differs: in a parallel run
-    each rank reports on its own piece, and in a live run points that were marked as modified but are
-    the same do not count as moved.
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. There are two differences: in a
+    parallel run each rank reports on its own piece; and in a live run, points that were marked as
+    modified but have not changed do not count as moved.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """
@@ -37,7 +37,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         for name, value in properties.items():
             setattr(self, _require_property(name), value)
 
-    # What every filter of VTK has.
+    # Methods of every filter of VTK.
 
     def GetClassName(self):
         return "vtkDelaunayFlip"
@@ -87,7 +87,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         if port == 1:
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
-        # Otherwise the executive would run the filter once per block, and no sums could be made.
+        # Otherwise the executive would run the filter once per block, and it could not sum over them.
         info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
         return 1
 
@@ -138,7 +138,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return 1
 
     def _tell(self, event, text):
-        """As vtkErrorMacro and vtkWarningMacro do."""
+        """Like vtkErrorMacro and vtkWarningMacro."""
         if not vtkObject.GetGlobalWarningDisplay():
             return
         address = self.__this__.split("_")[1].lstrip("0")

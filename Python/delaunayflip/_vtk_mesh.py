@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A vtkPolyData as the engine takes it, and back."""
+"""Converts a vtkPolyData to the engine's arrays, and back."""
 import dataclasses
 
 import numpy
@@ -15,7 +15,7 @@ from ._vtk_slots import NONE, Slots
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """What decides which edges there are and which stay."""
+    """The properties that decide which edges exist and which stay."""
 
     triangulate: bool
     lines: bool
@@ -25,8 +25,8 @@ class Settings:
 
 
 class MeshInput:
-    """Arrays for a Session, and what the output needs of the input. `copy_points`: they may be
-    moved in place while the session lives."""
+    """Arrays for a Session, and the parts of the input that the output needs. `copy_points`: the
+    points may be moved in place while the session lives."""
 
     def __init__(self, mesh, others, settings, plan, copy_points=False):
         self.mesh = mesh.NewInstance()
@@ -63,7 +63,7 @@ class MeshInput:
         return "; ".join(texts)
 
     def store(self, session, output):
-        """Writes the mesh as it is now."""
+        """Writes the current mesh."""
         mesh = self.mesh
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
@@ -124,7 +124,7 @@ class MeshInput:
             _demote_global_ids(data)
 
     def _find_changed(self, output):
-        """(polygons, old triangles, new triangles) of those that flips have changed."""
+        """(polygons, old triangles, new triangles) of the polygons that flips have changed."""
         polygons = numpy.flatnonzero(self.slots.polygon_triangles != NONE)
         old = self.slots.triangles[self.slots.polygon_triangles[polygons]]
         cells = Cells(output.GetPolys(), "cell", 0)
@@ -133,7 +133,7 @@ class MeshInput:
         return polygons[changed], old[changed], new[changed]
 
     def _renew_normals(self, output):
-        """The normals of changed triangles; those against the winding stay so."""
+        """The normals of changed triangles. Normals that pointed against the winding still do."""
         shared = output.GetCellData().GetNormals()
         if (shared is None or shared.GetNumberOfComponents() != 3
                 or shared.GetNumberOfTuples() < output.GetNumberOfCells()):

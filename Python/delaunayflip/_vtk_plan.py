@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The progress of an update from that of its parts, which follow each other."""
+"""Computes the progress of an update from the progress of its parts, one after the other."""
 
-#: Seconds per item, relative to what the engine takes per triangle.
+#: Times per item, relative to the engine's time per triangle.
 _PER_POLYGON_POINT = 0.1
 _PER_CONSTRAINT = 0.5
 _PER_CELL = 0.3
@@ -10,11 +10,11 @@ _PER_OUTPUT = 0.4
 
 
 class Plan:
-    """Shares of the time for the parts "polygons", "constraints" (with regions), "session" and
-    "output" of the update of a mesh."""
+    """The shares of time of the parts of a mesh's update: "polygons", "constraints" (with
+    regions), "session" and "output"."""
 
     def __init__(self, mesh, others, settings, observer):
-        """`observer`: called with the share of the whole; False aborts."""
+        """`observer` is called with the share of the whole update; returning False aborts."""
         self._observer = observer
         corners = sum(cells.GetNumberOfConnectivityIds()
                       for cells in (mesh.GetPolys(), mesh.GetStrips()))

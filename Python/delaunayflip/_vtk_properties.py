@@ -15,7 +15,7 @@ class Property:
 
     name: str
     default: typing.Any
-    low: typing.Any = None  #: Numbers are clamped to low .. high, if there are such.
+    low: typing.Any = None  #: Numbers are clamped to low .. high; None: no limit.
     high: typing.Any = None
     choices: typing.Tuple[str, ...] = ()  #: SetXTo... methods and X_... constants.
     modifies: bool = True
@@ -83,7 +83,7 @@ def _accessors(item):
 
 
 def add_properties(cls):
-    """Gives a class its constants, and for each property what VTK's macros and wrapping give."""
+    """Adds the constants to a class, and for each property the methods that VTK's macros make."""
     for group, names in CONSTANTS.items():
         for value, name in enumerate(names):
             setattr(cls, f"{group}_{name}", value)

@@ -50,7 +50,7 @@ def _number_texts(array):
 
 
 def find_frozen(mesh, slots):
-    """(m,) whether the edges of a triangle stay, or None if those of no triangle do."""
+    """(m,) whether the edges of a triangle stay, or None if no triangle's edges have to."""
     ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
     if not isinstance(ghosts, vtkUnsignedCharArray):
         return slots.frozen
@@ -62,7 +62,7 @@ def find_frozen(mesh, slots):
 
 
 def describe_malformed_arrays(mesh, cells_stay):
-    """What warnings say of arrays that do not fit the mesh."""
+    """Texts of warnings about arrays that do not fit the mesh."""
     texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point",
                             "passed unchanged")
     texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an update did to all of its meshes, and what it says about it."""
+"""What an update did to all of its meshes, and its messages."""
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkStringArray
@@ -24,8 +24,8 @@ _MOST = 3  # places named per text, and texts
 
 
 class Totals:
-    """The report on one mesh, or the sum over several. Attributes that are not counts are named as
-    those of `Report`; `geometry_used` may be "mixed"."""
+    """The report on one mesh, or the sum over several. Attributes that are not counts have the
+    names of those of `Report`; `geometry_used` may be "mixed"."""
 
     def __init__(self, stop_reason="not started"):
         self.stop_reason = stop_reason
@@ -38,7 +38,8 @@ class Totals:
 
     @classmethod
     def of_run(cls, report, iterations, unmatched):
-        """Of a mesh with triangles. `unmatched`: constraints that the engine was not told of."""
+        """For a mesh with triangles. `unmatched`: the number of constraints without points in the
+        mesh, which the engine did not get."""
         totals = cls(report.stop_reason)
         totals.counts = {name: getattr(report, name) for name in totals.counts}
         totals.counts["unmatched_constraints"] += unmatched
@@ -54,7 +55,7 @@ class Totals:
         return self.stop_reason == "converged"
 
     def add(self, other):
-        """Adds the report on another mesh. Angles are the smaller ones, the stop reason the worse."""
+        """Adds the report on another mesh. Keeps the smaller angles and the worse stop reason."""
         self.iterations = _join_iterations(self, other)
         for name, count in other.counts.items():
             self.counts[name] += count
@@ -112,7 +113,7 @@ def _add_text(data, name, text):
 
 
 def _join_iterations(a, b):
-    """Row by row. A mesh that made fewer iterations keeps its last angle."""
+    """Adds row by row. A mesh that made fewer iterations keeps its last angle."""
     rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
     rows["minimum_angle"] = numpy.inf
     for totals in (a, b):
@@ -127,7 +128,7 @@ def _join_iterations(a, b):
 
 
 def describe_trouble(defects, report, has_asked_for_limit):
-    """What to warn of, or "". Reaching a limit that the user has set is not worth a warning."""
+    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
     texts = [defects] if defects else []
     if report.stop_reason == "iteration limit" and not has_asked_for_limit:
         texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
@@ -138,7 +139,7 @@ def describe_trouble(defects, report, has_asked_for_limit):
 
 
 def describe(notes):
-    """Joins (place, text) to one text; each text appears once, with its first places."""
+    """Joins pairs (place, text) to one text. Each text appears once, with its first places."""
     places = {}
     for where, text in notes:
         places.setdefault(text, []).append(where)

@@ -18,18 +18,18 @@ from ._vtk_warm import keeps_geometry, make_start
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """What an update asks for."""
+    """The input and the options of an update."""
 
     mesh: typing.Any
     others: typing.Any  #: Constraints, or None.
     settings: Settings
     options: typing.Dict[str, typing.Any]  #: Keywords of a Session.
     is_live: bool
-    observer: typing.Callable[[float], bool]  #: Of the progress of this update.
+    observer: typing.Callable[[float], bool]  #: Called with the progress of this update.
 
 
 class Run:
-    """A run, which a live update keeps for the next one. `start`: where it begins instead of at the
+    """A run. A live update keeps it for the next update. `start`: what it begins with instead of the
     input's triangles."""
 
     def __init__(self, request, start=None):
@@ -65,8 +65,8 @@ class Run:
                 "cell", int(slots.cells[error.cell]), error.point, len(self._input.points)) from None
 
     def prepare(self, request):
-        """The run for another update: this one, if all that decides its result is what it was; a
-        warm start, if only points were moved; else a new run."""
+        """The run for another update: this one if nothing that affects its result has changed; a
+        warm start if only points were moved; else a new run."""
         old = self._request
         fits = (request.is_live and old.settings == request.settings
                 and old.options == request.options and self._stamps == _stamp(request))
@@ -80,7 +80,7 @@ class Run:
         return self
 
     def _has_its_points(self, mesh):
-        """Bit by bit: many programs mark points as modified that they only read."""
+        """Compares the points bit by bit: many programs mark points as modified that they only read."""
         points = _vtk_arrays.view_points(mesh)
         return points.dtype == self._input.points.dtype and numpy.array_equal(
             points.view(numpy.uint8), self._input.points.view(numpy.uint8))
@@ -93,7 +93,7 @@ class Run:
             self._time = request.mesh.GetMTime()
 
     def advance(self, iterations, on_iteration):
-        """At most so many iterations, or as many as fit into 50 ms if it is 0; -1: all."""
+        """Makes at most so many iterations; 0: as many as fit into 50 ms; -1: all."""
         if iterations == 0:
             return self._advance_for(0.05, on_iteration)
         return self._session.advance(
@@ -111,7 +111,7 @@ class Run:
         return is_running
 
     def store(self, output, counts, angles):
-        """Writes the mesh as it is now, with the cell arrays that are wanted.
+        """Writes the current mesh, with the requested cell arrays.
 
         Returns:
             False when the observer stopped it; then there are no angles.
@@ -139,7 +139,7 @@ class Run:
 
 
 def _stamp(request):
-    """Modification times and sizes of all that decides which edges exist and which are fixed."""
+    """Modification times and sizes of everything that decides which edges exist and are fixed."""
     meshes = [mesh for mesh in (request.mesh, request.others) if mesh is not None]
     stamps = [request.mesh.GetNumberOfPoints()]
     for mesh in meshes:

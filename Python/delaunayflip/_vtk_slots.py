@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The triangles of a vtkPolyData: of which cell each is a part, and which output cell it becomes."""
+"""The triangles of a vtkPolyData: the cell that contains each, and the output cell it becomes."""
 import numpy
 
 from . import _arrays, _library
@@ -11,15 +11,15 @@ NONE = -1
 
 
 class Slots:
-    """Triangles viewed in place, if all polygons are triangles and there are no strips; else those
-    into which polygons and strips split.
+    """Views of the triangles if all polygons are triangles and there are no strips; else the
+    triangles into which polygons and strips are split.
 
     Attributes:
         triangles: (m, 3), views or copies.
         cells: (m,) the cell of each triangle.
-        frozen: (m,) whether it is a part of a cell that stays; None: none is.
+        frozen: (m,) whether a triangle belongs to a cell that stays; None: none does.
         polygon_cells, polygon_triangles: for each polygon of the output the cell from which it is
-            made, and its triangle, or NONE if it is that cell itself.
+            made, and its triangle, or NONE if the polygon is the whole cell.
         kept_strips: the cells that stay strips.
     """
 
@@ -60,14 +60,14 @@ class Slots:
 
     @property
     def are_polygons_triangles(self):
-        """Whether output polygon i is triangle i for every i, and there are no others."""
+        """Whether each output polygon i is triangle i, and there are no others."""
         return self.in_place or (len(self.polygon_cells) == len(self.triangles)
                                  and bool((self.polygon_triangles != NONE).all()))
 
 
 class _Part:
-    """The triangles of the polygons or of the strips. `counts` has how many each cell gives; cells
-    that stay give triangles, too, which are frozen."""
+    """The triangles of the polygons or of the strips. `counts` has their number for each cell.
+    Cells that stay are split into triangles too, which are frozen."""
 
     def __init__(self, cells, triangles, counts, stays, stay_as_polygons):
         ids = cells.first + numpy.arange(cells.count)
@@ -78,7 +78,7 @@ class _Part:
         self._stay_as_polygons = stay_as_polygons
 
     def list_output(self, before):
-        """(cells, triangles) of the output's polygons; `before` triangles come first."""
+        """(cells, triangles) of the output's polygons, after the first `before` triangles."""
         rows = numpy.where(self.stays, int(self._stay_as_polygons), self.counts)
         starts = before + numpy.cumsum(self.counts) - self.counts
         steps = numpy.arange(rows.sum()) - numpy.repeat(numpy.cumsum(rows) - rows, rows)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Other datasets of VTK as vtkPolyData: grids of surface cells."""
+"""Converts other datasets of VTK, grids of surface cells, to vtkPolyData."""
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
@@ -19,7 +19,7 @@ _KINDS = {
 
 
 def to_poly_data(data):
-    """The same points and cells, but without blanked cells; None if some cell is no surface.
+    """The same points and cells, but without blanked cells; None if a cell is not a surface cell.
 
     Raises:
         InvalidMesh: The arrays of the cells contradict each other.
@@ -63,7 +63,7 @@ def _get_points(data):
 
 
 def _copy_cells(data, types, output):
-    """Sets the output's cells. Returns the cells of the input in their order."""
+    """Sets the output's cells. Returns the input's cells in the order of the output."""
     arrays = [vtkCellArray() for _ in range(4)]
     sources = [[] for _ in range(4)]
     ids = vtkIdList()
@@ -83,7 +83,7 @@ def _copy_cells(data, types, output):
 
 
 def _turn_pixel(cell, ids):
-    """The points of a pixel are row by row, those of a quad go around it."""
+    """Reorders the points of a pixel from row by row to around the quad."""
     if ids.GetNumberOfIds() != 4:
         raise InvalidMesh(
             f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
@@ -93,7 +93,7 @@ def _turn_pixel(cell, ids):
 
 
 def _copy_cell_data(data, sources, output):
-    """Arrays that are too short to be copied come out empty: the filter warns of them."""
+    """Arrays that are too short to be copied become empty, so that the filter warns of them."""
     whole, short = vtkCellData(), []
     whole.ShallowCopy(data.GetCellData())
     for i in reversed(range(whole.GetNumberOfArrays())):

@@ -35,7 +35,7 @@ def explain(error):
 
 
 class Update:
-    """What an update of `filter_` does and reports. During the update `totals` are those of the
+    """An update of `filter_` and its report. During the update `totals` is the report on the
     current mesh so far, afterwards the sum over all meshes."""
 
     def __init__(self, filter_, pieces=1):
@@ -58,7 +58,7 @@ class Update:
 
     def flip(self, source, constraints, output):
         """Flips the input, a mesh or blocks."""
-        self._filter._update = self  # what observers ask for
+        self._filter._update = self  # observers read its totals
         is_composite = isinstance(source, vtkCompositeDataSet)
         if is_composite:
             self._flip_blocks(source, constraints, output)
@@ -72,7 +72,7 @@ class Update:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def tell(self, tell):
-        """Gives the error and the warning of the update, if there are any."""
+        """Sends the error and the warning of the update, if there are any."""
         if self.failure:
             tell("ErrorEvent", self.error_message)
         if self._warnings:
@@ -97,7 +97,7 @@ class Update:
         output.Initialize()
 
     def _flip_blocks(self, source, constraints, output):
-        self._sum.stop_reason = "converged"  # what an input without blocks is
+        self._sum.stop_reason = "converged"  # the result for an input without blocks
         of_blocks = isinstance(constraints, vtkCompositeDataSet)
         own = _vtk_blocks.list_meshes(constraints) if of_blocks else {}
 
@@ -200,8 +200,9 @@ class Update:
         }
 
     def _is_abort_requested(self):
-        """Directly or, from VTK 9.3 on, through a filter upstream. After a direct request the filter
-        keeps its output, which the executive would otherwise empty."""
+        """Whether an abort was requested: directly or, from VTK 9.3 on, through a filter upstream.
+        After a direct request the filter keeps its output, which the executive would otherwise
+        empty."""
         filter_ = self._filter
         if not hasattr(filter_, "CheckAbort"):
             return bool(filter_.GetAbortExecute())
@@ -216,7 +217,7 @@ class Update:
         self.totals.counts["total_flips"] += record["flipped"]
 
     def _observe_progress(self, share):
-        """`share` is that of the block, of which the update may have several."""
+        """`share` is the progress of the current block."""
         before, length = self._part
         self._filter.UpdateProgress(max(before + length * share, self._filter.GetProgress()))
         return not self._is_abort_requested()

@@ -10,8 +10,8 @@ from ._flip import flip as _flip
 
 
 def flip(mesh: "meshio.Mesh", **options: typing.Any) -> "meshio.Mesh":
-    """A mesh of the same points and data whose triangles are Delaunay; its other cells stay, and
-    their edges are constraints if they are lines. Keywords as for delaunayflip.flip.
+    """A mesh with the same points and data whose triangles are Delaunay. Other cells stay; lines
+    are constraints. Keywords as for delaunayflip.flip.
 
     Example:
         >>> import meshio

@@ -8,18 +8,18 @@ In ParaView choose Tools > Manage Plugins > Load New and this file, or in pvpyth
     LoadPlugin(".../delaunayflip/paraview_plugin.py", remote=False, ns=globals())
 
 It has the properties of the plugin in C++, but not its chart, its text in the view and its widgets.
-LiveUpdate works by Step and, in scripts, by Advance: ParaView does not ask filters in Python for
-the next frame by itself. A state file of either plugin can be read with the other. Only one of the
-two can be loaded.
+For LiveUpdate, use Step or, in scripts, Advance: ParaView does not request the next frame of
+filters in Python. Each plugin can read the state files of the other, but only one of the two can be
+loaded.
 
-The file is not called paraview.py: ParaView makes a module of a plugin's name, which would take the
-place of its own.
+The file is not called paraview.py, because ParaView imports a plugin under its name, which would
+then hide ParaView's own module.
 """
 import pathlib
 import sys
 from xml.etree import ElementTree
 
-# ParaView loads this file alone: its package may be elsewhere than ParaView looks for packages.
+# ParaView loads only this file; the package may be where ParaView does not search for packages.
 _FOLDER = pathlib.Path(__file__).resolve().parent
 if str(_FOLDER.parent) not in sys.path:
     sys.path.append(str(_FOLDER.parent))
@@ -46,7 +46,7 @@ def _require_no_other():
 
 
 def _read_properties():
-    """The text of the C++ plugin's properties, without what needs its libraries."""
+    """The XML of the C++ plugin's properties, without the parts that need its libraries."""
     (proxy,) = ElementTree.parse(_FOLDER / "DelaunayFlip.xml").iter("SourceProxy")
     for element in proxy.iter():
         if element.get("panel_widget", "").startswith("DelaunayFlip"):

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Delaunay flips for PyVista.
 
-With PyVista 0.48 or newer and an installed package, every PolyData has an accessor:
+With PyVista 0.48 or newer, and if this package is installed, every PolyData has an accessor:
 
     better = mesh.delaunay.flip()
     better.delaunay.plot_quality()
     mesh.delaunay.animate("flips.gif")
 
-With an older PyVista, or from a build folder, call the functions of this module with the mesh as
+With an older PyVista, or in a build folder, call the functions of this module with the mesh as
 first argument: `delaunayflip.pyvista.flip(mesh)`.
 """
 import typing
@@ -30,7 +30,7 @@ _NAMES = {"threads": "NumberOfThreads", "device": "DeviceId"}
 
 
 class Options(typing.TypedDict, total=False):
-    """Keywords of `flip`; those that are not explained there are explained at delaunayflip.flip."""
+    """Keywords of `flip`; see there and at delaunayflip.flip."""
 
     geometry: Geometry
     criterion: Criterion
@@ -75,7 +75,8 @@ def flip(
 
     Raises:
         delaunayflip.FlipError: Its subclasses say what is wrong with the mesh or the options.
-        TypeError, ValueError: A keyword that is no option; a word that is not among the choices.
+        TypeError: A keyword is not an option.
+        ValueError: A value is not among the choices.
 
     Example:
         >>> import pyvista
@@ -106,14 +107,15 @@ def smallest_angles(mesh: "pyvista.PolyData") -> Array:
 
 
 def plot_quality(mesh: "pyvista.PolyData", **arguments: typing.Any) -> typing.Any:
-    """Plots the mesh, coloured by the smallest angles of its triangles: slivers red, good ones blue.
+    """Plots the mesh, coloured by the smallest angles of its triangles; slivers are red.
 
     Args:
-        mesh: Any PolyData; a copy without lines and points is split into triangles for the picture.
-        **arguments: Of pyvista.PolyData.plot.
+        mesh: Any PolyData. A copy of it, without lines and vertices and split into triangles, is
+            plotted.
+        **arguments: Passed to pyvista.PolyData.plot.
 
     Returns:
-        What pyvista.PolyData.plot returns.
+        The result of pyvista.PolyData.plot.
     """
     shown = _color_by_quality(mesh)
     return shown.plot(**{**_look(), "cpos": _choose_camera(mesh), **arguments})
@@ -124,7 +126,7 @@ def animate(
     window_size: typing.Tuple[int, int] = (800, 600),
     constraints: "typing.Optional[pyvista.PolyData]" = None, **options: "Unpack[Options]",
 ) -> "pyvista.PolyData":
-    """Writes a film of the flips: a frame of the input, and one after each step.
+    """Writes a film of the flips: one frame of the input, and one after each step.
 
     Args:
         mesh: As for `flip`.
@@ -138,7 +140,7 @@ def animate(
         The flipped mesh of the last frame.
 
     Raises:
-        As `flip`.
+        The same exceptions as `flip`.
     """
     filter_ = _make_filter(mesh, constraints, options)
     filter_.LiveUpdateOn()
@@ -217,13 +219,13 @@ def _listen(filter_, event):
     def note(_filter, _event, text):
         told[event] = text.split("): ", 1)[-1].strip()
 
-    told = filter_.told  # not the filter, which would then keep itself alive
+    told = filter_.told  # a reference to the filter would keep it alive
     note.CallDataType = "string0"
     filter_.AddObserver(event, note)
 
 
 def _update(filter_):
-    """The output. Errors of VTK are raised, warnings are given by Python's warnings."""
+    """The output. VTK's errors are raised as exceptions; its warnings become Python's warnings."""
     filter_.told.clear()
     filter_.Update()
     if filter_.GetFailure():
@@ -247,7 +249,7 @@ def _look():
 
 
 def _choose_camera(mesh):
-    """From above, if the mesh is flat."""
+    """Looks from above if the mesh is flat."""
     x, y, z = (mesh.bounds[2 * i + 1] - mesh.bounds[2 * i] for i in range(3))
     return "xy" if z <= 0.05 * max(x, y) else None
 
