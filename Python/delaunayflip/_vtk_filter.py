@@ -19,9 +19,9 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. There are two differences: in a
-    parallel run each rank reports on its own piece; and in a live run, points that were marked as
-    modified but have not changed do not count as moved.
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. There are two differences: in
+    a parallel run each rank reports on its own piece; and in a live run, points that were marked
+    as modified but have not changed do not count as moved.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """

@@ -29,8 +29,8 @@ class Request:
 
 
 class Run:
-    """A run. A live update keeps it for the next update. `start`: what it begins with instead of the
-    input's triangles."""
+    """A run. A live update keeps it for the next update. `start`: what it begins with instead of
+    the input's triangles."""
 
     def __init__(self, request, start=None):
         self._request = request
@@ -80,7 +80,7 @@ class Run:
         return self
 
     def _has_its_points(self, mesh):
-        """Compares the points bit by bit: many programs mark points as modified that they only read."""
+        """Compares the points bit by bit: many programs mark points as modified after reading."""
         points = _vtk_arrays.view_points(mesh)
         return points.dtype == self._input.points.dtype and numpy.array_equal(
             points.view(numpy.uint8), self._input.points.view(numpy.uint8))
