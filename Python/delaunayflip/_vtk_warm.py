@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Warm starts: when only points were moved, a live run goes on from its triangles, with the edges
+"""Warm starts: if only points were moved, a live run continues with its triangles and the edges
 that were fixed at its beginning."""
 import ctypes
 import dataclasses
@@ -12,7 +12,7 @@ from . import _arrays, _library
 from ._observers import Observers
 from ._options import make_options
 
-#: What a warm start reports as at the beginning.
+#: Counts that a warm start takes from the first run.
 _COUNTS = ("constraint_edges", "unmatched_constraints", "inserted_constraints", "constraint_flips")
 
 
@@ -20,7 +20,7 @@ _COUNTS = ("constraint_edges", "unmatched_constraints", "inserted_constraints", 
 class Start:
     """Where a warm start begins."""
 
-    geometry: str  #: Kept, since a surface has feature edges that a plane does not have.
+    geometry: str  #: Kept, because a surface has feature edges that a plane does not have.
     triangles: typing.Any
     fixed_edges: typing.Any  #: (k, 2) ids
     counts: typing.Dict[str, int]
@@ -32,7 +32,7 @@ class Start:
                 "constraints": self.fixed_edges if has_edges else None}
 
     def change_options(self, options):
-        """It finds no feature edges of its own: its fixed edges include them."""
+        """Finds no new feature edges: the fixed edges include those of the first run."""
         return {**options, "feature_angle": 180.0}
 
     def change_totals(self, totals):
