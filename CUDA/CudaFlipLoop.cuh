@@ -27,13 +27,13 @@ template <typename Rule>
 class CudaFlipLoop : public FlipLoop
 {
 public:
-  /// @param scale a power of two that brings the rule's coordinates near 1, for angles.
+  /// @param isExtreme MeshSurvey::IsExtreme, for angles.
   CudaFlipLoop(
-    EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const CudaBackend& backend)
+    EdgeMesh& mesh, const Rule& rule, bool isExtreme, EdgeGuard guard, const CudaBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
       Mesh(mesh),
       Decision(rule),
-      Scale(scale),
+      Extreme(isExtreme),
       Guard(std::move(guard)),
       Backend(backend),
       Bits(mesh, backend)
@@ -47,7 +47,7 @@ public:
 
   double FindLargestSquaredCotangent() const override
   {
-    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Scale };
+    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Extreme };
     return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
@@ -285,7 +285,7 @@ private:
 
   EdgeMesh& Mesh;
   Rule Decision;
-  double Scale;
+  bool Extreme;
   EdgeGuard Guard;
   const CudaBackend& Backend;
   int GridBlocks = 1;

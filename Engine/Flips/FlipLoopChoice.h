@@ -32,13 +32,14 @@ inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion
 {
   if (survey.Geometry == GeometryKind::Surface)
   {
-    return { { 0, 1, 2 }, 3, asFloat, false, survey.Scale };
+    return { { 0, 1, 2 }, 3, asFloat, false, false };
   }
   const PlaneProjection& plane = survey.Projection;
   const bool byAngles = criterion == CriterionKind::OppositeAngles;
   const int components = byAngles || plane.Tilted ? 3 : 2;
   return { { plane.AxisU, plane.AxisV, plane.AxisW }, components, asFloat && components == 2,
-    byAngles && survey.Geometry == GeometryKind::PlanarXY, byAngles ? survey.Scale : 1.0 };
+    byAngles && survey.Geometry == GeometryKind::PlanarXY,
+    survey.Geometry == GeometryKind::Planar && survey.NonFinitePoints.Count > 0 };
 }
 
 struct FlipLoopInput
@@ -69,11 +70,12 @@ EdgeGuard MakeGuard(const FlipLoopInput& input, EdgeTable table, const Backend& 
 }
 
 template <typename Backend, typename Rule>
-std::unique_ptr<FlipLoop> MakeLoop(const FlipLoopInput& input, const Rule& rule, double scale,
-  EdgeGuard guard, const Backend& backend)
+std::unique_ptr<FlipLoop> MakeLoop(
+  const FlipLoopInput& input, const Rule& rule, EdgeGuard guard, const Backend& backend)
 {
   using Loop = typename LoopOf<Backend, Rule>::Type;
-  return std::unique_ptr<FlipLoop>(new Loop(input.Mesh, rule, scale, std::move(guard), backend));
+  return std::unique_ptr<FlipLoop>(
+    new Loop(input.Mesh, rule, input.Survey.IsExtreme, std::move(guard), backend));
 }
 
 inline AngleTolerance GetTolerance(const FlipLoopInput& input)
@@ -97,25 +99,25 @@ std::unique_ptr<FlipLoop> MakePlanarLoop(
   const FlipLoopInput& input, int uniformSide, EdgeGuard guard, const Backend& backend)
 {
   const double* doubles = input.Points.Doubles.Data();
-  const double scale = input.Survey.Scale;
   if (input.Options.Criterion == CriterionKind::OppositeAngles)
   {
-    return MakeLoop(
-      input, PlanarAngleRule{ { doubles, GetTolerance(input) } }, 1.0, std::move(guard), backend);
+    return MakeLoop(input,
+      PlanarAngleRule{ { doubles, GetTolerance(input), input.Survey.IsExtreme } }, std::move(guard),
+      backend);
   }
   if (input.Survey.Projection.Tilted)
   {
-    return MakeLoop(input, MakeInCircleRule<double, 3>(input, doubles, uniformSide), scale,
-      std::move(guard), backend);
+    return MakeLoop(
+      input, MakeInCircleRule<double, 3>(input, doubles, uniformSide), std::move(guard), backend);
   }
   if (input.Points.IsFloat())
   {
     return MakeLoop(input,
-      MakeInCircleRule<float, 2>(input, input.Points.Floats.Data(), uniformSide), scale,
-      std::move(guard), backend);
+      MakeInCircleRule<float, 2>(input, input.Points.Floats.Data(), uniformSide), std::move(guard),
+      backend);
   }
-  return MakeLoop(input, MakeInCircleRule<double, 2>(input, doubles, uniformSide), scale,
-    std::move(guard), backend);
+  return MakeLoop(
+    input, MakeInCircleRule<double, 2>(input, doubles, uniformSide), std::move(guard), backend);
 }
 
 template <typename Backend>
@@ -124,10 +126,11 @@ std::unique_ptr<FlipLoop> MakeSurfaceLoop(
 {
   const AngleTolerance tolerance = GetTolerance(input);
   const PackedPoints& points = input.Points;
+  const bool isExtreme = input.Survey.IsExtreme;
   return points.IsFloat()
-    ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance } }, 1.0,
+    ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance, isExtreme } },
         std::move(guard), backend)
-    : MakeLoop(input, SurfaceRule<double>{ { points.Doubles.Data(), tolerance } }, 1.0,
+    : MakeLoop(input, SurfaceRule<double>{ { points.Doubles.Data(), tolerance, isExtreme } },
         std::move(guard), backend);
 }
 

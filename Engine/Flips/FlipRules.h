@@ -8,6 +8,7 @@
 #include "HostDevice.h"
 #include "OppositeAngles.h"
 #include "SurfaceAngles.h"
+#include "WideAngles.h"
 
 #include <cstdint>
 
@@ -202,6 +203,7 @@ struct AnglePoints
 {
   const Real* Coordinates;
   AngleTolerance Tolerance;
+  bool Extreme; ///< Whether products of lengths may overflow or vanish everywhere.
 
   DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
   {
@@ -219,33 +221,34 @@ struct AnglePoints
     return { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q), this->Get(quad.B) };
   }
 
-  /// @param points of the quad; enlarged where they lie so close to the origin that products of
-  /// lengths vanish.
-  DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, QuadPoints& points) const
+  /// Whether the quad of these points must be judged by WideAngles.h.
+  DELAUNAYFLIP_HOST_DEVICE bool IsWide(const AngleSum& sum) const
   {
-    AngleSum sum(points);
-    if (sum.MayVanish)
+    return this->Extreme || sum.MayVanish;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, const AngleSum& sum) const
+  {
+    if (this->IsWide(sum))
     {
-      points = this->GetEnlarged(quad);
-      sum = AngleSum(points);
+      return this->ExceedsPiWide(quad);
     }
     return sum.ExceedsPi(this->Tolerance) &&
       !(this->Tolerance.Precision > 0.0 && this->IsNoise(quad, sum.GetExcess()));
   }
 
 private:
-  /// Loads the points again. As a separate function it takes no registers from the test of the many
-  /// edges that do not need it.
+  /// These load the points again. As separate functions they take no registers from the test of the
+  /// many edges that do not need them.
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
     const Quad& quad, double excess) const
   {
-    return delaunayflip::IsNoise(Enlarge(this->Get(quad)), this->Tolerance.Precision, excess);
+    return delaunayflip::IsNoise(this->Get(quad), this->Tolerance.Precision, excess);
   }
 
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST QuadPoints GetEnlarged(
-    const Quad& quad) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool ExceedsPiWide(const Quad& quad) const
   {
-    return Enlarge(this->Get(quad));
+    return delaunayflip::ExceedsPiWide(this->Get(quad), this->Tolerance);
   }
 };
 
@@ -258,8 +261,8 @@ struct PlanarAngleRule : AnglePoints<double>
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    QuadPoints points = this->Get(quad);
-    return this->ExceedsPi(quad, points) ? EdgeState::Uncertain : EdgeState::Good;
+    const AngleSum sum(this->Get(quad));
+    return this->ExceedsPi(quad, sum) ? EdgeState::Uncertain : EdgeState::Good;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -287,17 +290,25 @@ struct SurfaceRule : AnglePoints<Real>
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    QuadPoints points = this->Get(quad);
-    if (!this->ExceedsPi(quad, points))
+    const QuadPoints points = this->Get(quad);
+    const AngleSum sum(points);
+    if (!this->ExceedsPi(quad, sum))
     {
       return EdgeState::Good;
     }
-    return FoldsOver(points) ? EdgeState::BlockedByShape : EdgeState::Bad;
+    const bool folds = this->IsWide(sum) ? this->FoldsOverWide(quad) : FoldsOver(points);
+    return folds ? EdgeState::BlockedByShape : EdgeState::Bad;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
   {
     return this->Judge(quad);
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool FoldsOverWide(const Quad& quad) const
+  {
+    return delaunayflip::FoldsOverWide(this->Get(quad));
   }
 };
 

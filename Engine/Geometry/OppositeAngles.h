@@ -35,15 +35,13 @@ struct AngleSum
   {
     const Vector3 ap = quad.P - quad.A, aq = quad.Q - quad.A;
     const Vector3 bp = quad.P - quad.B, bq = quad.Q - quad.B;
-    const double cosA = Dot(ap, aq), sinA = Length(Cross(ap, aq));
-    const double cosB = Dot(bp, bq), sinB = Length(Cross(bp, bq));
-    this->Sine = sinA * cosB + cosA * sinB;
-    this->Cosine = cosA * cosB - sinA * sinB;
-    this->BothObtuse = cosA < 0.0 && cosB < 0.0;
-    // At least the product of the four lengths, which are below 2^103 (MeshSurvey::Scale): so that
-    // of any two is above 2^-446, and the squares within sinA and sinB are normal numbers.
-    constexpr double Smallest = 0x1p-240;
-    this->MayVanish = !(std::fabs(this->Cosine) + std::fabs(this->Sine) > Smallest);
+    this->Set(Dot(ap, aq), Length(Cross(ap, aq)), Dot(bp, bq), Length(Cross(bp, bq)));
+  }
+
+  /// The cosines and sines of the angles, each pair times a positive number.
+  DELAUNAYFLIP_HOST_DEVICE AngleSum(double cosA, double sinA, double cosB, double sinB)
+  {
+    this->Set(cosA, sinA, cosB, sinB);
   }
 
   /// Whether it is more than pi + a fixed tolerance (the paper's eq. 5): sin(sum - tolerance) < 0.
@@ -68,25 +66,20 @@ struct AngleSum
   double Sine, Cosine;
   bool BothObtuse;
   bool MayVanish; ///< Lengths are so small that their products may have lost bits.
-};
 
-/// A quad so small that products of its lengths vanish, times a power of two; others as they are.
-DELAUNAYFLIP_HOST_DEVICE inline QuadPoints Enlarge(QuadPoints quad)
-{
-  constexpr double Small = 0x1p-100, Factor = 0x1p300;
-  const auto isSmall = [](const Vector3& p)
-  { return std::fabs(p.X) < Small && std::fabs(p.Y) < Small && std::fabs(p.Z) < Small; };
-  const auto enlarge = [](const Vector3& p) {
-    return Vector3{ Factor * p.X, Factor * p.Y, Factor * p.Z };
-  };
-  const auto isAllSmall = [&]()
-  { return isSmall(quad.A) && isSmall(quad.P) && isSmall(quad.Q) && isSmall(quad.B); };
-  for (int i = 0; i < 4 && isAllSmall(); ++i) // 4: from the smallest number
+private:
+  DELAUNAYFLIP_HOST_DEVICE void Set(double cosA, double sinA, double cosB, double sinB)
   {
-    quad = { enlarge(quad.A), enlarge(quad.P), enlarge(quad.Q), enlarge(quad.B) };
+    this->Sine = sinA * cosB + cosA * sinB;
+    this->Cosine = cosA * cosB - sinA * sinB;
+    this->BothObtuse = cosA < 0.0 && cosB < 0.0;
+    // At least the product of the four lengths, which are below 2^103 unless the mesh is extreme
+    // (MeshSurvey::IsExtreme): so that of any two is above 2^-446, and the squares within sinA and
+    // sinB are normal numbers.
+    constexpr double Smallest = 0x1p-240;
+    this->MayVanish = !(std::fabs(this->Cosine) + std::fabs(this->Sine) > Smallest);
   }
-  return quad;
-}
+};
 
 /// The distance from the origin of the quad's farthest point.
 DELAUNAYFLIP_HOST_DEVICE inline double FindFarthest(const QuadPoints& quad)

@@ -19,12 +19,9 @@ namespace delaunayflip
 constexpr double Pi = 3.14159265358979323846;
 constexpr double DegreesToRadians = Pi / 180.0;
 
-/// Coordinates of a point times a power of two.
-DELAUNAYFLIP_HOST_DEVICE inline Vector3 LoadScaled(
-  const PointArray& points, std::int64_t point, double scale)
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 LoadPoint(const PointArray& points, std::int64_t point)
 {
-  return { scale * points.Get(point, 0), scale * points.Get(point, 1),
-    scale * points.Get(point, 2) };
+  return { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
 }
 
 /// The points of a quad (EdgeFlip.h's picture).

@@ -7,6 +7,7 @@
 #include "FilteredPredicates.h"
 #include "HostDevice.h"
 #include "SurfaceAngles.h"
+#include "WideAngles.h"
 
 #include <cmath>
 #include <cstdint>
@@ -32,7 +33,7 @@ struct AngleSurvey
 {
   const TriangleRecord* Triangles;
   Rule Decision;
-  double Scale; ///< Power of two that brings the rule's coordinates near 1.
+  bool Extreme; ///< MeshSurvey::IsExtreme.
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
@@ -50,14 +51,22 @@ struct AngleSurvey
     LargestValue largest;
     largest.Value =
       Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
+    if (this->Extreme || IsLost(largest.Value))
+    {
+      largest.Value = LargestSquaredCotangentWide(a, b, c);
+    }
     sum += largest;
   }
 
 private:
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
   {
-    const Vector3 position = ToPosition(this->Decision.Get(vertex));
-    return { this->Scale * position.X, this->Scale * position.Y, this->Scale * position.Z };
+    return ToPosition(this->Decision.Get(vertex));
+  }
+  /// Whether a triangle seems to have no area, as when the squares of its lengths vanish.
+  DELAUNAYFLIP_HOST_DEVICE static bool IsLost(double squaredCotangent)
+  {
+    return squaredCotangent == INFINITY;
   }
   DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const Vector3& point) { return point; }
   DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const PlanePoint& point)

@@ -13,6 +13,7 @@
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
+#include "WideAngles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ struct FixEdgeStep
   const std::int32_t* Regions; ///< Or null.
   PointArray Points;
   SpatialOrderView Order;
-  double Scale;
+  bool Extreme; ///< MeshSurvey::IsExtreme.
   bool HasFeatures; ///< Sharp edges stay.
   double FeatureCosine;
 
@@ -127,9 +128,8 @@ private:
     const bool region =
       this->Regions && this->Regions[a.InputTriangle] != this->Regions[b.InputTriangle];
     const bool feature = this->HasFeatures && !wronglyWound &&
-      IsSharp({ this->GetPoint(quad.A), this->GetPoint(quad.P), this->GetPoint(quad.Q),
-                this->GetPoint(quad.B) },
-        this->FeatureCosine);
+      this->IsFeature({ this->GetPoint(quad.A), this->GetPoint(quad.P), this->GetPoint(quad.Q),
+        this->GetPoint(quad.B) });
     sums.WronglyWound += wronglyWound ? 1 : 0;
     sums.Region += region ? 1 : 0;
     sums.Duplicate += duplicate ? 1 : 0;
@@ -140,7 +140,13 @@ private:
 
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetPoint(VertexId rank) const
   {
-    return LoadScaled(this->Points, this->Order.GetVertex(rank), this->Scale);
+    return LoadPoint(this->Points, this->Order.GetVertex(rank));
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsFeature(const QuadPoints& quad) const
+  {
+    return this->Extreme ? IsSharpWide(quad, this->FeatureCosine)
+                         : IsSharp(quad, this->FeatureCosine);
   }
 };
 
@@ -151,7 +157,7 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
   const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
-    input.Order.View(), input.Survey.Scale, hasFeatures,
+    input.Order.View(), input.Survey.IsExtreme, hasFeatures,
     std::cos(input.FeatureAngle * DegreesToRadians) };
   const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
   EdgeCounts& counts = result.Counts;

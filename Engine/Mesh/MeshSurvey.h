@@ -87,7 +87,7 @@ struct MeshSurvey
   std::int64_t UsedPoints = 0;
   BoundingBox Box; ///< Of the used, finite points.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
-  double Scale = 1.0; ///< Power of two that brings extreme coordinates near 1; 1 for usual ones.
+  bool IsExtreme = false; ///< Whether products of four lengths may overflow or vanish everywhere.
   double Precision = DoublePrecision; ///< Of the caller's coordinates, by their type.
   Defect NonFinitePoints;
   Defect RepeatedIds;

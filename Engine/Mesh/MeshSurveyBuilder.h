@@ -153,13 +153,8 @@ inline void ResolveRange(MeshSurvey& survey)
       std::max({ largest, std::fabs(survey.Box.Lower[axis]), std::fabs(survey.Box.Upper[axis]) });
   }
   survey.FiltersApply = largest <= LargestFilteredDifference / 2;
-  // To judge surfaces, products of four lengths must neither overflow nor vanish.
   constexpr int UsualExponent = 100;
-  constexpr int LargestExponent = 1000; // of a factor: 2^1074 would be infinite
-  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-  survey.Scale = std::abs(exponent) > UsualExponent
-    ? std::scalbn(1.0, std::min(-exponent, LargestExponent))
-    : 1.0;
+  survey.IsExtreme = largest > 0.0 && std::abs(std::ilogb(largest)) > UsualExponent;
 }
 
 template <typename Backend>

@@ -11,6 +11,7 @@
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
+#include <cmath>
 #include <cstdint>
 
 /// @file
@@ -74,13 +75,16 @@ struct PackingPlan
   int Components;
   bool AsFloat;
   bool Flat; ///< The third component is 0.
-  double Scale; ///< Power of two; 1 where exact predicates decide.
+  bool MarksNonFinite; ///< A point gets NaN if a coordinate that is not packed is not finite.
 
   DELAUNAYFLIP_HOST_DEVICE double GetValue(
     const PointArray& points, std::int64_t point, int component) const
   {
-    const double x = this->Scale * points.Get(point, this->Axes[component]);
-    return this->Flat && component == 2 ? 0.0 : x;
+    if (this->MarksNonFinite && !IsFinitePoint(points, point, GeometryKind::Planar))
+    {
+      return NAN;
+    }
+    return this->Flat && component == 2 ? 0.0 : points.Get(point, this->Axes[component]);
   }
 };
 

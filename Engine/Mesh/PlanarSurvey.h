@@ -9,7 +9,7 @@
 #include "FlipReport.h"
 #include "PackedPoints.h"
 #include "StarSurvey.h"
-#include "SurfaceAngles.h"
+#include "WideAngles.h"
 
 #include <cstdint>
 
@@ -173,9 +173,7 @@ Defect FindZeroAreaTriangles(
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, IdSample & sum)
     {
       const VertexId* v = triangles[t].Vertices;
-      const Vector3 area =
-        AreaVector(points.GetPosition(v[0]), points.GetPosition(v[1]), points.GetPosition(v[2]));
-      if (Length(area) == 0.0)
+      if (HasNoArea(points.GetPosition(v[0]), points.GetPosition(v[1]), points.GetPosition(v[2])))
       {
         sum.Note(triangles[t].InputTriangle);
       }

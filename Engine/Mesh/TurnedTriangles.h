@@ -8,6 +8,7 @@
 #include "HeightFieldSurvey.h"
 #include "MeshSurvey.h"
 #include "PackedPoints.h"
+#include "WideAngles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,11 +47,15 @@ struct TurnedStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnedSums& sums) const
   {
     const TriangleRecord& triangle = this->Triangles[t];
-    const Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
-    const Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
-    const Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
-    const bool isFinite = Length(AreaVector(a, b, c)) < INFINITY; // false for NaN
-    if (isFinite && FindTurn(a, b, c) == -this->Side)
+    Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
+    Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
+    Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
+    if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+    {
+      return;
+    }
+    BringNearOne(a, b, c);
+    if (FindTurn(a, b, c) == -this->Side)
     {
       ++sums.All;
       if (triangle.Flips >= OneFlip)

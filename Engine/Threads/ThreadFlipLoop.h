@@ -25,13 +25,13 @@ template <typename Rule>
 class ThreadFlipLoop : public FlipLoop
 {
 public:
-  /// @param scale a power of two that brings the rule's coordinates near 1, for angles.
+  /// @param isExtreme MeshSurvey::IsExtreme, for angles.
   ThreadFlipLoop(
-    EdgeMesh& mesh, const Rule& rule, double scale, EdgeGuard guard, const ThreadBackend& backend)
+    EdgeMesh& mesh, const Rule& rule, bool isExtreme, EdgeGuard guard, const ThreadBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
       Mesh(mesh),
       Decision(rule),
-      Scale(scale),
+      Extreme(isExtreme),
       Guard(std::move(guard)),
       Backend(backend),
       Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
@@ -187,7 +187,7 @@ private:
 
   AngleSurvey<Rule> Angles() const
   {
-    return { this->Mesh.Triangles.Data(), this->Decision, this->Scale };
+    return { this->Mesh.Triangles.Data(), this->Decision, this->Extreme };
   }
 
   double FindLargestSquaredCotangent(std::int64_t firstTriangle, std::int64_t lastTriangle) const
@@ -203,7 +203,7 @@ private:
 
   EdgeMesh& Mesh;
   Rule Decision;
-  double Scale;
+  bool Extreme;
   EdgeGuard Guard;
   const ThreadBackend& Backend;
   EdgeWorklist Worklist;

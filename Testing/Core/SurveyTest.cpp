@@ -31,7 +31,7 @@ PlanarSurvey Survey(const OwnedMesh<double>& owned)
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const EdgeMeshInput edges{ input, survey, order, 180.0 };
   EdgeMeshResult result = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend);
-  const PackingPlan plan{ { 0, 1, 2 }, 2, false, true, 1.0 };
+  const PackingPlan plan{ { 0, 1, 2 }, 2, false, true, false };
   const PackedPoints points = PackPoints(mesh.Points, order.View(), plan, backend);
   return SurveyPlane(result.Edges, points, false, survey.UsedPoints, backend);
 }

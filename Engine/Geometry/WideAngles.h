@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_WIDEANGLES_H
+#define DELAUNAYFLIP_WIDEANGLES_H
+
+#include "HostDevice.h"
+#include "OppositeAngles.h"
+#include "SurfaceAngles.h"
+
+#include <cmath>
+
+/// @file
+/// The judgements of OppositeAngles.h and SurfaceAngles.h for all finite coordinates, even where
+/// products of lengths would overflow or vanish: every vector has a power of two of its own. These
+/// are slow, and meant for the few meshes and quads that need them.
+
+namespace delaunayflip
+{
+
+/// `number` times 2^exponent, infinite or 0 where that is too large or too small.
+DELAUNAYFLIP_HOST_DEVICE inline double TimesPowerOfTwo(double number, int exponent)
+{
+  constexpr double Up = 0x1p256, Down = 0x1p-256;
+  constexpr int Most = 2200; // from the smallest number to the largest one
+  exponent = exponent < -Most ? -Most : (exponent > Most ? Most : exponent);
+  for (; exponent >= 256; exponent -= 256)
+  {
+    number *= Up;
+  }
+  for (; exponent <= -256; exponent += 256)
+  {
+    number *= Down;
+  }
+  for (; exponent > 0; --exponent)
+  {
+    number *= 2.0;
+  }
+  for (; exponent < 0; ++exponent)
+  {
+    number *= 0.5;
+  }
+  return number;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator*(double factor, const Vector3& a)
+{
+  return { factor * a.X, factor * a.Y, factor * a.Z };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline double LargestComponent(const Vector3& a)
+{
+  const double x = std::fabs(a.X), y = std::fabs(a.Y), z = std::fabs(a.Z);
+  const double xOrY = x > y ? x : y;
+  return xOrY > z ? xOrY : z;
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const Vector3& a)
+{
+  return std::fabs(a.X) < INFINITY && std::fabs(a.Y) < INFINITY && std::fabs(a.Z) < INFINITY;
+}
+
+/// A vector times 2^Exponent. The largest component of the vector is from 1 to 2; it is 0 if the
+/// vector has no length.
+struct WideVector
+{
+  Vector3 Vector;
+  int Exponent;
+
+  DELAUNAYFLIP_HOST_DEVICE double GetLength() const { return Length(this->Vector); }
+};
+
+/// A finite vector times 2^exponent.
+DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(Vector3 vector, int exponent = 0)
+{
+  double largest = LargestComponent(vector);
+  if (!(largest > 0.0))
+  {
+    return { vector, 0 };
+  }
+  double factor = 0x1p512;
+  for (int step = 512; step > 0; step /= 2)
+  {
+    // Twice, because the smallest number is 2^-1074.
+    for (int i = 0; i < 2 && largest * factor < 2.0; ++i, exponent -= step, largest *= factor)
+    {
+      vector = factor * vector;
+    }
+    if (largest >= factor)
+    {
+      vector = (1.0 / factor) * vector;
+      largest *= 1.0 / factor;
+      exponent += step;
+    }
+    factor = std::sqrt(factor);
+  }
+  return { vector, exponent };
+}
+
+/// b - a. The difference of two finite numbers may be infinite, that of their halves may not.
+DELAUNAYFLIP_HOST_DEVICE inline WideVector Subtract(const Vector3& b, const Vector3& a)
+{
+  const Vector3 difference = b - a;
+  return LargestComponent(difference) < INFINITY ? MakeWide(difference)
+                                                 : MakeWide(0.5 * b - 0.5 * a, 1);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline WideVector Cross(const WideVector& a, const WideVector& b)
+{
+  return MakeWide(Cross(a.Vector, b.Vector), a.Exponent + b.Exponent);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline WideVector Add(const WideVector& a, const WideVector& b)
+{
+  const bool isLonger = a.Exponent > b.Exponent || !(LargestComponent(b.Vector) > 0.0);
+  const WideVector longer = isLonger && LargestComponent(a.Vector) > 0.0 ? a : b;
+  const WideVector other = isLonger && LargestComponent(a.Vector) > 0.0 ? b : a;
+  const double factor = TimesPowerOfTwo(1.0, other.Exponent - longer.Exponent);
+  return MakeWide(longer.Vector + factor * other.Vector, longer.Exponent);
+}
+
+/// Normal of triangle a, b, c; its length is twice the area.
+DELAUNAYFLIP_HOST_DEVICE inline WideVector WideAreaVector(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  return Cross(Subtract(b, a), Subtract(c, a));
+}
+
+/// The legs of the angles opposite to an edge.
+struct WideLegs
+{
+  DELAUNAYFLIP_HOST_DEVICE explicit WideLegs(const QuadPoints& quad)
+    : AP(Subtract(quad.P, quad.A)),
+      AQ(Subtract(quad.Q, quad.A)),
+      BP(Subtract(quad.P, quad.B)),
+      BQ(Subtract(quad.Q, quad.B))
+  {
+  }
+
+  WideVector AP, AQ, BP, BQ;
+};
+
+/// The sum of the angles, whatever the lengths of the legs.
+DELAUNAYFLIP_HOST_DEVICE inline AngleSum SumWide(const WideLegs& legs)
+{
+  const WideVector atA = Cross(legs.AP, legs.AQ), atB = Cross(legs.BP, legs.BQ);
+  const int exponentA = atA.Exponent - legs.AP.Exponent - legs.AQ.Exponent;
+  const int exponentB = atB.Exponent - legs.BP.Exponent - legs.BQ.Exponent;
+  return AngleSum(Dot(legs.AP.Vector, legs.AQ.Vector), TimesPowerOfTwo(atA.GetLength(), exponentA),
+    Dot(legs.BP.Vector, legs.BQ.Vector), TimesPowerOfTwo(atB.GetLength(), exponentB));
+}
+
+/// The length of a divided by that of b.
+DELAUNAYFLIP_HOST_DEVICE inline double DivideLengths(const WideVector& a, const WideVector& b)
+{
+  return TimesPowerOfTwo(a.GetLength() / b.GetLength(), a.Exponent - b.Exponent);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline WideVector FindLonger(const WideVector& a, const WideVector& b)
+{
+  return DivideLengths(a, b) > 1.0 ? a : b;
+}
+
+/// IsNoise, for SumWide.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsWideNoise(
+  const QuadPoints& quad, const WideLegs& legs, double precision, double excess)
+{
+  constexpr double Rounding = 0x1p-47;
+  const WideVector farthest = FindLonger(
+    FindLonger(MakeWide(quad.A), MakeWide(quad.B)), FindLonger(MakeWide(quad.P), MakeWide(quad.Q)));
+  const double reciprocals = DivideLengths(farthest, legs.AP) + DivideLengths(farthest, legs.AQ) +
+    DivideLengths(farthest, legs.BP) + DivideLengths(farthest, legs.BQ);
+  const double noise = 2.0 * precision * reciprocals + Rounding;
+  const double product =
+    legs.AP.GetLength() * legs.AQ.GetLength() * legs.BP.GetLength() * legs.BQ.GetLength();
+  return !(noise < 1.0 && noise * product < excess);
+}
+
+/// Whether the angles sum to more than pi and the tolerance.
+DELAUNAYFLIP_HOST_DEVICE inline bool ExceedsPiWide(
+  const QuadPoints& quad, const AngleTolerance& tolerance)
+{
+  const WideLegs legs(quad);
+  const AngleSum sum = SumWide(legs);
+  return sum.ExceedsPi(tolerance) &&
+    !(tolerance.Precision > 0.0 && IsWideNoise(quad, legs, tolerance.Precision, sum.GetExcess()));
+}
+
+/// FoldsOver of SurfaceAngles.h.
+DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOverWide(const QuadPoints& quad)
+{
+  const Vector3 area =
+    Add(WideAreaVector(quad.A, quad.P, quad.Q), WideAreaVector(quad.B, quad.Q, quad.P)).Vector;
+  return !(Dot(WideAreaVector(quad.A, quad.P, quad.B).Vector, area) > 0.0 &&
+    Dot(WideAreaVector(quad.B, quad.Q, quad.A).Vector, area) > 0.0);
+}
+
+/// IsSharp of SurfaceAngles.h.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsSharpWide(const QuadPoints& quad, double cosine)
+{
+  const Vector3 upper = WideAreaVector(quad.A, quad.P, quad.Q).Vector;
+  const Vector3 lower = WideAreaVector(quad.B, quad.Q, quad.P).Vector;
+  const double lengths = Length(upper) * Length(lower);
+  return lengths > 0.0 && Dot(upper, lower) < cosine * lengths;
+}
+
+/// Whether a triangle with finite corners has no area at all.
+DELAUNAYFLIP_HOST_DEVICE inline bool HasNoArea(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  return Length(AreaVector(a, b, c)) == 0.0 &&
+    LargestComponent(WideAreaVector(a, b, c).Vector) == 0.0;
+}
+
+/// Moves a triangle with finite corners to the origin, and brings its size near 1, unless its area
+/// is a usual number.
+DELAUNAYFLIP_HOST_DEVICE inline void BringNearOne(Vector3& a, Vector3& b, Vector3& c)
+{
+  const double area = Length(AreaVector(a, b, c));
+  if (area > 0.0 && area < INFINITY)
+  {
+    return;
+  }
+  const WideVector ab = Subtract(b, a), ac = Subtract(c, a);
+  const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
+  a = {};
+  b = TimesPowerOfTwo(1.0, ab.Exponent - exponent) * ab.Vector;
+  c = TimesPowerOfTwo(1.0, ac.Exponent - exponent) * ac.Vector;
+}
+
+/// LargestSquaredCotangent of SurfaceAngles.h.
+DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangentWide(
+  const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+  {
+    return -INFINITY;
+  }
+  const WideVector ab = Subtract(b, a), ac = Subtract(c, a), bc = Subtract(c, b);
+  const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
+  const auto scaled = [exponent](const WideVector& edge)
+  { return TimesPowerOfTwo(1.0, edge.Exponent - exponent) * edge.Vector; };
+  const Vector3 x = scaled(ab), y = scaled(ac), z = scaled(bc);
+  const Vector3 normal = Cross(x, y);
+  return LargestSquaredCotangent(Dot(x, y), -Dot(x, z), Dot(y, z), Dot(normal, normal));
+}
+
+}
+
+#endif
