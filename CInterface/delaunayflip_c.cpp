@@ -261,7 +261,7 @@ extern "C"
       {
         const TriangleMesh view = ToMesh(CompleteMesh(mesh));
         Require(normals || view.Triangles.Count == 0, "normals is null");
-        RequirePointIds(view);
+        RequireValidIds(view);
         for (std::int64_t t = 0; t < view.Triangles.Count; ++t)
         {
           const std::int64_t ids[3] = { view.Triangles.Get(t, 0), view.Triangles.Get(t, 1),

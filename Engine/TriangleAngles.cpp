@@ -27,20 +27,6 @@ Corners GetCorners(const TriangleMesh& mesh, std::int64_t t)
   return { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1), mesh.Triangles.Get(t, 2) };
 }
 
-void RequireValidIds(const TriangleMesh& mesh)
-{
-  const std::int64_t points = mesh.Points.Count;
-  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
-  {
-    const Corners ids = GetCorners(mesh, t);
-    if (!std::all_of(
-          ids.begin(), ids.end(), [points](std::int64_t id) { return id >= 0 && id < points; }))
-    {
-      ThrowInvalidId(ids, t, points);
-    }
-  }
-}
-
 /// The angle between two edges from a corner, in degrees.
 double ToDegrees(const Vector3& first, const Vector3& second)
 {
@@ -73,6 +59,20 @@ double FindSmallestAngle(const TriangleMesh& mesh, GeometryKind geometry, std::i
                   : std::numeric_limits<double>::quiet_NaN();
 }
 
+}
+
+void RequireValidIds(const TriangleMesh& mesh)
+{
+  const std::int64_t points = mesh.Points.Count;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const Corners ids = GetCorners(mesh, t);
+    if (!std::all_of(
+          ids.begin(), ids.end(), [points](std::int64_t id) { return id >= 0 && id < points; }))
+    {
+      ThrowInvalidId(ids, t, points);
+    }
+  }
 }
 
 void FindSmallestAngles(const TriangleMesh& mesh, GeometryKind geometry, int threads,

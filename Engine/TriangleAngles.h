@@ -9,10 +9,13 @@
 #include "TriangleMesh.h"
 
 /// @file
-/// The quality of single triangles.
+/// The triangles of a mesh one by one: their point ids and their quality.
 
 namespace delaunayflip
 {
+
+/// @throws InvalidMesh when a triangle names a point that does not exist.
+DELAUNAYFLIP_EXPORT void RequireValidIds(const TriangleMesh& mesh);
 
 /// Writes the smallest angle of every triangle in degrees, 0 to 60: mesh.Triangles.Count numbers.
 /// It is 0 for a triangle without area, and NaN for one with a coordinate that is NaN or infinite.
