@@ -131,7 +131,7 @@ Defect ChosenEngine::FindTurnedTriangles()
 
 void ChosenEngine::Audit()
 {
-  this->RunOnce([](const FlipEngine& engine) { engine.Audit(); });
+  this->Run([](const FlipEngine& engine) { engine.Audit(); });
 }
 
 void ChosenEngine::FallBack(const std::string& reason)

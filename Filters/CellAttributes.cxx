@@ -164,7 +164,9 @@ void AddTriangleArray(
       array->SetValue(slots.GetFirstPolygon() + polygon, source.Values[triangle]);
     }
   }
-  output->GetCellData()->AddArray(array);
+  vtkCellData* data = output->GetCellData();
+  data->AllocateArrays(data->GetNumberOfArrays() + 1); // as in ReportTables.cxx
+  data->AddArray(array);
 }
 
 template void AddTriangleArray(

@@ -27,6 +27,9 @@ public:
       Prefix(prefix),
       Data(data)
   {
+    // If memory runs out while VTK 9.3 makes room for one more array, deleting the data crashes.
+    constexpr int MostArrays = 40;
+    data->AllocateArrays(data->GetNumberOfArrays() + MostArrays);
   }
 
   /// One value per iteration.
