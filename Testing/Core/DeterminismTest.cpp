@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
+#include "TestBackend.h"
 
 #include <gtest/gtest.h>
 

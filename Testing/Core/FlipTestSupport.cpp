@@ -3,11 +3,11 @@
 #include "FlipTestSupport.h"
 
 #include "MeshAudit.h"
+#include "TestBackend.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 namespace delaunayflip
@@ -30,12 +30,6 @@ TriangleSet ToTriangleSet(const TriangleArray& triangles)
 TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles)
 {
   return ToTriangleSet(ViewTriangles(triangles));
-}
-
-bool IsTestBackendCuda()
-{
-  const char* name = std::getenv("DELAUNAYFLIP_TEST_BACKEND");
-  return name && std::string(name) == "cuda";
 }
 
 FlipOptions OnTestBackend(FlipOptions options)

@@ -39,10 +39,6 @@ struct FlipResult
   FlipReport Report;
 };
 
-/// Whether the environment variable DELAUNAYFLIP_TEST_BACKEND is "cuda". Tests that do not choose a
-/// backend then run on the GPU, whatever the size of their meshes.
-bool IsTestBackendCuda();
-
 /// The options, with the backend of DELAUNAYFLIP_TEST_BACKEND if they do not choose one.
 FlipOptions OnTestBackend(FlipOptions options);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "TestBackend.h"
 
 #include <gtest/gtest.h>
 

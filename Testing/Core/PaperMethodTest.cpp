@@ -4,6 +4,7 @@
 #include "CgalReference.h"
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "TestBackend.h"
 
 #include <gtest/gtest.h>
 

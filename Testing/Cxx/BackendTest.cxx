@@ -68,6 +68,7 @@ TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)
   RunCleanly(threads);
 
   WatchedFilter small(MakeRhombus());
+  small->SetBackendToAuto();
   small->SetDeviceId(NoSuchDevice);
   RunCleanly(small);
   EXPECT_TRUE(RanOn(small, "Threads"));
@@ -77,6 +78,7 @@ TEST(VtkDelaunayFlip, AutoIsSilent)
 {
   auto mesh = MakeLargeMesh();
   WatchedFilter filter(mesh);
+  filter->SetBackendToAuto();
   EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), RunOnThreads(mesh));
   EXPECT_TRUE(RanOn(filter, delaunayflip::HasCudaDevice() ? "CUDA" : "Threads"));
   EXPECT_EQ(filter->GetReport().Fallback, "");
@@ -91,6 +93,7 @@ TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
   }
   auto mesh = MakeLargeMesh();
   WatchedFilter filter(mesh);
+  filter->SetBackendToAuto();
   filter->SetDeviceId(NoSuchDevice);
   filter->SetMaximumIterations(100000); // so that there is no other warning
   EXPECT_EQ(GetCells(filter.Run()->GetPolys()), RunOnThreads(mesh));
@@ -113,6 +116,7 @@ TEST(VtkDelaunayFlip, FallbackSharesTheWarning)
   auto mesh = MakeLargeMesh();
   mesh->GetPoints()->SetPoint(0, NAN, 0.0, 0.0);
   WatchedFilter filter(mesh);
+  filter->SetBackendToAuto();
   filter->SetDeviceId(NoSuchDevice);
   filter.Run();
   ASSERT_EQ(filter.GetWarnings().size(), 1u);

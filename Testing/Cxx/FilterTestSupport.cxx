@@ -3,6 +3,7 @@
 #include "FilterTestSupport.h"
 
 #include "MeshAudit.h"
+#include "TestBackend.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -143,8 +144,17 @@ long long CountViolations(vtkPolyData* mesh)
   return delaunayflip::CountNonDelaunayEdges(ToOwnedMesh(mesh).View(), {});
 }
 
+void SetTestBackend(vtkDelaunayFlip* filter)
+{
+  if (delaunayflip::IsTestBackendCuda())
+  {
+    filter->SetBackendToCUDA();
+  }
+}
+
 WatchedFilter::WatchedFilter()
 {
+  SetTestBackend(this->Filter);
   this->Watch(this->Filter, vtkCommand::ErrorEvent, &this->Errors);
   this->Watch(this->Filter, vtkCommand::WarningEvent, &this->Warnings);
   this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, &this->ExecutiveErrors);

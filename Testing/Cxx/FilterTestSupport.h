@@ -72,7 +72,11 @@ delaunayflip::OwnedMesh<double> ToOwnedMesh(vtkPolyData* mesh);
 /// The number of edges that violate the in-circle criterion (the opposite-angle sum on surfaces).
 long long CountViolations(vtkPolyData* mesh);
 
-/// A filter that records its errors and warnings, and those of its executive.
+/// Chooses the GPU, for meshes of any size, if DELAUNAYFLIP_TEST_BACKEND says so.
+void SetTestBackend(vtkDelaunayFlip* filter);
+
+/// A filter that records its errors and warnings, and those of its executive. It runs on the
+/// backend of SetTestBackend until a test chooses one.
 class WatchedFilter
 {
 public:

@@ -123,6 +123,7 @@ TEST(Growth, NoneOfErrors)
   auto mesh = MakeInput();
   mesh->GetPolys()->InsertNextCell({ 0, 1, 1 << 20 });
   vtkNew<vtkDelaunayFlip> filter;
+  SetTestBackend(filter);
   filter->SetInputData(mesh);
   vtkObject::GlobalWarningDisplayOff();
   ExpectNoGrowth(

@@ -22,6 +22,7 @@ constexpr int Updates = 10;
 bool HoldsInEachUpdate(vtkPolyData* mesh, const Cells& expected)
 {
   vtkNew<vtkDelaunayFlip> filter;
+  SetTestBackend(filter);
   filter->SetInputData(mesh);
   filter->SetNumberOfThreads(3);
   bool holds = true;

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: build.sh BUILD_FOLDER - used by run.sh and bundle.sh: builds the engine, its tests and the
-# GPU benchmark, which also times the VTK filter if there is VTK. Writes the real meshes in
+# GPU benchmark; if there is VTK, also the tests of the filter, and the benchmark times it. Writes the real meshes in
 # DELAUNAYFLIP_DATA_DIR (default: as CMake's) to BUILD_FOLDER/meshes, if they and VTK's Python
 # package exist. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES: CMake's list of them.
 set -euo pipefail
@@ -24,13 +24,15 @@ fi
 if [ ! -f "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
   options+=(-G Ninja)
 fi
-if ! cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then
-  echo "no VTK found: only the engine will be benchmarked"
+targets=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark DelaunayFlipC
+  delaunayflip-c-device-test)
+if cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then
+  targets+=(DelaunayFlipCxxTests)
+else
+  echo "no VTK found: only the engine will be tested and benchmarked"
   cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=OFF
 fi
-cmake --build "$build" --parallel "${JOBS:-2}" \
-  --target DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark \
-    DelaunayFlipC delaunayflip-c-device-test
+cmake --build "$build" --parallel "${JOBS:-2}" --target "${targets[@]}"
 
 # Usage: find_python - a Python that knows VTK and numpy; the system's may not be the first.
 find_python()

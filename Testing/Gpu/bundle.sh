@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: bundle.sh [OUTPUT.tar.gz or FOLDER] (default: delaunay-flip-gpu.tar.gz)
+# Usage: bundle.sh [OUTPUT.tar.gz, OUTPUT.tar.xz or FOLDER] (default: delaunay-flip-gpu.tar.gz)
 # Builds in build-gpu/ and packs what run.sh needs on a machine with a GPU and without development
 # packages: programs, shared libraries that not every Linux has, and real meshes. Unpack it there
 # and run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than
@@ -48,13 +48,16 @@ fill()
 # Not in the cache if it is the project's default.
 architectures=$(sed -n 's/^CMAKE_CUDA_ARCHITECTURES:[A-Z]*=//p' "$build/CMakeCache.txt")
 architectures=${architectures:-the default of the project}
+if [ -x "$build/bin/DelaunayFlipCxxTests" ]; then
+  programs+=(DelaunayFlipCxxTests)
+fi
 
 case "$output" in
-  *.tar.gz | *.tgz)
+  *.tar.gz | *.tgz | *.tar.xz)
     temporary=$(mktemp -d)
     trap 'rm -rf "$temporary"' EXIT
     fill "$temporary/delaunay-flip-gpu"
-    tar -C "$temporary" -czf "$output" delaunay-flip-gpu
+    tar -C "$temporary" -caf "$output" delaunay-flip-gpu
     ;;
   *) fill "$output" ;;
 esac

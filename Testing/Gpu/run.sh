@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Runs everything that needs a GPU: the tests of the CUDA backend, the engine's whole test suite on
-# the GPU, compute-sanitizer, and benchmarks against the CPU. In a source tree it first builds into
+# Runs everything that needs a GPU: the tests of the CUDA backend, the whole test suites of the
+# engine and the VTK filter on the GPU, compute-sanitizer, and benchmarks against the CPU. In a source tree it first builds into
 # build-gpu/; in a bundle (bundle.sh) it runs the programs beside it. The results are in results.txt
 # and results.json in the output folder. The exit status is 0 only if nothing failed. What cannot
 # run here is reported as skipped; without a GPU nothing passes.
@@ -73,7 +73,7 @@ output=$(cd "$output" && pwd)
 (
   cd "$output"
   rm -f results.txt results.json machine.json steps.tsv benchmarks.* gpu-tests.* sanitizer-*.log \
-    engine-tests-on-cuda.* program-*.log
+    engine-tests-on-cuda.* filter-tests-on-cuda.* program-*.log
 )
 "$programs/delaunay-flip-gpu-benchmark" --describe >"$output/machine.json"
 has_gpu=yes
@@ -117,14 +117,24 @@ run_program()
   fi
 }
 
+# Usage: run_on_cuda NAME PROGRAM - runs tests that do not choose a backend on the GPU.
+run_on_cuda()
+{
+  run_step "$1" env DELAUNAYFLIP_TEST_BACKEND=cuda "$programs/$2" "--gtest_filter=${filter:-*}" \
+    --gtest_brief=1 "--gtest_output=json:$output/$1.json"
+}
+
 run_tests()
 {
-  local pattern=${filter:-*}
-  run_step gpu-tests "$programs/DelaunayFlipGpuTests" "--gtest_filter=$pattern" \
+  run_step gpu-tests "$programs/DelaunayFlipGpuTests" "--gtest_filter=${filter:-*}" \
     --gtest_brief=1 "--gtest_output=json:$output/gpu-tests.json"
-  run_step engine-tests-on-cuda env DELAUNAYFLIP_TEST_BACKEND=cuda \
-    "$programs/DelaunayFlipCoreTests" "--gtest_filter=$pattern" \
-    --gtest_brief=1 "--gtest_output=json:$output/engine-tests-on-cuda.json"
+  run_on_cuda engine-tests-on-cuda DelaunayFlipCoreTests
+  if [ -x "$programs/DelaunayFlipCxxTests" ]; then
+    run_on_cuda filter-tests-on-cuda DelaunayFlipCxxTests
+  else
+    echo "SKIPPED: the tests of the filter, because there was no VTK to build them"
+    note filter-tests-on-cuda skipped "built without VTK"
+  fi
   if [ -z "$filter" ]; then
     run_program c-device-arrays "$programs/delaunayflip-c-device-test"
     run_program python-device-arrays env "PYTHONPATH=$package${PYTHONPATH:+:$PYTHONPATH}" \

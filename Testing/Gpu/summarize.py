@@ -91,8 +91,8 @@ def collect(folder):
             results["benchmarks"] = {"status": status, "rows": rows}
         elif name.startswith("sanitizer-"):
             results["sanitizer"][name.split("-", 1)[1]] = judge(status, reason)
-        elif name.startswith("program-"):
-            results["programs"][name.split("-", 1)[1]] = judge(status, reason)
+        elif name.startswith("program-") or status == "skipped":
+            results["programs"][name.removeprefix("program-")] = judge(status, reason)
         else:
             results["tests"][name] = count_tests(load(folder, f"{name}.json"), status)
     return results

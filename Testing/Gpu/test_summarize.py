@@ -74,11 +74,18 @@ class Summary(unittest.TestCase):
         self.assertEqual(results["sanitizer"], {"memcheck": "skipped: no GPU"})
 
     def test_programs(self):
-        steps = [("program-c", "0", ""), ("program-python-arrays", "skipped", "no CuPy")]
+        steps = [
+            ("filter-tests", "skipped", "no VTK"),
+            ("program-c", "0", ""),
+            ("program-python-arrays", "skipped", "no CuPy"),
+        ]
         status, results, last = self.summarize(GPU, steps)
         self.assertEqual((status, last), (0, "nothing failed"))
+        self.assertEqual(results["tests"], {})
         self.assertEqual(
-            results["programs"], {"c": "passed", "python-arrays": "skipped: no CuPy"})
+            results["programs"],
+            {"filter-tests": "skipped: no VTK", "c": "passed", "python-arrays": "skipped: no CuPy"},
+        )
 
     def test_failures(self):
         for steps, reports in (
