@@ -63,17 +63,17 @@ DevicePointArray ToDevicePoints(const delaunayflip_mesh& c)
         static_cast<const double*>(c.points), c.number_of_points, c.point_components);
 }
 
-HeldEdges ToHeldEdges(const delaunayflip_mesh& c)
+FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
 {
   Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
   Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
-  HeldEdges held;
-  held.ConstraintEdges = c.constraint_edges;
-  held.NumberOfConstraintEdges = c.number_of_constraint_edges;
-  held.ConstraintsToInsert = c.constraints_to_insert;
-  held.Regions = c.regions;
-  held.FrozenTriangles = c.frozen_triangles;
-  return held;
+  FixedEdges fixed;
+  fixed.ConstraintEdges = c.constraint_edges;
+  fixed.NumberOfConstraintEdges = c.number_of_constraint_edges;
+  fixed.ConstraintsToInsert = c.constraints_to_insert;
+  fixed.Regions = c.regions;
+  fixed.FrozenTriangles = c.frozen_triangles;
+  return fixed;
 }
 
 /// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
@@ -124,7 +124,7 @@ TriangleMesh ToMesh(const delaunayflip_mesh& c)
 {
   Require(!IsOnDevice(c), "this function needs a mesh in the host's memory");
   TriangleMesh mesh;
-  static_cast<HeldEdges&>(mesh) = ToHeldEdges(c);
+  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
   mesh.Points = ToPoints(c);
   mesh.Triangles = ToTriangles(c);
   return mesh;
@@ -133,7 +133,7 @@ TriangleMesh ToMesh(const delaunayflip_mesh& c)
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
 {
   DeviceMesh mesh;
-  static_cast<HeldEdges&>(mesh) = ToHeldEdges(c);
+  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
   mesh.Points = ToDevicePoints(c);
   mesh.Triangles = ToTriangles(c);
   mesh.Stream.Handle = c.stream;

@@ -287,7 +287,7 @@ private:
   Array<T> Bring(const T* host, std::int64_t size) const;
 
   /// Sets what the caller knows about edges, with copies of what is per triangle.
-  void BringLabels(const HeldEdges& held, LocalDeviceMesh& local) const;
+  void BringLabels(const FixedEdges& fixed, LocalDeviceMesh& local) const;
 
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one

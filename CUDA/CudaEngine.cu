@@ -67,7 +67,7 @@ TriangleMesh View(const TriangleMesh& mesh) { return mesh; }
 TriangleMesh View(const DeviceMesh& mesh)
 {
   TriangleMesh view;
-  static_cast<HeldEdges&>(view) = mesh;
+  static_cast<FixedEdges&>(view) = mesh;
   view.Points.Floats = mesh.Points.Floats;
   view.Points.Doubles = mesh.Points.Doubles;
   view.Points.Count = mesh.Points.Count;

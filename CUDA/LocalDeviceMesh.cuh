@@ -30,18 +30,18 @@ Array<T> CudaBackend::Bring(const T* host, std::int64_t size) const
   return values;
 }
 
-inline void CudaBackend::BringLabels(const HeldEdges& held, LocalDeviceMesh& local) const
+inline void CudaBackend::BringLabels(const FixedEdges& fixed, LocalDeviceMesh& local) const
 {
   const std::int64_t triangles = local.Mesh.Triangles.Count;
-  static_cast<HeldEdges&>(local.Mesh) = held;
-  if (held.Regions)
+  static_cast<FixedEdges&>(local.Mesh) = fixed;
+  if (fixed.Regions)
   {
-    local.Regions = this->Bring(held.Regions, triangles);
+    local.Regions = this->Bring(fixed.Regions, triangles);
     local.Mesh.Regions = local.Regions.Data();
   }
-  if (held.FrozenTriangles)
+  if (fixed.FrozenTriangles)
   {
-    local.Frozen = this->Bring(held.FrozenTriangles, triangles);
+    local.Frozen = this->Bring(fixed.FrozenTriangles, triangles);
     local.Mesh.FrozenTriangles = local.Frozen.Data();
   }
 }

@@ -127,7 +127,7 @@ std::string DescribeConstraints(const FlipReport& flip)
   {
     return {};
   }
-  std::string text = "constraints     " + Count(flip.Edges.Constraint, "edge") + " held";
+  std::string text = "constraints     " + Count(flip.Edges.Constraint, "edge") + " fixed";
   if (flip.InsertedConstraints > 0)
   {
     text += ", " + Grouped(flip.InsertedConstraints) + " inserted by " +

@@ -76,7 +76,7 @@ struct CallerMesh::Copies
   void Make(const DeviceMesh& mesh)
   {
     TriangleMesh view;
-    static_cast<HeldEdges&>(view) = mesh;
+    static_cast<FixedEdges&>(view) = mesh;
     if (mesh.Points.Floats)
     {
       this->Floats = CopyPoints(mesh.Points.Floats, mesh.Points, mesh.Stream);
@@ -112,7 +112,7 @@ CallerMesh::CallerMesh(const DeviceMesh& mesh)
     Copied(std::make_shared<Copies>())
 {
   RequireComponents(mesh.Points);
-  static_cast<HeldEdges&>(this->Host) = mesh;
+  static_cast<FixedEdges&>(this->Host) = mesh;
   this->Host.Points.Count = mesh.Points.Count;
   this->Host.Triangles.Count = mesh.Triangles.Count;
 }

@@ -53,12 +53,12 @@ struct DevicePointArray
 };
 
 /// A triangle mesh in device memory, and what the caller knows about its edges. The arrays of
-/// HeldEdges are in the host's memory.
+/// FixedEdges are in the host's memory.
 ///
 /// The engine reads the mesh where it is. Only in these cases it copies it to the host, and goes on
 /// as with arrays there: for BackendKind::Threads, for BackendKind::Auto after the GPU has failed,
 /// and if ConstraintsToInsert has a flag that is not zero.
-struct DeviceMesh : HeldEdges
+struct DeviceMesh : FixedEdges
 {
   DevicePointArray Points;
   TriangleArray Triangles; ///< The ids are in device memory; do not call Get.

@@ -108,8 +108,8 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// What the caller knows about the edges of a mesh: which of them must stay.
-struct HeldEdges
+/// What the caller knows about the edges of a mesh: which of them are fixed, i.e. never flip.
+struct FixedEdges
 {
   /// Edges that must stay: NumberOfConstraintEdges pairs of vertex ids, in any order and direction,
   /// or null.
@@ -132,7 +132,7 @@ struct HeldEdges
 
 /// A triangle mesh, and what the caller knows about its edges. Any mesh is accepted: non-manifold,
 /// open, with mixed winding, with duplicate, degenerate or unused parts.
-struct TriangleMesh : HeldEdges
+struct TriangleMesh : FixedEdges
 {
   PointArray Points;
   TriangleArray Triangles;

@@ -9,7 +9,8 @@ With NumPy arrays:
     result = delaunayflip.flip(points, triangles)
     result.triangles  # better triangles of the same points
 
-Arrays of CuPy, PyTorch or Numba on a GPU are flipped where they are.
+Arrays of CuPy, PyTorch, Numba and all libraries with DLPack are flipped where they are, also on a
+GPU.
 
 As a filter of VTK:
 

@@ -10,9 +10,16 @@ def _shape_error(name, array, wanted):
     return ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
 
 
+def _as_array(values):
+    """What NumPy makes of the values; by DLPack, in their memory, what it cannot convert itself."""
+    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+        return numpy.from_dlpack(values)
+    return numpy.asarray(values)
+
+
 def as_points(points):
     """Points of shape (n, 3), float32 or float64. (n, 2) gets z = 0; other numbers become float64."""
-    points = numpy.asarray(points)
+    points = _as_array(points)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise _shape_error("points", points, "(n, 3) or (n, 2)")
     if points.dtype.kind not in "fiu":
@@ -25,7 +32,7 @@ def as_points(points):
 
 def as_ids(name, ids, columns):
     """Ids of shape (m, columns), int32 or int64; other integers become int64."""
-    ids = numpy.asarray(ids)
+    ids = _as_array(ids)
     if ids.size == 0 and ids.ndim < 2:
         ids = numpy.empty((0, columns), dtype=numpy.int64)
     if ids.ndim != 2 or ids.shape[1] != columns:
@@ -37,7 +44,7 @@ def as_ids(name, ids, columns):
 
 
 def _per_triangle(name, values, kind, count):
-    values = numpy.asarray(values)
+    values = _as_array(values)
     if values.shape != (count,):
         raise _shape_error(name, values, f"({count},), a value per triangle")
     if values.dtype.kind not in "iub":
@@ -60,7 +67,7 @@ class Mesh:
             self.constraints = as_ids("constraints", constraints, 2).astype(numpy.int64, copy=False)
             self.struct.constraint_edges = address(self.constraints)
             self.struct.number_of_constraint_edges = len(self.constraints)
-            flags = numpy.asarray(insert_constraints)
+            flags = _as_array(insert_constraints)
             if flags.ndim == 1 and len(flags) != len(self.constraints):
                 raise _shape_error("insert_constraints", flags, f"({len(self.constraints)},)")
             self.to_insert = numpy.full(len(self.constraints), flags != 0, dtype=numpy.uint8)
@@ -69,7 +76,7 @@ class Mesh:
             self.regions = _per_triangle("regions", regions, numpy.int32, len(self.triangles))
             self.struct.regions = address(self.regions)
         if frozen is not None:
-            flags = numpy.asarray(frozen) != 0
+            flags = _as_array(frozen) != 0
             self.frozen = _per_triangle("frozen", flags, numpy.uint8, len(self.triangles))
             self.struct.frozen_triangles = address(self.frozen)
 

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of CuPy, PyTorch and Numba in the memory of a GPU."""
+"""Arrays of CuPy, PyTorch and Numba in the memory of a GPU, and of other libraries by DLPack."""
+import importlib.util
+import sys
+
 import numpy
 
 from . import _arrays, _library
@@ -33,6 +36,12 @@ class _CuPy:
     def to_host(array):
         return array.get()
 
+    @staticmethod
+    def view(array):
+        import cupy
+
+        return cupy.from_dlpack(array)
+
 
 class _Torch:
     """The functions of PyTorch that the package needs."""
@@ -56,6 +65,12 @@ class _Torch:
     @staticmethod
     def to_host(array):
         return array.detach().cpu().numpy()
+
+    @staticmethod
+    def view(array):
+        import torch
+
+        return torch.from_dlpack(array)
 
 
 class _Numba:
@@ -83,6 +98,8 @@ class _Numba:
 
 
 _ADAPTERS = {"cupy": _CuPy, "torch": _Torch, "numba": _Numba}
+_VIEWERS = ("cupy", "torch")  # can view arrays of other libraries
+_DLPACK_MEMORIES = (2, 13)  # DLPack's numbers for CUDA's memory, and for managed memory
 
 
 def _library_name(array):
@@ -92,38 +109,58 @@ def _library_name(array):
 def _is_on_device(array):
     if _library_name(array) == "torch":
         return getattr(array, "is_cuda", False)
-    return hasattr(array, "__cuda_array_interface__")
+    if hasattr(array, "__cuda_array_interface__"):
+        return True
+    return hasattr(array, "__dlpack__") and array.__dlpack_device__()[0] in _DLPACK_MEMORIES
 
 
-def _find_library(arrays):
-    """The name of the library of arrays by name, all of which must be on the device and of it."""
-    for name, array in arrays.items():
-        if not _is_on_device(array):
-            raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
-    names = {name: _library_name(array) for name, array in arrays.items()}
-    for name, library in names.items():
-        if library not in _ADAPTERS:
-            raise TypeError(
-                f"{name} must be an array of CuPy, PyTorch or Numba, not of {library}; "
-                "cupy.from_dlpack or torch.from_dlpack view others without a copy"
-            )
-    if len(set(names.values())) > 1:
-        raise TypeError("points and triangles must be arrays of one library")
-    return next(iter(names.values()))
+def _choose_library(arrays):
+    """The name of the library of the first array that is of a known one; else of one that is here,
+    if possible one that the process uses. `arrays`: by name."""
+    libraries = {name: _library_name(array) for name, array in arrays.items()}
+    for name, library in libraries.items():
+        if library not in _ADAPTERS and not hasattr(arrays[name], "__dlpack__"):
+            raise TypeError(f"{name} must be an array of CuPy, PyTorch or Numba, or have __dlpack__, "
+                            f"not of {library}")
+    known = [library for library in libraries.values() if library in _ADAPTERS]
+    known += [library for library in _VIEWERS if library in sys.modules]
+    for library in (*known, *_VIEWERS):
+        if library in known or importlib.util.find_spec(library):
+            return library
+    raise TypeError("arrays of other libraries on a GPU need CuPy or PyTorch, one of which views them "
+                    "without a copy, and makes the results")
+
+
+def _view(name, array, library):
+    """The array as one of the library: itself, or a view of its memory."""
+    own = _library_name(array)
+    if own == library:
+        return array
+    if library not in _VIEWERS or not hasattr(array, "__dlpack__"):
+        raise TypeError(f"{name} must be an array of {library}, as the other array is, not of {own}; "
+                        "cupy.asarray views both without a copy")
+    return _ADAPTERS[library].view(array)
+
+
+def _adapt(array):
+    """The functions for an array on a device, and the array as they take it."""
+    library = _choose_library({"the array": array})
+    return _ADAPTERS[library], _view("the array", array, library)
 
 
 def to_host(array):
     """The array, or None, in the host's memory: a copy if it is on a GPU."""
     if array is None or not _is_on_device(array):
         return array
-    return _ADAPTERS[_find_library({"an array": array})].to_host(array)
+    functions, array = _adapt(array)
+    return functions.to_host(array)
 
 
-def make_mesh(points, triangles, *held):
-    """The mesh in the memory of its points and triangles. `held`: the other arguments."""
+def make_mesh(points, triangles, *others):
+    """The mesh in the memory of its points and triangles. `others`: the other arguments."""
     if not _is_on_device(points) and not _is_on_device(triangles):
-        return _arrays.Mesh(points, triangles, *held)
-    return Mesh(points, triangles, *(to_host(values) for values in held))
+        return _arrays.Mesh(points, triangles, *others)
+    return Mesh(points, triangles, *(to_host(values) for values in others))
 
 
 def store_triangles(session, target, count):
@@ -132,22 +169,25 @@ def store_triangles(session, target, count):
     Raises:
         ValueError: The target is not a contiguous (m, 3) array of int32 or int64.
     """
-    fits = tuple(target.shape) == (count, 3) and _is_contiguous(target)
+    is_on_device = _is_on_device(target)
+    functions, target = _adapt(target) if is_on_device else (None, target)
+    fits = tuple(target.shape) == (count, 3) and _is_contiguous(target, functions)
     kind = _type_of(target) if fits else None
     if kind not in ("int32", "int64"):
         raise ValueError("the target must be a contiguous (m, 3) array of int32 or int64")
-    if _is_on_device(target):
+    if is_on_device:
         _library.call("store_triangles_on_device", session, _address(target), _TYPES[kind],
-                      _adapter_of(target).get_stream(target))
+                      functions.get_stream(target))
     else:
         _library.call("store_triangles", session, _arrays.address(target), _TYPES[kind])
 
 
 def store_flip_counts(session, counts):
-    """Writes the flip counts of a session to an array of int32 in any memory."""
+    """Writes the flip counts of a session to an array that make_flip_counts has made."""
     if _is_on_device(counts):
+        functions, counts = _adapt(counts)
         _library.call("store_flip_counts_on_device", session, _address(counts),
-                      _adapter_of(counts).get_stream(counts))
+                      functions.get_stream(counts))
     else:
         _library.call("store_flip_counts", session, _arrays.address(counts))
 
@@ -162,9 +202,13 @@ class Mesh(_arrays.Mesh):
         return self._library.make_empty(self.triangles, self.triangles.shape[:1], "int32")
 
     def _take(self, points, triangles):
-        self._library = _ADAPTERS[_find_library({"points": points, "triangles": triangles})]
-        self.points = self._library.as_contiguous(points)
-        self.triangles = self._library.as_contiguous(triangles)
+        for name, array in (("points", points), ("triangles", triangles)):
+            if not _is_on_device(array):
+                raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
+        library = _choose_library({"triangles": triangles, "points": points})
+        self._library = _ADAPTERS[library]
+        self.points = self._library.as_contiguous(_view("points", points, library))
+        self.triangles = self._library.as_contiguous(_view("triangles", triangles, library))
         point_type = _check("points", self.points, ("float32", "float64"), (3, 2))
         self._id_type = _check("triangles", self.triangles, ("int32", "int64"), (3,))
         self._set("points", self.points)
@@ -206,14 +250,11 @@ def _type_of(array):
     return array.dtype.name
 
 
-def _is_contiguous(array):
-    if _is_on_device(array):
-        return _address(_adapter_of(array).as_contiguous(array)) == _address(array)
+def _is_contiguous(array, functions):
+    """`functions`: those of the array's library, or None for one of NumPy."""
+    if functions:
+        return _address(functions.as_contiguous(array)) == _address(array)
     return array.flags.c_contiguous
-
-
-def _adapter_of(array):
-    return _ADAPTERS[_find_library({"the target": array})]
 
 
 def _address(array):

@@ -30,8 +30,9 @@ class Session:
 
     Points and triangles may be arrays of CuPy, PyTorch or Numba in the memory of a GPU: float32 or
     float64, and int32 or int64. They are flipped there, after what is in the library's current
-    stream, and results are arrays of the same library. Only to insert constraints, for
-    `backend="threads"`, or if the GPU fails, the mesh is copied to the host.
+    stream, and results are arrays of the library of the triangles. Arrays of other libraries are
+    viewed by DLPack, with CuPy or PyTorch, of which the results then are. Only to insert
+    constraints, for `backend="threads"`, or if the GPU fails, the mesh is copied to the host.
 
     Example:
         >>> import numpy

@@ -7,7 +7,6 @@ import numpy
 import numpy.typing
 
 
-
 class OnDevice(typing.Protocol):
     """An array in the memory of a GPU, of CuPy, PyTorch or Numba."""
 
@@ -15,7 +14,16 @@ class OnDevice(typing.Protocol):
     def __cuda_array_interface__(self) -> typing.Any: ...
 
 
-Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice]
+class ByDlpack(typing.Protocol):
+    """An array of any library with DLPack, in the memory of the host or of a GPU."""
+
+    @property
+    def __dlpack__(self) -> typing.Callable[..., typing.Any]: ...
+
+    def __dlpack_device__(self) -> typing.Tuple[int, int]: ...
+
+
+Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice, ByDlpack]
 Array = numpy.typing.NDArray[typing.Any]
 Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]

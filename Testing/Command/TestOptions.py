@@ -73,7 +73,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh), 0)
         path = self.path("in.vtk")
         result = self.succeed(path, "out.vtk", "--insert-lines")
-        self.assertIn("1 edge held, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
+        self.assertIn("1 edge fixed, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
         self.assertTrue(self.has_edge(0, 2))
 
     def test_constraints_that_cannot_be_inserted_are_named(self):
@@ -81,7 +81,7 @@ class Options(CommandTest):
         path = write_mesh(mesh, self.path("in.vtk"))
         lines = write_mesh(make_mesh(KITE, [], [(1, 3), (2, 0)]), self.path("lines.vtk"))
         result = self.succeed(path, "out.vtk", "--constraints", lines)
-        self.assertIn("1 edge held, 1 not in the mesh", result.stdout)
+        self.assertIn("1 edge fixed, 1 not in the mesh", result.stdout)
         self.assertIn("crosses edges that stay (first: 0-2)", result.stderr)
 
     def test_bad_constraints(self):

@@ -33,7 +33,7 @@ struct WidePoints
 
   explicit WidePoints(const DeviceMesh& mesh)
   {
-    static_cast<HeldEdges&>(this->View) = mesh;
+    static_cast<FixedEdges&>(this->View) = mesh;
     this->View.Triangles = mesh.Triangles;
     if (mesh.Points.Floats)
     {

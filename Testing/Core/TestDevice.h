@@ -63,7 +63,7 @@ class DeviceArrays
 {
 public:
   DeviceArrays(const TriangleMesh& mesh, int components)
-    : Held(mesh),
+    : Fixed(mesh),
       Components(components),
       Points(ListPoints(mesh.Points, components)),
       Triangles(ListIds(mesh.Triangles)),
@@ -75,7 +75,7 @@ public:
   DeviceMesh View() const
   {
     DeviceMesh mesh;
-    static_cast<HeldEdges&>(mesh) = this->Held;
+    static_cast<FixedEdges&>(mesh) = this->Fixed;
     mesh.Points = DevicePointArray(
       this->Points.Data(), this->Points.Size() / this->Components, this->Components);
     mesh.Triangles = TriangleArray(this->Triangles.Data(), this->FlipCounts.Size());
@@ -113,7 +113,7 @@ public:
   }
 
 private:
-  HeldEdges Held;
+  FixedEdges Fixed;
   int Components;
 
 public:

@@ -28,10 +28,17 @@ class Client:
             widget for widget in self.application.topLevelWidgets()
             if widget.metaObject().className() == "ParaViewMainWindow")
 
+    def find_menus(self):
+        """[(title, menu)] of the menu bar and below, filled as when a user opens them."""
+        bar = self.window.menuBar()
+        for action in bar.actions():
+            if action.menu():
+                action.menu().aboutToShow.emit()
+        return [(menu.title().replace("&", ""), menu) for menu in bar.findChildren(QtWidgets.QMenu)]
+
     def find_actions(self, text):
         """{title of the menu: its action} of all menus with an action of this text."""
-        return {menu.title().replace("&", ""): action
-                for menu in self.window.menuBar().findChildren(QtWidgets.QMenu)
+        return {title: action for title, menu in self.find_menus()
                 for action in menu.actions() if action.text().replace("&", "") == text}
 
     def choose(self, menu, text):
@@ -40,9 +47,7 @@ class Client:
 
     def choose_beginning(self, menu, beginning):
         """Clicks the action of a menu whose text begins with this."""
-        titles = {menu_.title().replace("&", ""): menu_
-                  for menu_ in self.window.menuBar().findChildren(QtWidgets.QMenu)}
-        next(action for action in titles[menu].actions()
+        next(action for action in dict(self.find_menus())[menu].actions()
              if action.text().replace("&", "").startswith(beginning)).trigger()
 
     def select(self, text):

@@ -12,7 +12,9 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 import weakref
 
 import numpy
@@ -180,6 +182,56 @@ class Errors(unittest.TestCase):
             delaunayflip.smallest_angles(Array(POINTS), Array(TRIANGLES)),
             delaunayflip.smallest_angles(POINTS, TRIANGLES))
 
+    @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
+    def test_arrays_of_other_libraries_on_a_gpu(self):
+        class OfCuPy:
+            __module__ = "cupy"
+
+            def __init__(self, array):
+                self.get = lambda: array.values
+
+        class Other:
+            __dlpack__ = None  # for CuPy
+
+            def __init__(self, values):
+                self.values = values
+
+            def __dlpack_device__(self):
+                return 2, 0  # CUDA
+
+        cupy = types.ModuleType("cupy")
+        cupy.from_dlpack = OfCuPy
+        with unittest.mock.patch.dict(sys.modules, cupy=cupy):
+            angles = delaunayflip.smallest_angles(Other(POINTS), Other(TRIANGLES))
+            with self.assertRaisesRegex(TypeError, "triangles must be in the memory of the GPU"):
+                delaunayflip.flip(Other(POINTS), TRIANGLES)
+        numpy.testing.assert_array_equal(angles, delaunayflip.smallest_angles(POINTS, TRIANGLES))
+        with unittest.mock.patch("importlib.util.find_spec", lambda name: None):
+            with self.assertRaisesRegex(TypeError, "need CuPy or PyTorch"):
+                delaunayflip.flip(Other(POINTS), Other(TRIANGLES))
+
+    def test_arrays_of_other_libraries(self):
+        class Other:
+            """An array that NumPy can only view by DLPack."""
+
+            def __init__(self, values):
+                self.values = numpy.array(values)
+                self.address = self.values.ctypes.data
+
+            def __dlpack__(self, **keywords):
+                return self.values.__dlpack__(**keywords)
+
+            def __dlpack_device__(self):
+                return self.values.__dlpack_device__()
+
+        points, triangles = Other(POINTS), Other(TRIANGLES)
+        self.assertEqual(_arrays.as_points(points).ctypes.data, points.address)
+        self.assertEqual(_arrays.as_ids("triangles", triangles, 3).ctypes.data, triangles.address)
+        self.assertEqual(delaunayflip.flip(points, triangles).report.total_flips, 1)
+        for fixed in ({"constraints": [[0, 2]]}, {"regions": [1, 2]}, {"frozen": [1, 0]}):
+            others = {name: Other(values) for name, values in fixed.items()}
+            self.assertEqual(delaunayflip.flip(points, triangles, **others).report.total_flips, 0)
+
     def test_arrays_on_a_gpu(self):
         """Testing/Gpu/test_device_arrays.py flips them."""
 
@@ -190,7 +242,7 @@ class Errors(unittest.TestCase):
             delaunayflip.flip(Unknown(), TRIANGLES)
         with self.assertRaisesRegex(TypeError, "points must be in the memory of the GPU"):
             delaunayflip.flip(POINTS, Unknown())
-        with self.assertRaisesRegex(TypeError, f"CuPy, PyTorch or Numba, not of {__name__}"):
+        with self.assertRaisesRegex(TypeError, f"or have __dlpack__, not of {__name__}"):
             delaunayflip.flip(Unknown(), Unknown())
 
     def test_backend_unavailable(self):

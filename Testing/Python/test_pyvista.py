@@ -55,8 +55,8 @@ class MeshIO(unittest.TestCase):
         flipped = {frozenset(row) for row in better.cells_dict["triangle"].tolist()}
         self.assertEqual(flipped, {frozenset((0, 1, 3)), frozenset((1, 2, 3))})
         self.assertEqual([values.tolist() for values in better.cell_data["n"]], [[5], [6], [7]])
-        held = flip(meshio.Mesh(points, [*cells, ("line", [[0, 2]])]))
-        self.assertIn([0, 1, 2], held.cells[0].data.tolist())
+        fixed = flip(meshio.Mesh(points, [*cells, ("line", [[0, 2]])]))
+        self.assertIn([0, 1, 2], fixed.cells[0].data.tolist())
 
 
 class PyVista(unittest.TestCase):
