@@ -49,7 +49,7 @@ SCALES = {
     "full": Scale("full", (100_000, 250_000, 500_000, 1_000_000, 2_000_000, 5_000_000),
                   (20_000_000, 100_000_000), 5_000_000, 5_000_000,
                   (6, 10, 30, 100, 300, 1000, 3000, 10_000), 1_000_000, 200_000, 1_586_302,
-                  ("--repetitions", "5", "--seconds", "20")),
+                  ("--repetitions", "5", "--seconds", "10")),
 }
 
 # Approximate seconds of one run with a million points on two idle cores, from which the times of
