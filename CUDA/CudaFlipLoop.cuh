@@ -27,13 +27,12 @@ template <typename Rule>
 class CudaFlipLoop : public FlipLoop
 {
 public:
-  /// @param isExtreme MeshSurvey::IsExtreme, for angles.
-  CudaFlipLoop(
-    EdgeMesh& mesh, const Rule& rule, bool isExtreme, EdgeGuard guard, const CudaBackend& backend)
+  CudaFlipLoop(EdgeMesh& mesh, const Rule& rule, CoordinateRange range, EdgeGuard guard,
+    const CudaBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
       Mesh(mesh),
       Decision(rule),
-      Extreme(isExtreme),
+      Range(range),
       Guard(std::move(guard)),
       Backend(backend),
       Bits(mesh, backend)
@@ -47,7 +46,7 @@ public:
 
   double FindLargestSquaredCotangent() const override
   {
-    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Extreme };
+    const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Range };
     return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
   }
 
@@ -285,7 +284,7 @@ private:
 
   EdgeMesh& Mesh;
   Rule Decision;
-  bool Extreme;
+  CoordinateRange Range;
   EdgeGuard Guard;
   const CudaBackend& Backend;
   int GridBlocks = 1;

@@ -75,7 +75,7 @@ std::unique_ptr<FlipLoop> MakeLoop(
 {
   using Loop = typename LoopOf<Backend, Rule>::Type;
   return std::unique_ptr<FlipLoop>(
-    new Loop(input.Mesh, rule, input.Survey.IsExtreme, std::move(guard), backend));
+    new Loop(input.Mesh, rule, input.Survey.Range, std::move(guard), backend));
 }
 
 inline AngleTolerance GetTolerance(const FlipLoopInput& input)
@@ -101,9 +101,8 @@ std::unique_ptr<FlipLoop> MakePlanarLoop(
   const double* doubles = input.Points.Doubles.Data();
   if (input.Options.Criterion == CriterionKind::OppositeAngles)
   {
-    return MakeLoop(input,
-      PlanarAngleRule{ { doubles, GetTolerance(input), input.Survey.IsExtreme } }, std::move(guard),
-      backend);
+    return MakeLoop(input, PlanarAngleRule{ { doubles, GetTolerance(input), input.Survey.Range } },
+      std::move(guard), backend);
   }
   if (input.Survey.Projection.Tilted)
   {
@@ -126,11 +125,11 @@ std::unique_ptr<FlipLoop> MakeSurfaceLoop(
 {
   const AngleTolerance tolerance = GetTolerance(input);
   const PackedPoints& points = input.Points;
-  const bool isExtreme = input.Survey.IsExtreme;
+  const CoordinateRange range = input.Survey.Range;
   return points.IsFloat()
-    ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance, isExtreme } },
+    ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance, range } },
         std::move(guard), backend)
-    : MakeLoop(input, SurfaceRule<double>{ { points.Doubles.Data(), tolerance, isExtreme } },
+    : MakeLoop(input, SurfaceRule<double>{ { points.Doubles.Data(), tolerance, range } },
         std::move(guard), backend);
 }
 

@@ -203,7 +203,7 @@ struct AnglePoints
 {
   const Real* Coordinates;
   AngleTolerance Tolerance;
-  bool Extreme; ///< Whether products of lengths may overflow or vanish everywhere.
+  CoordinateRange Range;
 
   DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
   {
@@ -222,14 +222,15 @@ struct AnglePoints
   }
 
   /// Whether the quad of these points must be judged by WideAngles.h.
-  DELAUNAYFLIP_HOST_DEVICE bool IsWide(const AngleSum& sum) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsWide(const Quad& quad, const AngleSum& sum) const
   {
-    return this->Extreme || sum.MayVanish;
+    return sum.MayVanish || this->Range == CoordinateRange::Extreme ||
+      (this->Range == CoordinateRange::Mixed && this->IsWide(quad));
   }
 
   DELAUNAYFLIP_HOST_DEVICE bool ExceedsPi(const Quad& quad, const AngleSum& sum) const
   {
-    if (this->IsWide(sum))
+    if (this->IsWide(quad, sum))
     {
       return this->ExceedsPiWide(quad);
     }
@@ -238,6 +239,11 @@ struct AnglePoints
   }
 
 private:
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsWide(const Quad& quad) const
+  {
+    return delaunayflip::IsWide(this->Range, this->Get(quad));
+  }
+
   /// These load the points again. As separate functions they take no registers from the test of the
   /// many edges that do not need them.
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
@@ -296,7 +302,7 @@ struct SurfaceRule : AnglePoints<Real>
     {
       return EdgeState::Good;
     }
-    const bool folds = this->IsWide(sum) ? this->FoldsOverWide(quad) : FoldsOver(points);
+    const bool folds = this->IsWide(quad, sum) ? this->FoldsOverWide(quad) : FoldsOver(points);
     return folds ? EdgeState::BlockedByShape : EdgeState::Bad;
   }
 

@@ -74,7 +74,7 @@ private:
     this->Cosine = cosA * cosB - sinA * sinB;
     this->BothObtuse = cosA < 0.0 && cosB < 0.0;
     // At least the product of the four lengths, which are below 2^103 unless the mesh is extreme
-    // (MeshSurvey::IsExtreme): so that of any two is above 2^-446, and the squares within sinA and
+    // (MeshSurvey::Range): so that of any two is above 2^-446, and the squares within sinA and
     // sinB are normal numbers.
     constexpr double Smallest = 0x1p-240;
     this->MayVanish = !(std::fabs(this->Cosine) + std::fabs(this->Sine) > Smallest);

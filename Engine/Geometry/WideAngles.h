@@ -8,6 +8,7 @@
 #include "SurfaceAngles.h"
 
 #include <cmath>
+#include <cstdint>
 
 /// @file
 /// The judgements of OppositeAngles.h and SurfaceAngles.h for all finite coordinates, even where
@@ -16,6 +17,44 @@
 
 namespace delaunayflip
 {
+
+/// How large the coordinates of a mesh are, and so which of its quads need this file.
+enum class CoordinateRange : std::uint8_t
+{
+  Usual, ///< The largest is usual, and all are at least 2^-100 or 0.
+  Mixed, ///< The largest is usual, others are smaller: quads with tiny differences need it.
+  Extreme, ///< Products of lengths may overflow or vanish everywhere: all quads need it.
+};
+
+/// Whether a vector has a component so small that products of four such may vanish. Components
+/// that are 0 cannot vanish.
+DELAUNAYFLIP_HOST_DEVICE inline bool HasTinyComponent(const Vector3& a)
+{
+  // A component of a cross product of larger ones is 0 or at least 2^-353, because the smallest
+  // difference of two products is an ulp of them; and products of two of these are normal numbers.
+  constexpr double Tiny = 0x1p-150;
+  const auto isTiny = [](double x) { return x != 0.0 && std::fabs(x) < Tiny; };
+  return isTiny(a.X) || isTiny(a.Y) || isTiny(a.Z);
+}
+
+/// Whether a triangle of a mesh with such coordinates needs this file.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsWide(
+  CoordinateRange range, const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  return range == CoordinateRange::Extreme ||
+    (range == CoordinateRange::Mixed &&
+      (HasTinyComponent(b - a) || HasTinyComponent(c - a) || HasTinyComponent(c - b)));
+}
+
+/// Whether a quad does.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsWide(CoordinateRange range, const QuadPoints& quad)
+{
+  return range == CoordinateRange::Extreme ||
+    (range == CoordinateRange::Mixed &&
+      (HasTinyComponent(quad.P - quad.A) || HasTinyComponent(quad.Q - quad.A) ||
+        HasTinyComponent(quad.P - quad.B) || HasTinyComponent(quad.Q - quad.B) ||
+        HasTinyComponent(quad.B - quad.A)));
+}
 
 /// `number` times 2^exponent, infinite or 0 where that is too large or too small.
 DELAUNAYFLIP_HOST_DEVICE inline double TimesPowerOfTwo(double number, int exponent)
@@ -69,31 +108,40 @@ struct WideVector
   DELAUNAYFLIP_HOST_DEVICE double GetLength() const { return Length(this->Vector); }
 };
 
-/// A finite vector times 2^exponent.
-DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(Vector3 vector, int exponent = 0)
+/// The exponent of the power of two that is at most `number`, which is positive and finite.
+DELAUNAYFLIP_HOST_DEVICE inline int FloorOfLog2(double number)
 {
-  double largest = LargestComponent(vector);
+  int exponent = 0;
+  for (int step = 512; step > 0; step /= 2)
+  {
+    const double power = TimesPowerOfTwo(1.0, step);
+    // Twice, because the smallest number is 2^-1074.
+    for (int i = 0; i < 2 && number * power < 2.0; ++i, exponent -= step)
+    {
+      number *= power;
+    }
+    if (number >= power)
+    {
+      number /= power;
+      exponent += step;
+    }
+  }
+  return exponent;
+}
+
+/// A finite vector times 2^exponent. A component may be too small for its new size. It is rounded
+/// only once, so that the result is the same for a vector of twice the length.
+DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(const Vector3& vector, int exponent = 0)
+{
+  const double largest = LargestComponent(vector);
   if (!(largest > 0.0))
   {
     return { vector, 0 };
   }
-  double factor = 0x1p512;
-  for (int step = 512; step > 0; step /= 2)
-  {
-    // Twice, because the smallest number is 2^-1074.
-    for (int i = 0; i < 2 && largest * factor < 2.0; ++i, exponent -= step, largest *= factor)
-    {
-      vector = factor * vector;
-    }
-    if (largest >= factor)
-    {
-      vector = (1.0 / factor) * vector;
-      largest *= 1.0 / factor;
-      exponent += step;
-    }
-    factor = std::sqrt(factor);
-  }
-  return { vector, exponent };
+  const int own = FloorOfLog2(largest);
+  const double half = TimesPowerOfTwo(1.0, own < 0 ? -own / 2 : -own);
+  const double rest = own < 0 ? TimesPowerOfTwo(1.0, -own - -own / 2) : 1.0;
+  return { rest * (half * vector), exponent + own };
 }
 
 /// b - a. The difference of two finite numbers may be infinite, that of their halves may not.

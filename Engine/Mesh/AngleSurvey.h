@@ -33,7 +33,7 @@ struct AngleSurvey
 {
   const TriangleRecord* Triangles;
   Rule Decision;
-  bool Extreme; ///< MeshSurvey::IsExtreme.
+  CoordinateRange Range;
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
@@ -51,7 +51,7 @@ struct AngleSurvey
     LargestValue largest;
     largest.Value =
       Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
-    if (this->Extreme || IsLost(largest.Value))
+    if (IsLost(largest.Value) || IsWide(this->Range, a, b, c))
     {
       largest.Value = LargestSquaredCotangentWide(a, b, c);
     }

@@ -87,7 +87,7 @@ struct FixEdgeStep
   const std::int32_t* Regions; ///< Or null.
   PointArray Points;
   SpatialOrderView Order;
-  bool Extreme; ///< MeshSurvey::IsExtreme.
+  CoordinateRange Range;
   bool HasFeatures; ///< Sharp edges stay.
   double FeatureCosine;
 
@@ -145,8 +145,8 @@ private:
 
   DELAUNAYFLIP_HOST_DEVICE bool IsFeature(const QuadPoints& quad) const
   {
-    return this->Extreme ? IsSharpWide(quad, this->FeatureCosine)
-                         : IsSharp(quad, this->FeatureCosine);
+    return IsWide(this->Range, quad) ? IsSharpWide(quad, this->FeatureCosine)
+                                     : IsSharp(quad, this->FeatureCosine);
   }
 };
 
@@ -157,7 +157,7 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
   const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
-    input.Order.View(), input.Survey.IsExtreme, hasFeatures,
+    input.Order.View(), input.Survey.Range, hasFeatures,
     std::cos(input.FeatureAngle * DegreesToRadians) };
   const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
   EdgeCounts& counts = result.Counts;

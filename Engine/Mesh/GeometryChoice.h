@@ -10,7 +10,9 @@
 #include "MeshSurvey.h"
 #include "PlaneFinder.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 /// @file
@@ -22,8 +24,12 @@ namespace delaunayflip
 /// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
 inline bool IsHigherThanWide(const BoundingBox& box)
 {
-  // Half of each number, so that a box as wide as the range of double does not overflow.
-  const auto extent = [&box](int axis) { return 0.5 * box.Upper[axis] - 0.5 * box.Lower[axis]; };
+  // Half of each number where the box is so wide that its extent would overflow. The halves of the
+  // smallest numbers would be rounded.
+  const double largest = std::max(
+    { box.Upper[0], box.Upper[1], box.Upper[2], -box.Lower[0], -box.Lower[1], -box.Lower[2] });
+  const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
+  const auto extent = [&](int axis) { return unit * box.Upper[axis] - unit * box.Lower[axis]; };
   return extent(2) > extent(0) && extent(2) > extent(1);
 }
 

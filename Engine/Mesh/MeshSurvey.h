@@ -10,6 +10,7 @@
 #include "HostDevice.h"
 #include "OppositeAngles.h"
 #include "TriangleMesh.h"
+#include "WideAngles.h"
 
 #include <cstdint>
 #include <string>
@@ -86,8 +87,9 @@ struct MeshSurvey
   Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;
   BoundingBox Box; ///< Of the used, finite points.
+  double SmallestMagnitude = INFINITY; ///< Of their coordinates that are not 0.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
-  bool IsExtreme = false; ///< Whether products of four lengths may overflow or vanish everywhere.
+  CoordinateRange Range = CoordinateRange::Usual; ///< Of the used, finite points.
   double Precision = DoublePrecision; ///< Of the caller's coordinates, by their type.
   Defect NonFinitePoints;
   Defect RepeatedIds;

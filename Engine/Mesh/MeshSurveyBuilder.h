@@ -101,6 +101,7 @@ struct PointSurvey
 {
   double Lower[3] = { INFINITY, INFINITY, INFINITY };
   double Upper[3] = { -INFINITY, -INFINITY, -INFINITY };
+  double Smallest = INFINITY; ///< Magnitude of a coordinate that is not 0.
   std::int64_t Used = 0;
   IdSample NonFinite;
 
@@ -110,12 +111,18 @@ struct PointSurvey
     this->Upper[axis] = upper > this->Upper[axis] ? upper : this->Upper[axis];
   }
 
+  DELAUNAYFLIP_HOST_DEVICE void IncludeMagnitude(double magnitude)
+  {
+    this->Smallest = magnitude > 0.0 && magnitude < this->Smallest ? magnitude : this->Smallest;
+  }
+
   DELAUNAYFLIP_HOST_DEVICE PointSurvey& operator+=(const PointSurvey& part)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
       this->Include(axis, part.Lower[axis], part.Upper[axis]);
     }
+    this->IncludeMagnitude(part.Smallest);
     this->Used += part.Used;
     this->NonFinite += part.NonFinite;
     return *this;
@@ -139,7 +146,9 @@ DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, Geome
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    survey.Include(axis, points.Get(i, axis), points.Get(i, axis));
+    const double x = points.Get(i, axis);
+    survey.Include(axis, x, x);
+    survey.IncludeMagnitude(std::fabs(x));
   }
 }
 
@@ -154,7 +163,14 @@ inline void ResolveRange(MeshSurvey& survey)
   }
   survey.FiltersApply = largest <= LargestFilteredDifference / 2;
   constexpr int UsualExponent = 100;
-  survey.IsExtreme = largest > 0.0 && std::abs(std::ilogb(largest)) > UsualExponent;
+  if (largest > 0.0 && std::abs(std::ilogb(largest)) > UsualExponent)
+  {
+    survey.Range = CoordinateRange::Extreme;
+  }
+  else if (survey.SmallestMagnitude < std::ldexp(1.0, -UsualExponent))
+  {
+    survey.Range = CoordinateRange::Mixed;
+  }
 }
 
 template <typename Backend>
@@ -193,6 +209,7 @@ void SurveyPoints(
   {
     std::copy_n(points.Lower, 3, survey.Box.Lower);
     std::copy_n(points.Upper, 3, survey.Box.Upper);
+    survey.SmallestMagnitude = points.Smallest;
   }
 }
 

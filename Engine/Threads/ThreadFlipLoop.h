@@ -25,13 +25,12 @@ template <typename Rule>
 class ThreadFlipLoop : public FlipLoop
 {
 public:
-  /// @param isExtreme MeshSurvey::IsExtreme, for angles.
-  ThreadFlipLoop(
-    EdgeMesh& mesh, const Rule& rule, bool isExtreme, EdgeGuard guard, const ThreadBackend& backend)
+  ThreadFlipLoop(EdgeMesh& mesh, const Rule& rule, CoordinateRange range, EdgeGuard guard,
+    const ThreadBackend& backend)
     : FlipLoop(mesh.NumberOfTriangles, guard.IsActive()),
       Mesh(mesh),
       Decision(rule),
-      Extreme(isExtreme),
+      Range(range),
       Guard(std::move(guard)),
       Backend(backend),
       Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
@@ -187,7 +186,7 @@ private:
 
   AngleSurvey<Rule> Angles() const
   {
-    return { this->Mesh.Triangles.Data(), this->Decision, this->Extreme };
+    return { this->Mesh.Triangles.Data(), this->Decision, this->Range };
   }
 
   double FindLargestSquaredCotangent(std::int64_t firstTriangle, std::int64_t lastTriangle) const
@@ -203,7 +202,7 @@ private:
 
   EdgeMesh& Mesh;
   Rule Decision;
-  bool Extreme;
+  CoordinateRange Range;
   EdgeGuard Guard;
   const ThreadBackend& Backend;
   EdgeWorklist Worklist;

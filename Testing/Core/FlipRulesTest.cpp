@@ -96,7 +96,7 @@ TEST(SurfaceRule, JudgesQuadsOfAnySize)
     for (const AngleTolerance tolerance :
       { AngleTolerance{ 0.0, 1.0, DoublePrecision }, AngleTolerance{ 1e-9, 1.0, 0.0 } })
     {
-      const SurfaceRule<double> rule{ { points, tolerance } };
+      const SurfaceRule<double> rule{ { points, tolerance, CoordinateRange::Usual } };
       EXPECT_EQ(EdgeState::Bad, rule.Judge({ 0, 0, 0, 1, 2, 3 })) << size;
       EXPECT_EQ(EdgeState::Good, rule.Judge({ 0, 0, 1, 3, 0, 2 })) << size;
       EXPECT_EQ(EdgeState::Good, rule.Judge({ 0, 0, 4, 1, 2, 3 })) << size;

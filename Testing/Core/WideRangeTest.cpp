@@ -3,7 +3,9 @@
 /// Meshes whose coordinates span so many orders of magnitude that products of lengths overflow in
 /// one part of the mesh and vanish in another.
 #include "FlipTestSupport.h"
+#include "GeometryChoice.h"
 #include "MeshAudit.h"
+#include "WideAngles.h"
 
 #include <gtest/gtest.h>
 
@@ -127,6 +129,70 @@ TEST(WideRange, HeightsThatAreNotFiniteCountInNoAngle)
     EXPECT_DOUBLE_EQ(45.0, result.Report.MinimumAngleBefore) << bad;
     EXPECT_DOUBLE_EQ(45.0, result.Report.MinimumAngleAfter) << bad;
   }
+}
+
+/// Doubled coordinates are the same shape, so they must give the same triangles.
+void ExpectSameWhenDoubled(const OwnedMesh<double>& mesh, const FlipOptions& options)
+{
+  OwnedMesh<double> doubled = mesh;
+  for (double& coordinate : doubled.Points)
+  {
+    coordinate *= 2.0;
+  }
+  const FlipResult result = Flip(mesh.View(), options);
+  EXPECT_EQ(result.Triangles, Flip(doubled.View(), options).Triangles);
+}
+
+constexpr double Tiny = 0x1p-538; // its square is half the smallest number
+
+/// All triangles are almost flat: their areas are usual, but products of two areas vanish.
+TEST(WideRange, ThinTrianglesFoldNothing)
+{
+  constexpr double Small = 0x1p-269, A = -0.4795848592184484;
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, A, 0, 2 * Tiny, 0.37, 2 * Tiny, 2 * Tiny, -0.5, 3 * Tiny, 2 * Tiny, A,
+    3 * Tiny, 3 * Tiny, A, 2 * Small, 6 * Small, -0.3, 4 * Small, 0, 0.5, 6 * Small, 2 * Small,
+    0.38 };
+  mesh.Triangles = { 4, 1, 2, 1, 0, 2, 0, 3, 2, 3, 4, 2, 4, 5, 1, 4, 3, 5, 3, 6, 5, 3, 0, 6, 6, 7,
+    5 };
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  options.FeatureAngle = 180.0;
+  ExpectSameWhenDoubled(mesh, options);
+}
+
+TEST(WideRange, FeaturesOfThinTrianglesAreFound)
+{
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 1, 0, Tiny, 0, 0, 2 * Tiny, 1, 2 * Tiny, 0, 1, 2 * Tiny, Tiny, 0, 2 * Tiny,
+    3 * Tiny, 3, 3 * Tiny, 0, 2, 3 * Tiny, Tiny, 3, 3 * Tiny, 3 * Tiny, 2 };
+  mesh.Triangles = { 2, 1, 3, 0, 1, 3, 2, 4, 3, 5, 2, 4, 6, 4, 3, 6, 7, 4, 7, 5, 6 };
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  options.FeatureAngle = 30.0;
+  options.Tolerance = 0.0;
+  options.MaximumIterations = 1;
+  ExpectSameWhenDoubled(mesh, options);
+}
+
+/// The smallest components of a long vector do not fit its new size. If they were rounded twice,
+/// it would matter where the first rounding is.
+TEST(WideRange, VectorsAreRoundedOnce)
+{
+  for (int i = 1; i < 2000; ++i)
+  {
+    const Vector3 vector = { 1e-298 + i * 1e-301, 0.0, 6e23 };
+    const WideVector once = MakeWide(vector);
+    EXPECT_EQ(std::ldexp(vector.X, -once.Exponent), once.Vector.X) << i;
+  }
+}
+
+TEST(WideRange, HeightsOfTheSmallestBoxAreNotRounded)
+{
+  constexpr double Unit = 0x1p-1074;
+  EXPECT_TRUE(IsHigherThanWide({ { 0, 0, 0 }, { 4 * Unit, 4 * Unit, 5 * Unit } }));
+  EXPECT_FALSE(IsHigherThanWide({ { 0, 0, 0 }, { 5 * Unit, 4 * Unit, 5 * Unit } }));
+  EXPECT_TRUE(IsHigherThanWide({ { -1e308, 0, -1.7e308 }, { 1e308, 0, 1.7e308 } }));
 }
 
 }
