@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FormatLosses.h"
 
+#include "FloatPoints.h"
 #include "ObjPlan.h"
 #include "PlyWriter.h"
 #include "XmlWriter.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <functional>
 #include <vector>
@@ -39,47 +36,6 @@ std::string LostArrays(const std::string& what, vtkFieldData* data, const Predic
     }
   }
   return names.empty() ? names : what + " (" + names + ")";
-}
-
-bool NeedsDoubles(vtkPoints* points)
-{
-  const vtkIdType count = points->GetDataType() == VTK_DOUBLE ? points->GetNumberOfPoints() : 0;
-  for (vtkIdType point = 0; point < count; ++point)
-  {
-    const double* const coordinates = points->GetPoint(point);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double value = coordinates[axis];
-      // NaN differs from itself, but it is not lost: float has NaN too.
-      if (value == value && static_cast<double>(static_cast<float>(value)) != value)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-vtkIdType CountUnusedPoints(vtkPolyData* mesh)
-{
-  std::vector<bool> used(mesh->GetNumberOfPoints());
-  vtkIdType unused = mesh->GetNumberOfPoints();
-  for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
-  {
-    const auto cell = vtk::TakeSmartPointer(cells->NewIterator());
-    for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
-    {
-      vtkIdType count = 0;
-      const vtkIdType* corners = nullptr;
-      cell->GetCurrentCell(count, corners);
-      for (vtkIdType corner = 0; corner < count; ++corner)
-      {
-        unused -= used[corners[corner]] ? 0 : 1;
-        used[corners[corner]] = true;
-      }
-    }
-  }
-  return unused;
 }
 
 std::string Joined(const std::vector<std::string>& losses)
@@ -170,8 +126,7 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
     LostArrays("cell data", mesh->GetCellData(), limits.CellData),
     losesCellData ? "cell data of lines" : "",
     LostArrays("field data", mesh->GetFieldData(), limits.FieldData),
-    format == MeshFormat::STL && NeedsDoubles(mesh->GetPoints()) ? "double precision of the points"
-                                                                 : "",
+    format == MeshFormat::STL ? DescribeRoundingToFloat(mesh) : "",
   });
 }
 

@@ -6,6 +6,7 @@
 #include "Console.h"
 #include "Counted.h"
 #include "DiskSpace.h"
+#include "FloatPoints.h"
 #include "MeshReader.h"
 #include "ObjWriter.h"
 #include "PlyWriter.h"
@@ -61,7 +62,7 @@ void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
 void WriteXml(
   vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell)
 {
-  vtkNew<vtkXMLPolyDataWriter> writer;
+  const vtkSmartPointer<vtkXMLPolyDataWriter> writer = MakeXmlWriter();
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(TellProgress);
   progress->SetClientData(const_cast<WriteObserver*>(&tell));
@@ -95,8 +96,8 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
 }
 
 /// On cells with fewer points than their kind needs, VTK's writers crash (.vtp) or write files that
-/// no program can read.
-void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
+/// no program can read; its .stl writer makes large coordinates infinite.
+void RequireStorable(vtkPolyData* mesh, MeshFormat format)
 {
   const bool isXml = format == MeshFormat::VTP;
   if (isXml)
@@ -111,6 +112,10 @@ void RequireStorableCells(vtkPolyData* mesh, MeshFormat format)
   if (isXml || format == MeshFormat::OBJ || format == MeshFormat::STL)
   {
     RequireSizes(mesh->GetPolys(), 3, "polygon");
+  }
+  if (format == MeshFormat::STL)
+  {
+    RequireFloatRange(mesh);
   }
 }
 
@@ -167,7 +172,7 @@ void WriteMesh(const FileMesh& file, const std::string& path, MeshFormat format,
   std::string difference;
   try
   {
-    RequireStorableCells(file.Mesh, format);
+    RequireStorable(file.Mesh, format);
     WriteUnchecked(file, path, format, messages, tell);
     const FileMesh written = ReadMesh(path, format, RepeatedPoints::Keep, messages);
     if (IsEnded(path, format) && HasSameCounts(file, written.Mesh, format))

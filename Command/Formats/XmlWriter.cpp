@@ -7,6 +7,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -20,6 +21,25 @@ namespace delaunayflip
 
 namespace
 {
+
+class SafeXmlWriter : public vtkXMLPolyDataWriter
+{
+public:
+  static SafeXmlWriter* New();
+  vtkTypeMacro(SafeXmlWriter, vtkXMLPolyDataWriter);
+
+protected:
+  SafeXmlWriter()
+  {
+    this->NumberOfPointsPositions = nullptr;
+    this->NumberOfVertsPositions = nullptr;
+    this->NumberOfLinesPositions = nullptr;
+    this->NumberOfStripsPositions = nullptr;
+    this->NumberOfPolysPositions = nullptr;
+  }
+};
+
+vtkStandardNewMacro(SafeXmlWriter);
 
 double Finite(double value)
 {
@@ -78,6 +98,11 @@ bool CanBeXmlIds(vtkAbstractArray* array)
     default:
       return false;
   }
+}
+
+vtkSmartPointer<vtkXMLPolyDataWriter> MakeXmlWriter()
+{
+  return vtkSmartPointer<SafeXmlWriter>::New();
 }
 
 void SetXmlInput(vtkXMLPolyDataWriter* writer, vtkPolyData* mesh)

@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_XMLWRITER_H
 #define DELAUNAYFLIP_XMLWRITER_H
 
-#include <vtkType.h>
+#include <vtkSmartPointer.h>
 
 class vtkAbstractArray;
 class vtkPolyData;
@@ -14,6 +14,10 @@ namespace delaunayflip
 
 /// Whether VTK can write and read an array of this type as global or pedigree ids.
 bool CanBeXmlIds(vtkAbstractArray* array);
+
+/// A writer that VTK's own error handling does not crash: on a full disk it deletes arrays that it
+/// has not made, through pointers that it has not set.
+vtkSmartPointer<vtkXMLPolyDataWriter> MakeXmlWriter();
 
 /// Gives the writer a mesh that VTK can write and read back: ids of types that it crashes on become
 /// ordinary arrays, and the ranges that it stores with arrays become finite.

@@ -25,6 +25,7 @@ def annotated_mesh():
     """A planar mesh with a line, point and cell data, an isolated point, and thirds as
     coordinates."""
     mesh = bumpy_grid(5, 0)
+    mesh.GetPoints().SetPoint(0, -1 / 3, -2 / 3, 0)
     mesh.GetPoints().InsertNextPoint(1 / 3, -2 / 3, 0)
     lines = make_mesh([], [], [(0, 1, 2)])
     mesh.SetLines(lines.GetLines())
@@ -177,6 +178,26 @@ class Lost(CommandTest):
             line = self.losses(annotated_mesh(), "out" + extension)
             for word in words + ["note: out" + extension]:
                 self.assertIn(word, line)
+
+    def test_points_of_an_stl(self):
+        """Two of the three points are the same as float."""
+
+        def triangle(x):
+            return make_mesh([(x, 0, 0), (x + 2**-10, 0, 0), (x, 1, 0), (1e300, 0, 0)], [(0, 1, 2)])
+
+        line = self.losses(triangle(2.0**20 + 2**-10), "out.stl")
+        self.assertIn("double precision of the points (coordinates change by up to 0.002, 1 point", line)
+        self.assertIn("fall on others)", line)
+        line = self.losses(triangle(0.1), "out.stl")
+        self.assertRegex(line, r"the points \(coordinates change by up to \S+e-09\)")
+
+    def test_points_beyond_float(self):
+        """As float they would be infinite."""
+        mesh = make_mesh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        words = ["out.stl", "cannot be written", "larger than 3.4e38", ".ply"]
+        self.fail_with(3, path, "out.stl", naming=words)
+        self.succeed(path, "out.ply")
 
     def test_cells_of_too_few_points(self):
         """VTK's .vtp writer crashes on them."""
