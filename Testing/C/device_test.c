@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
  * SPDX-License-Identifier: BSD-3-Clause
  */
-#include "delaunayflip_c.h"
+#include "check.h"
 
 #include <cuda_runtime_api.h>
 
@@ -12,16 +12,6 @@
 /** @file
  * Arrays in the memory of a GPU, from C. The exit status is 77 if there is none.
  */
-
-#define CHECK(condition)                                                                         \
-  do                                                                                             \
-  {                                                                                              \
-    if (!(condition))                                                                            \
-    {                                                                                            \
-      fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, delaunayflip_error_message()); \
-      exit(1);                                                                                   \
-    }                                                                                            \
-  } while (0)
 
 enum
 {

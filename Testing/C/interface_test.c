@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
  * SPDX-License-Identifier: BSD-3-Clause
  */
-#include "delaunayflip_c.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,16 +11,6 @@
 /** @file
  * Usage: delaunayflip-c-test CASE
  */
-
-#define CHECK(condition)                                                                         \
-  do                                                                                             \
-  {                                                                                              \
-    if (!(condition))                                                                            \
-    {                                                                                            \
-      fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, delaunayflip_error_message()); \
-      exit(1);                                                                                   \
-    }                                                                                            \
-  } while (0)
 
 /* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
 static const double Points[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };

@@ -22,7 +22,7 @@ template <typename RealT, typename IdT, int ComponentsT>
 struct Layout
 {
   using Real = RealT;
-  using Id = IdT;
+  using Arrays = DeviceArrays<RealT, IdT>;
   static constexpr int Components = ComponentsT;
 };
 
@@ -95,15 +95,18 @@ FlipReport ExpectSame(const TriangleMesh& mesh, const FlipOptions& options)
   return ExpectSame(mesh, options, 3, Arrays(mesh, 3));
 }
 
+template <typename Real>
+OwnedMesh<Real> MakeRandomBadMeshOf(std::int64_t points, std::uint32_t seed)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(points, seed);
+  return { { mesh.Points.begin(), mesh.Points.end() }, mesh.Triangles };
+}
+
 /// Large enough to be sorted, and to iterate in chunks.
 TYPED_TEST(DeviceLayoutTest, GivesTheSameBits)
 {
-  using Real = typename TypeParam::Real;
-  const OwnedMesh<double> doubles = MakeRandomBadMeshDouble(40000, 70);
-  OwnedMesh<Real> mesh;
-  mesh.Points.assign(doubles.Points.begin(), doubles.Points.end());
-  mesh.Triangles = doubles.Triangles;
-  const DeviceArrays<Real, typename TypeParam::Id> device(mesh.View(), TypeParam::Components);
+  const auto mesh = MakeRandomBadMeshOf<typename TypeParam::Real>(40000, 70);
+  const typename TypeParam::Arrays device(mesh.View(), TypeParam::Components);
   const FlipReport report = ExpectSame(mesh.View(), {}, TypeParam::Components, device);
   EXPECT_EQ(0u, report.Backend.rfind("CUDA: ", 0)) << report.Backend;
   EXPECT_EQ("", report.Fallback);
@@ -112,12 +115,8 @@ TYPED_TEST(DeviceLayoutTest, GivesTheSameBits)
 /// The smallest allocation that ends with the mesh shows reads beyond it to compute-sanitizer.
 TYPED_TEST(DeviceLayoutTest, GivesTheSameBitsOfFewTriangles)
 {
-  using Real = typename TypeParam::Real;
-  const OwnedMesh<double> doubles = MakeRandomBadMeshDouble(300, 72);
-  OwnedMesh<Real> mesh;
-  mesh.Points.assign(doubles.Points.begin(), doubles.Points.end());
-  mesh.Triangles = doubles.Triangles;
-  const DeviceArrays<Real, typename TypeParam::Id> device(mesh.View(), TypeParam::Components);
+  const auto mesh = MakeRandomBadMeshOf<typename TypeParam::Real>(300, 72);
+  const typename TypeParam::Arrays device(mesh.View(), TypeParam::Components);
   ExpectSame(mesh.View(), {}, TypeParam::Components, device);
 }
 

@@ -77,32 +77,21 @@ protected:
 
 TEST_F(DeviceStreamTest, TheMeshIsReadAfterTheCallersWork)
 {
-  const Arrays device(this->Mesh.View(), 3);
-  const DeviceValues<std::int32_t> triangles(device.Triangles.Get());
-  device.Triangles.Set(std::vector<std::int32_t>(this->Mesh.Triangles.size(), -1));
-  const SlowStream stream;
-  stream.Delay();
-  stream.Copy(triangles, device.Triangles);
-  DeviceMesh mesh = device.View();
-  mesh.Stream = stream.Get();
-  FlipToDelaunay(mesh, {}, device.ViewResult());
-  EXPECT_TRUE(this->Expected == device.Result.Get());
-}
-
-TEST_F(DeviceStreamTest, ThreadsReadAfterTheCallersWork)
-{
-  const Arrays device(this->Mesh.View(), 3);
-  const DeviceValues<std::int32_t> triangles(device.Triangles.Get());
-  device.Triangles.Set(std::vector<std::int32_t>(this->Mesh.Triangles.size(), -1));
-  const SlowStream stream;
-  stream.Delay();
-  stream.Copy(triangles, device.Triangles);
-  DeviceMesh mesh = device.View();
-  mesh.Stream = stream.Get();
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
-  FlipToDelaunay(mesh, options, device.ViewResult());
-  EXPECT_TRUE(this->Expected == device.Result.Get());
+  for (const BackendKind backend : { BackendKind::Auto, BackendKind::Threads })
+  {
+    const Arrays device(this->Mesh.View(), 3);
+    const DeviceValues<std::int32_t> triangles(device.Triangles.Get());
+    device.Triangles.Set(std::vector<std::int32_t>(this->Mesh.Triangles.size(), -1));
+    const SlowStream stream;
+    stream.Delay();
+    stream.Copy(triangles, device.Triangles);
+    DeviceMesh mesh = device.View();
+    mesh.Stream = stream.Get();
+    FlipOptions options;
+    options.Backend = backend;
+    FlipToDelaunay(mesh, options, device.ViewResult());
+    EXPECT_TRUE(this->Expected == device.Result.Get());
+  }
 }
 
 TEST_F(DeviceStreamTest, ResultsAreWrittenAfterTheCallersWork)

@@ -35,7 +35,8 @@ fill()
   "$root/Utilities/shared_libraries.sh" "${programs[@]/#/$build/bin/}" | while read -r library; do
     cp -L "$library" "$folder/libs/"
   done
-  cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" "$root/LICENSE" "$folder/"
+  cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" \
+    "$here/../Python/lattice.py" "$root/LICENSE" "$folder/"
   cp -r "$root/Python/delaunayflip" "$folder/"
   cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
   if [ -d "$build/meshes" ]; then

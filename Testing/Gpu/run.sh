@@ -61,7 +61,7 @@ else
   build=$(cd "$here/../.." && pwd)/build-gpu
   "$here/build.sh" "$build"
   programs=$build/bin
-  package=$(dirname "$(find "$build" -path '*/dist-packages/delaunayflip' -print -quit)")
+  package=$(dirname "$(find "$build" -path '*/dist-packages/delaunayflip' -print -quit)"):$here/../Python
   meshes=$build/meshes
 fi
 if [ -d "$meshes" ]; then

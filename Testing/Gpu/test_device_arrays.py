@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package with arrays of CuPy, PyTorch and Numba on a GPU. What is not installed is
-skipped. The exit status is 77 where all is, or where there is no GPU. PYTHONPATH names the package.
+skipped. The exit status is 77 where all is, or where there is no GPU. PYTHONPATH names the package
+and ../Python.
 """
 import importlib.util
 import sys
@@ -11,20 +12,11 @@ import unittest
 import numpy
 
 import delaunayflip
+from lattice import sheared_lattice
 
 SKIPPED = 77
 LIBRARIES = ("cupy", "torch", "numba")
 INSTALLED = [name for name in LIBRARIES if importlib.util.find_spec(name)]
-
-
-def sheared_lattice(side):
-    """A lattice whose rows were pushed sideways: many bad edges, all in one plane."""
-    row, column = numpy.divmod(numpy.arange(side * side), side)
-    points = numpy.column_stack([column + 5.25 * row, row, 0 * row]).astype(float)
-    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
-    lower = numpy.column_stack([corner, corner + 1, corner + side + 1])
-    upper = numpy.column_stack([corner, corner + side + 1, corner + side])
-    return points, numpy.concatenate([lower, upper])
 
 
 POINTS, TRIANGLES = sheared_lattice(150)

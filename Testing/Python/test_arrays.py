@@ -21,21 +21,12 @@ import numpy
 
 import delaunayflip
 from delaunayflip import _arrays, _library, _options
+from lattice import sheared_lattice
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 POINTS = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
 TRIANGLES = numpy.array([[0, 1, 2], [0, 2, 3]])
-
-
-def sheared_lattice(side):
-    """A lattice whose rows were pushed sideways: many bad edges, all in one plane."""
-    row, column = numpy.divmod(numpy.arange(side * side), side)
-    points = numpy.column_stack([column + 5.25 * row, row, 0 * row]).astype(float)
-    corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
-    lower = numpy.column_stack([corner, corner + 1, corner + side + 1])
-    upper = numpy.column_stack([corner, corner + side + 1, corner + side])
-    return points, numpy.concatenate([lower, upper])
 
 
 class Flip(unittest.TestCase):
@@ -307,8 +298,8 @@ class Callbacks(unittest.TestCase):
     def test_interrupt(self):
         """Ctrl-C ends a run that would take minutes, with KeyboardInterrupt."""
         program = (
-            "import numpy, test_arrays, delaunayflip\n"
-            "points, triangles = test_arrays.sheared_lattice(200)\n"
+            "import numpy, lattice, delaunayflip\n"
+            "points, triangles = lattice.sheared_lattice(200)\n"
             "print('ready', flush=True)\n"
             "for _ in range(1000): delaunayflip.flip(points, triangles, threads=1)\n"
         )
