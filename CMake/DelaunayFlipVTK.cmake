@@ -54,6 +54,9 @@ vtk_module_build(
   INSTALL_EXPORT DelaunayFlip)
 
 set(DELAUNAYFLIP_PYTHON OFF) # whether the Python package is built
+if(DELAUNAYFLIP_SANITIZER)
+  return() # Python itself would have to be instrumented
+endif()
 if(NOT TARGET VTK::WrappingPythonCore OR NOT TARGET VTK::WrapPython)
   message(STATUS "Python package delaunayflip: not built, this VTK has no Python wrapping")
   return()

@@ -4,9 +4,10 @@
 #
 # Usage: test.sh [--long|--no-sanitizers]
 # Installs missing packages (Debian), builds everything and runs every test: the whole project in
-# build/, the ParaView plugin in build-paraview/, the engine under AddressSanitizer and
-# UndefinedBehaviorSanitizer in build-asan/, and under ThreadSanitizer in build-tsan/. The exit
-# status is 0 only if all of them pass; without ParaView the plugin counts as one skipped test.
+# build/, the ParaView plugin in build-paraview/, the engine, the filter and the command under
+# AddressSanitizer and UndefinedBehaviorSanitizer in build-asan/, and the engine under
+# ThreadSanitizer in build-tsan/. The exit status is 0 only if all of them pass; without ParaView the
+# plugin counts as one skipped test.
 #
 # Under the sanitizers tests use smaller meshes, a tenth of the size, and fewer cases. --long runs
 # them at full size, which takes hours instead of minutes, and also builds and tests the engine by
@@ -90,12 +91,14 @@ check_clang()
   fi
 }
 
-# The engine under AddressSanitizer with UndefinedBehaviorSanitizer, and under ThreadSanitizer.
+# All but Python and the live view under AddressSanitizer with UndefinedBehaviorSanitizer; the engine
+# under ThreadSanitizer.
 check_under_sanitizers()
 {
   # Without NDEBUG, so that the edge mesh is audited after every iteration.
   check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
-    -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address \
+    -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_RENDERING=OFF \
+    -DDELAUNAYFLIP_SANITIZER=address \
     -DDELAUNAYFLIP_LONG_TESTS=$long
 
   # ThreadSanitizer of GCC 12 finds no room for its shadow memory if the kernel randomises addresses

@@ -170,7 +170,9 @@ class Options(CommandTest):
         for threads in (1, 3):
             self.assertEqual(self.report(*arguments, threads)["backend"], f"Threads: {threads}")
 
-    def test_too_many_threads(self):
+
+class ManyThreads(CommandTest):
+    def test_more_than_there_is_memory_for(self):
         path = write_mesh(random_insertion(5000), self.path("in.vtk"))
         arguments = (path, "out.vtk", "--backend", "threads", "--threads")
         backend = self.report(*arguments, 65536)["backend"]

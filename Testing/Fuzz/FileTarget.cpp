@@ -37,7 +37,11 @@ using namespace delaunayflip;
 namespace fs = std::filesystem;
 
 constexpr const char* Formats[] = { "vtk", "vtp", "ply", "stl", "obj" };
+#ifdef DELAUNAYFLIP_SANITIZED
+constexpr rlim_t MostMemory = RLIM_INFINITY; // AddressSanitizer reserves terabytes
+#else
 constexpr rlim_t MostMemory = rlim_t(4) << 30; // address space; files have a few kB
+#endif
 constexpr unsigned MostSeconds = 20;
 constexpr const char* EarlierOutput = "what was here before";
 
