@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
@@ -16,6 +17,7 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 
 #include <array>
 #include <cstddef>
@@ -90,11 +92,21 @@ vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)
   return points;
 }
 
+/// The types of a grid's cells, which VTK 9.6 and newer may keep as one constant.
+vtkDataArray* GetTypes(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
+#endif
+}
+
 /// Checks the arrays of a grid before any of its offsets is used.
 void RequireWholeCells(vtkUnstructuredGrid* grid)
 {
   vtkCellArray* cells = grid->GetCells();
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  vtkDataArray* types = GetTypes(grid);
   if (cells &&
     (!cells->IsValid() || !types || types->GetNumberOfValues() < cells->GetNumberOfCells()))
   {

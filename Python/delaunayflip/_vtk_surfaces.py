@@ -44,11 +44,19 @@ def to_poly_data(data):
 def _require_whole_cells(data):
     if not isinstance(data, vtkUnstructuredGrid) or data.GetCells() is None:
         return
-    cells, types = data.GetCells(), data.GetCellTypesArray()
+    cells, types = data.GetCells(), _get_types(data)
     if (not cells.IsValid() or types is None
             or types.GetNumberOfValues() < cells.GetNumberOfCells()):
         raise InvalidMesh(
             "The offsets, the connectivity and the types of the cells contradict each other.")
+
+
+def _get_types(grid):
+    """The types of its cells, which VTK 9.6 and newer may keep as one constant."""
+    try:
+        return grid.GetCellTypes()
+    except TypeError:  # older
+        return grid.GetCellTypesArray()
 
 
 def _get_points(data):

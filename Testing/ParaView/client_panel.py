@@ -42,8 +42,7 @@ def use_buttons(client, panel, flip):
     """Pause pauses the run, Step makes one step, Restart starts again, Pause continues."""
     expect(not panel.is_shown("Step"), "buttons are shown without live update")
     panel.click("LiveUpdate")
-    yield idle(0.2)
-    expect(panel.is_shown("Step"), "buttons are not shown")
+    yield lambda: panel.is_shown("Step")
     client.apply()
     yield lambda: flip.NumberOfIterations >= 3
     panel.press("Paused")

@@ -67,6 +67,17 @@ class InputTest(PluginTest):
 
 
 class UnstructuredGrids(InputTest):
+    def test_one_type(self):
+        """Their types may be one constant."""
+        mesh = make_fan(20)
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(mesh.GetPoints())
+        grid.SetCells(VTK_TRIANGLE, mesh.GetPolys())
+        source = simple.TrivialProducer()
+        source.GetClientSideObject().SetOutput(grid)
+        self.assertEqual(
+            get_triangles(fetch(self.flip(source))), get_triangles(fetch(self.flip(self.read(mesh)))))
+
     def test_triangles(self):
         mesh = make_fan(20)
         number_cells(mesh)

@@ -102,7 +102,7 @@ class Session(PluginTest):
         self.build()
         script = smtrace.stop_trace()
         self.assertIn("DelaunayFlip(registrationName='Flip'", script)
-        self.assertIn(".Geometry = 'Planar XY'", script)
+        self.assertRegex(script, r"\bGeometry ?= ?'Planar XY'")
         settings, triangles, _ = self.snapshot()
         self.start_again()
         run_script(script)
