@@ -93,7 +93,9 @@ def show(flip, most_flips):
     display.Ambient, display.Diffuse, display.Specular = 1.0, 0.0, 0.0
     simple.ColorBy(display, ("CELLS", "vtkDelaunayFlipCount"))
     colors = simple.GetColorTransferFunction("vtkDelaunayFlipCount")
-    colors.ApplyPreset("Inferno (matplotlib)", True)
+    version = simple.GetParaViewVersion()
+    is_renamed = (version.major, version.minor) >= (6, 1)
+    colors.ApplyPreset("Inferno" if is_renamed else "Inferno (matplotlib)", True)
     colors.InvertTransferFunction()
     colors.RescaleTransferFunction(0, most_flips)
     display.SetScalarBarVisibility(view, False)

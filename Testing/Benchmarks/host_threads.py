@@ -81,7 +81,7 @@ def main():
                         ("flip alone", alone[1]), ("flip, in turns with contours", turns[1])):
         print_medians(what, times)
     with open("/proc/self/maps", encoding="utf-8") as maps:
-        libraries = sorted(set(re.findall(r"\S*/(libtbb\.so\S*)", maps.read())))
+        libraries = sorted(set(re.findall(r"\S*/(libtbb[^/\s]*\.so\S*)", maps.read())))
     print(f"{len(os.listdir('/proc/self/task'))} threads on {os.cpu_count()} cores; {libraries}; "
           f"VTK {vtkVersion.GetVTKVersion()}, SMP backend {vtkSMPTools.GetBackend()}")
 

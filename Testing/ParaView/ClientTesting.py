@@ -80,7 +80,10 @@ class Panel:
         self.window = client.window
 
     def find_all(self, name):
-        return self.window.findChildren(QtWidgets.QWidget, name)
+        """Not below Display, where some properties have the same names."""
+        panel = self.window.findChild(QtWidgets.QWidget, "propertiesPanel")
+        frame = panel.findChild(QtWidgets.QFrame, "PropertiesFrame")
+        return frame.findChildren(QtWidgets.QWidget, name)
 
     def find(self, name, kind):
         widgets = [widget.findChild(kind) or widget for widget in self.find_all(name)]
@@ -160,7 +163,8 @@ class _Player:
             if self.condition():
                 self.resume()
             elif time.monotonic() > self.deadline:
-                raise TimeoutError(f"nothing happened for {PATIENCE} s")
+                line = self.condition.__code__.co_firstlineno
+                raise TimeoutError(f"waited {PATIENCE} s for what line {line} waits for")
             self.timer.start(TICK)
         except BaseException:
             traceback.print_exc()
