@@ -59,7 +59,9 @@ PROGRAM_SECONDS = {
     "paper-1": 14, "paper-all": 8, "lawson": 4, "cgal": 0.7,
 }
 RIVAL_SECONDS = {"scipy": 8, "triangle": 2.5, "startinpy": 30, "vtk": 200}
-VTK_LARGEST = 100_000  # beyond, vtkDelaunay2D takes hours
+# Beyond these numbers of points, single runs take longer than a part may; the time grows almost with
+# their square.
+RIVAL_LARGEST = {"vtk": 100_000, "startinpy": 1_000_000}
 
 
 def format_count(count):
@@ -147,7 +149,7 @@ class Plan:
     def add_rivals(self):
         for rival, size in ((r, s) for r in self.rivals if r in RIVAL_SECONDS
                             for s in self.scale.sizes):
-            if size > self.scale.largest_rival or (rival == "vtk" and size > VTK_LARGEST):
+            if size > min(self.scale.largest_rival, RIVAL_LARGEST.get(rival, size)):
                 continue
             command = ("{rivals}", rival, "--points", str(size), "--program", "{program}",
                        *self.scale.timing)

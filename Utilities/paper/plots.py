@@ -119,7 +119,7 @@ def draw_times(results):
         if program != "no-chunks":
             curve(axes, results.rows("random") + results.rows("rival"), "points", time_of, program)
     axes.set(xlabel="points", ylabel="milliseconds", xscale="log", yscale="log",
-             title="Random bad meshes")
+             title="Random bad meshes (of the paper's method, the flips alone)")
     show_legend(axes, beside=True)
     return save(figure, results, "fig8a")
 
@@ -142,7 +142,7 @@ def draw_quality(results):
     axes.axhline(smallest, color=GREEN, label="this project: 0")
     axes.set(xlabel="epsilon of eq. 5 (radians)", ylabel="different triangles (%)", xscale="log",
              yscale="log", title=f"Triangles that differ from CGAL's (0 drawn at {smallest:g})")
-    show_legend(axes)
+    show_legend(axes, beside=True)
     return save(figure, results, "fig8b")
 
 
@@ -271,7 +271,7 @@ def draw_ruined(results):
                  "marker": "osD^vP*<>"[number % 9]}
         axes.plot([row["feature_angle"] for row in of_case],
                   [row["mean_smallest_angle"] for row in of_case],
-                  label=case[1] if case[0] == "nobody" else f"{case[1]}, ruined by {case[0]}",
+                  label=case[1] if case[0] == "nothing" else f"{case[1]}, ruined by {case[0]}",
                   **style)
         axes.plot(of_case[0]["feature_angle"], of_case[0]["mean_smallest_angle_before"],
                   linestyle="none", fillstyle="none", **style)

@@ -5,6 +5,7 @@ results."""
 
 import json
 import os
+import re
 
 
 class Results:
@@ -18,7 +19,7 @@ class Results:
         if os.path.isfile(path):
             self.machine = read_json(path)
         parts = os.path.join(folder, "parts")
-        for name in sorted(os.listdir(parts)) if os.path.isdir(parts) else []:
+        for name in sorted(os.listdir(parts), key=natural_order) if os.path.isdir(parts) else []:
             if name.endswith(".json"):
                 self.parts[name[: -len(".json")]] = read_json(os.path.join(parts, name))
 
@@ -40,6 +41,11 @@ class Results:
             os.path.join(self.folder, "results.json"),
             {"machine": self.machine, "parts": self.parts},
         )
+
+
+def natural_order(name):
+    """A key for sorting by the numbers within names: 250000 before 1000000."""
+    return [(int(word), "") if word.isdigit() else (-1, word) for word in re.split(r"(\d+)", name)]
 
 
 def read_json(path):

@@ -144,7 +144,7 @@ Json RunAsItIs(const ExperimentSettings& settings, const std::string& path,
   for (const double featureAngle : featureAngles)
   {
     Json row = RunOne(settings, mesh, featureAngle);
-    row["ruined_by"] = "nobody";
+    row["ruined_by"] = "nothing";
     row["shape"] = file.Name;
     rows.push_back(std::move(row));
   }
