@@ -357,6 +357,24 @@ TEST(FlatTrianglesOfLattices, LeaveNoBadEdgeUncounted)
   }
 }
 
+/// Point 3 is where point 0 or 1 is, so all are on a circle; a flip would only move the flat
+/// triangle.
+TEST(FlatTrianglesOfOnePlace, AreNoTies)
+{
+  for (const std::int32_t twin : { 0, 1 })
+  {
+    OwnedMesh<double> mesh;
+    mesh.Points = { 0, 0, 0, 4, 0, 0, 2, -3, 0, 4.0 * twin, 0, 0 };
+    mesh.Triangles = { 0, 2, 1, 0, 1, 3 };
+    FlipOptions options;
+    options.Geometry = GeometryKind::PlanarXY;
+    options.TieRule = TieRuleKind::Canonical;
+    const FlipReport report = Flip(mesh.View(), options).Report;
+    EXPECT_EQ(0, report.NonDelaunayBefore);
+    EXPECT_EQ(0, report.TotalFlips);
+  }
+}
+
 TEST_P(FlatTriangles, CanonicalTrianglesWithAreaAreTheSame)
 {
   std::map<std::size_t, TriangleSet> results;

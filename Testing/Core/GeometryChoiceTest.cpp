@@ -92,15 +92,21 @@ TEST(GeometryChoice, APlaneIsPlanar)
 TEST(GeometryChoice, APlaneHoldsPointsWithinAMillionthOfTheDiagonal)
 {
   const double diagonal = std::hypot(10.0, 10.0);
-  const auto makeBumped = [&](double share)
+  const auto makeBumped = [&](double share, double offset)
   {
-    return MakeHeights(
+    OwnedMesh<double> mesh = MakeHeights(
       10, 10, [=](double x, double y) { return x == 4.0 && y == 5.0 ? share * diagonal : 0.0; });
+    return Transform(mesh, { { { 1, 0, 0, offset }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } } });
   };
-  EXPECT_EQ(GeometryKind::Planar, Survey(makeBumped(0.99e-6), GeometryKind::Planar).GeometryUsed);
-  ExpectChoice(makeBumped(0.99e-6), GeometryKind::Planar, "all points lie in one plane");
-  ExpectChoice(makeBumped(1.01e-6), GeometryKind::PlanarXY, "a height field");
-  EXPECT_THROW(Survey(makeBumped(1.01e-6), GeometryKind::Planar), InvalidOptions);
+  for (const double offset : { 0.0, 1000.0 })
+  {
+    const OwnedMesh<double> plane = makeBumped(0.99e-6, offset),
+                            bumped = makeBumped(1.01e-6, offset);
+    EXPECT_EQ(GeometryKind::Planar, Survey(plane, GeometryKind::Planar).GeometryUsed);
+    ExpectChoice(plane, GeometryKind::Planar, "all points lie in one plane");
+    ExpectChoice(bumped, GeometryKind::PlanarXY, "a height field");
+    EXPECT_THROW(Survey(bumped, GeometryKind::Planar), InvalidOptions);
+  }
 }
 
 TEST(GeometryChoice, ARequestIsHonoured)

@@ -39,9 +39,12 @@ TEST(InvalidIds, ThrowWithCellAndPoint)
   const OwnedMesh<double> grid = MakeGridMesh(3, 3);
   for (std::int32_t id : { 16, -1, 2000000000, std::numeric_limits<std::int32_t>::min() })
   {
-    OwnedMesh<double> mesh = grid;
-    mesh.Triangles[3 * 5 + 1] = id;
-    ExpectInvalid(mesh.View(), 5, id);
+    for (const int slot : { 0, 1, 2 })
+    {
+      OwnedMesh<double> mesh = grid;
+      mesh.Triangles[3 * 5 + slot] = id;
+      ExpectInvalid(mesh.View(), 5, id);
+    }
   }
   for (std::int64_t id : { std::int64_t(16), std::int64_t(-1), Far, -Far })
   {

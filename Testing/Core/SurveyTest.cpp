@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeMeshBuilder.h"
 #include "GeneratedMeshes.h"
+#include "GeometryChoice.h"
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"
 #include "PlaneFinder.h"
@@ -84,9 +85,61 @@ TEST(PlanarSurvey, FansOfMoreThanATurnAreNot)
   }
 }
 
-TEST(PlanarSurvey, LatticesAreSimpleAndTouchingCornersAreNot)
+/// Whichever corner of a triangle comes first. Most have three points inside.
+TEST(PlanarSurvey, LatticesAreSimple)
 {
-  EXPECT_TRUE(Survey(MakeGridMesh(5, 4)).StarsAreSimple);
+  for (const bool clockwise : { false, true })
+  {
+    for (const int slot : { 0, 1, 2 })
+    {
+      OwnedMesh<double> mesh = MakeGridMesh(5, 4);
+      for (auto t = mesh.Triangles.begin(); t != mesh.Triangles.end(); t += 3)
+      {
+        std::rotate(t, t + slot, t + 3);
+        std::swap(*t, clockwise ? t[2] : *t);
+      }
+      EXPECT_TRUE(Survey(mesh).StarsAreSimple) << slot << " " << clockwise;
+    }
+  }
+}
+
+TEST(PlanarSurvey, OfTwoOppositeTrianglesTheRightOneIsInverted)
+{
+  for (const std::int64_t inverted : { 0, 1 })
+  {
+    OwnedMesh<double> mesh = MakeFan(0, 2, false);
+    std::swap(mesh.Triangles[3 * inverted + 1], mesh.Triangles[3 * inverted + 2]);
+    EXPECT_EQ(std::vector<std::int64_t>{ inverted }, Survey(mesh).InvertedTriangles.FirstIds);
+  }
+}
+
+TEST(PlanarSurvey, SumsOfPartsAreWhole)
+{
+  StarSums stars, part;
+  part.SeveralFans = 1;
+  part.Covers = 2;
+  part.Uncertain = 3; // only on a device
+  stars += part;
+  EXPECT_EQ(1, stars.SeveralFans);
+  EXPECT_EQ(2, stars.Covers);
+  EXPECT_EQ(3, stars.Uncertain);
+  AreaSum area, small;
+  small.Add(1.0);
+  small.Add(0x1p-58);
+  area += small;
+  EXPECT_TRUE(area.Get() == (std::int64_t(1) << 60) + 4);
+}
+
+TEST(GeometryChoice, HighBoxesAreHigherThanWide)
+{
+  EXPECT_TRUE(IsHigherThanWide({ { 0, 0, 100 }, { 1, 1, 102 } }));
+  EXPECT_FALSE(IsHigherThanWide({ { 0, 0, 100 }, { 50, 50, 101 } }));
+  EXPECT_FALSE(IsHigherThanWide({ { 0, 0, -1e308 }, { 1, 1e300, -1e308 } }));
+  EXPECT_TRUE(IsHigherThanWide({ { 0, 0, -1.7e308 }, { 1.7e308, 1.7e308, 1.7e308 } }));
+}
+
+TEST(PlanarSurvey, TouchingCornersAreNotSimple)
+{
   OwnedMesh<double> bowTie;
   bowTie.Points = { 0, 0, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0 };
   bowTie.Triangles = { 0, 1, 2, 0, 3, 4 };
