@@ -11,7 +11,7 @@ option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it 
 set(delaunayflip_vtk_drawing "") # for DelaunayFlip::Rendering and its example
 if(DELAUNAYFLIP_BUILD_RENDERING)
   set(delaunayflip_vtk_drawing FiltersCore FiltersVerdict IOImage RenderingAnnotation RenderingCore
-    RenderingFreeType)
+    RenderingFreeType RenderingOpenGL2)
   if(DELAUNAYFLIP_BUILD_TESTING)
     enable_language(C) # a VTK with MPI, such as Debian's, needs MPI for C
     list(APPEND delaunayflip_vtk_drawing InteractionStyle RenderingUI)

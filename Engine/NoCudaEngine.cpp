@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaDevice.h"
+#include "DeviceColors.h"
 #include "DeviceCopies.h"
 #include "FlipEngine.h"
 #include "FlipError.h"
@@ -37,6 +38,27 @@ void CopyFromDevice(const void*, std::int64_t, void*, const DeviceStream&)
 }
 
 void CopyToDevice(const void*, std::int64_t, void*, const DeviceStream&)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+ValueRange FindSmallestAngles(const DeviceMesh&, GeometryKind, float*)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+ValueRange FindRange(const std::int32_t*, std::int64_t, const DeviceStream&)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+void ColorValues(const float*, std::int64_t, const ColorBands&, std::uint32_t*, const DeviceStream&)
+{
+  throw BackendUnavailable(NoArrays);
+}
+
+void ColorValues(
+  const std::int32_t*, std::int64_t, const ColorBands&, std::uint32_t*, const DeviceStream&)
 {
   throw BackendUnavailable(NoArrays);
 }

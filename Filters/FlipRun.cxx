@@ -198,26 +198,26 @@ FlipOptions FlipRun::GetStartOptions() const
 }
 
 //------------------------------------------------------------------------------
-void FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request)
+bool FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request)
 {
   if (!run || !run->Fits(request))
   {
     run.reset(); // its memory may be needed
     run.reset(new FlipRun(request));
+    return false;
   }
-  else if (run->Input.Current->Points != StampPoints(request.Input))
+  if (run->Input.Current->Points != StampPoints(request.Input))
   {
     WarmStart(run, request);
+    return false;
   }
-  else
+  if (run->Input.Current->Time != request.Input->GetMTime())
   {
-    if (run->Input.Current->Time != request.Input->GetMTime())
-    {
-      run->Input.Current = std::make_shared<Snapshot>(request, false, MakePlan(request, false));
-    }
-    run->Wanted = request.Wanted;
-    run->Stopped = false;
+    run->Input.Current = std::make_shared<Snapshot>(request, false, MakePlan(request, false));
   }
+  run->Wanted = request.Wanted;
+  run->Stopped = false;
+  return true;
 }
 
 bool FlipRun::Fits(const Request& request) const

@@ -54,10 +54,12 @@ public:
   /// attributes. If only points have been moved since, it becomes a warm start: a run that begins
   /// with the triangles of the last one and the edges that were fixed in it. Otherwise, or if it is
   /// null, it becomes a new run.
+  /// @returns whether it stayed itself.
   /// @throws as the constructor. After RunAborted, `run` is what it was, or null.
-  static void ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request);
+  static bool ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request);
 
   FlipSession& GetSession() { return this->Session; }
+  const FlipSession& GetSession() const { return this->Session; }
 
   /// Whether the observer of this update stopped the run before its first iteration.
   bool IsStopped() const { return this->Stopped; }

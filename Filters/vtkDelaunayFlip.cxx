@@ -8,6 +8,7 @@
 #include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -134,15 +135,42 @@ bool vtkDelaunayFlip::Advance()
   const bool continues = this->LiveUpdate && this->CanContinue;
   if (continues)
   {
+    this->IsStepAsked = true;
     this->Modified();
   }
   return continues;
+}
+
+/// The executive takes the output for current after any update, so one that withheld the mesh must
+/// be followed by a modification.
+bool vtkDelaunayFlip::AdvanceSession()
+{
+  this->Advance();
+  this->WithholdsMesh = true;
+  const bool works = this->GetExecutive()->Update(0) != 0;
+  this->WithholdsMesh = false;
+  if (this->MeshIsWithheld)
+  {
+    this->Modified();
+  }
+  return works;
+}
+
+const FlipSession* vtkDelaunayFlip::GetSession() const
+{
+  return this->Run ? &std::as_const(*this->Run).GetSession() : nullptr;
+}
+
+bool vtkDelaunayFlip::StoreMesh(vtkPolyData* mesh) const
+{
+  return this->Run && this->Run->Store(mesh);
 }
 
 void vtkDelaunayFlip::Restart()
 {
   this->Run.reset();
   this->CanContinue = true;
+  this->MeshIsWithheld = false;
   this->Modified();
 }
 

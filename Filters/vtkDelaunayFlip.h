@@ -90,6 +90,7 @@ class vtkTable;
 namespace delaunayflip
 {
 class FlipRun;
+class FlipSession;
 struct Block;
 struct FlipOptions;
 struct FlipReport;
@@ -558,6 +559,31 @@ public:
   const delaunayflip::FlipReport& GetReport() const;
 #endif
 
+  ///@{
+  /**
+   * For C++ callers that draw a live run from the memory of a GPU, where the mesh is already.
+   *
+   * AdvanceSession() makes the next step of a live run, as Advance() and an update do, but leaves
+   * the mesh where it is if the run is that of the last update. Then GetMeshIsWithheld() is true,
+   * and output port 0 has no cells until the filter is updated again, by whatever is connected to
+   * it; that update makes no step. Port 1 and all results are those of the step.
+   * AdvanceSession() returns false if the executive failed.
+   *
+   * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
+   * failed. It is valid until the next update. Its triangles are the polygons of the output, in
+   * their order, if the input has no other polygons than triangles and no strips.
+   *
+   * StoreMesh() writes the mesh as it is now, without an update; it returns false, and writes
+   * nothing, if there is no session.
+   */
+#ifndef __VTK_WRAP__
+  bool AdvanceSession();
+  bool GetMeshIsWithheld() const { return this->MeshIsWithheld; }
+  const delaunayflip::FlipSession* GetSession() const;
+  bool StoreMesh(vtkPolyData* mesh) const;
+#endif
+  ///@}
+
 protected:
   vtkDelaunayFlip();
   ~vtkDelaunayFlip() override;
@@ -601,6 +627,7 @@ protected:
 
 private:
   struct Connection;
+  struct Resumption;
 
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -616,7 +643,8 @@ private:
   void Publish(const delaunayflip::UpdateSummary& summary, bool withMessages);
   delaunayflip::FlipOptions GetOptions() const;
   void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);
-  void Flip(const Connection& data, std::unique_ptr<delaunayflip::FlipRun>& run);
+  void Flip(
+    const Connection& data, std::unique_ptr<delaunayflip::FlipRun>& run, const Resumption& from);
   bool Advance(delaunayflip::FlipRun& run, bool isLive);
   bool Observe(const delaunayflip::IterationRecord& record);
   bool ObserveProgress(double fraction);
@@ -627,6 +655,9 @@ private:
   bool HasExecuted = false;
   bool IsAtWork = false; ///< An update is running.
   bool CanContinue = true; ///< Whether another live update can change the mesh.
+  bool IsStepAsked = false; ///< Advance() was called since the last update.
+  bool WithholdsMesh = false; ///< An update need not write the mesh.
+  bool MeshIsWithheld = false; ///< The last update did not write it.
   std::unique_ptr<delaunayflip::FlipRun> Run; ///< Null without LiveUpdate.
   /// During an update that of the current mesh, afterwards the sum over all meshes.
   std::unique_ptr<delaunayflip::UpdateReport> Report;

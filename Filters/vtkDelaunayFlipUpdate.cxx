@@ -39,6 +39,13 @@ struct vtkDelaunayFlip::Connection
   bool IsLive;
 };
 
+/// How the run of an update may go on from that of the last one.
+struct vtkDelaunayFlip::Resumption
+{
+  bool StoresOnly; ///< No step: the last update withheld its mesh.
+  bool CouldContinue; ///< What CanContinue was after it.
+};
+
 namespace
 {
 
@@ -128,6 +135,7 @@ void vtkDelaunayFlip::DiscardRun(vtkDataObject* output)
 {
   this->Run.reset();
   this->CanContinue = false;
+  this->MeshIsWithheld = false;
   *this->Report = UpdateReport();
   output->Initialize();
 }
@@ -264,7 +272,9 @@ void vtkDelaunayFlip::Flip(const Connection& data)
 {
   std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
-  this->CanContinue = false;
+  const bool isAsked = std::exchange(this->IsStepAsked, false);
+  const bool isWithheld = std::exchange(this->MeshIsWithheld, false);
+  const Resumption from{ isWithheld && !isAsked, std::exchange(this->CanContinue, false) };
   if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
   {
     this->PassInput(data, StopReasonKind::Converged);
@@ -276,7 +286,7 @@ void vtkDelaunayFlip::Flip(const Connection& data)
   }
   try
   {
-    this->Flip(data, run);
+    this->Flip(data, run, from);
   }
   catch (const RunAborted&)
   {
@@ -291,21 +301,25 @@ void vtkDelaunayFlip::Flip(const Connection& data)
 
 /// @param run the last one, or null; it becomes the one of this update.
 /// @throws RunAborted when it is stopped before there are triangles to put out.
-void vtkDelaunayFlip::Flip(const Connection& data, std::unique_ptr<FlipRun>& run)
+void vtkDelaunayFlip::Flip(
+  const Connection& data, std::unique_ptr<FlipRun>& run, const Resumption& from)
 {
   if (IsAbortRequested(this))
   {
     throw RunAborted(); // in another block
   }
-  FlipRun::ContinueOrStart(run,
+  const bool isSame = FlipRun::ContinueOrStart(run,
     { data.Input, data.Constraints,
       { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
         this->RegionArray },
       this->GetOptions(), data.IsLive, { this->GenerateFlipCount, this->GenerateQuality },
       [this](double fraction) { return this->ObserveProgress(fraction); } });
   *this->Report = UpdateReport(run->GetReport());
-  const bool isRunning = !run->IsStopped() && this->Advance(*run, data.IsLive);
-  const bool isWhole = run->Store(data.Output);
+  const bool storesOnly = isSame && from.StoresOnly;
+  const bool isRunning =
+    storesOnly ? from.CouldContinue : !run->IsStopped() && this->Advance(*run, data.IsLive);
+  this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
+  const bool isWhole = this->MeshIsWithheld || run->Store(data.Output);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
   this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;

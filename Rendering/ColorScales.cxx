@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace delaunayflip
@@ -54,6 +55,28 @@ void FillCountColors(vtkLookupTable* table, double largest)
     { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
       { 0.25, 0.0, 0.49 } },
     12, 4.0 * std::ceil(std::max(largest, 12.0) / 4.0));
+}
+
+ColorBands GetBands(vtkLookupTable* table)
+{
+  ColorBands bands;
+  const vtkIdType count = table->GetNumberOfTableValues();
+  bands.Colors.resize(static_cast<std::size_t>(count));
+  std::memcpy(bands.Colors.data(), table->GetPointer(0), 4 * bands.Colors.size());
+  bands.First = table->GetRange()[0];
+  bands.Last = table->GetRange()[1];
+  const unsigned char* ofNaN = table->GetNanColorAsUnsignedChars();
+  std::memcpy(&bands.OfNaN, ofNaN, sizeof(bands.OfNaN));
+  return bands;
+}
+
+ColorBands MakePlainBands()
+{
+  ColorBands bands;
+  bands.Colors.resize(1);
+  std::memcpy(bands.Colors.data(), PlainBytes.data(), PlainBytes.size());
+  bands.OfNaN = bands.Colors[0];
+  return bands;
 }
 
 }

@@ -3,6 +3,7 @@
 #include "LiveScene.h"
 
 #include "ColorScales.h"
+#include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipLiveView.h"
 
 #include "vtkActor.h"
@@ -41,7 +42,6 @@ constexpr Color DarkInk = { 0.13, 0.19, 0.25 };
 constexpr Color LightInk = { 0.92, 0.94, 0.96 };
 constexpr Color DarkRed = { 0.75, 0.05, 0.1 };
 constexpr Color LightRed = { 1.0, 0.6, 0.55 };
-constexpr Color Plain = { 0.80, 0.86, 0.91 };
 
 bool IsDark(vtkRenderer* renderer)
 {
@@ -52,6 +52,12 @@ bool IsDark(vtkRenderer* renderer)
 void Paint(vtkTextProperty* text, const double* color)
 {
   text->SetColor(color[0], color[1], color[2]);
+}
+
+const char* GetTitle(int colorBy)
+{
+  return colorBy == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT ? "flips of a triangle"
+                                                                 : "smallest angle (degrees)";
 }
 
 /// The axis along which to look at a mesh: the one along which it is flat, else z.
@@ -82,7 +88,7 @@ LiveScene::LiveScene()
   this->Actor->GetProperty()->SetInterpolationToFlat();
   this->Actor->GetProperty()->SetAmbient(0.3);
   this->Actor->GetProperty()->SetDiffuse(0.7);
-  this->Actor->GetProperty()->SetColor(Plain[0], Plain[1], Plain[2]);
+  this->Actor->GetProperty()->SetColor(PlainColor[0], PlainColor[1], PlainColor[2]);
   this->Actor->GetProperty()->SetEdgeColor(0.15, 0.17, 0.2);
   this->Scale->SetLookupTable(this->Colors);
   this->Scale->SetOrientationToHorizontal();
@@ -144,6 +150,7 @@ void LiveScene::Enter(vtkRenderWindow* window)
 
 void LiveScene::Leave()
 {
+  this->DeclineRun("no step has been made yet");
   if (this->Renderer)
   {
     this->Renderer->RemoveActor(this->Actor);
@@ -176,14 +183,24 @@ void LiveScene::LookAtMesh()
 }
 
 //------------------------------------------------------------------------------
-void LiveScene::SetMesh(vtkPolyData* mesh) { this->Mesh->ShallowCopy(mesh); }
+void LiveScene::SetMesh(vtkPolyData* mesh)
+{
+  this->DeclineRun("no step has been made yet");
+  this->Mesh->ShallowCopy(mesh);
+}
 
 vtkPolyData* LiveScene::GetMesh() const { return this->Mesh; }
 
 //------------------------------------------------------------------------------
 void LiveScene::SetColorBy(int what)
 {
-  if (what == vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE)
+  this->ColorBy = what;
+  if (this->ColorOnDevice(what))
+  {
+    what == vtkDelaunayFlipLiveView::COLOR_BY_SOLID ? this->Scale->VisibilityOff()
+                                                    : this->ShowScale(GetTitle(what));
+  }
+  else if (what == vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE)
   {
     this->ColorBySmallestAngle();
   }
@@ -209,8 +226,27 @@ void LiveScene::ColorBySmallestAngle()
   this->Quality->Update();
   this->Mapper->SetInputConnection(this->Quality->GetOutputPort());
   this->Mapper->SelectColorArray(QualityName);
-  FillAngleColors(this->Colors);
-  this->ShowScale("smallest angle (degrees)");
+  this->FillTable(vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE);
+  this->ShowScale(GetTitle(vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE));
+}
+
+/// Only if it must change, since what is drawn with it is then drawn anew.
+void LiveScene::FillTable(int what)
+{
+  if (this->TableKind == what && this->TableCount == this->LargestCount)
+  {
+    return;
+  }
+  this->TableKind = what;
+  this->TableCount = this->LargestCount;
+  if (what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT)
+  {
+    FillCountColors(this->Colors, this->LargestCount);
+  }
+  else
+  {
+    FillAngleColors(this->Colors);
+  }
 }
 
 /// The input has no array of counts yet.
@@ -222,8 +258,8 @@ void LiveScene::ColorByFlipCount()
   {
     this->LargestCount = std::max(this->LargestCount, counts->GetRange()[1]);
   }
-  FillCountColors(this->Colors, this->LargestCount);
-  this->ShowScale("flips of a triangle");
+  this->FillTable(vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT);
+  this->ShowScale(GetTitle(vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT));
 }
 
 void LiveScene::ShowScale(const char* title)
@@ -246,6 +282,10 @@ void LiveScene::ShowScale(const char* title)
 //------------------------------------------------------------------------------
 double LiveScene::GetSmallestAngle()
 {
+  if (this->DrawsRun())
+  {
+    return this->Device.GetSmallestAngle();
+  }
   this->Quality->Update();
   vtkDataArray* angles = this->Quality->GetOutput()->GetCellData()->GetArray(QualityName);
   if (!angles || angles->GetNumberOfTuples() == 0)

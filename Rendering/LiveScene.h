@@ -3,12 +3,16 @@
 #ifndef LiveScene_h
 #define LiveScene_h
 
+#include "DeviceDrawing.h"
+
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <string>
 
 class vtkActor;
+class vtkDelaunayFlip;
 class vtkLookupTable;
 class vtkMeshQuality;
 class vtkPolyData;
@@ -40,7 +44,26 @@ public:
 
   /// Shows a mesh, which must consist of triangles.
   void SetMesh(vtkPolyData* mesh);
+
+  /// The mesh of the last SetMesh(): it has the points and the number of triangles of what is
+  /// shown.
   vtkPolyData* GetMesh() const;
+
+  /// Draws the mesh of a filter's live run without copies from the next SetColorBy() on, if it can.
+  /// The mesh must be that of the last SetMesh().
+  void OfferRun(vtkDelaunayFlip* filter);
+
+  /// Says why OfferRun() was not called.
+  void DeclineRun(const std::string& reason);
+
+  /// Whether the run's mesh is drawn without copies.
+  bool DrawsRun() const { return this->Device.IsOn(); }
+
+  /// Says that the run has made a step, in place of SetMesh().
+  void NoteStep() { this->Device.NoteStep(); }
+
+  /// How the mesh is drawn, in words.
+  std::string DescribeDrawing() const;
 
   /// One of vtkDelaunayFlipLiveView::ColorByType.
   void SetColorBy(int what);
@@ -53,9 +76,16 @@ public:
   void SetStatus(const std::string& text, bool isError);
   void SetKeys(const std::string& text);
 
+  /// Draws the window with what was set.
+  void Draw();
+
 private:
   void PlaceTexts();
   void PlaceScale();
+  bool ColorOnDevice(int what);
+  ColorBands ChooseColors(int what, double largestCount);
+  void LeaveDevice();
+  void FillTable(int what);
   void ColorByNothing();
   void ColorBySmallestAngle();
   void ColorByFlipCount();
@@ -70,6 +100,11 @@ private:
   vtkNew<vtkScalarBarActor> Scale;
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
+  DeviceDrawing Device;
+  vtkSmartPointer<vtkDelaunayFlip> Run; ///< Whose run the device may draw, or draws.
+  int ColorBy = 0;
+  int TableKind = -1; ///< What the table of colours is for, and up to which count.
+  double TableCount = 0.0;
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
   double Ink[3] = { 0.0, 0.0, 0.0 };
 };

@@ -30,17 +30,31 @@ LiveState ToState(int stopReason)
 }
 
 /// An update caused only by a change of the input or of an option is a step too.
-LiveState MakeStep(vtkDelaunayFlip* filter)
+LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
 {
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
-  filter->Advance();
-  const bool works = filter->GetExecutive()->Update(0) != 0;
+  bool works = true;
+  if (withholdsMesh)
+  {
+    works = filter->AdvanceSession();
+  }
+  else
+  {
+    filter->Advance();
+    works = filter->GetExecutive()->Update(0) != 0;
+  }
+  const bool isWithheld = filter->GetMeshIsWithheld();
   if (!works || filter->GetFailure() != vtkDelaunayFlip::FAILURE_NONE)
   {
-    return LiveState::Failed;
+    return { LiveState::Failed, isWithheld };
   }
   const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  return isNew ? ToState(filter->GetStopReason()) : LiveState::Unchanged;
+  const LiveState state = isNew ? ToState(filter->GetStopReason()) : LiveState::Unchanged;
+  if (isWithheld && IsEnd(state))
+  {
+    filter->GetExecutive()->Update(0); // puts the mesh out
+  }
+  return { state, isWithheld };
 }
 
 bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }

@@ -20,8 +20,16 @@ enum class LiveState
   Unchanged, ///< The filter had nothing to do. Only returned by MakeStep().
 };
 
-/// Makes the filter do one step, and returns the outcome.
-LiveState MakeStep(vtkDelaunayFlip* filter);
+/// An outcome of MakeStep().
+struct LiveStep
+{
+  LiveState State;
+  bool IsWithheld; ///< Whether the step did not put its mesh out.
+};
+
+/// Makes the filter do one step. On request it does not put the mesh out, if it can do without; an
+/// update follows the last step, so that the output is then the final mesh.
+LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh);
 
 /// Whether a step with this outcome ends a run. An abort only pauses it.
 bool IsEnd(LiveState state);

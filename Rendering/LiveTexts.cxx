@@ -15,7 +15,7 @@ namespace delaunayflip
 {
 
 const char* const KeyHelp = "space: run/pause   n: next step   b: begin again   "
-                            "k: colours   g: edges   i: statistics   q: quit";
+                            "k: colours   g: edges   i: statistics   d: drawing   q: quit";
 
 namespace
 {
@@ -119,7 +119,8 @@ std::string DescribeMesh(const LiveStatus& status)
 
 std::string DescribeStatus(const LiveStatus& status)
 {
-  return DescribeMesh(status) + DescribeAngle(status.SmallestAngle);
+  const std::string drawing = status.Drawing.empty() ? "" : "\n" + Wrap(status.Drawing);
+  return DescribeMesh(status) + DescribeAngle(status.SmallestAngle) + drawing;
 }
 
 }

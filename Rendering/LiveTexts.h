@@ -24,9 +24,11 @@ struct LiveStatus
   int Frame;
   vtkIdType Triangles;
   double SmallestAngle; ///< In degrees; NaN if unknown.
+  std::string Drawing; ///< How it is drawn; may be empty.
 };
 
-/// The statistics in two or three lines; a failure in as many as its reason needs.
+/// The statistics in two or three lines; a failure, and how the mesh is drawn, in as many as their
+/// reasons need.
 std::string DescribeStatus(const LiveStatus& status);
 
 }

@@ -8,9 +8,12 @@
 #include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDelaunayFlip.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
+
+#include <exception>
 
 namespace delaunayflip
 {
@@ -82,6 +85,20 @@ vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
     faces->ShallowCopy(split->GetOutput());
   }
   return faces;
+}
+
+/// An exception leaves no mesh; the filter's next update meets the same problem and reports it.
+vtkSmartPointer<vtkPolyData> CopyRun(vtkDelaunayFlip* filter)
+{
+  try
+  {
+    vtkNew<vtkPolyData> mesh;
+    return filter && filter->StoreMesh(mesh) ? MakeFaces(mesh) : nullptr;
+  }
+  catch (const std::exception&)
+  {
+    return nullptr;
+  }
 }
 
 }

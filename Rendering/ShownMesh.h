@@ -7,6 +7,7 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkDelaunayFlip;
 class vtkPolyData;
 
 namespace delaunayflip
@@ -20,6 +21,10 @@ bool IsComposite(vtkDataObject* data);
 /// The faces of a mesh, or of all blocks of a composite one, as triangles with their cell data: a
 /// copy that shares arrays where it can.
 vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data);
+
+/// The same of the mesh of a filter's live run as it is now, without an update; null if there is no
+/// run.
+vtkSmartPointer<vtkPolyData> CopyRun(vtkDelaunayFlip* filter);
 
 }
 

@@ -221,7 +221,8 @@ void vtkDelaunayFlipLiveView::Restart()
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  const LiveState next = this->UpdateFilter();
+  const LiveStep step = this->UpdateFilter();
+  const LiveState next = step.State;
   if (this->State == LiveState::NotStarted)
   {
     return false; // An observer of the filter has ended the run.
@@ -232,7 +233,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     this->StopTimer();
   }
   this->State = next == LiveState::Unchanged ? this->State : next;
-  this->ShowStep(next);
+  this->ShowStep(step);
   if (isNews && IsEnd(next))
   {
     this->InvokeEvent(vtkCommand::EndEvent);
@@ -240,23 +241,43 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   return !IsEnd(next);
 }
 
-LiveState vtkDelaunayFlipLiveView::UpdateFilter()
+LiveStep vtkDelaunayFlipLiveView::UpdateFilter()
 {
   const BusyScope busy(this->IsBusy);
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-  return MakeStep(filter);
+  return MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
 }
 
 /// If the filter failed, the last mesh stays.
-void vtkDelaunayFlipLiveView::ShowStep(LiveState step)
+void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
 {
-  if (step == LiveState::Failed || step == LiveState::Unchanged)
+  if (step.State == LiveState::Failed || step.State == LiveState::Unchanged)
   {
     this->Render();
     return;
   }
-  this->Scene->SetMesh(MakeFaces(this->Filter->GetOutputDataObject(0)));
+  if (step.IsWithheld)
+  {
+    this->Scene->NoteStep();
+  }
+  else
+  {
+    this->ShowOutput();
+  }
   this->ShowFrame(this->FrameNumber + 1);
+}
+
+void vtkDelaunayFlipLiveView::ShowOutput()
+{
+  this->Scene->SetMesh(MakeFaces(this->Filter->GetOutputDataObject(0)));
+  if (this->ZeroCopy)
+  {
+    this->Scene->OfferRun(this->Filter);
+  }
+  else
+  {
+    this->Scene->DeclineRun("ZeroCopy is off");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -291,8 +312,7 @@ void vtkDelaunayFlipLiveView::Render()
   this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
   this->ShowStatus();
-  this->Scene->GetRenderer()->ResetCameraClippingRange();
-  this->Window->Render();
+  this->Scene->Draw();
 }
 
 void vtkDelaunayFlipLiveView::ShowStatus()
@@ -306,9 +326,12 @@ void vtkDelaunayFlipLiveView::ShowStatus()
   // Off screen there are no keys: the program calls Step().
   const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
   const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
-    this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle() };
+    this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
+    this->ShowDrawing ? this->Scene->DescribeDrawing() : "" };
   this->Scene->SetStatus(DescribeStatus(status), hasFailed);
 }
+
+std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->DescribeDrawing(); }
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::StartTimer()
@@ -373,6 +396,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
     { "k", [](Self* self) { self->CycleColors(); } },
     { "g", [](Self* self) { self->ToggleEdges(); } },
     { "i", [](Self* self) { self->ToggleStatistics(); } },
+    { "d", [](Self* self) { self->ToggleDrawing(); } },
   };
   const char* key = this->Interactor->GetKeySym();
   const auto action = actions.find(key ? key : "");
@@ -407,6 +431,12 @@ void vtkDelaunayFlipLiveView::ToggleStatistics()
   this->Render();
 }
 
+void vtkDelaunayFlipLiveView::ToggleDrawing()
+{
+  this->SetShowDrawing(!this->ShowDrawing);
+  this->Render();
+}
+
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -417,6 +447,9 @@ void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EdgeVisibility: " << this->EdgeVisibility << "\n";
   os << indent << "ShowStatistics: " << this->ShowStatistics << "\n";
   os << indent << "ShowKeys: " << this->ShowKeys << "\n";
+  os << indent << "ZeroCopy: " << this->ZeroCopy << "\n";
+  os << indent << "ShowDrawing: " << this->ShowDrawing << "\n";
+  os << indent << "Drawing: " << this->GetDrawing() << "\n";
   os << indent << "FrameInterval: " << this->FrameInterval << "\n";
   os << indent << "FramePrefix: " << this->FramePrefix << "\n";
   os << indent << "FrameNumber: " << this->FrameNumber << "\n";

@@ -16,7 +16,8 @@
  *     interactor->Start();
  *
  * Keys: space runs and pauses, n makes one step, b begins again, k changes the colours, g shows or
- * hides the edges, i the statistics. Only other keys reach the interactor style.
+ * hides the edges, i the statistics, d how the mesh is drawn. Only other keys reach the interactor
+ * style.
  *
  * Drawing: the view adds to the first renderer of the interactor's window the faces of the mesh
  * (quads, polygons and strips as triangles; no lines or verts), a colour scale and two texts, and
@@ -42,9 +43,14 @@
  * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
  * Start() and Restart() do nothing.
  *
- * Cost per step: a step of the filter, a copy of its triangles to the graphics card, and, if
- * statistics are shown or triangles are coloured by smallest angle, a pass of vtkMeshQuality. No
- * timer runs after the end of a run.
+ * Without copies (ZeroCopy, GetDrawing()) the filter's output has no cells between the steps of a
+ * run. It gets them when it is updated, which makes no step; so do pickers and exporters, and so
+ * does the output at the end of a run. A program that reads the output after a step of the view
+ * calls Update() of the filter first.
+ *
+ * Cost per step: a step of the filter; without copies, passes over the triangles on the GPU; else a
+ * copy of the triangles to the graphics card and, if statistics are shown or triangles are coloured
+ * by smallest angle, a pass of vtkMeshQuality. No timer runs after the end of a run.
  *
  * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
  * any order.
@@ -73,6 +79,7 @@ namespace delaunayflip
 {
 class LiveScene;
 enum class LiveState;
+struct LiveStep;
 }
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipLiveView : public vtkObject
@@ -163,6 +170,35 @@ public:
 
   ///@{
   /**
+   * Whether the mesh is drawn without copies where that is possible: the run writes its triangles,
+   * and their colours, into the buffers that OpenGL draws. That takes VTK 9.1, a filter that works
+   * on a GPU by CUDA, OpenGL on the same GPU, and a mesh of triangles alone, without strips, active
+   * normals of cells, and triangles with two points at one place. Otherwise the mesh is copied to
+   * the host and back. Default on. Takes effect at the next step. The picture is the same, but for
+   * triangles whose value is at the edge of two colours.
+   */
+  vtkSetMacro(ZeroCopy, bool);
+  vtkGetMacro(ZeroCopy, bool);
+  vtkBooleanMacro(ZeroCopy, bool);
+  ///@}
+
+  /**
+   * How the mesh is drawn: "drawn without copies", or "drawn from copies: " and the reason.
+   */
+  std::string GetDrawing() const;
+
+  ///@{
+  /**
+   * Whether the statistics have a last line with GetDrawing(). Default off. Takes effect at the
+   * next frame or Render().
+   */
+  vtkSetMacro(ShowDrawing, bool);
+  vtkGetMacro(ShowDrawing, bool);
+  vtkBooleanMacro(ShowDrawing, bool);
+  ///@}
+
+  ///@{
+  /**
    * The time from the end of a step, when its frame has been drawn, to the next step, in
    * milliseconds: 1 or more, default 50. Takes effect at the next step.
    */
@@ -245,6 +281,8 @@ protected:
   int EdgeVisibility = EDGE_VISIBILITY_AUTO;
   bool ShowStatistics = true;
   bool ShowKeys = true;
+  bool ZeroCopy = true;
+  bool ShowDrawing = false;
   int FrameInterval = 50;
   std::string FramePrefix;
 
@@ -255,8 +293,9 @@ private:
   void Detach();
   void ShowInput();
   bool TakeStep();
-  delaunayflip::LiveState UpdateFilter();
-  void ShowStep(delaunayflip::LiveState step);
+  delaunayflip::LiveStep UpdateFilter();
+  void ShowStep(const delaunayflip::LiveStep& step);
+  void ShowOutput();
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();
@@ -267,6 +306,7 @@ private:
   void CycleColors();
   void ToggleEdges();
   void ToggleStatistics();
+  void ToggleDrawing();
 
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;

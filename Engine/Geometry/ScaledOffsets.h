@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_SCALEDOFFSETS_H
 #define DELAUNAYFLIP_SCALEDOFFSETS_H
 
+#include "HostDevice.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace delaunayflip
 /// of two offsets neither overflow nor vanish. Offsets may be of any type indexed by [i][axis]; the
 /// first `axes` coordinates are loaded.
 template <typename Offsets>
-void LoadScaledOffsets(
+DELAUNAYFLIP_HOST_DEVICE void LoadScaledOffsets(
   const PointArray& points, const std::int64_t* ids, std::int64_t count, int axes, Offsets& offsets)
 {
   const auto forEach = [&](const auto& work)

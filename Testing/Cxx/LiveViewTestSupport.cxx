@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveViewTestSupport.h"
 
+#include "TestWindow.h"
+
 #include "vtkActor.h"
 #include "vtkActor2DCollection.h"
 #include "vtkActorCollection.h"
@@ -69,8 +71,8 @@ void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>
 
 WatchedView::WatchedView(vtkPolyData* input, bool isOffScreen)
   : Filter(input),
-    Window(vtkSmartPointer<vtkRenderWindow>::New()),
-    Interactor(vtkSmartPointer<vtkRenderWindowInteractor>::New()),
+    Window(MakeTestWindow()),
+    Interactor(MakeTestInteractor()),
     View(vtkSmartPointer<vtkDelaunayFlipLiveView>::New())
 {
   this->Window->SetSize(200, 200);

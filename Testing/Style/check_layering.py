@@ -24,7 +24,7 @@ CHOICE = "Engine"  # the files at its root, except the public headers
 ABOVE = {
     "CInterface": {PUBLIC, "CInterface"},
     "Filters": {PUBLIC, "Filters"},
-    "Rendering": {"Filters", "Rendering"},
+    "Rendering": {PUBLIC, "Filters", "Rendering"},
     "Command": {PUBLIC, "Filters", "Command"},
     "Plugin": {"Filters", "Plugin"},
     "Examples": {PUBLIC, "CInterface", "Filters", "Rendering", "Examples"},

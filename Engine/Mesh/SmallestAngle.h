@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SMALLESTANGLE_H
+#define DELAUNAYFLIP_SMALLESTANGLE_H
+
+#include "HostDevice.h"
+#include "MeshSurvey.h"
+#include "ScaledOffsets.h"
+#include "SurfaceAngles.h"
+#include "TriangleMesh.h"
+#include "Vector3.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+/// @file
+/// The smallest angle of one triangle, for the host and a GPU. An arctangent is rounded differently
+/// there, so the last digits may differ; no decision depends on them.
+
+namespace delaunayflip
+{
+
+/// The angle between two edges from a corner, in degrees.
+DELAUNAYFLIP_HOST_DEVICE inline double AngleBetween(const Vector3& first, const Vector3& second)
+{
+  return std::atan2(Length(Cross(first, second)), Dot(first, second)) / DegreesToRadians;
+}
+
+/// The smallest angle of a triangle with these points, which must be finite, in degrees.
+DELAUNAYFLIP_HOST_DEVICE inline double MeasureSmallestAngle(
+  const PointArray& points, const std::int64_t* ids, int axes)
+{
+  double x[3][3] = {};
+  LoadScaledOffsets(points, ids, 3, axes, x);
+  const Vector3 a = { x[0][0], x[0][1], x[0][2] };
+  const Vector3 b = { x[1][0], x[1][1], x[1][2] };
+  const Vector3 c = { x[2][0], x[2][1], x[2][2] };
+  // Products of edges are cotangents times twice the area: the largest is at the smallest angle.
+  const double atA = Dot(b - a, c - a), atB = Dot(c - b, a - b), atC = Dot(a - c, b - c);
+  if (atA >= atB && atA >= atC)
+  {
+    return AngleBetween(b - a, c - a);
+  }
+  return atB >= atC ? AngleBetween(c - b, a - b) : AngleBetween(a - c, b - c);
+}
+
+/// The same for triangle t of a mesh; NaN if a coordinate is not finite or a point does not exist.
+DELAUNAYFLIP_HOST_DEVICE inline double FindSmallestAngle(
+  const TriangleMesh& mesh, GeometryKind geometry, std::int64_t t)
+{
+  const std::int64_t ids[3] = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+    mesh.Triangles.Get(t, 2) };
+  for (const std::int64_t id : ids)
+  {
+    if (id < 0 || id >= mesh.Points.Count || !IsFinitePoint(mesh.Points, id, geometry))
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return MeasureSmallestAngle(mesh.Points, ids, geometry == GeometryKind::PlanarXY ? 2 : 3);
+}
+
+}
+
+#endif

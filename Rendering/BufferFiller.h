@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef BufferFiller_h
+#define BufferFiller_h
+
+#include "vtkDelaunayFlipRenderingModule.h" // For export macro
+
+#include "DeviceColors.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+class vtkDelaunayFlip;
+
+namespace delaunayflip
+{
+
+class FlipSession;
+
+/// Buffers of OpenGL that hold a drawn mesh, by OpenGL's names.
+struct DrawnBuffers
+{
+  unsigned int Triangles = 0; ///< Three point ids of 32 bits per triangle.
+  unsigned int Colors = 0; ///< Red, green, blue and alpha per triangle, a byte each.
+  std::int64_t Count = 0; ///< The number of triangles.
+};
+
+/// What is to be written into them.
+struct FilledMesh
+{
+  const FlipSession& Session; ///< Of Count triangles.
+  PointArray Points; ///< In the host's memory; the same in all calls.
+  bool ByFlipCount = false; ///< Colours show flip counts, else smallest angles.
+  /// The colours, given the largest flip count of a triangle (0 for angles).
+  std::function<ColorBands(double largestCount)> ChooseColors;
+};
+
+/// Writes the mesh of a session into the buffers that OpenGL draws. All calls but the destructor
+/// are made with OpenGL's context current.
+class VTKDELAUNAYFLIPRENDERING_EXPORT BufferFiller
+{
+public:
+  virtual ~BufferFiller();
+
+  /// Why this cannot fill buffers of the current context with the mesh of the filter's last
+  /// update; empty if it can.
+  virtual std::string FindObstacle(vtkDelaunayFlip* filter) = 0;
+
+  /// Gets ready to fill these buffers. Their memory stays as it is until Release().
+  /// @throws std::exception.
+  virtual void Register(const DrawnBuffers& buffers) = 0;
+  virtual void Release() noexcept = 0;
+
+  /// @returns the smallest angle of the mesh in degrees; NaN if there is none.
+  /// @throws std::exception; then what the buffers hold is undefined.
+  virtual double Fill(const FilledMesh& mesh) = 0;
+};
+
+/// The one that fills buffers by CUDA. Calls nothing of CUDA before it must.
+VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller();
+
+/// The one that live views use: that of CUDA, or what a test has put in its place.
+std::unique_ptr<BufferFiller> MakeBufferFiller();
+VTKDELAUNAYFLIPRENDERING_EXPORT void ReplaceBufferFiller(std::unique_ptr<BufferFiller> (*make)());
+
+}
+
+#endif

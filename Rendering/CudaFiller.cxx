@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BufferFiller.h"
+
+#include "DelaunayFlip.h"
+
+#include "vtkDelaunayFlip.h"
+
+#include <cuda_runtime_api.h>
+// After the runtime's:
+#include <cuda_gl_interop.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// @throws std::runtime_error.
+void Require(cudaError_t error, const char* action)
+{
+  if (error != cudaSuccess)
+  {
+    cudaGetLastError(); // so that no other code sees it
+    throw std::runtime_error(
+      std::string("CUDA could not ") + action + ": " + cudaGetErrorString(error));
+  }
+}
+
+bool IsOnGpu(const std::string& backend) { return backend.rfind("CUDA", 0) == 0; }
+
+/// Makes a device current in this thread for as long as it lives.
+class CurrentGpu
+{
+public:
+  explicit CurrentGpu(int device)
+  {
+    Require(cudaGetDevice(&this->Previous), "ask for the current device");
+    Require(cudaSetDevice(device), "use the device");
+  }
+  ~CurrentGpu() { cudaSetDevice(this->Previous); }
+  CurrentGpu(const CurrentGpu&) = delete;
+  CurrentGpu& operator=(const CurrentGpu&) = delete;
+
+private:
+  int Previous = -1;
+};
+
+/// The devices of CUDA that draw the current context of OpenGL.
+/// @throws std::runtime_error.
+std::vector<int> ListDrawingDevices()
+{
+  std::array<int, 64> devices{};
+  unsigned int count = 0;
+  Require(cudaGLGetDevices(
+            &count, devices.data(), static_cast<unsigned int>(devices.size()), cudaGLDeviceListAll),
+    "find the GPU that OpenGL draws on");
+  return std::vector<int>(devices.begin(), devices.begin() + count);
+}
+
+/// Registered buffers, and their memory while it is mapped, when OpenGL must not use it.
+class SharedBuffers
+{
+public:
+  explicit SharedBuffers(const DrawnBuffers& buffers)
+  {
+    Require(cudaStreamCreateWithFlags(&this->Stream, cudaStreamNonBlocking), "make a stream");
+    try
+    {
+      this->Add(buffers.Triangles, this->Triangles);
+      this->Add(buffers.Colors, this->Colors);
+    }
+    catch (...)
+    {
+      this->Close();
+      throw;
+    }
+  }
+  ~SharedBuffers() { this->Close(); }
+  SharedBuffers(const SharedBuffers&) = delete;
+  SharedBuffers& operator=(const SharedBuffers&) = delete;
+
+  DeviceStream GetStream() const { return { this->Stream }; }
+
+  /// Calls work(triangles, colors) with pointers to device memory.
+  template <typename Work>
+  void Map(std::int64_t count, const Work& work)
+  {
+    cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
+    Require(cudaGraphicsMapResources(2, both, this->Stream), "map the buffers of OpenGL");
+    try
+    {
+      work(static_cast<std::int32_t*>(Get(this->Triangles, 12 * count)),
+        static_cast<std::uint32_t*>(Get(this->Colors, 4 * count)));
+    }
+    catch (...)
+    {
+      cudaGraphicsUnmapResources(2, both, this->Stream);
+      throw;
+    }
+    Require(cudaGraphicsUnmapResources(2, both, this->Stream), "return the buffers to OpenGL");
+  }
+
+private:
+  static void Add(unsigned int buffer, cudaGraphicsResource_t& resource)
+  {
+    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsWriteDiscard),
+      "register a buffer of OpenGL");
+  }
+
+  static void* Get(cudaGraphicsResource_t resource, std::int64_t bytes)
+  {
+    void* memory = nullptr;
+    std::size_t size = 0;
+    Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, resource),
+      "find the memory of a buffer of OpenGL");
+    if (size < static_cast<std::size_t>(bytes))
+    {
+      throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
+    }
+    return memory;
+  }
+
+  /// Of a context that is gone nothing can be released; that is no error here.
+  void Close() noexcept
+  {
+    for (cudaGraphicsResource_t resource : { this->Triangles, this->Colors })
+    {
+      if (resource)
+      {
+        cudaGraphicsUnregisterResource(resource);
+      }
+    }
+    cudaStreamDestroy(this->Stream);
+    cudaGetLastError();
+  }
+
+  cudaStream_t Stream = nullptr;
+  cudaGraphicsResource_t Triangles = nullptr;
+  cudaGraphicsResource_t Colors = nullptr;
+};
+
+/// A copy of the points in the memory of the current device.
+class PointCopy
+{
+public:
+  explicit PointCopy(const PointArray& points)
+    : Points(points)
+  {
+    const void* host = points.Floats ? static_cast<const void*>(points.Floats) : points.Doubles;
+    const std::size_t bytes = 3 * points.Count * (points.Floats ? sizeof(float) : sizeof(double));
+    Require(cudaMalloc(&this->Memory, std::max<std::size_t>(bytes, 1)), "allocate memory");
+    const cudaError_t error = cudaMemcpy(this->Memory, host, bytes, cudaMemcpyHostToDevice);
+    if (error != cudaSuccess)
+    {
+      cudaFree(this->Memory);
+    }
+    Require(error, "copy points");
+  }
+  ~PointCopy()
+  {
+    cudaFree(this->Memory);
+    cudaGetLastError();
+  }
+  PointCopy(const PointCopy&) = delete;
+  PointCopy& operator=(const PointCopy&) = delete;
+
+  DevicePointArray View() const
+  {
+    return this->Points.Floats
+      ? DevicePointArray(static_cast<const float*>(this->Memory), this->Points.Count)
+      : DevicePointArray(static_cast<const double*>(this->Memory), this->Points.Count);
+  }
+
+private:
+  PointArray Points;
+  void* Memory = nullptr;
+};
+
+class CudaFiller : public BufferFiller
+{
+public:
+  std::string FindObstacle(vtkDelaunayFlip* filter) override
+  {
+    const std::string backend = filter->GetBackendUsed();
+    if (!IsOnGpu(backend))
+    {
+      return "the filter works on CPU threads";
+    }
+    try
+    {
+      this->Device = filter->GetDeviceId();
+      if (this->Device < 0)
+      {
+        Require(cudaGetDevice(&this->Device), "ask for the current device");
+      }
+      const std::vector<int> devices = ListDrawingDevices();
+      const bool isThere = std::count(devices.begin(), devices.end(), this->Device) > 0;
+      return isThere ? "" : "OpenGL does not draw on the GPU of the filter";
+    }
+    catch (const std::exception& error)
+    {
+      return error.what();
+    }
+  }
+
+  void Register(const DrawnBuffers& buffers) override
+  {
+    const CurrentGpu current(this->Device);
+    this->Buffers.reset();
+    this->Buffers = std::make_unique<SharedBuffers>(buffers);
+    this->Count = buffers.Count;
+  }
+
+  void Release() noexcept override { this->Buffers.reset(); }
+
+  double Fill(const FilledMesh& mesh) override
+  {
+    if (!this->Buffers || !IsOnGpu(mesh.Session.GetReport().Backend))
+    {
+      throw std::runtime_error("the filter no longer works on the GPU");
+    }
+    const CurrentGpu current(this->Device);
+    if (!this->Points)
+    {
+      this->Points = std::make_unique<PointCopy>(mesh.Points);
+    }
+    double smallest = 0.0;
+    this->Buffers->Map(this->Count,
+      [&](std::int32_t* triangles, std::uint32_t* colors)
+      { smallest = this->Write(mesh, triangles, colors); });
+    return smallest;
+  }
+
+private:
+  /// The values that colours show are written where the colours go.
+  double Write(const FilledMesh& mesh, std::int32_t* triangles, std::uint32_t* colors) const
+  {
+    const DeviceStream stream = this->Buffers->GetStream();
+    mesh.Session.StoreTriangles(MutableTriangleArray(triangles, this->Count), stream);
+    DeviceMesh drawn;
+    drawn.Points = this->Points->View();
+    drawn.Triangles = TriangleArray(triangles, this->Count);
+    drawn.Stream = stream;
+    auto* degrees = reinterpret_cast<float*>(colors);
+    const double smallest = FindSmallestAngles(drawn, GeometryKind::Surface, degrees).Smallest;
+    if (mesh.ByFlipCount)
+    {
+      auto* counts = reinterpret_cast<std::int32_t*>(colors);
+      mesh.Session.StoreFlipCounts(counts, stream);
+      const double largest = FindRange(counts, this->Count, stream).Largest;
+      ColorValues(counts, this->Count, mesh.ChooseColors(largest), colors, stream);
+    }
+    else
+    {
+      ColorValues(degrees, this->Count, mesh.ChooseColors(0.0), colors, stream);
+    }
+    return smallest;
+  }
+
+  int Device = 0;
+  std::int64_t Count = 0;
+  std::unique_ptr<SharedBuffers> Buffers;
+  std::unique_ptr<PointCopy> Points;
+};
+
+}
+
+std::unique_ptr<BufferFiller> MakeCudaFiller() { return std::make_unique<CudaFiller>(); }
+
+}

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DeviceDrawing.h"
+
+#include "BufferFiller.h"
+#include "DelaunayFlip.h"
+#include "DeviceMapper.h"
+#include "LiveMeshSource.h"
+#include "ShownMesh.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDelaunayFlip.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkWeakPointer.h"
+
+#include <limits>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// The points where they are; without a count if they are of another type than float and double.
+PointArray ViewPoints(vtkPolyData* mesh)
+{
+  vtkDataArray* data = mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr;
+  if (auto* floats = vtkFloatArray::FastDownCast(data))
+  {
+    return PointArray(floats->GetPointer(0), floats->GetNumberOfTuples());
+  }
+  if (auto* doubles = vtkDoubleArray::FastDownCast(data))
+  {
+    return PointArray(doubles->GetPointer(0), doubles->GetNumberOfTuples());
+  }
+  return {};
+}
+
+/// Why the triangles of a session cannot be those of an output in their order; empty if they are.
+std::string FindObstacleInMesh(vtkPolyData* mesh, const FlipSession* session)
+{
+  if (!mesh || !session)
+  {
+    return "the filter is not in a live run of one mesh";
+  }
+  const vtkIdType count = mesh->GetNumberOfPolys();
+  if (count == 0 || mesh->GetPolys()->IsHomogeneous() != 3 || mesh->GetNumberOfStrips() > 0 ||
+    session->GetReport().Triangles != count)
+  {
+    return "the mesh has other cells than triangles";
+  }
+  if (mesh->GetCellData()->GetNormals())
+  {
+    return "the mesh has normals of cells";
+  }
+  return ViewPoints(mesh).Count == 0 ? "the points are neither float nor double" : "";
+}
+
+/// Whether the user is moving the camera: then an interactor style asks for more frames per second.
+bool IsInteracting(vtkRenderWindow* window)
+{
+  vtkRenderWindowInteractor* interactor = window->GetInteractor();
+  return interactor && window->GetDesiredUpdateRate() > interactor->GetStillUpdateRate();
+}
+
+}
+
+/// What is there while the drawing is on.
+struct DeviceDrawing::Parts
+{
+  vtkWeakPointer<vtkRenderWindow> Window;
+  vtkSmartPointer<vtkActor> Actor;
+  vtkSmartPointer<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkMapper> OwnMapper; ///< The actor's before.
+  std::unique_ptr<BufferFiller> Filler = MakeBufferFiller();
+  vtkNew<LiveMeshSource> Source;
+  vtkNew<DeviceMapper> Mapper;
+  Coloring Colors;
+  double SmallestAngle = std::numeric_limits<double>::quiet_NaN();
+  bool IsCalm = false; ///< SetQuiet().
+
+  Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
+  ~Parts();
+
+  std::string FindObstacle();
+  void FillBuffers();
+  bool IsQuiet() const;
+};
+
+DeviceDrawing::Parts::Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter)
+  : Window(window),
+    Actor(actor),
+    Filter(filter)
+{
+  this->Source->GetMesh = [this]() { return CopyRun(this->Filter); };
+  this->Mapper->SetInputConnection(this->Source->GetOutputPort());
+  this->Mapper->SetScalarModeToUseCellFieldData();
+  this->Mapper->SetColorModeToDirectScalars();
+  this->Mapper->SelectColorArray(LiveMeshSource::ColorName);
+  this->Mapper->SetCallbacks(
+    { [this](const DrawnBuffers& buffers) { this->Filler->Register(buffers); },
+      [this]() { this->FillBuffers(); }, [this]() { this->Filler->Release(); },
+      [this]() { return this->IsQuiet(); } });
+}
+
+/// Others may keep the mapper.
+DeviceDrawing::Parts::~Parts()
+{
+  if (this->Window && this->Mapper->IsReady())
+  {
+    this->Window->MakeCurrent();
+  }
+  this->Mapper->Stop();
+  this->Source->GetMesh = nullptr;
+}
+
+std::string DeviceDrawing::Parts::FindObstacle()
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
+  if (!window)
+  {
+    return "the window does not draw by OpenGL";
+  }
+  auto* mesh = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
+  const std::string inMesh = FindObstacleInMesh(mesh, this->Filter->GetSession());
+  if (!inMesh.empty())
+  {
+    return inMesh;
+  }
+  window->MakeCurrent();
+  return this->Filler->FindObstacle(this->Filter);
+}
+
+void DeviceDrawing::Parts::FillBuffers()
+{
+  if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
+  {
+    this->SmallestAngle = this->Filler->Fill({ *session, ViewPoints(this->Mapper->GetInput()),
+      this->Colors.ByFlipCount, this->Colors.Choose });
+  }
+}
+
+bool DeviceDrawing::Parts::IsQuiet() const
+{
+  return this->IsCalm || !this->Window || this->Window->CheckInRenderStatus() ||
+    IsInteracting(this->Window);
+}
+
+//------------------------------------------------------------------------------
+DeviceDrawing::DeviceDrawing() = default;
+
+DeviceDrawing::~DeviceDrawing() { this->End(""); }
+
+bool DeviceDrawing::IsOn() const { return this->On != nullptr; }
+
+void DeviceDrawing::Begin(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter)
+{
+  this->End("");
+  auto parts = std::make_unique<Parts>(window, actor, filter);
+  this->Obstacle = parts->FindObstacle();
+  if (this->Obstacle.empty())
+  {
+    this->On = std::move(parts);
+    this->On->Source->Update(); // what has no bounds is not drawn
+    this->On->OwnMapper = actor->GetMapper();
+    actor->SetMapper(this->On->Mapper);
+  }
+}
+
+void DeviceDrawing::End(const std::string& reason)
+{
+  if (this->On)
+  {
+    this->On->Actor->SetMapper(this->On->OwnMapper);
+    this->On.reset();
+  }
+  this->Obstacle = reason;
+}
+
+void DeviceDrawing::NoteStep()
+{
+  this->On->Source->Modified();
+  this->On->Mapper->NoteChange();
+}
+
+/// If VTK has no buffers yet, it makes them when it draws.
+bool DeviceDrawing::Fill(const Coloring& coloring)
+{
+  if (coloring.Kind != this->On->Colors.Kind)
+  {
+    this->On->Mapper->NoteChange();
+  }
+  this->On->Colors = coloring;
+  if (this->On->Mapper->IsReady())
+  {
+    this->On->Window->MakeCurrent();
+    this->On->Mapper->FillIfNeeded();
+  }
+  else
+  {
+    this->On->Window->Render();
+  }
+  return this->GetFailure().empty();
+}
+
+void DeviceDrawing::SetQuiet(bool isQuiet)
+{
+  if (this->On)
+  {
+    this->On->IsCalm = isQuiet;
+  }
+}
+
+std::string DeviceDrawing::GetFailure() const { return this->On->Mapper->GetFailure(); }
+
+double DeviceDrawing::GetSmallestAngle() const { return this->On->SmallestAngle; }
+
+}

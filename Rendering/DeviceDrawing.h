@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DeviceDrawing_h
+#define DeviceDrawing_h
+
+#include "DeviceColors.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+class vtkActor;
+class vtkDelaunayFlip;
+class vtkRenderWindow;
+
+namespace delaunayflip
+{
+
+/// Draws the mesh of a live run without copies through the host: the run's session writes into the
+/// buffers of OpenGL. For that it gives an actor another mapper while it is on.
+class DeviceDrawing
+{
+public:
+  DeviceDrawing();
+  ~DeviceDrawing();
+  DeviceDrawing(const DeviceDrawing&) = delete;
+  DeviceDrawing& operator=(const DeviceDrawing&) = delete;
+
+  /// What the colours of triangles show.
+  struct Coloring
+  {
+    int Kind = -1; ///< Two with the same number are the same.
+    bool ByFlipCount = false; ///< Else by smallest angle.
+    std::function<ColorBands(double largestCount)> Choose;
+  };
+
+  /// Begins to draw the mesh of a filter's last update, which has been put out, with an actor in a
+  /// window that has been drawn before. Without success GetObstacle() says why not.
+  void Begin(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
+
+  /// Gives the actor its own mapper back.
+  void End(const std::string& reason);
+
+  bool IsOn() const;
+
+  /// Why this is off.
+  const std::string& GetObstacle() const { return this->Obstacle; }
+
+  /// Says that the session has made a step.
+  void NoteStep();
+
+  /// Brings the buffers up to date, with these colours.
+  /// @returns false if that failed; GetFailure() says why.
+  bool Fill(const Coloring& coloring);
+  std::string GetFailure() const;
+
+  /// While this is on, questions for bounds come from drawing (DeviceMapper.h).
+  void SetQuiet(bool isQuiet);
+
+  /// The smallest angle of the mesh in the buffers, in degrees; NaN if there is none.
+  double GetSmallestAngle() const;
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> On; ///< Null while this is off.
+  std::string Obstacle;
+};
+
+}
+
+#endif

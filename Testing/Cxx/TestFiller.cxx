@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestFiller.h"
+
+#include "BufferFiller.h"
+#include "DelaunayFlip.h"
+#include "TriangleAngles.h"
+
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+using namespace delaunayflip;
+
+namespace
+{
+
+TestFiller Plan;
+
+template <typename T>
+std::uint32_t FindColor(const ColorBands& bands, T value)
+{
+  if (value != value)
+  {
+    return bands.OfNaN;
+  }
+  const auto size = static_cast<double>(bands.Colors.size());
+  const double band =
+    (static_cast<double>(value) - bands.First) * size / (bands.Last - bands.First);
+  return bands.Colors[static_cast<std::size_t>(std::clamp(std::floor(band), 0.0, size - 1.0))];
+}
+
+template <typename T>
+std::vector<std::uint32_t> FindColors(const ColorBands& bands, const std::vector<T>& values)
+{
+  std::vector<std::uint32_t> colors(values.size());
+  std::transform(values.begin(), values.end(), colors.begin(),
+    [&bands](T value) { return FindColor(bands, value); });
+  return colors;
+}
+
+template <typename T>
+void Write(unsigned int buffer, const std::vector<T>& values)
+{
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
+  GLint size = 0;
+  glGetBufferParameteriv(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &size);
+  if (static_cast<std::size_t>(size) != values.size() * sizeof(T))
+  {
+    throw std::runtime_error("the buffer has " + std::to_string(size) + " bytes");
+  }
+  void* memory = glMapBuffer(GL_COPY_WRITE_BUFFER, GL_WRITE_ONLY);
+  std::copy(values.begin(), values.end(), static_cast<T*>(memory));
+  glUnmapBuffer(GL_COPY_WRITE_BUFFER);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+/// Writes through mapped memory of OpenGL.
+class HostFiller : public BufferFiller
+{
+public:
+  std::string FindObstacle(vtkDelaunayFlip*) override { return {}; }
+  void Register(const DrawnBuffers& buffers) override { this->Buffers = buffers; }
+  void Release() noexcept override {}
+  double Fill(const FilledMesh& mesh) override
+  {
+    const std::int64_t count = this->Buffers.Count;
+    std::vector<std::int32_t> ids(3 * count);
+    mesh.Session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+    Write(this->Buffers.Triangles, ids);
+    TriangleMesh drawn;
+    drawn.Points = mesh.Points;
+    drawn.Triangles = TriangleArray(ids.data(), count);
+    std::vector<double> degrees(count);
+    FindSmallestAngles(drawn, GeometryKind::Surface, 1, degrees.data());
+    std::vector<std::int32_t> flips(count);
+    mesh.Session.StoreFlipCounts(flips.data());
+    const ColorBands bands =
+      mesh.ChooseColors(mesh.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
+    Write(this->Buffers.Colors,
+      mesh.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees));
+    return *std::min_element(degrees.begin(), degrees.end());
+  }
+
+private:
+  DrawnBuffers Buffers;
+};
+
+/// Counts the calls of another one, and lets them fail as planned.
+class WatchedFiller : public BufferFiller
+{
+public:
+  ~WatchedFiller() override { this->Release(); }
+  std::string FindObstacle(vtkDelaunayFlip* filter) override
+  {
+    return Plan.Obstacle.empty() ? this->Filler->FindObstacle(filter) : Plan.Obstacle;
+  }
+  void Register(const DrawnBuffers& buffers) override
+  {
+    Count(Plan.Registers, Plan.FailingRegister, "no registration");
+    this->Filler->Register(buffers);
+    Plan.IsRegistered = true;
+  }
+  void Release() noexcept override
+  {
+    Plan.Releases += Plan.IsRegistered ? 1 : 0;
+    Plan.IsRegistered = false;
+    this->Filler->Release();
+  }
+  double Fill(const FilledMesh& mesh) override
+  {
+    Count(Plan.Fills, Plan.FailingFill, "no filling");
+    return this->Filler->Fill(mesh);
+  }
+
+private:
+  static void Count(int& calls, int failing, const char* message)
+  {
+    ++calls;
+    if (failing > 0 && calls >= failing)
+    {
+      throw std::runtime_error(message);
+    }
+  }
+
+  std::unique_ptr<BufferFiller> Filler =
+    TestFiller::IsCuda() ? MakeCudaFiller() : std::make_unique<HostFiller>();
+};
+
+}
+
+bool TestFiller::IsCuda()
+{
+  const char* backend = std::getenv("DELAUNAYFLIP_TEST_BACKEND");
+  return backend && std::string(backend) == "cuda";
+}
+
+TestFiller& TestFiller::Install()
+{
+  Plan = TestFiller();
+  ReplaceBufferFiller(
+    []() -> std::unique_ptr<BufferFiller> { return std::make_unique<WatchedFiller>(); });
+  return Plan;
+}
+
+void TestFiller::Remove() { ReplaceBufferFiller(&MakeCudaFiller); }

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Live views that cannot draw without copies, or no longer.
+
+#include "TestFiller.h"
+#include "ZeroCopyTestSupport.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkMapper.h"
+#include "vtkProperty.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+/// A run that is drawn from copies for a reason, with the right pictures.
+void ExpectCopies(const std::string& reason, vtkPolyData* mesh = MakeBadPlane())
+{
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  bool goesOn = true;
+  while (goesOn)
+  {
+    goesOn = copying->Step();
+    EXPECT_EQ(sharing->Step(), goesOn);
+    EXPECT_EQ(sharing.GetStatus(), copying.GetStatus());
+    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+  }
+  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: " + reason);
+  EXPECT_TRUE(sharing.Errors.empty());
+  EXPECT_EQ(GetCells(sharing.Filter->GetOutput()->GetPolys()), FlipAtOnce(mesh));
+}
+
+}
+
+TEST(ZeroCopyFallback, AnObstacleIsTold)
+{
+  TestFiller& filler = TestFiller::Install();
+  filler.Obstacle = "OpenGL is elsewhere";
+  ExpectCopies("OpenGL is elsewhere");
+  EXPECT_EQ(filler.Registers, 0);
+  RunView view;
+  EXPECT_NE(
+    view.Print().find("Drawing: drawn from copies: no step has been made yet"), std::string::npos);
+  view->ShowDrawingOn();
+  view->Step();
+  EXPECT_NE(view.GetStatus().find("\ndrawn from copies: OpenGL is elsewhere"), std::string::npos)
+    << view.GetStatus();
+  EXPECT_NE(
+    view.Print().find("Drawing: drawn from copies: OpenGL is elsewhere"), std::string::npos);
+}
+
+TEST(ZeroCopyFallback, ARegistrationFails)
+{
+  TestFiller::Install().FailingRegister = 1;
+  ExpectCopies("no registration");
+}
+
+TEST(ZeroCopyFallback, AFillingFails)
+{
+  for (const int call : { 1, 2, 3 })
+  {
+    TestFiller& filler = TestFiller::Install();
+    filler.FailingFill = call;
+    ExpectCopies("no filling");
+    EXPECT_FALSE(filler.IsRegistered);
+  }
+}
+
+TEST(ZeroCopyFallback, ALostContextDoesNotComeBack)
+{
+  TestFiller& filler = TestFiller::Install();
+  filler.FailingRegister = 2;
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  for (int i = 0; i < 4; ++i)
+  {
+    copying->Step();
+    sharing->Step();
+    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+    if (i == 1)
+    {
+      sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(sharing.Window);
+    }
+  }
+  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: no registration");
+}
+
+TEST(ZeroCopyFallback, OtherMeshesAreCopied)
+{
+  const TestFiller& filler = TestFiller::Install();
+  auto quads =
+    MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
+  RunView quad(quads);
+  quad.Filter->TriangulateOff();
+  quad->Step();
+  EXPECT_EQ(quad->GetDrawing(), "drawn from copies: the mesh has other cells than triangles");
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh->GetNumberOfCells());
+  normals->Fill(0.5);
+  mesh->GetCellData()->SetNormals(normals);
+  RunView lit(mesh);
+  lit->Step();
+  EXPECT_EQ(lit->GetDrawing(), "drawn from copies: the mesh has normals of cells");
+  EXPECT_EQ(filler.Registers, 0);
+}
+
+TEST(ZeroCopyFallback, WireframesAreCopied)
+{
+  TestFiller::Install();
+  RunView view;
+  view->Step();
+  view.GetActor()->GetProperty()->SetRepresentationToWireframe();
+  view->Step();
+  EXPECT_EQ(view->GetDrawing().find("drawn from copies: VTK draws no surface"), 0u);
+  while (view->Step())
+  {
+  }
+  EXPECT_TRUE(view->GetConverged());
+}
+
+TEST(ZeroCopyFallback, AFailureOfTheFilterKeepsTheMesh)
+{
+  TestFiller::Install();
+  RunView view;
+  view->ShowStatisticsOff();
+  view->Step();
+  view->Step();
+  const Bytes before = view.GetPicture();
+  view.Filter->SetTieRuleToCanonical();
+  view.Filter->SetGeometryToSurface();
+  view->Step();
+  EXPECT_EQ(view.GetStatus().find("failed: "), 0u);
+  EXPECT_LT(Compare(view.GetPicture(), before), 0.1); // the text
+  view.Filter->SetTieRuleToKeep();
+  view.Filter->SetGeometryToAuto();
+  view->Step();
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopyFallback, OnThreadsThereAreCopies)
+{
+  TestFiller::Remove();
+  WatchedView view;
+  view.Filter->SetBackendToThreads();
+  view->Step();
+  EXPECT_EQ(view->GetDrawing(), "drawn from copies: the filter works on CPU threads");
+}

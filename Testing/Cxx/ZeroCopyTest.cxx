@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Live views that draw without copies: the same pictures and meshes as with copies.
+
+#include "TestFiller.h"
+#include "ZeroCopyTestSupport.h"
+
+#include "vtkActor.h"
+#include "vtkCellPicker.h"
+#include "vtkHardwareSelector.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkMapper.h"
+#include "vtkPNGReader.h"
+#include "vtkRenderer.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+/// Makes all steps with both ways of drawing, and compares the pictures.
+void ExpectSamePictures(int colorBy, bool hasEdges)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  for (RunView* view : { &copying, &sharing })
+  {
+    (*view)->SetColorBy(colorBy);
+    (*view)->SetEdgeVisibility(hasEdges ? vtkDelaunayFlipLiveView::EDGE_VISIBILITY_ON
+                                        : vtkDelaunayFlipLiveView::EDGE_VISIBILITY_OFF);
+  }
+  bool goesOn = true;
+  while (goesOn)
+  {
+    goesOn = copying->Step();
+    EXPECT_EQ(sharing->Step(), goesOn);
+    EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+    EXPECT_EQ(sharing.GetStatus(), copying.GetStatus());
+    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance)
+      << "frame " << sharing->GetFrameNumber();
+  }
+  EXPECT_EQ(copying->GetDrawing(), "drawn from copies: ZeroCopy is off");
+}
+
+}
+
+TEST(ZeroCopy, SamePicturesBySmallestAngle)
+{
+  ExpectSamePictures(vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE, true);
+}
+
+TEST(ZeroCopy, SamePicturesByFlipCount)
+{
+  ExpectSamePictures(vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT, false);
+}
+
+TEST(ZeroCopy, SamePicturesWithoutColors)
+{
+  ExpectSamePictures(vtkDelaunayFlipLiveView::COLOR_BY_SOLID, true);
+}
+
+TEST(ZeroCopy, FillsOncePerStep)
+{
+  const TestFiller& filler = TestFiller::Install();
+  RunView view;
+  view->Step();
+  EXPECT_EQ(filler.Registers, 1);
+  EXPECT_EQ(filler.Fills, 1);
+  view->Step();
+  view->Step();
+  EXPECT_EQ(filler.Fills, 3);
+  view->Render();
+  view.Window->Render();
+  EXPECT_EQ(filler.Fills, 3);
+  EXPECT_EQ(filler.Registers, 1);
+}
+
+TEST(ZeroCopy, SameMesh)
+{
+  TestFiller::Install();
+  auto mesh = ToPolyData(delaunayflip::MakeRandomBadMeshDouble(3000, 5));
+  RunView view(mesh);
+  while (view->Step())
+  {
+    EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+  }
+  EXPECT_TRUE(view->GetConverged());
+  EXPECT_EQ(view->GetFrameNumber(), view.Filter->GetNumberOfIterations());
+  EXPECT_EQ(GetCells(view.Filter->GetOutput()->GetPolys()), FlipAtOnce(mesh));
+  EXPECT_FALSE(view->Step());
+}
+
+TEST(ZeroCopy, TheOutputIsThereOnDemand)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView view(mesh);
+  WatchedFilter reference(mesh);
+  reference->LiveUpdateOn();
+  for (int i = 0; i < 3; ++i)
+  {
+    view->Step();
+    reference.Run();
+    reference->Advance();
+  }
+  EXPECT_EQ(view.Filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(GetCells(view.Filter.Run()->GetPolys()), GetCells(reference->GetOutput()->GetPolys()));
+  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 3);
+  view->Step();
+  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 4);
+  EXPECT_EQ(view->GetFrameNumber(), 4);
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, RestartBeginsAtTheInput)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView view(mesh);
+  view->Start();
+  const Bytes input = view.GetPicture();
+  view->Step();
+  const Bytes first = view.GetPicture();
+  view->Step();
+  view->Restart();
+  EXPECT_EQ(view.GetPicture(), input);
+  view->Step();
+  EXPECT_EQ(view.GetPicture(), first);
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+  while (view->Step())
+  {
+  }
+  EXPECT_EQ(GetCells(view.Filter->GetOutput()->GetPolys()), FlipAtOnce(mesh));
+}
+
+TEST(ZeroCopy, ColorsChangeInPlace)
+{
+  const TestFiller& filler = TestFiller::Install();
+  RunView view;
+  view->Step();
+  view->Step();
+  const Bytes byAngle = view.GetPicture();
+  view->SetColorByToFlipCount();
+  view->Render();
+  EXPECT_GT(Compare(view.GetPicture(), byAngle), 0.1);
+  view->SetColorByToSmallestAngle();
+  view->Render();
+  EXPECT_EQ(view.GetPicture(), byAngle);
+  EXPECT_EQ(filler.Registers, 1);
+}
+
+TEST(ZeroCopy, ResizingAndEdges)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  for (RunView* view : { &copying, &sharing })
+  {
+    (*view)->Step();
+    (*view)->Step();
+    (*view)->SetEdgeVisibilityToOff();
+    (*view)->Render();
+    view->Window->SetSize(300, 250);
+    (*view)->Render();
+    (*view)->Step();
+    (*view)->SetEdgeVisibilityToOn();
+    (*view)->Render();
+  }
+  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+  EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, SeveralRenderers)
+{
+  TestFiller::Install();
+  RunView view;
+  view->Step();
+  view->GetRenderer()->SetViewport(0.0, 0.0, 0.5, 1.0);
+  vtkNew<vtkRenderer> other;
+  other->SetViewport(0.5, 0.0, 1.0, 1.0);
+  other->SetActiveCamera(view->GetRenderer()->GetActiveCamera());
+  other->AddActor(view.GetActor());
+  view.Window->AddRenderer(other);
+  view->Step();
+  const Bytes two = view.GetPicture();
+  view->Step();
+  EXPECT_GT(Compare(view.GetPicture(), two), 0.01);
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, FramesAreWritten)
+{
+  TestFiller::Install();
+  RunView view;
+  const std::string prefix = testing::TempDir() + "zero_copy_frame";
+  view->SetFramePrefix(prefix.c_str());
+  view->Step();
+  view->Step();
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName((prefix + "0002.png").c_str());
+  reader->Update();
+  const auto* first = static_cast<unsigned char*>(reader->GetOutput()->GetScalarPointer());
+  const Bytes frame(first, first + 3 * 200 * 200);
+  EXPECT_EQ(frame, view.GetPicture());
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, PickersSeeTheTrianglesThatAreDrawn)
+{
+  TestFiller::Install();
+  RunView view;
+  vtkNew<vtkCellPicker> picker;
+  for (int step = 0; step < 4; ++step)
+  {
+    view->Step();
+    picker->Pick(100, 90, 0, view->GetRenderer());
+    const vtkIdType cell = picker->GetCellId();
+    ASSERT_GE(cell, 0);
+    const Cell expected = view.GetTriangles()[cell];
+    EXPECT_EQ(GetCell(vtkPolyData::SafeDownCast(picker->GetDataSet()), cell), expected);
+  }
+  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 4);
+  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, SelectionsSeeTheTrianglesThatAreDrawn)
+{
+  TestFiller::Install();
+  RunView view;
+  view->ShowStatisticsOff();
+  view->Step();
+  view->Step();
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(view->GetRenderer());
+  selector->SetArea(100, 90, 100, 90);
+  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
+  ASSERT_EQ(selection->GetNumberOfNodes(), 1u);
+  auto* ids = vtkIdTypeArray::SafeDownCast(selection->GetNode(0)->GetSelectionList());
+  vtkNew<vtkCellPicker> picker;
+  picker->Pick(100, 90, 0, view->GetRenderer());
+  EXPECT_EQ(ids->GetValue(0), picker->GetCellId());
+  auto* drawn = vtkPolyData::SafeDownCast(view.GetActor()->GetMapper()->GetInput());
+  EXPECT_EQ(GetCells(drawn->GetPolys()), view.GetTriangles());
+}
+
+TEST(ZeroCopy, MovedPointsAreDrawn)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  const auto step = [&]()
+  {
+    copying->Step();
+    sharing->Step();
+    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+    EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+  };
+  step();
+  step();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    double* x = mesh->GetPoint(i);
+    mesh->GetPoints()->SetPoint(i, 0.1 + 0.8 * x[0] * x[0], x[1], x[2]);
+  }
+  mesh->GetPoints()->Modified();
+  step();
+  step();
+}
+
+TEST(ZeroCopy, LostResourcesAreMadeAgain)
+{
+  TestFiller& filler = TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  for (int i = 0; i < 3; ++i)
+  {
+    copying->Step();
+    sharing->Step();
+  }
+  sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(sharing.Window);
+  EXPECT_FALSE(filler.IsRegistered);
+  sharing.Window->Render();
+  EXPECT_TRUE(filler.IsRegistered);
+  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+  copying->Step();
+  sharing->Step();
+  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+  EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+}
+
+TEST(ZeroCopy, EverythingIsReleased)
+{
+  TestFiller& filler = TestFiller::Install();
+  {
+    RunView view;
+    view->Step();
+    view->Step();
+    EXPECT_TRUE(filler.IsRegistered);
+    view->SetFilter(nullptr);
+    EXPECT_FALSE(filler.IsRegistered);
+  }
+  RunView view;
+  view->Step();
+  vtkSmartPointer<vtkMapper> mapper = view.GetActor()->GetMapper();
+  view.View = nullptr; // while someone still has the mapper
+  EXPECT_FALSE(filler.IsRegistered);
+  EXPECT_EQ(filler.Registers, filler.Releases);
+  mapper->Update();
+  mapper->GetBounds();
+}
+
+TEST(ZeroCopy, AWindowMayGoFirst)
+{
+  TestFiller& filler = TestFiller::Install();
+  RunView view;
+  view->Step();
+  view->Step();
+  view.Interactor = nullptr;
+  view.Window = nullptr;
+  EXPECT_FALSE(filler.IsRegistered);
+  EXPECT_FALSE(view->Step());
+}

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a frame of a live view costs: one iteration, drawn in 1920 x 1080 pixels from copies and
+/// without, and the drawing and the iteration alone. Prints a JSON object per line as soon as it is
+/// measured. Ends with 77 where EGL has no GPU of CUDA.
+///
+/// Usage: delaunay-flip-window-benchmark [--any] [--frames N] [--moving POINTS] [POINTS...]
+#include "BenchmarkMesh.h"
+#include "BenchmarkPolyData.h"
+#include "EglWindow.h"
+#include "TestWindow.h"
+
+#include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipLiveView.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace delaunayflip;
+
+namespace
+{
+
+struct Arguments
+{
+  bool AllowsOthers = false;
+  int Frames = 20;
+  std::int64_t Moving = 0;
+  std::vector<std::int64_t> Sizes;
+};
+
+Arguments ReadArguments(int argc, char* argv[])
+{
+  Arguments read;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    if (word == "--any")
+    {
+      read.AllowsOthers = true;
+    }
+    else if (word == "--frames" && i + 1 < argc)
+    {
+      read.Frames = std::atoi(argv[++i]);
+    }
+    else if (word == "--moving" && i + 1 < argc)
+    {
+      read.Moving = std::atoll(argv[++i]);
+    }
+    else
+    {
+      read.Sizes.push_back(std::atoll(word.c_str()));
+    }
+  }
+  return read;
+}
+
+/// A filter and a window that shows it.
+struct Scene
+{
+  vtkNew<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkRenderWindow> Window = MakeTestWindow();
+  vtkSmartPointer<vtkRenderWindowInteractor> Interactor = MakeTestInteractor();
+  vtkNew<vtkDelaunayFlipLiveView> View;
+
+  Scene(vtkPolyData* mesh, bool usesGpu)
+  {
+    this->Filter->SetInputData(mesh);
+    this->Filter->SetBackend(
+      usesGpu ? vtkDelaunayFlip::BACKEND_CUDA : vtkDelaunayFlip::BACKEND_AUTO);
+    this->Window->SetSize(1920, 1080);
+    this->Window->SetMultiSamples(0);
+    this->Window->SetOffScreenRendering(true);
+    this->Interactor->SetRenderWindow(this->Window);
+    this->View->SetFilter(this->Filter);
+    this->View->SetInteractor(this->Interactor);
+    this->View->ShowStatisticsOff();
+    this->View->SetColorByToSmallestAngle();
+  }
+};
+
+/// Calls work() and waits for OpenGL, several times. @returns milliseconds of each.
+std::vector<double> Time(int frames, const std::function<bool()>& work)
+{
+  std::vector<double> times;
+  bool goesOn = true;
+  while (goesOn && static_cast<int>(times.size()) < frames)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    goesOn = work();
+    glFinish();
+    times.push_back(
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  return times;
+}
+
+void Print(const BenchmarkMesh& mesh, const std::string& what, std::vector<double> times)
+{
+  std::sort(times.begin(), times.end());
+  const double median = times.empty() ? NAN : times[times.size() / 2];
+  std::printf("{\"points\": %lld, \"triangles\": %lld, \"what\": \"%s\", \"frames\": %zu, "
+              "\"median_ms\": %.3f, \"slowest_ms\": %.3f, \"per_second\": %.1f}\n",
+    static_cast<long long>(mesh.CountPoints()), static_cast<long long>(mesh.CountTriangles()),
+    what.c_str(), times.size(), median, times.empty() ? NAN : times.back(), 1000.0 / median);
+  std::fflush(stdout);
+}
+
+void TimeFlips(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arguments)
+{
+  vtkNew<vtkDelaunayFlip> filter;
+  filter->SetInputData(data);
+  filter->SetBackend(
+    arguments.AllowsOthers ? vtkDelaunayFlip::BACKEND_AUTO : vtkDelaunayFlip::BACKEND_CUDA);
+  filter->GenerateFlipCountOn();
+  filter->LiveUpdateOn();
+  filter->Update();
+  Print(mesh, "iteration alone",
+    Time(arguments.Frames,
+      [&]()
+      {
+        filter->AdvanceSession();
+        return true;
+      }));
+}
+
+void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arguments,
+  const std::string& what, bool drawsEdges, int frames)
+{
+  const bool copies = what == "copies";
+  Scene scene(data, !arguments.AllowsOthers);
+  scene.View->SetZeroCopy(!copies);
+  scene.View->SetEdgeVisibility(drawsEdges ? vtkDelaunayFlipLiveView::EDGE_VISIBILITY_ON
+                                           : vtkDelaunayFlipLiveView::EDGE_VISIBILITY_OFF);
+  scene.View->SetShowStatistics(what == "no copies, with texts");
+  scene.View->Step();
+  scene.View->Step(); // what VTK makes for the first frames
+  const std::string edges = drawsEdges ? ", edges" : "";
+  Print(mesh, what + edges, Time(frames, [&]() { return scene.View->Step(); }));
+  std::printf("{\"drawing\": \"%s\", \"renderer\": \"%s\"}\n", scene.View->GetDrawing().c_str(),
+    GetRendererName().c_str());
+  if (what == "no copies")
+  {
+    scene.View->Render();
+    Print(mesh, "drawing alone" + edges,
+      Time(frames,
+        [&]()
+        {
+          scene.Window->Render();
+          return true;
+        }));
+  }
+}
+
+/// Lifts the points of a plane into a hill that grows and shrinks.
+void Swell(vtkPoints* points, double time)
+{
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    points->GetPoint(i, x);
+    const double square = (x[0] - 0.5) * (x[0] - 0.5) + (x[1] - 0.5) * (x[1] - 0.5);
+    points->SetPoint(i, x[0], x[1], std::sin(time) * std::exp(-12.0 * square));
+  }
+  points->Modified();
+}
+
+/// Frames of an animation: in each of them the points move, and the mesh is made Delaunay again.
+void TimeMoving(std::int64_t points, const Arguments& arguments, bool copies)
+{
+  const BenchmarkMesh mesh = MakeRandomMesh(points);
+  const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
+  Scene scene(data, !arguments.AllowsOthers);
+  scene.View->SetZeroCopy(!copies);
+  scene.View->SetEdgeVisibilityToOff();
+  scene.Filter->SetGeometryToSurface();
+  scene.Filter->SetFeatureAngle(180.0);
+  scene.Filter->SetIterationsPerUpdate(1000000);
+  scene.View->Step();
+  int frame = 0;
+  const auto move = [&]()
+  {
+    Swell(data->GetPoints(), 0.05 * ++frame);
+    scene.View->Step();
+    return true;
+  };
+  Print(mesh, copies ? "moving points, copies" : "moving points, no copies",
+    Time(5 * arguments.Frames, move));
+}
+
+void TimeSize(std::int64_t points, const Arguments& arguments)
+{
+  const BenchmarkMesh mesh = MakeRandomMesh(points);
+  const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
+  TimeFlips(mesh, data, arguments);
+  for (const bool drawsEdges : { false, true })
+  {
+    TimeView(mesh, data, arguments, "no copies", drawsEdges, arguments.Frames);
+  }
+  TimeView(mesh, data, arguments, "no copies, with texts", false, arguments.Frames);
+  for (const bool drawsEdges : { false, true })
+  {
+    TimeView(mesh, data, arguments, "copies", drawsEdges, std::min(arguments.Frames, 4));
+  }
+}
+
+}
+
+int main(int argc, char* argv[])
+{
+  const Arguments arguments = ReadArguments(argc, argv);
+  const std::string obstacle = OpenEgl(arguments.AllowsOthers);
+  if (!obstacle.empty())
+  {
+    std::printf("skipped: %s\n", obstacle.c_str());
+    return 77;
+  }
+  if (arguments.Moving > 0)
+  {
+    TimeMoving(arguments.Moving, arguments, false);
+    TimeMoving(arguments.Moving, arguments, true);
+  }
+  for (const std::int64_t points : arguments.Sizes)
+  {
+    TimeSize(points, arguments);
+  }
+  return 0;
+}
