@@ -94,7 +94,6 @@ void LiveScene::Draw()
   window->Render();
   if (this->DrawsRun() && !this->Device.GetFailure().empty())
   {
-    this->LeaveDevice();
     this->SetColorBy(this->ColorBy);
     window->Render();
   }

@@ -92,6 +92,25 @@ TEST(ZeroCopyFallback, ALostContextDoesNotComeBack)
   EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: no registration");
 }
 
+TEST(ZeroCopyFallback, BuffersThatAreMadeAgainFail)
+{
+  TestFiller& filler = TestFiller::Install();
+  filler.FailingRegister = 2;
+  auto mesh = MakeBadPlane();
+  RunView copying(mesh);
+  RunView sharing(mesh);
+  copying->ZeroCopyOff();
+  for (RunView* view : { &copying, &sharing })
+  {
+    (*view)->Step();
+    (*view)->Step();
+    (*view)->SetEdgeVisibilityToOff(); // VTK makes other buffers
+    (*view)->Render();
+  }
+  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: no registration");
+}
+
 TEST(ZeroCopyFallback, OtherMeshesAreCopied)
 {
   const TestFiller& filler = TestFiller::Install();
