@@ -4,13 +4,13 @@
 
 #include "BufferFiller.h"
 #include "DelaunayFlip.h"
+#include "TestBackend.h"
 #include "TriangleAngles.h"
 
 #include "vtk_glew.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -129,15 +129,9 @@ private:
   }
 
   std::unique_ptr<BufferFiller> Filler =
-    TestFiller::IsCuda() ? MakeCudaFiller() : std::make_unique<HostFiller>();
+    IsTestBackendCuda() ? MakeCudaFiller() : std::make_unique<HostFiller>();
 };
 
-}
-
-bool TestFiller::IsCuda()
-{
-  const char* backend = std::getenv("DELAUNAYFLIP_TEST_BACKEND");
-  return backend && std::string(backend) == "cuda";
 }
 
 TestFiller& TestFiller::Install()

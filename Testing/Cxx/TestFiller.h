@@ -10,9 +10,6 @@
 /// DELAUNAYFLIP_TEST_BACKEND=cuda, by CUDA. Either can be made to fail.
 struct TestFiller
 {
-  /// Whether CUDA fills.
-  static bool IsCuda();
-
   /// What live views meet from now on. A number counts calls; the last of them fails, as do all
   /// later ones; 0: none fails.
   std::string Obstacle;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ZeroCopyTestSupport.h"
 
-#include "TestFiller.h"
-
 #include "vtkActor.h"
 #include "vtkActorCollection.h"
 #include "vtkRenderer.h"
@@ -16,15 +14,6 @@
 #include <sstream>
 
 const std::string WithoutCopies = "drawn without copies";
-
-RunView::RunView(vtkPolyData* mesh)
-  : WatchedView(mesh)
-{
-  if (TestFiller::IsCuda())
-  {
-    this->Filter->SetBackendToCUDA();
-  }
-}
 
 Bytes RunView::GetPicture()
 {

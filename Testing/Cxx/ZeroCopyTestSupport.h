@@ -16,11 +16,11 @@ using Bytes = std::vector<unsigned char>;
 
 extern const std::string WithoutCopies; ///< What such a view says of itself.
 
-/// A view whose filter works where the buffers can be filled.
+/// A view with what these tests look at.
 class RunView : public WatchedView
 {
 public:
-  explicit RunView(vtkPolyData* mesh = MakeBadPlane());
+  using WatchedView::WatchedView;
 
   /// The pixels of the window.
   Bytes GetPicture();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What drawing without copies takes for granted about CUDA and OpenGL on one GPU.
 
-#include "TestFiller.h"
+#include "TestBackend.h"
 #include "TestWindow.h"
 
 #include "vtk_glew.h"
@@ -23,7 +23,7 @@ class Interop : public testing::Test
 protected:
   void SetUp() override
   {
-    if (!TestFiller::IsCuda())
+    if (!delaunayflip::IsTestBackendCuda())
     {
       GTEST_SKIP() << "no GPU of CUDA";
     }

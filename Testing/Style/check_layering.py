@@ -5,8 +5,8 @@
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
-engine: CInterface, Filters and Command see its public headers, Rendering and Plugin see Filters
-alone; nothing that ships sees Testing or Examples. The engine sees no VTK.
+engine: CInterface, Filters, Rendering and Command see its public headers, Plugin sees Filters
+alone; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
 """
 
 import os
@@ -68,6 +68,8 @@ def violations(layers, path, name, home):
         return
     if layer in layers.floors and header.lower().startswith("vtk"):
         yield f"{path}: the engine includes {name} of VTK"
+    if layer in layers.floors and (name.startswith(("GL/", "EGL/")) or "cuda_gl" in name):
+        yield f"{path}: the engine includes {name} of OpenGL"
     target = home.get(header)
     if target is not None and target not in below:
         yield f"{path}: {layer} includes {name} of {target}"

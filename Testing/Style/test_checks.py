@@ -150,8 +150,16 @@ class StyleChecks(CheckedTree):
         self.check_notices(
             ["check_layering.py"],
             "Rendering/Bad.cxx",
-            '#include "FlipOptions.h"\n',
-            "Rendering includes FlipOptions.h of the engine's public headers",
+            '#include "EdgeMesh.h"\n',
+            "Rendering includes EdgeMesh.h of Engine/Mesh",
+        )
+
+    def test_engine_without_opengl(self):
+        self.check_notices(
+            ["check_layering.py"],
+            "CUDA/Bad.cu",
+            "#include <cuda_gl_interop.h>\n",
+            "the engine includes cuda_gl_interop.h of OpenGL",
         )
 
     def test_cuda_below_the_choice_of_a_backend(self):
