@@ -202,7 +202,10 @@ bool DeviceDrawing::Fill(const Coloring& coloring)
   this->On->Colors = coloring;
   if (this->On->Mapper->IsReady())
   {
-    this->On->Window->MakeCurrent();
+    if (!this->On->Window->IsCurrent()) // else a context may be flushed for nothing
+    {
+      this->On->Window->MakeCurrent();
+    }
     this->On->Mapper->FillIfNeeded();
   }
   else

@@ -69,12 +69,11 @@ void Swell(vtkPoints* points, int frame)
 {
   constexpr double turn = 6.283185307179586;
   const double height = 0.4 * std::sin(turn * frame / 100.0);
+  auto* xyz = static_cast<double*>(points->GetVoidPointer(0));
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double x[3];
-    points->GetPoint(i, x);
-    const double square = (x[0] - 0.5) * (x[0] - 0.5) + (x[1] - 0.5) * (x[1] - 0.5);
-    points->SetPoint(i, x[0], x[1], height * std::exp(-16.0 * square));
+    const double x = xyz[3 * i] - 0.5, y = xyz[3 * i + 1] - 0.5;
+    xyz[3 * i + 2] = height * std::exp(-16.0 * (x * x + y * y));
   }
   points->Modified();
 }

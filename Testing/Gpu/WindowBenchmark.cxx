@@ -7,6 +7,8 @@
 /// Usage: delaunay-flip-window-benchmark [--any] [--frames N] [--moving POINTS] [POINTS...]
 #include "BenchmarkMesh.h"
 #include "BenchmarkPolyData.h"
+#include "BufferFiller.h"
+#include "DelaunayFlip.h"
 #include "EglWindow.h"
 #include "TestWindow.h"
 
@@ -136,6 +138,44 @@ void TimeFlips(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& ar
       }));
 }
 
+unsigned int MakeBuffer(std::int64_t bytes)
+{
+  unsigned int buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  glBufferData(GL_ARRAY_BUFFER, bytes, nullptr, GL_STATIC_DRAW);
+  glBindBuffer(GL_ARRAY_BUFFER, 0);
+  return buffer;
+}
+
+/// What it takes to write triangles and colours into buffers that nobody draws.
+void TimeFilling(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arguments)
+{
+  Scene scene(data, !arguments.AllowsOthers);
+  scene.View->ZeroCopyOff();
+  scene.View->Step();
+  const std::unique_ptr<BufferFiller> filler = MakeCudaFiller();
+  if (!filler->FindObstacle(scene.Filter).empty())
+  {
+    return;
+  }
+  const std::int64_t count = mesh.CountTriangles();
+  const DrawnBuffers buffers{ MakeBuffer(12 * count), MakeBuffer(4 * count), count };
+  filler->Register(buffers);
+  const FilledMesh filled{ *scene.Filter->GetSession(),
+    PointArray(mesh.Floats.data(), mesh.CountPoints()), false, [](double) {
+      return ColorBands{ std::vector<std::uint32_t>(12, 7), 0.0, 60.0, 0 };
+    } };
+  filler->Fill(filled);
+  Print(
+    mesh, "filling alone", Time(arguments.Frames, [&]() { return filler->Fill(filled) >= 0.0; }));
+  filler->Release();
+  for (const unsigned int buffer : { buffers.Triangles, buffers.Colors })
+  {
+    glDeleteBuffers(1, &buffer);
+  }
+}
+
 void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arguments,
   const std::string& what, bool drawsEdges, int frames)
 {
@@ -178,26 +218,47 @@ void Swell(vtkPoints* points, double time)
 }
 
 /// Frames of an animation: in each of them the points move, and the mesh is made Delaunay again.
-void TimeMoving(std::int64_t points, const Arguments& arguments, bool copies)
+/// @param show called in every frame.
+void TimeMoving(const BenchmarkMesh& mesh, vtkPolyData* data, const std::string& what, int frames,
+  Scene& scene, const std::function<void()>& show)
 {
-  const BenchmarkMesh mesh = MakeRandomMesh(points);
-  const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
-  Scene scene(data, !arguments.AllowsOthers);
-  scene.View->SetZeroCopy(!copies);
   scene.View->SetEdgeVisibilityToOff();
   scene.Filter->SetGeometryToSurface();
   scene.Filter->SetFeatureAngle(180.0);
+  scene.Filter->LiveUpdateOn();
   scene.Filter->SetIterationsPerUpdate(1000000);
-  scene.View->Step();
+  show();
   int frame = 0;
-  const auto move = [&]()
+  Print(mesh, "moving points, " + what,
+    Time(frames,
+      [&]()
+      {
+        Swell(data->GetPoints(), 0.05 * ++frame);
+        show();
+        return true;
+      }));
+}
+
+void TimeMoving(const Arguments& arguments)
+{
+  const BenchmarkMesh mesh = MakeRandomMesh(arguments.Moving);
+  const int frames = 3 * arguments.Frames;
+  for (const std::string what : { "not flipped", "not drawn", "no copies", "copies" })
   {
-    Swell(data->GetPoints(), 0.05 * ++frame);
-    scene.View->Step();
-    return true;
-  };
-  Print(mesh, copies ? "moving points, copies" : "moving points, no copies",
-    Time(5 * arguments.Frames, move));
+    const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
+    Scene scene(data, !arguments.AllowsOthers);
+    scene.View->SetZeroCopy(what == "no copies");
+    std::function<void()> show = [&]() { scene.View->Step(); };
+    if (what == "not flipped")
+    {
+      show = []() {};
+    }
+    else if (what == "not drawn")
+    {
+      show = [&]() { scene.Filter->Update(); };
+    }
+    TimeMoving(mesh, data, what, frames, scene, show);
+  }
 }
 
 void TimeSize(std::int64_t points, const Arguments& arguments)
@@ -205,6 +266,7 @@ void TimeSize(std::int64_t points, const Arguments& arguments)
   const BenchmarkMesh mesh = MakeRandomMesh(points);
   const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
   TimeFlips(mesh, data, arguments);
+  TimeFilling(mesh, data, arguments);
   for (const bool drawsEdges : { false, true })
   {
     TimeView(mesh, data, arguments, "no copies", drawsEdges, arguments.Frames);
@@ -229,8 +291,7 @@ int main(int argc, char* argv[])
   }
   if (arguments.Moving > 0)
   {
-    TimeMoving(arguments.Moving, arguments, false);
-    TimeMoving(arguments.Moving, arguments, true);
+    TimeMoving(arguments);
   }
   for (const std::int64_t points : arguments.Sizes)
   {

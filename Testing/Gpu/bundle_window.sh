@@ -12,7 +12,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=$root/build-gpu
 output=${1:-delaunay-flip-window.tar.xz}
-programs=(DelaunayFlipWindowTests delaunay-flip-window-benchmark DelaunayFlipGpuTests)
+programs=(DelaunayFlipWindowTests delaunay-flip-window-benchmark DelaunayFlipGpuTests
+  SwellingSurface)
 
 if [ ! -f "$build/CMakeCache.txt" ]; then
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_ENABLE_CUDA=ON \

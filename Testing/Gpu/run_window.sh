@@ -62,7 +62,7 @@ else
   build=$(cd "$here/../.." && pwd)/build-gpu
   "$here/build.sh" "$build"
   cmake --build "$build" --parallel "${JOBS:-2}" \
-    --target DelaunayFlipWindowTests delaunay-flip-window-benchmark
+    --target DelaunayFlipWindowTests delaunay-flip-window-benchmark SwellingSurface
   programs=$build/bin
 fi
 # A machine without a display often has the driver's EGL, but not the file that names it.
@@ -106,6 +106,10 @@ run_benchmark()
     failures=$((failures + 1))
     echo "window-benchmark: failed with status $status"
     tail -n 5 "$output/window-benchmark.log"
+  fi
+  if [ "$status" -ne 77 ]; then
+    "$programs/SwellingSurface" --points "${sizes[3]}" --backend cuda 2>&1 |
+      tee "$output/window-example.log"
   fi
 }
 
