@@ -63,7 +63,7 @@ public:
 private:
   struct Parts;
   std::unique_ptr<Parts> On; ///< Null while this is off.
-  std::string Obstacle;
+  std::string Obstacle = "no step has been made yet";
 };
 
 }

@@ -134,6 +134,24 @@ TEST(LiveView, DrawingDoesNotExecuteTheFilter)
   EXPECT_EQ(view->GetFrameNumber(), 1);
 }
 
+TEST(LiveView, SaysWhyItDrawsFromCopies)
+{
+  const std::string copies = "drawn from copies: ";
+  WatchedView view(MakeBadPlane(), false);
+  view.Filter->SetBackendToThreads();
+  EXPECT_EQ(view->GetDrawing(), copies + "no step has been made yet");
+  view->Step();
+  const std::string drawing = view->GetDrawing();
+  EXPECT_EQ(drawing.find(copies), 0u);
+  EXPECT_GT(drawing.size(), copies.size() + 10);
+  EXPECT_EQ(Unwrap(view.GetStatus()).find(copies), std::string::npos);
+  view.Press("d");
+  EXPECT_NE(Unwrap(view.GetStatus()).find(drawing), std::string::npos) << view.GetStatus();
+  view->ZeroCopyOff();
+  view->Step();
+  EXPECT_EQ(view->GetDrawing(), copies + "ZeroCopy is off");
+}
+
 TEST(LiveView, Keys)
 {
   WatchedView view(MakeBadPlane(), false);
