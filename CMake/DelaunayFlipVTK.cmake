@@ -31,6 +31,15 @@ find_package(VTK 9.1 REQUIRED
 
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
 set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
+option(DELAUNAYFLIP_BUILD_PARALLEL "Build the filter for many ranks, where VTK has ParallelCore" ON)
+set(DELAUNAYFLIP_PARALLEL OFF) # whether it is built
+if(DELAUNAYFLIP_BUILD_PARALLEL AND TARGET VTK::ParallelCore)
+  set(DELAUNAYFLIP_PARALLEL ON)
+  list(APPEND delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/FiltersParallel/vtk.module")
+  list(APPEND delaunayflip_vtk_installed ParallelCore)
+elseif(DELAUNAYFLIP_BUILD_PARALLEL)
+  message(STATUS "Filter for many ranks: not built, this VTK has no ParallelCore")
+endif()
 set(DELAUNAYFLIP_RENDERING ${DELAUNAYFLIP_BUILD_RENDERING}) # whether the live view is built
 foreach(component IN LISTS delaunayflip_vtk_drawing)
   if(NOT TARGET VTK::${component})

@@ -130,12 +130,27 @@ struct FixedEdges
   const unsigned char* FrozenTriangles = nullptr;
 };
 
+/// What is known about the larger mesh of which a mesh is a piece (PieceFlip.h).
+struct WholeMesh
+{
+  /// The plane of the larger mesh, for GeometryKind::Planar: the axis, 0 to 2, to which its normal
+  /// is closest, and whether this coordinate varies. -1: the plane is found from the points.
+  int PlaneAxis = -1;
+  bool PlaneIsTilted = false;
+
+  /// One set of bits per point, or null: the places outside this piece, whatever they are, where
+  /// the point may have edges. A flip that would join two points with a common bit is blocked, as
+  /// by an edge that exists.
+  const unsigned char* SharedPoints = nullptr;
+};
+
 /// A triangle mesh, and what the caller knows about its edges. Any mesh is accepted: non-manifold,
 /// open, with mixed winding, with duplicate, degenerate or unused parts.
 struct TriangleMesh : FixedEdges
 {
   PointArray Points;
   TriangleArray Triangles;
+  WholeMesh Whole; ///< Only for pieces of a larger mesh.
 };
 
 }

@@ -41,21 +41,6 @@ void ListSources(const TriangleSlots& slots, vtkIdList* sources)
   std::copy(strips.begin(), strips.end(), sources->begin() + before + polygons);
 }
 
-/// Turns global ids into pedigree ids: when cells are divided, several share an id.
-void DemoteGlobalIds(vtkCellData* data)
-{
-  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
-  if (!ids)
-  {
-    return;
-  }
-  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
-  if (!data->GetPedigreeIds())
-  {
-    data->SetPedigreeIds(ids);
-  }
-}
-
 void ReadOldTriangle(const TriangleArray& triangles, vtkIdType triangle, std::int64_t ids[3])
 {
   for (int slot = 0; slot < 3; ++slot)
@@ -97,6 +82,20 @@ void RenewNormal(const PointArray& points, const TriangleSlots& slots, const Out
   normals->SetTuple(slots.GetFirstPolygon() + cell.Polygon, normal);
 }
 
+}
+
+void DemoteGlobalIds(vtkCellData* data)
+{
+  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
+  if (!ids)
+  {
+    return;
+  }
+  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+  if (!data->GetPedigreeIds())
+  {
+    data->SetPedigreeIds(ids);
+  }
 }
 
 void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+class vtkCellData;
 class vtkPolyData;
 
 namespace delaunayflip
@@ -19,6 +20,9 @@ struct PointArray;
 /// Where cells were divided, global ids become pedigree ids, or a plain array if the mesh has
 /// pedigree ids already.
 void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output);
+
+/// Turns global ids into pedigree ids: when cells are divided, several share an id.
+void DemoteGlobalIds(vtkCellData* data);
 
 /// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
 /// normal that pointed against the winding of the old triangle points against that of the new one.

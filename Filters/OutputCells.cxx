@@ -27,12 +27,6 @@ namespace delaunayflip
 namespace
 {
 
-bool Uses64BitIds(vtkPolyData* mesh)
-{
-  vtkCellArray* cells = mesh->GetNumberOfPolys() > 0 ? mesh->GetPolys() : mesh->GetStrips();
-  return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
-}
-
 /// Hints to Linux to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated
 /// and cleared on first use: an update of 5 M points on a GPU takes 56 ms instead of 63.
 template <typename ArrayT>
@@ -98,7 +92,7 @@ vtkSmartPointer<vtkCellArray> BuildMixedPolygons(
   session.StoreTriangles(triangles);
 
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  Uses64BitIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  UsesWideIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
   vtkNew<vtkIdList> ids;
   for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
   {
@@ -119,6 +113,12 @@ vtkSmartPointer<vtkCellArray> BuildMixedPolygons(
 
 }
 
+bool UsesWideIds(vtkPolyData* mesh)
+{
+  vtkCellArray* cells = mesh->GetNumberOfPolys() > 0 ? mesh->GetPolys() : mesh->GetStrips();
+  return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
+}
+
 vtkSmartPointer<vtkCellArray> BuildPolygons(
   const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh)
 {
@@ -128,7 +128,7 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
   }
   // Splitting may need more connectivity than 32-bit offsets can number.
   const vtkIdType count = slots.GetTriangles().Count;
-  if (Uses64BitIds(mesh) || 3 * count > std::numeric_limits<std::int32_t>::max())
+  if (UsesWideIds(mesh) || 3 * count > std::numeric_limits<std::int32_t>::max())
   {
     return BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count);
   }

@@ -19,6 +19,9 @@ class TriangleSlots;
 vtkSmartPointer<vtkCellArray> BuildPolygons(
   const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh);
 
+/// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
+bool UsesWideIds(vtkPolyData* mesh);
+
 /// The strips of the output: those of the mesh that were not split.
 vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh);
 

@@ -49,6 +49,11 @@ public:
   /// Views of arrays of the mesh or of this bridge, never of an output.
   TriangleMesh GetMesh() const;
 
+  const TriangleSlots& GetSlots() const { return this->Slots; }
+
+  /// One label per triangle, which may be changed; empty without regions.
+  std::vector<std::int32_t>& GetRegions() { return this->Regions; }
+
   /// Writes the session's triangles, and whatever passes from the mesh.
   void Store(const FlipSession& session, vtkPolyData* output) const;
 

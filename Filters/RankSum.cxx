@@ -135,6 +135,7 @@ void Visit(Archive& archive, UpdateReport& report)
   archive(report.NonDelaunayBefore, report.NonDelaunayAfter);
   archive(report.BlockedByShape, report.BlockedByEdge);
   archive(report.MinimumAngleBefore, report.MinimumAngleAfter);
+  archive(report.Rounds, report.MovedTriangles);
   archive(report.StopReason, report.BuildSeconds, report.FlipSeconds, report.Defects);
 }
 

@@ -101,6 +101,11 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   writer.AddValue<vtkStringArray>("GeometryReason", report.GeometryReason);
   writer.AddValue<vtkStringArray>("Tolerance", report.Tolerance);
   writer.AddValue<vtkStringArray>("Backend", report.Backend);
+  if (report.Rounds > 0)
+  {
+    writer.AddValue<vtkIdTypeArray>("Rounds", report.Rounds);
+    writer.AddValue<vtkIdTypeArray>("MovedTriangles", report.MovedTriangles);
+  }
   AddIterationColumns(report, FieldPrefix, data);
 }
 

@@ -145,6 +145,8 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
   AddDefects(this->Defects, other.Defects);
   this->Points += other.Points;
   this->Triangles += other.Triangles;
+  this->Rounds = std::max(this->Rounds, other.Rounds);
+  this->MovedTriangles += other.MovedTriangles;
   this->UnmatchedConstraints += other.UnmatchedConstraints;
   this->InsertedConstraints += other.InsertedConstraints;
   this->ConstraintFlips += other.ConstraintFlips;

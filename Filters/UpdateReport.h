@@ -5,6 +5,7 @@
 
 #include "FlipReport.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace delaunayflip
@@ -36,6 +37,8 @@ struct UpdateReport : FlipReport
   const char* GetGeometryName() const;
 
   bool HasMixedGeometry = false; ///< GeometryUsed is then that of the first mesh.
+  std::int64_t Rounds = 0; ///< PiecesReport's; 0 if the mesh was not flipped in pieces.
+  std::int64_t MovedTriangles = 0;
 };
 
 }

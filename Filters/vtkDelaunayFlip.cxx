@@ -188,6 +188,13 @@ vtkIdType vtkDelaunayFlip::GetNumberOfIterations() const
 
 vtkIdType vtkDelaunayFlip::GetTotalFlips() const { return this->Report->TotalFlips; }
 
+vtkIdType vtkDelaunayFlip::GetNumberOfRounds() const { return this->Report->Rounds; }
+
+vtkIdType vtkDelaunayFlip::GetNumberOfMovedTriangles() const
+{
+  return this->Report->MovedTriangles;
+}
+
 vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
 {
   return this->Report->Edges.Constraint;

@@ -91,6 +91,7 @@ namespace delaunayflip
 {
 class FlipRun;
 class FlipSession;
+class PieceGroup;
 struct Block;
 struct FlipOptions;
 struct FlipReport;
@@ -465,6 +466,16 @@ public:
   vtkIdType GetNumberOfConstraintFlips() const;
   ///@}
 
+  ///@{
+  /**
+   * If the mesh was flipped in pieces on several ranks (vtkPDelaunayFlip): how often the pieces
+   * were flipped and the edges between them tested, and how many times a triangle changed owner.
+   * Else 0.
+   */
+  vtkIdType GetNumberOfRounds() const;
+  vtkIdType GetNumberOfMovedTriangles() const;
+  ///@}
+
   /**
    * How many bad edges, neither locally Delaunay nor fixed, are left after the last update; the sum
    * over blocks and pieces.
@@ -604,6 +615,14 @@ protected:
    */
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
+#ifndef __VTK_WRAP__
+  /**
+   * The ranks that have the pieces of the input and update together, or null (default) if this
+   * process flips what it has alone.
+   */
+  virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
+#endif
+
   int Geometry = GEOMETRY_AUTO;
   int Criterion = CRITERION_IN_CIRCLE;
   double Tolerance = -1.0;
@@ -635,6 +654,9 @@ private:
     vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece);
   delaunayflip::UpdateSummary FlipBlocks(
     vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output);
+  delaunayflip::UpdateSummary FlipTogether(vtkDataObject* input, vtkDataObject* constraints,
+    vtkPolyData* output, delaunayflip::PieceGroup& group);
+  vtkSmartPointer<vtkPolyData> RequireMesh(vtkDataObject* input);
   vtkSmartPointer<vtkDataObject> FlipBlock(const delaunayflip::Block& block,
     vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
   delaunayflip::MeshOutcome TryToFlip(const Connection& data);

@@ -6,8 +6,11 @@
 
 #include "CompositeBlocks.h"
 #include "DelaunayFlip.h"
+#include "FlipError.h"
 #include "FlipRun.h"
 #include "HostProgram.h"
+#include "PieceGroup.h"
+#include "PieceUpdate.h"
 #include "RankSum.h"
 #include "ReportTables.h"
 #include "TimedAdvance.h"
@@ -66,6 +69,12 @@ private:
   bool& Flag;
 };
 
+void WarnOfLiveUpdate(UpdateSummary& summary)
+{
+  summary.Warnings.push_back(
+    { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -84,17 +93,18 @@ int vtkDelaunayFlip::RequestData(
   auto* mesh = vtkPolyData::SafeDownCast(output);
   const FlagScope atWork(this->IsAtWork);
   this->HasExecuted = true;
+  const std::unique_ptr<PieceGroup> group = blocks ? nullptr : this->MakeGroup();
   UpdateSummary summary;
   const FlipFailure failure = Attempt(
     [&]()
     {
       summary = blocks
         ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
-        : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
-      if (this->LiveUpdate && (blocks || piece.Count > 1))
+        : group ? this->FlipTogether(input, constraints, mesh, *group)
+                : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
+      if (this->LiveUpdate && (blocks || group || piece.Count > 1))
       {
-        summary.Warnings.push_back(
-          { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+        WarnOfLiveUpdate(summary);
       }
     });
   if (failure)
@@ -103,7 +113,7 @@ int vtkDelaunayFlip::RequestData(
     this->DiscardRun(output);
     summary.AddMesh({ *this->Report, failure, "" }, 0, "");
   }
-  const bool isFirst = JoinRanks(summary, piece); // every rank comes here, whatever has failed
+  const bool isFirst = group ? group->GetRank() == 0 : JoinRanks(summary, piece); // on every rank
   const FlipFailure unreported = Attempt(
     [&]()
     {
@@ -194,6 +204,47 @@ UpdateSummary vtkDelaunayFlip::FlipMesh(
     outcome = this->TryToFlip({ mesh, edges, output, isLive });
   }
   summary.AddMesh(outcome, 0, "");
+  return summary;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<PieceGroup> vtkDelaunayFlip::MakeGroup() { return nullptr; }
+
+/// @throws InvalidMesh if the input is not a surface.
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::RequireMesh(vtkDataObject* input)
+{
+  const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(input);
+  if (!mesh)
+  {
+    throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
+  }
+  return mesh;
+}
+
+/// Flips a mesh of which every rank of a group has a piece.
+UpdateSummary vtkDelaunayFlip::FlipTogether(
+  vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, PieceGroup& group)
+{
+  this->Run.reset();
+  *this->Report = UpdateReport();
+  this->CanContinue = false;
+  const PieceUpdate update =
+    FlipPieces({ [&]() { return this->RequireMesh(input); }, vtkPolyData::SafeDownCast(constraints),
+                 { this->Triangulate, this->LinesAsConstraints, this->InsertLines,
+                   this->InsertConstraints, this->RegionArray },
+                 this->GetOptions(), { this->GenerateFlipCount, this->GenerateQuality },
+                 [this](double fraction) { return this->ObserveProgress(fraction); } },
+      group, output);
+  UpdateSummary summary;
+  summary.AddMesh(
+    { update.Report, {}, DescribeTrouble(update.Report, this->MaximumIterations >= 0) }, 0, "");
+  if (update.AmbiguousPoints > 0)
+  {
+    summary.Warnings.push_back({ "",
+      std::to_string(update.AmbiguousPoints) +
+        " points at the borders of pieces coincide with others of the same piece, and edges there "
+        "stayed; give the points global ids" });
+  }
   return summary;
 }
 

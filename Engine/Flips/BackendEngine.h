@@ -99,8 +99,9 @@ public:
     this->StartReport(mesh, survey, built);
     this->Turns = survey.Turns;
     this->Report.Tolerance = DescribeTolerance(options, survey.Geometry);
+    Array<unsigned char> shared = this->RankSharedPoints(mesh);
     FlipLoopResult made =
-      ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh },
+      ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh, shared },
         std::move(built.Table), this->Backend);
     this->Loop = std::move(made.Loop);
     for (const Defect& defect : made.Defects)
@@ -135,6 +136,27 @@ public:
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
+
+  /// WholeMesh::SharedPoints in the order of vertices; empty if there are none. Public because
+  /// device lambdas require it.
+  Array<unsigned char> RankSharedPoints(const TriangleMesh& mesh) const
+  {
+    const unsigned char* caller = mesh.Whole.SharedPoints;
+    const std::int64_t count = mesh.Points.Count;
+    if (!caller)
+    {
+      return {};
+    }
+    Array<unsigned char> given = this->Backend.template MakeArray<unsigned char>(count);
+    Array<unsigned char> ranked = this->Backend.template MakeArray<unsigned char>(count);
+    this->Backend.Upload(caller, count, given.Data());
+    const SpatialOrderView order = this->Order.View();
+    const unsigned char* from = given.Data();
+    unsigned char* to = ranked.Data();
+    this->Backend.ForEach(
+      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = from[order.GetVertex(i)]; });
+    return ranked;
+  }
 
 protected:
   const BackendT& GetBackend() const { return this->Backend; }

@@ -14,11 +14,25 @@
 namespace delaunayflip
 {
 
+/// The edges that flips must not make.
+struct GuardedEdges
+{
+  EdgeTableView Table; ///< The vertex pairs of the mesh's edges.
+  const unsigned char* SharedVertices; ///< By vertex (WholeMesh::SharedPoints), or null.
+
+  DELAUNAYFLIP_HOST_DEVICE bool Forbid(VertexId a, VertexId b) const
+  {
+    const bool isUnknown =
+      this->SharedVertices && (this->SharedVertices[a] & this->SharedVertices[b]) != 0;
+    return isUnknown || this->Table.Find(EdgeKey(a, b)) != EdgeTableView::NoSlot;
+  }
+};
+
 /// Plain pointers to an EdgeGuard, for functions of both backends.
 struct EdgeGuardView
 {
   bool Active;
-  EdgeTableView Edges; ///< The vertex pairs of the mesh's edges.
+  GuardedEdges Edges;
   EdgeClaims Claims;
 };
 
@@ -41,9 +55,14 @@ public:
 
   bool IsActive() const { return !this->Table.IsEmpty(); }
 
+  /// Takes the flags of WholeMesh::SharedPoints, in the order of vertices.
+  void TakeSharedVertices(Array<unsigned char> flags) { this->SharedVertices = std::move(flags); }
+
   EdgeGuardView View()
   {
-    return { this->IsActive(), this->Table.View(),
+    const unsigned char* shared =
+      this->SharedVertices.Size() > 0 ? this->SharedVertices.Data() : nullptr;
+    return { this->IsActive(), { this->Table.View(), shared },
       { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
   }
 
@@ -101,6 +120,7 @@ public:
 private:
   EdgeTable Table;
   Array<std::uint64_t> Claims;
+  Array<unsigned char> SharedVertices;
   std::int64_t UsedSlots = 0;
   std::int64_t NumberOfVertices = 0;
 };

@@ -49,6 +49,7 @@ struct FlipLoopInput
   const FlipOptions& Options;
   const FlipReport& Counts; ///< Has the counts of points and edges of the input.
   EdgeMesh& Mesh; ///< Must live as long as the loop.
+  Array<unsigned char>& SharedVertices; ///< WholeMesh::SharedPoints, by vertex, or empty. Taken.
 };
 
 struct FlipLoopResult
@@ -66,6 +67,7 @@ EdgeGuard MakeGuard(const FlipLoopInput& input, EdgeTable table, const Backend& 
   {
     guard.Rebuild(input.Mesh, backend);
   }
+  guard.TakeSharedVertices(std::move(input.SharedVertices));
   return guard;
 }
 
@@ -152,7 +154,7 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   const PlanarSurvey plane =
     SurveyPlane(input.Mesh, input.Points, brokenFans, survey.UsedPoints, backend);
   EdgeGuard guard;
-  if (!plane.StarsAreSimple)
+  if (!plane.StarsAreSimple || input.SharedVertices.Size() > 0)
   {
     guard = MakeGuard(input, std::move(table), backend);
   }

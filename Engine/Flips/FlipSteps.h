@@ -19,11 +19,9 @@ namespace delaunayflip
 
 /// Pass 2: the new state of an edge that is bad or was blocked by the guard. The guard table does
 /// not change meanwhile.
-DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
-  const EdgeTableView& edges, const Quad& quad)
+DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(const GuardedEdges& edges, const Quad& quad)
 {
-  const bool exists = edges.Find(EdgeKey(quad.A, quad.B)) != EdgeTableView::NoSlot;
-  return exists ? EdgeState::BlockedByEdge : EdgeState::Bad;
+  return edges.Forbid(quad.A, quad.B) ? EdgeState::BlockedByEdge : EdgeState::Bad;
 }
 
 /// Pass 4: decides which of two bad edges flips first. Priorities are a bijection of edge ids: two
@@ -51,8 +49,8 @@ DELAUNAYFLIP_HOST_DEVICE inline void UpdateGuard(
 {
   bool fresh = false;
   guard.Claims.Release(quad.A, quad.B, Priority(edge));
-  guard.Edges.Remove(EdgeKey(quad.P, quad.Q));
-  counts.LostInserts += guard.Edges.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+  guard.Edges.Table.Remove(EdgeKey(quad.P, quad.Q));
+  counts.LostInserts += guard.Edges.Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
   counts.FreshSlots += fresh ? 1 : 0;
 }
 

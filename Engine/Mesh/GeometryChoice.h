@@ -105,18 +105,30 @@ private:
     }
   }
 
+  void ProjectAlong(int axis, bool tilted)
+  {
+    PlaneProjection& projection = this->Survey.Projection;
+    projection.AxisU = (axis + 1) % 3;
+    projection.AxisV = (axis + 2) % 3;
+    projection.AxisW = axis;
+    projection.Tilted = tilted;
+  }
+
   /// Whether all points lie in one plane.
   bool TakePlane(GeometryKind requested)
   {
+    const WholeMesh& whole = this->Input.Caller.Whole;
+    if (requested == GeometryKind::Planar && whole.PlaneAxis >= 0)
+    {
+      this->ProjectAlong(whole.PlaneAxis, whole.PlaneIsTilted);
+      this->Take(requested, AsRequested);
+      return true;
+    }
     PlaneFinder<Backend> finder(this->Input, this->Survey, this->Engine);
     if (finder.Find())
     {
       const int axis = finder.DominantAxis();
-      PlaneProjection& projection = this->Survey.Projection;
-      projection.AxisU = (axis + 1) % 3;
-      projection.AxisV = (axis + 2) % 3;
-      projection.AxisW = axis;
-      projection.Tilted = this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis];
+      this->ProjectAlong(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis]);
       this->Take(GeometryKind::Planar,
         requested == GeometryKind::Planar ? AsRequested : "all points lie in one plane");
       return true;

@@ -241,6 +241,13 @@ private:
   }
 };
 
+/// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
+/// at the points that they share with this one.
+template <typename Backend>
+void JoinPointSums(const Backend&, std::uint32_t*)
+{
+}
+
 /// Finds how triangles turn, then whether stars overlap, on a backend.
 template <typename Backend>
 class HeightFieldSurvey
@@ -280,6 +287,7 @@ public:
       points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
     this->Engine.ForEach(
       this->Triangles.Mesh.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
+    JoinPointSums(this->Engine, angleOfPoint);
     return this->Engine.template Sum<IdSample>(points,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
       {

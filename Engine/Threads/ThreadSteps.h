@@ -93,7 +93,7 @@ struct ResolveStep : QuadStep
 /// state.
 struct GuardStep : QuadStep
 {
-  EdgeTableView Edges;
+  GuardedEdges Edges;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
   void operator()(EdgeId edge, const Quad& quad, StepCounts&) const

@@ -54,6 +54,7 @@ _HOMES = {
     "BackendUnavailable": "._errors",
     "vtkDelaunayFlip": "._vtk",
     "vtkDelaunayFlipLiveView": "._vtk_rendering",
+    "vtkPDelaunayFlip": "._vtk_parallel",
 }
 
 __all__ = [

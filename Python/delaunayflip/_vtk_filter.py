@@ -203,6 +203,12 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     def GetGeometryUsedAsString(self):
         return self._update.totals.geometry_used
 
+    def GetNumberOfRounds(self):
+        return 0  # of pieces on several ranks
+
+    def GetNumberOfMovedTriangles(self):
+        return 0
+
     def GetGeometryReason(self):
         return self._update.totals.texts["geometry_reason"]
 

@@ -147,8 +147,11 @@ protected:
   }
 
   /// Takes a key out of the table; only a table made anew from the mesh has it again.
-  void Spoil() { this->Guard.View().Edges.Remove(this->Key); }
-  bool IsRenewed() { return this->Guard.View().Edges.Find(this->Key) != EdgeTableView::NoSlot; }
+  void Spoil() { this->Guard.View().Edges.Table.Remove(this->Key); }
+  bool IsRenewed()
+  {
+    return this->Guard.View().Edges.Table.Find(this->Key) != EdgeTableView::NoSlot;
+  }
 
   ThreadBackend Backend;
   EdgeMesh Edges;
@@ -195,8 +198,8 @@ TEST_F(EdgeGuardTest, HearsOfFlips)
   guard.Claims.Claim(quad.A, quad.B, Priority(edge));
   StepCounts counts;
   UpdateGuard(guard, edge, quad, counts);
-  EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Find(EdgeKey(quad.P, quad.Q)));
-  EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Find(EdgeKey(quad.A, quad.B)));
+  EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.P, quad.Q)));
+  EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.A, quad.B)));
   EXPECT_EQ(0, counts.LostInserts);
   EXPECT_EQ(EdgeState::BlockedByEdge, DecideByGuard(guard.Edges, quad));
   for (std::uint32_t i = 0; i < guard.Claims.Size; ++i)
@@ -210,8 +213,8 @@ TEST_F(EdgeGuardTest, CountsTheSlotsThatFlipsUseFirst)
   const EdgeGuardView guard = this->Guard.View();
   const auto countEmpty = [&]
   {
-    return std::count(
-      guard.Edges.Keys, guard.Edges.Keys + guard.Edges.Capacity, EdgeTableView::Empty);
+    return std::count(guard.Edges.Table.Keys, guard.Edges.Table.Keys + guard.Edges.Table.Capacity,
+      EdgeTableView::Empty);
   };
   const auto before = countEmpty();
   StepCounts counts;

@@ -5,8 +5,8 @@
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
-engine: CInterface, Filters, Rendering and Command see its public headers, Plugin sees Filters
-alone; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
+engine: CInterface, Filters, FiltersParallel, Rendering and Command see its public headers, Plugin
+the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
 """
 
 import os
@@ -24,10 +24,11 @@ CHOICE = "Engine"  # the files at its root, except the public headers
 ABOVE = {
     "CInterface": {PUBLIC, "CInterface"},
     "Filters": {PUBLIC, "Filters"},
+    "FiltersParallel": {PUBLIC, "Filters", "FiltersParallel"},
     "Rendering": {PUBLIC, "Filters", "Rendering"},
     "Command": {PUBLIC, "Filters", "Command"},
-    "Plugin": {"Filters", "Plugin"},
-    "Examples": {PUBLIC, "CInterface", "Filters", "Rendering", "Examples"},
+    "Plugin": {"Filters", "FiltersParallel", "Plugin"},
+    "Examples": {PUBLIC, "CInterface", "Filters", "FiltersParallel", "Rendering", "Examples"},
 }
 
 

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PIECEFLIP_H
+#define DELAUNAYFLIP_PIECEFLIP_H
+
+#include "EngineExport.h"
+#include "FlipOptions.h"
+#include "FlipReport.h"
+#include "PieceGroup.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// Flips one mesh that is divided among several ranks: every rank holds a piece, and the edges
+/// between pieces flip too.
+
+namespace delaunayflip
+{
+
+/// The piece of one rank. It may be empty. Triangles must not be repeated on several ranks.
+struct MeshPiece
+{
+  /// Regions must have the same labels on all ranks. A constraint edge may be given by any rank
+  /// that has both of its points.
+  TriangleMesh Mesh;
+
+  /// One number per point, the same for a point on all ranks that have it; or null. If no rank has
+  /// numbers, points at the borders of pieces are the same if their coordinates are equal.
+  const std::int64_t* PointNumbers = nullptr;
+};
+
+/// Something that was given by a rank.
+struct PieceOrigin
+{
+  std::int32_t Rank;
+  std::int64_t Id; ///< The rank's own id of it.
+};
+
+/// The piece of one rank after a run. Triangles change owner, so that it may have more or fewer
+/// triangles than before.
+struct FlippedPiece
+{
+  /// Three point ids per triangle. Triangles that the rank has kept come first, in their order.
+  /// Ids from the number of its points on name received points.
+  std::vector<std::int64_t> Triangles;
+  std::vector<PieceOrigin> Origins; ///< Of every triangle: the slot that it was given in.
+  std::vector<std::int32_t> FlipCounts; ///< One per triangle.
+
+  std::vector<PieceOrigin> ReceivedPoints; ///< The points of other ranks that its triangles need.
+  std::vector<double> ReceivedCoordinates; ///< x, y and z of each.
+  bool AreFloats = true; ///< Whether the points of all ranks have the precision of float.
+};
+
+/// What happened to the whole mesh; the same on every rank.
+struct PiecesReport : FlipReport
+{
+  /// How often the pieces flipped and then tested the edges between them. 1: no such edge was bad.
+  std::int64_t Rounds = 0;
+  std::int64_t MovedTriangles = 0; ///< How many times a triangle changed owner.
+  std::int64_t SeamEdges = 0; ///< Edges between pieces at the beginning.
+  /// Points at the borders of pieces that coincide with others of the same piece. Without numbers
+  /// it is not known which of them are the same, so the edges there stay.
+  std::int64_t AmbiguousPoints = 0;
+};
+
+/// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
+/// group must call this together, with the same options.
+///
+/// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
+/// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
+/// @param flipped receives this rank's piece.
+/// @throws on every rank if one fails, with its number: what FlipSession's constructor throws.
+DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,
+  PieceGroup& group, FlippedPiece& flipped, const ProgressObserver& progress = {});
+
+/// How a mesh of one process is divided.
+struct PieceDivision
+{
+  int Pieces = 2; ///< 1 or more. A thread each.
+
+  /// CUDA's numbers of the GPUs that the pieces use, one after the other: piece 0 the first, and so
+  /// on. Pieces with the same GPU take turns, so that a mesh larger than its memory can pass
+  /// through it in pieces. Empty: FlipOptions::Device, at once.
+  std::vector<int> Devices;
+};
+
+/// Divides a mesh into pieces next to each other, flips it by FlipPiece in threads, and writes the
+/// result to `triangles`, which may be the array that mesh.Triangles views. The report is that of
+/// the whole mesh, without points that no triangle uses. Constraints that are no edges are inserted
+/// only within a piece.
+/// @throws as FlipPiece; InvalidOptions for no pieces.
+DELAUNAYFLIP_EXPORT PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
+  const PieceDivision& division, const MutableTriangleArray& triangles,
+  const ProgressObserver& progress = {});
+
+}
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PIECEGROUP_H
+#define DELAUNAYFLIP_PIECEGROUP_H
+
+#include "EngineExport.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+/// @file
+/// How the ranks that hold the pieces of one mesh talk to each other.
+
+namespace delaunayflip
+{
+
+using Message = std::vector<char>;
+
+/// The ranks that hold the pieces of one mesh, as one of them sees it. A rank is a process, or a
+/// thread of this process. All ranks must call Exchange and Gather the same number of times and in
+/// the same order; both wait for the other ranks.
+class DELAUNAYFLIP_EXPORT PieceGroup
+{
+public:
+  virtual ~PieceGroup();
+
+  /// The number of this rank, 0 to GetSize() - 1.
+  virtual int GetRank() const = 0;
+  virtual int GetSize() const = 0;
+
+  /// Sends messages[r] to rank r, for every rank. @returns what the ranks have sent to this one, in
+  /// their order.
+  virtual std::vector<Message> Exchange(std::vector<Message> messages) = 0;
+
+  /// Sends a message to all ranks. @returns those of all ranks, in their order.
+  virtual std::vector<Message> Gather(const Message& message) = 0;
+
+  /// Calls `work`, which may take long and needs no other rank. A group whose ranks share a device
+  /// calls it when it is this rank's turn.
+  virtual void Work(const std::function<void()>& work) { work(); }
+};
+
+/// Calls work() on this rank, in its turn, and waits for the other ranks. `work` must call no
+/// function of the group.
+/// @throws on every rank, if work throws on one: what it throws there, with a text that names the
+/// rank, as far as it is an exception of FlipError.h or RunAborted; else std::runtime_error.
+DELAUNAYFLIP_EXPORT void DoTogether(PieceGroup& group, const std::function<void()>& work);
+
+/// A group of one rank.
+DELAUNAYFLIP_EXPORT std::unique_ptr<PieceGroup> MakeSingleGroup();
+
+/// Calls work(group) in `size` threads, one for each rank of a group, and returns when all are
+/// done. If one throws, the others stop at their next call of the group, and its exception leaves
+/// this function.
+/// @param turnOf the number of the turn, for example of the device, that a rank shares with others:
+/// Work runs for one rank of a turn at a time. Empty: all ranks work at once.
+DELAUNAYFLIP_EXPORT void RunInThreads(
+  int size, const std::function<void(PieceGroup&)>& work, const std::vector<int>& turnOf = {});
+
+}
+
+#endif

@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GuardRound.h"
+
+#include "QuadSoup.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// A triangle and one of its corners.
+struct Corner
+{
+  std::int64_t Triangle;
+  int Slot;
+};
+
+/// An inner edge of this rank: its two corners.
+struct InnerQuad
+{
+  Corner One, Other;
+};
+
+/// An edge to flip, and the edge that this would make.
+struct Question
+{
+  PointPair Ends; ///< Keys, as all here.
+  PointPair Opposite;
+  bool IsSeam; ///< Between ranks, so that it cannot flip now.
+};
+
+/// The inner edges between two triangles whose opposite points are both shared.
+std::vector<InnerQuad> ListWaiting(const PieceMesh& mesh)
+{
+  PairMap<Corner> first;
+  std::vector<InnerQuad> quads;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const PieceTriangle& triangle = mesh.Triangles[t];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (!mesh.Shared[triangle.Points[slot]] || triangle.Has(FixedMark, slot) ||
+        triangle.Has(SeamMark, slot))
+      {
+        continue;
+      }
+      const Corner corner{ static_cast<std::int64_t>(t), slot };
+      const auto [place, isNew] = first.emplace(triangle.GetEdge(slot), corner);
+      if (!isNew)
+      {
+        quads.push_back({ place->second, corner });
+      }
+    }
+  }
+  return quads;
+}
+
+SeamSide MakeSide(const PieceMesh& mesh, const Corner& corner, const PointPair& ends)
+{
+  const PieceTriangle& triangle = mesh.Triangles[corner.Triangle];
+  SeamSide side{};
+  mesh.GetPosition(ends[0], side.Ends[0]);
+  mesh.GetPosition(ends[1], side.Ends[1]);
+  mesh.GetPosition(triangle.Points[corner.Slot], side.Opposite);
+  side.RunsForward = triangle.GetStart(corner.Slot) == ends[0];
+  return side;
+}
+
+/// Those of the waiting edges that are bad and whose flip would not fold the mesh over.
+std::vector<InnerQuad> FindBadQuads(
+  const PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options)
+{
+  const std::vector<InnerQuad> quads = ListWaiting(mesh);
+  QuadSoup soup(survey, options);
+  for (const InnerQuad& quad : quads)
+  {
+    const PointPair ends = mesh.Triangles[quad.One.Triangle].GetEdge(quad.One.Slot);
+    soup.Add(MakeSide(mesh, quad.One, ends), MakeSide(mesh, quad.Other, ends));
+  }
+  std::int64_t blocked = 0;
+  const std::vector<unsigned char> isBad = soup.FindBad(blocked);
+  std::vector<InnerQuad> bad;
+  for (std::size_t i = 0; i < quads.size(); ++i)
+  {
+    if (isBad[i] != 0)
+    {
+      bad.push_back(quads[i]);
+    }
+  }
+  return bad;
+}
+
+Question MakeQuestion(const PieceMesh& mesh, const InnerQuad& quad)
+{
+  const PieceTriangle& one = mesh.Triangles[quad.One.Triangle];
+  const PieceTriangle& other = mesh.Triangles[quad.Other.Triangle];
+  return { mesh.GetKeys(one.GetEdge(quad.One.Slot)),
+    mesh.GetKeys({ one.Points[quad.One.Slot], other.Points[quad.Other.Slot] }), false };
+}
+
+/// One flag per question: whether this rank has the edge that the flip would make.
+std::vector<unsigned char> FindExisting(
+  const PieceMesh& mesh, const std::vector<Question>& questions)
+{
+  PairMap<unsigned char> exists;
+  PointFlags flags;
+  for (const Question& question : questions)
+  {
+    const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
+    const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
+    if (a >= 0 && b >= 0)
+    {
+      flags.Set(static_cast<std::int32_t>(a));
+      flags.Set(static_cast<std::int32_t>(b));
+      exists.emplace(question.Opposite, 0);
+    }
+  }
+  for (const PieceTriangle& triangle : mesh.Triangles)
+  {
+    for (int slot = 0; slot < 3 && flags.Count(triangle) > 1; ++slot)
+    {
+      const auto found = exists.find(mesh.GetKeys(triangle.GetEdge(slot)));
+      if (found != exists.end())
+      {
+        found->second = 1;
+      }
+    }
+  }
+  std::vector<unsigned char> answers;
+  for (const Question& question : questions)
+  {
+    const auto found = exists.find(question.Opposite);
+    answers.push_back(found != exists.end() ? found->second : 0);
+  }
+  return answers;
+}
+
+/// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
+/// of the others, the first that asked. All ranks come to the same answers.
+PairMap<PointPair> GrantFlips(
+  const PieceMesh& mesh, const std::vector<Question>& own, PieceGroup& group)
+{
+  std::vector<Question> all;
+  for (const std::vector<Question>& list : GatherRecords(group, own))
+  {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  std::stable_partition(all.begin(), all.end(), [](const Question& one) { return !one.IsSeam; });
+  std::vector<unsigned char> exists(all.size());
+  for (const std::vector<unsigned char>& answers : GatherRecords(group, FindExisting(mesh, all)))
+  {
+    std::transform(answers.begin(), answers.end(), exists.begin(), exists.begin(),
+      [](unsigned char a, unsigned char b) { return static_cast<unsigned char>(a | b); });
+  }
+  PairMap<PointPair> granted;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (exists[i] == 0)
+    {
+      granted.emplace(all[i].Opposite, all[i].Ends);
+    }
+  }
+  return granted;
+}
+
+bool IsGranted(const PairMap<PointPair>& granted, const PointPair& ends, const PointPair& opposite)
+{
+  const auto found = granted.find(opposite);
+  return found != granted.end() && found->second == ends;
+}
+
+unsigned char GetMarks(const PieceTriangle& triangle, int slot)
+{
+  return static_cast<unsigned char>((triangle.Marks >> (slot % 3)) & (FixedMark | SeamMark));
+}
+
+void SetMarks(PieceTriangle& triangle, int slot, unsigned char marks)
+{
+  triangle.Clear(FixedMark, slot % 3);
+  triangle.Clear(SeamMark, slot % 3);
+  triangle.Marks |= static_cast<unsigned char>(marks << (slot % 3));
+}
+
+/// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
+/// (b, q, a).
+void Flip(PieceMesh& mesh, const InnerQuad& quad)
+{
+  PieceTriangle& t = mesh.Triangles[quad.One.Triangle];
+  PieceTriangle& s = mesh.Triangles[quad.Other.Triangle];
+  const int a = quad.One.Slot;
+  const int b = quad.Other.Slot;
+  const unsigned char pb = GetMarks(s, b + 1);
+  const unsigned char qa = GetMarks(t, a + 1);
+  t.Points[(a + 2) % 3] = s.Points[b];
+  s.Points[(b + 2) % 3] = t.Points[a];
+  SetMarks(t, a, pb);
+  SetMarks(t, a + 1, 0);
+  SetMarks(s, b, qa);
+  SetMarks(s, b + 1, 0);
+  ++t.Flips;
+  ++s.Flips;
+}
+
+/// Flips the granted ones of some edges, no two of the same triangle.
+/// @returns the triangles that have changed.
+std::unordered_set<std::int64_t> FlipGranted(PieceMesh& mesh, const std::vector<InnerQuad>& quads,
+  const PairMap<PointPair>& granted, GuardRound& round)
+{
+  std::unordered_set<std::int64_t> busy;
+  for (const InnerQuad& quad : quads)
+  {
+    const bool isFree = busy.count(quad.One.Triangle) == 0 && busy.count(quad.Other.Triangle) == 0;
+    const Question question = MakeQuestion(mesh, quad);
+    if (!isFree || !IsGranted(granted, question.Ends, question.Opposite))
+    {
+      continue;
+    }
+    Flip(mesh, quad);
+    ++round.Flipped;
+    for (const std::int64_t t : { quad.One.Triangle, quad.Other.Triangle })
+    {
+      busy.insert(t);
+      const PieceTriangle& triangle = mesh.Triangles[t];
+      round.Points.insert(round.Points.end(), triangle.Points, triangle.Points + 3);
+    }
+  }
+  return busy;
+}
+}
+
+GuardRound FlipWaitingEdges(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options,
+  SeamTest& test, PieceGroup& group)
+{
+  std::vector<InnerQuad> quads;
+  DoTogether(group, [&]() { quads = FindBadQuads(mesh, survey, options); });
+  std::vector<Question> questions;
+  for (const InnerQuad& quad : quads)
+  {
+    questions.push_back(MakeQuestion(mesh, quad));
+  }
+  for (const BadSeam& seam : test.Bad)
+  {
+    questions.push_back({ seam.Ends, seam.Opposite, true });
+  }
+  const PairMap<PointPair> granted = GrantFlips(mesh, questions, group);
+  GuardRound round;
+  round.FreeOfAll = static_cast<std::int64_t>(granted.size());
+  const std::unordered_set<std::int64_t> changed = FlipGranted(mesh, quads, granted, round);
+  // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
+  const auto mustStay = [&](const BadSeam& seam)
+  { return changed.count(seam.Triangle) > 0 || !IsGranted(granted, seam.Ends, seam.Opposite); };
+  test.Bad.erase(std::remove_if(test.Bad.begin(), test.Bad.end(), mustStay), test.Bad.end());
+  return round;
+}
+
+}

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "JoinReports.h"
+
+#include "Records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers of a report.
+struct ReportNumbers
+{
+  std::int64_t Points = 0, Triangles = 0, Unmatched = 0, Inserted = 0, ConstraintFlips = 0;
+  std::int64_t Euler = 0, NonDelaunayBefore = 0, NonDelaunayAfter = 0;
+  std::int64_t BlockedByShape = 0, BlockedByEdge = 0;
+  EdgeCounts Edges;
+  double AngleBefore = NaN, AngleAfter = NaN; ///< The smallest; NaN without triangles.
+  double BuildSeconds = 0.0, FlipSeconds = 0.0; ///< The largest.
+
+  ReportNumbers() = default;
+  explicit ReportNumbers(const FlipReport& report)
+    : Points(report.Points),
+      Triangles(report.Triangles),
+      Unmatched(report.UnmatchedConstraints),
+      Inserted(report.InsertedConstraints),
+      ConstraintFlips(report.ConstraintFlips),
+      Euler(report.EulerCharacteristic),
+      NonDelaunayBefore(report.NonDelaunayBefore),
+      NonDelaunayAfter(report.NonDelaunayAfter),
+      BlockedByShape(report.BlockedByShape),
+      BlockedByEdge(report.BlockedByEdge),
+      Edges(report.Edges),
+      AngleBefore(report.MinimumAngleBefore),
+      AngleAfter(report.MinimumAngleAfter),
+      BuildSeconds(report.BuildSeconds),
+      FlipSeconds(report.FlipSeconds)
+  {
+  }
+
+  ReportNumbers& operator+=(const ReportNumbers& part)
+  {
+    this->Points += part.Points;
+    this->Triangles += part.Triangles;
+    this->Unmatched += part.Unmatched;
+    this->Inserted += part.Inserted;
+    this->ConstraintFlips += part.ConstraintFlips;
+    this->Euler += part.Euler;
+    this->NonDelaunayBefore += part.NonDelaunayBefore;
+    this->NonDelaunayAfter += part.NonDelaunayAfter;
+    this->BlockedByShape += part.BlockedByShape;
+    this->BlockedByEdge += part.BlockedByEdge;
+    this->AddEdges(part.Edges);
+    this->AngleBefore = std::fmin(this->AngleBefore, part.AngleBefore);
+    this->AngleAfter = std::fmin(this->AngleAfter, part.AngleAfter);
+    this->BuildSeconds = std::max(this->BuildSeconds, part.BuildSeconds);
+    this->FlipSeconds = std::max(this->FlipSeconds, part.FlipSeconds);
+    return *this;
+  }
+
+  void Store(FlipReport& report) const
+  {
+    report.Points = this->Points;
+    report.Triangles = this->Triangles;
+    report.UnmatchedConstraints = this->Unmatched;
+    report.InsertedConstraints = this->Inserted;
+    report.ConstraintFlips = this->ConstraintFlips;
+    report.EulerCharacteristic = this->Euler;
+    report.NonDelaunayBefore = this->NonDelaunayBefore;
+    report.NonDelaunayAfter = this->NonDelaunayAfter;
+    report.BlockedByShape = this->BlockedByShape;
+    report.BlockedByEdge = this->BlockedByEdge;
+    report.Edges = this->Edges;
+    report.MinimumAngleBefore = this->AngleBefore;
+    report.MinimumAngleAfter = this->AngleAfter;
+    report.BuildSeconds = this->BuildSeconds;
+    report.FlipSeconds = this->FlipSeconds;
+  }
+
+private:
+  void AddEdges(const EdgeCounts& part)
+  {
+    this->Edges.Edges += part.Edges;
+    this->Edges.Boundary += part.Boundary;
+    this->Edges.NonManifold += part.NonManifold;
+    this->Edges.WronglyWound += part.WronglyWound;
+    this->Edges.Feature += part.Feature;
+    this->Edges.Constraint += part.Constraint;
+    this->Edges.Region += part.Region;
+    this->Edges.Fixed += part.Fixed;
+  }
+};
+
+Message PackText(const std::string& text) { return Message(text.begin(), text.end()); }
+
+/// The texts of all ranks, without repetitions, separated by commas.
+std::string JoinTexts(const std::string& text, PieceGroup& group)
+{
+  std::string list;
+  std::vector<std::string> known;
+  for (const Message& message : group.Gather(PackText(text)))
+  {
+    const std::string one(message.begin(), message.end());
+    if (!one.empty() && std::find(known.begin(), known.end(), one) == known.end())
+    {
+      known.push_back(one);
+      list += (list.empty() ? "" : ", ") + one;
+    }
+  }
+  return list;
+}
+
+/// Counts of the same defect are summed. Ids mean nothing outside their rank.
+std::vector<Defect> JoinDefects(const std::vector<Defect>& defects, PieceGroup& group)
+{
+  std::vector<std::int64_t> counts;
+  std::string texts;
+  for (const Defect& defect : defects)
+  {
+    counts.push_back(defect.Count);
+    texts += defect.What + "\n";
+  }
+  const RecordLists<std::int64_t> allCounts = GatherRecords(group, counts);
+  const std::vector<Message> allTexts = group.Gather(PackText(texts));
+  std::vector<Defect> sum;
+  for (std::size_t rank = 0; rank < allTexts.size(); ++rank)
+  {
+    auto begin = allTexts[rank].begin();
+    for (const std::int64_t count : allCounts[rank])
+    {
+      const auto end = std::find(begin, allTexts[rank].end(), '\n');
+      const std::string what(begin, end);
+      const auto same =
+        std::find_if(sum.begin(), sum.end(), [&](const Defect& one) { return one.What == what; });
+      Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ what, 0, {} });
+      target.Count += count;
+      begin = end + 1;
+    }
+  }
+  return sum;
+}
+
+void AddRow(const IterationRecord& row, IterationRecord& sum)
+{
+  sum.Tested += row.Tested;
+  sum.NonDelaunay += row.NonDelaunay;
+  sum.Flipped += row.Flipped;
+  sum.Excluded += row.Excluded;
+  sum.Blocked += row.Blocked;
+  sum.Seconds = std::max(sum.Seconds, row.Seconds);
+}
+
+std::vector<IterationRecord> JoinRows(const std::vector<RoundRow>& rows, PieceGroup& group)
+{
+  std::map<std::pair<std::int64_t, std::int64_t>, IterationRecord> sums;
+  for (const std::vector<RoundRow>& list : GatherRecords(group, rows))
+  {
+    for (const RoundRow& row : list)
+    {
+      AddRow(row.Record, sums[{ row.Round, row.Place }]);
+    }
+  }
+  std::vector<IterationRecord> joined;
+  for (const auto& [place, sum] : sums)
+  {
+    joined.push_back(sum);
+    joined.back().Iteration = static_cast<std::int64_t>(joined.size());
+    joined.back().MinimumAngle = NaN; // of no rank it is known for the whole mesh
+  }
+  return joined;
+}
+}
+
+FlipReport JoinReports(
+  const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group)
+{
+  FlipReport joined = report;
+  SumOverRanks(group, ReportNumbers(report)).Store(joined);
+  joined.Tolerance = JoinTexts(report.Tolerance, group);
+  joined.Backend = JoinTexts(report.Backend, group);
+  joined.Fallback = JoinTexts(report.Fallback, group);
+  joined.Defects = JoinDefects(report.Defects, group);
+  joined.Iterations = JoinRows(rows, group);
+  joined.TotalFlips = joined.TotalExcluded = joined.TotalBlocked = 0;
+  for (const IterationRecord& row : joined.Iterations)
+  {
+    joined.TotalFlips += row.Flipped;
+    joined.TotalExcluded += row.Excluded;
+    joined.TotalBlocked += row.Blocked;
+  }
+  return joined;
+}
+
+}

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_JOINREPORTS_H
+#define DELAUNAYFLIP_JOINREPORTS_H
+
+#include "FlipReport.h"
+#include "PieceGroup.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// An iteration of a rank. Iterations of several ranks with the same place in the same round are
+/// one of the whole mesh.
+struct RoundRow
+{
+  std::int64_t Round;
+  std::int64_t Place; ///< Among the rank's own of that round.
+  IterationRecord Record;
+};
+
+/// The sums of the reports of all ranks, the same on all of them. Texts that differ are listed.
+/// @param rows the iterations of this rank, which take the place of report.Iterations.
+FlipReport JoinReports(
+  const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group);
+
+}
+
+#endif

@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceRun.h"
+
+#include "DelaunayFlip.h"
+#include "GuardRound.h"
+#include "MeshAudit.h"
+#include "QuadSoup.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// The share of the time until the first test of edges between ranks, about.
+constexpr double FirstShare = 0.8;
+
+/// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
+/// are made at most.
+constexpr std::int64_t MostRounds = 1000;
+
+std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& group)
+{
+  std::vector<std::int64_t> firsts{ 0 };
+  for (const std::vector<std::int64_t>& count :
+    GatherRecords(group, std::vector<std::int64_t>{ piece.Mesh.Triangles.Count }))
+  {
+    firsts.push_back(firsts.back() + count.front());
+  }
+  return firsts;
+}
+
+PieceOrigin FindOrigin(const std::vector<std::int64_t>& firsts, std::int64_t number)
+{
+  const auto after = std::upper_bound(firsts.begin(), firsts.end(), number);
+  const auto rank = static_cast<std::int32_t>(after - firsts.begin() - 1);
+  return { rank, number - firsts[rank] };
+}
+
+/// How many ranks have stopped, and why.
+struct StopCounts
+{
+  std::int64_t Aborted = 0, Limited = 0;
+  std::int64_t Uncounted = 0; ///< Stopped before the edges were counted.
+
+  StopCounts& operator+=(const StopCounts& part)
+  {
+    this->Aborted += part.Aborted;
+    this->Limited += part.Limited;
+    this->Uncounted += part.Uncounted;
+    return *this;
+  }
+};
+}
+
+PieceRun::PieceRun(const PieceJob& job, PointKeys keys)
+  : Job(job),
+    FirstOrigins(NumberTriangles(job.Piece, job.Group)),
+    Mesh(job.Piece, keys, job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
+    Seams(SurveySeams(job.Piece, Mesh, job.Survey, job.Options, job.Group)),
+    RepeatedPoints(keys.Repeated)
+{
+  this->Whole.SeamEdges = this->Seams.Counts.Seams;
+  this->Whole.AmbiguousPoints = keys.Ambiguous;
+}
+
+//------------------------------------------------------------------------------
+PiecesReport PieceRun::Run()
+{
+  DoTogether(this->Job.Group, [this]() { this->FlipFirst(); });
+  while (this->MakeRound())
+  {
+  }
+  DoTogether(this->Job.Group, [this]() { this->CountRest(); });
+  return this->MakeReport();
+}
+
+/// Calls the observer of this rank. @returns whether to go on.
+bool PieceRun::Tell(double share) const { return !this->Job.Progress || this->Job.Progress(share); }
+
+//------------------------------------------------------------------------------
+/// The caller's mesh, with the constraints that other ranks know of.
+TriangleMesh PieceRun::GetFirstMesh() const
+{
+  TriangleMesh mesh = this->Job.Piece.Mesh;
+  mesh.ConstraintEdges = this->Seams.Constraints.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
+  mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
+  mesh.Whole = this->Job.Survey.Whole;
+  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard ? this->Mesh.Shared.data() : nullptr;
+  return mesh;
+}
+
+void PieceRun::FlipFirst()
+{
+  for (const PointPair& edge : this->Seams.HeldEdges)
+  {
+    this->Seams.Constraints.insert(this->Seams.Constraints.end(), { edge[0], edge[1] });
+    this->Seams.ToInsert.push_back(0);
+  }
+  const TriangleMesh mesh = this->GetFirstMesh();
+  FlipOptions options = this->Job.Options;
+  options.Geometry = this->Job.Survey.Geometry;
+  options.TrackQuality = false;
+  const ProgressObserver progress = [this](double share) { return this->Tell(FirstShare * share); };
+  FlipSession session(mesh, options, progress);
+  if (session.GetReport().StopReason != StopReasonKind::Aborted)
+  {
+    session.Advance(-1, {}, progress);
+  }
+  this->KeepFirst(session, mesh);
+}
+
+void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
+{
+  const std::int64_t count = mesh.Triangles.Count;
+  std::vector<std::int32_t> ids(3 * count);
+  std::vector<std::int32_t> flips(count);
+  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+  session.StoreFlipCounts(flips.data());
+  this->Own = session.GetReport();
+  this->KeepRows(this->Own);
+  this->MarkEdges(mesh);
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    std::copy_n(ids.data() + 3 * t, 3, this->Mesh.Triangles[t].Points);
+    this->Mesh.Triangles[t].Flips = flips[t];
+  }
+  this->Edges.Apply(this->Mesh.Triangles);
+  this->Edges = MarkedEdges();
+}
+
+/// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
+/// have others on other ranks.
+void PieceRun::MarkEdges(const TriangleMesh& mesh)
+{
+  for (const MarkedCorner& mark : this->Seams.Marks)
+  {
+    this->Edges.Add(this->Mesh.Triangles[mark.Triangle].GetEdge(mark.Slot), mark.Mark);
+  }
+  const EdgeCounts& counts = this->Own.Edges;
+  const bool hasFixed = counts.Fixed > counts.Boundary + counts.NonManifold;
+  if (hasFixed)
+  {
+    FlipOptions options = this->Job.Options;
+    options.Geometry = this->Job.Survey.Geometry;
+    const std::vector<std::int64_t> fixed = FindFixedEdges(mesh, options);
+    for (std::size_t i = 0; i < fixed.size(); i += 2)
+    {
+      this->Edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
+    }
+  }
+  if (counts.NonManifold > 0)
+  {
+    for (const PointPair& edge : FindCrowdedEdges(mesh.Triangles))
+    {
+      this->Edges.Add(edge, FixedMark);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Whether no rank has stopped.
+bool PieceRun::MayGoOn()
+{
+  StopCounts own;
+  own.Aborted = this->StopReason == StopReasonKind::Aborted ? 1 : 0;
+  own.Limited = this->StopReason == StopReasonKind::IterationLimit ? 1 : 0;
+  own.Uncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0 ? 1 : 0;
+  const StopCounts all = SumOverRanks(this->Job.Group, own);
+  this->IsCounted = all.Uncounted == 0;
+  if (all.Aborted > 0)
+  {
+    this->WholeStopReason = StopReasonKind::Aborted;
+  }
+  else if (all.Limited > 0 || (this->Job.Survey.NeedsGuard && this->Whole.Rounds > MostRounds))
+  {
+    this->WholeStopReason = StopReasonKind::IterationLimit;
+  }
+  return this->WholeStopReason == StopReasonKind::Converged;
+}
+
+/// Tests the edges between ranks and flips around those that are bad. @returns whether there were
+/// any.
+bool PieceRun::MakeRound()
+{
+  ++this->Whole.Rounds;
+  const bool mayGoOn = this->MayGoOn();
+  SeamTest test = TestSeams(this->Mesh, this->Job.Survey, this->Job.Options, this->Job.Group);
+  this->BadSeams = test.BadOfAll + test.BlockedOfAll;
+  this->FoldedSeams = test.BlockedOfAll;
+  GuardRound waiting;
+  waiting.FreeOfAll = test.BadOfAll;
+  if (this->Job.Survey.NeedsGuard && mayGoOn)
+  {
+    waiting =
+      FlipWaitingEdges(this->Mesh, this->Job.Survey, this->Job.Options, test, this->Job.Group);
+    this->KeepFlips(waiting.Flipped);
+  }
+  if (!mayGoOn || waiting.FreeOfAll == 0)
+  {
+    return false;
+  }
+  std::int64_t moved = 0;
+  std::vector<std::int32_t> points =
+    MoveTriangles(this->Mesh, test.Bad, this->Whole.Rounds % 2 != 0, this->Job.Group, moved);
+  points.insert(points.end(), waiting.Points.begin(), waiting.Points.end());
+  this->Whole.MovedTriangles += moved;
+  DoTogether(this->Job.Group, [&]() { this->FlipAround(points); });
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Judges the edges around some points, then, as far as flips reached, those further away.
+void PieceRun::FlipAround(std::vector<std::int32_t> points)
+{
+  while (!points.empty() && this->StopReason == StopReasonKind::Converged)
+  {
+    const double rounds = static_cast<double>(this->Whole.Rounds);
+    if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
+    {
+      this->StopReason = StopReasonKind::Aborted;
+      return;
+    }
+    points = this->FlipRegion(PieceRegion(this->Mesh, points, this->Flags, this->Job.Survey));
+  }
+}
+
+/// @returns the points around which edges must now be judged.
+std::vector<std::int32_t> PieceRun::FlipRegion(const PieceRegion& region)
+{
+  FlipOptions options = GetPartOptions(this->Job.Survey, this->Job.Options);
+  options.MaximumIterations = this->CountIterationsLeft();
+  FlipSession session(region.View(), options);
+  session.Advance();
+  std::vector<std::int32_t> ids(3 * region.GetNumberOfTriangles());
+  std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
+  session.StoreTriangles(MutableTriangleArray(ids.data(), region.GetNumberOfTriangles()));
+  session.StoreFlipCounts(flips.data());
+  region.Store(ids, flips, this->Mesh);
+  const FlipReport& report = session.GetReport();
+  this->KeepRows(report);
+  this->Own.BuildSeconds += report.BuildSeconds;
+  this->Own.FlipSeconds += report.FlipSeconds;
+  return region.FindNext(ids, flips);
+}
+
+//------------------------------------------------------------------------------
+void PieceRun::KeepRows(const FlipReport& report)
+{
+  for (const IterationRecord& row : report.Iterations)
+  {
+    this->KeepRow(row);
+  }
+  this->HasBlocked = this->HasBlocked || report.NonDelaunayAfter > 0;
+  this->StopReason = report.StopReason;
+}
+
+void PieceRun::KeepRow(const IterationRecord& row)
+{
+  const bool isNext = !this->Rows.empty() && this->Rows.back().Round == this->Whole.Rounds;
+  this->Rows.push_back({ this->Whole.Rounds, isNext ? this->Rows.back().Place + 1 : 0, row });
+}
+
+/// Edges that were flipped outside of a session, all at once.
+void PieceRun::KeepFlips(std::int64_t flipped)
+{
+  if (flipped > 0)
+  {
+    IterationRecord row;
+    row.Tested = row.NonDelaunay = row.Flipped = flipped;
+    this->KeepRow(row);
+  }
+}
+
+std::int64_t PieceRun::CountIterationsLeft() const
+{
+  const std::int64_t most = this->Job.Options.MaximumIterations;
+  const auto made = static_cast<std::int64_t>(this->Rows.size());
+  return most < 0 ? most : std::max<std::int64_t>(0, most - made);
+}
+
+//------------------------------------------------------------------------------
+/// The edges that are left, and the smallest angle, on this rank.
+void PieceRun::CountRest()
+{
+  const PieceRegion all(this->Mesh, this->Job.Survey);
+  this->Own.MinimumAngleAfter = MinimumAngle(all.View(), this->Job.Survey.Geometry);
+  this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
+  if (this->HasBlocked)
+  {
+    FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
+    none.MaximumIterations = 0;
+    const FlipSession session(all.View(), none);
+    const FlipReport& report = session.GetReport();
+    this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
+    this->Own.BlockedByShape = report.BlockedByShape;
+    this->Own.BlockedByEdge = report.BlockedByEdge;
+  }
+}
+
+PiecesReport PieceRun::MakeReport()
+{
+  const SeamCounts& seams = this->Seams.Counts;
+  PiecesReport report = this->Whole;
+  static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
+  report.Points -= this->RepeatedPoints;
+  report.Edges = this->IsCounted ? seams.AddTo(report.Edges) : EdgeCounts();
+  report.EulerCharacteristic -= this->RepeatedPoints + seams.Edges.Edges;
+  report.EulerCharacteristic = this->IsCounted ? report.EulerCharacteristic : 0;
+  report.UnmatchedConstraints += seams.MissingConstraints;
+  report.NonDelaunayBefore += seams.NonDelaunay;
+  report.NonDelaunayAfter += this->BadSeams;
+  report.BlockedByShape += this->FoldedSeams;
+  const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
+  report.BlockedByEdge += areBlocked ? this->BadSeams - this->FoldedSeams : 0;
+  report.GeometryUsed = this->Job.Survey.Geometry;
+  report.GeometryReason = this->Job.Survey.GeometryReason;
+  report.StopReason = this->WholeStopReason;
+  if (!report.Iterations.empty())
+  {
+    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+  }
+  const Defect missing{ "constraint edges that are not edges of the mesh", seams.MissingConstraints,
+    {}, DefectIds::Points };
+  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, missing })
+  {
+    if (defect.Count > 0)
+    {
+      report.Defects.push_back(defect);
+    }
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+void PieceRun::Store(FlippedPiece& flipped) const
+{
+  const std::int32_t rank = this->Job.Group.GetRank();
+  std::vector<PieceTriangle> triangles = this->Mesh.Triangles;
+  const auto isOwn = [&](const PieceTriangle& triangle)
+  {
+    return this->FirstOrigins[rank] <= triangle.Origin &&
+      triangle.Origin < this->FirstOrigins[rank + 1];
+  };
+  std::sort(triangles.begin(), triangles.end(),
+    [&](const PieceTriangle& a, const PieceTriangle& b)
+    { return std::make_pair(!isOwn(a), a.Origin) < std::make_pair(!isOwn(b), b.Origin); });
+  flipped = FlippedPiece();
+  flipped.AreFloats = this->Job.Survey.IsFloat;
+  std::vector<std::int64_t> idOfReceived(
+    this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
+  for (const PieceTriangle& triangle : triangles)
+  {
+    flipped.Origins.push_back(FindOrigin(this->FirstOrigins, triangle.Origin));
+    flipped.FlipCounts.push_back(triangle.Flips);
+    for (const std::int32_t point : triangle.Points)
+    {
+      flipped.Triangles.push_back(this->StorePoint(point, idOfReceived, flipped));
+    }
+  }
+}
+
+/// @param idOfReceived the ids that received points have in the result; -1: not yet.
+/// @returns the id that a point has there.
+std::int64_t PieceRun::StorePoint(
+  std::int64_t point, std::vector<std::int64_t>& idOfReceived, FlippedPiece& flipped) const
+{
+  const std::int64_t first = this->Mesh.GetFirstReceived();
+  if (point < first)
+  {
+    return point;
+  }
+  std::int64_t& id = idOfReceived[point - first];
+  if (id < 0)
+  {
+    id = first + static_cast<std::int64_t>(flipped.ReceivedPoints.size());
+    double x[3];
+    this->Mesh.GetPosition(point, x);
+    flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
+    flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
+  }
+  return id;
+}
+
+}

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PIECERUN_H
+#define DELAUNAYFLIP_PIECERUN_H
+
+#include "FixedPairs.h"
+#include "JoinReports.h"
+#include "PieceFlip.h"
+#include "PieceMesh.h"
+#include "PieceRegion.h"
+#include "PieceSurvey.h"
+#include "SeamRound.h"
+#include "SeamSurvey.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+class FlipSession;
+
+/// What a run is given. All must live as long as the run.
+struct PieceJob
+{
+  const MeshPiece& Piece;
+  const FlipOptions& Options;
+  const PieceSurvey& Survey;
+  PieceGroup& Group;
+  const ProgressObserver& Progress;
+};
+
+/// A run, as one of its ranks sees it.
+///
+/// First each rank flips its piece, in which the edges between ranks are boundary edges. Then, in
+/// every round, these edges are tested, triangles at bad ones change owner so that the edges become
+/// inner ones, and each rank flips around them. Every round flips at least one bad edge, so the
+/// proof that flips end on one rank holds here too.
+class PieceRun
+{
+public:
+  PieceRun(const PieceJob& job, PointKeys keys);
+
+  /// Makes all rounds; all ranks call it together. @returns the report of the whole mesh.
+  PiecesReport Run();
+
+  void Store(FlippedPiece& flipped) const;
+
+private:
+  TriangleMesh GetFirstMesh() const;
+  void FlipFirst();
+  void KeepFirst(const FlipSession& session, const TriangleMesh& mesh);
+  void MarkEdges(const TriangleMesh& mesh);
+  bool MakeRound();
+  bool MayGoOn();
+  void FlipAround(std::vector<std::int32_t> points);
+  std::vector<std::int32_t> FlipRegion(const PieceRegion& region);
+  void KeepRows(const FlipReport& report);
+  void KeepRow(const IterationRecord& row);
+  void KeepFlips(std::int64_t flipped);
+  std::int64_t CountIterationsLeft() const;
+  bool Tell(double share) const;
+  void CountRest();
+  PiecesReport MakeReport();
+  std::int64_t StorePoint(
+    std::int64_t point, std::vector<std::int64_t>& idOfReceived, FlippedPiece& flipped) const;
+
+  PieceJob Job;
+  std::vector<std::int64_t> FirstOrigins; ///< The number of the first triangle of every rank.
+  PieceMesh Mesh;
+  PointFlags Flags;
+  SeamSurvey Seams;
+  std::int64_t RepeatedPoints;
+
+  // Of this rank:
+  FlipReport Own; ///< Begins as that of the first flips.
+  std::vector<RoundRow> Rows;
+  MarkedEdges Edges; ///< While the first triangles are replaced.
+  StopReasonKind StopReason = StopReasonKind::Converged;
+  bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
+
+  // Of all ranks:
+  PiecesReport Whole; ///< Its own members; those of FlipReport come at the end.
+  StopReasonKind WholeStopReason = StopReasonKind::Converged;
+  bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
+  std::int64_t BadSeams = 0; ///< At the end: those that are left, whatever the reason.
+  std::int64_t FoldedSeams = 0; ///< Of these, those whose flip would fold the mesh over.
+};
+
+}
+
+#endif

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadSoup.h"
+
+#include "DelaunayFlip.h"
+
+namespace delaunayflip
+{
+
+void PointList::Add(const double (&x)[3])
+{
+  for (const double coordinate : x)
+  {
+    if (this->IsFloat)
+    {
+      this->Floats.push_back(static_cast<float>(coordinate));
+    }
+    else
+    {
+      this->Doubles.push_back(coordinate);
+    }
+  }
+}
+
+std::int64_t PointList::GetSize() const
+{
+  return static_cast<std::int64_t>(this->IsFloat ? this->Floats.size() : this->Doubles.size()) / 3;
+}
+
+PointArray PointList::View() const
+{
+  return this->IsFloat ? PointArray(this->Floats.data(), this->GetSize())
+                       : PointArray(this->Doubles.data(), this->GetSize());
+}
+
+FlipOptions GetPartOptions(const PieceSurvey& survey, const FlipOptions& options)
+{
+  FlipOptions part = options;
+  part.Geometry = survey.Geometry;
+  part.FeatureAngle = 180.0;
+  part.TrackQuality = false;
+  if (part.Backend == BackendKind::CUDA)
+  {
+    part.Backend = BackendKind::Auto; // parts are often too small for a GPU
+  }
+  return part;
+}
+
+QuadSoup::QuadSoup(const PieceSurvey& survey, const FlipOptions& options)
+  : Options(GetPartOptions(survey, options)),
+    Whole(survey.Whole),
+    Points(survey.IsFloat)
+{
+  this->Options.FeatureAngle = options.FeatureAngle;
+}
+
+void QuadSoup::Add(const SeamSide& one, const SeamSide& other)
+{
+  const std::int64_t first = this->Points.GetSize();
+  this->Points.Add(one.Ends[0]);
+  this->Points.Add(one.Ends[1]);
+  for (const SeamSide* side : { &one, &other })
+  {
+    const std::int64_t opposite = this->Points.GetSize();
+    this->Points.Add(side->Opposite);
+    this->Triangles.push_back(first + (side->RunsForward ? 0 : 1));
+    this->Triangles.push_back(first + (side->RunsForward ? 1 : 0));
+    this->Triangles.push_back(opposite);
+    this->Regions.push_back(side->Region);
+    this->Frozen.push_back(side->IsFrozen ? 1 : 0);
+  }
+}
+
+TriangleMesh QuadSoup::View() const
+{
+  TriangleMesh mesh;
+  mesh.Points = this->Points.View();
+  mesh.Triangles =
+    TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->Triangles.size()) / 3);
+  mesh.Regions = this->Regions.data();
+  mesh.FrozenTriangles = this->Frozen.data();
+  mesh.Whole = this->Whole;
+  return mesh;
+}
+
+std::vector<unsigned char> QuadSoup::FindFixed(EdgeCounts& counts) const
+{
+  std::vector<unsigned char> fixed(this->GetSize());
+  if (fixed.empty())
+  {
+    return fixed;
+  }
+  const std::vector<std::int64_t> pairs = FindFixedEdges(this->View(), this->Options);
+  for (std::size_t i = 0; i < pairs.size(); i += 2)
+  {
+    fixed[pairs[i] / 4] = 1;
+  }
+  FlipOptions none = this->Options;
+  none.MaximumIterations = 0;
+  const FlipSession session(this->View(), none);
+  const EdgeCounts& found = session.GetReport().Edges;
+  counts.Edges += this->GetSize();
+  counts.WronglyWound += found.WronglyWound;
+  counts.Feature += found.Feature;
+  counts.Region += found.Region;
+  counts.Fixed += static_cast<std::int64_t>(pairs.size()) / 2;
+  return fixed;
+}
+
+std::vector<unsigned char> QuadSoup::FindBad(std::int64_t& blocked) const
+{
+  std::vector<unsigned char> bad(this->GetSize());
+  blocked = 0;
+  if (bad.empty())
+  {
+    return bad;
+  }
+  FlipOptions one = this->Options;
+  one.FeatureAngle = 180.0;
+  one.MaximumIterations = 1;
+  FlipSession session(this->View(), one);
+  const FlipReport& report = session.GetReport();
+  blocked = report.BlockedByShape;
+  session.Advance();
+  std::vector<std::int32_t> flips(2 * this->GetSize());
+  session.StoreFlipCounts(flips.data());
+  for (std::size_t i = 0; i < bad.size(); ++i)
+  {
+    bad[i] = flips[2 * i] > 0 ? 1 : 0;
+  }
+  return bad;
+}
+
+}

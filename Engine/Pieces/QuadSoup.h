@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_QUADSOUP_H
+#define DELAUNAYFLIP_QUADSOUP_H
+
+#include "FlipOptions.h"
+#include "FlipReport.h"
+#include "PieceSurvey.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Coordinates of points, in the precision of the caller's.
+class PointList
+{
+public:
+  explicit PointList(bool isFloat)
+    : IsFloat(isFloat)
+  {
+  }
+  void Add(const double (&x)[3]);
+  std::int64_t GetSize() const;
+  PointArray View() const;
+
+private:
+  bool IsFloat;
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+};
+
+/// One of the two triangles of an edge, with what decides whether the edge stays.
+struct SeamSide
+{
+  double Ends[2][3]; ///< Of the edge, in the same order for both triangles.
+  double Opposite[3];
+  bool RunsForward; ///< The triangle runs through the edge from the first end to the second.
+  bool IsFrozen;
+  std::int32_t Region;
+};
+
+/// Quads that share no points: two triangles each, so that the engine can judge edges whose
+/// triangles are on different ranks, by the same rules as all others.
+class QuadSoup
+{
+public:
+  QuadSoup(const PieceSurvey& survey, const FlipOptions& options);
+
+  void Add(const SeamSide& one, const SeamSide& other);
+  std::int64_t GetSize() const { return this->Points.GetSize() / 4; }
+
+  /// One flag per quad: whether its edge must stay. Adds why to `counts`, which count these edges
+  /// alone.
+  std::vector<unsigned char> FindFixed(EdgeCounts& counts) const;
+
+  /// One flag per quad: whether its edge is bad and may flip; edges that FindFixed finds may not.
+  /// @param blocked receives how many are bad but would fold the mesh over.
+  std::vector<unsigned char> FindBad(std::int64_t& blocked) const;
+
+private:
+  TriangleMesh View() const;
+  FlipOptions Options;
+  WholeMesh Whole;
+  PointList Points;
+  std::vector<std::int64_t> Triangles;
+  std::vector<std::int32_t> Regions;
+  std::vector<unsigned char> Frozen;
+};
+
+/// The options for a part of the whole mesh: the geometry is known, and edges that must stay are
+/// given.
+FlipOptions GetPartOptions(const PieceSurvey& survey, const FlipOptions& options);
+
+}
+
+#endif

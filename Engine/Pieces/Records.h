@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RECORDS_H
+#define DELAUNAYFLIP_RECORDS_H
+
+#include "PieceGroup.h"
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// @file
+/// Messages of records: plain structs, which all ranks lay out alike.
+
+namespace delaunayflip
+{
+
+template <typename Record>
+using RecordLists = std::vector<std::vector<Record>>; ///< One list per rank.
+
+template <typename Record>
+Message Pack(const std::vector<Record>& records)
+{
+  static_assert(std::is_trivially_copyable<Record>::value, "records are copied byte by byte");
+  Message message(records.size() * sizeof(Record));
+  if (!records.empty())
+  {
+    std::memcpy(message.data(), static_cast<const void*>(records.data()), message.size());
+  }
+  return message;
+}
+
+template <typename Record>
+std::vector<Record> Unpack(const Message& message)
+{
+  std::vector<Record> records(message.size() / sizeof(Record));
+  if (!records.empty())
+  {
+    std::memcpy(static_cast<void*>(records.data()), message.data(), message.size());
+  }
+  return records;
+}
+
+template <typename Record>
+RecordLists<Record> UnpackAll(const std::vector<Message>& messages)
+{
+  RecordLists<Record> lists;
+  for (const Message& message : messages)
+  {
+    lists.push_back(Unpack<Record>(message));
+  }
+  return lists;
+}
+
+/// Sends toRank[r] to rank r. @returns what came from each rank.
+template <typename Record>
+RecordLists<Record> ExchangeRecords(PieceGroup& group, const RecordLists<Record>& toRank)
+{
+  std::vector<Message> messages;
+  for (const std::vector<Record>& records : toRank)
+  {
+    messages.push_back(Pack(records));
+  }
+  return UnpackAll<Record>(group.Exchange(std::move(messages)));
+}
+
+template <typename Record>
+RecordLists<Record> GatherRecords(PieceGroup& group, const std::vector<Record>& records)
+{
+  return UnpackAll<Record>(group.Gather(Pack(records)));
+}
+
+/// The sum of a value over all ranks, by operator+= in their order.
+template <typename Value>
+Value SumOverRanks(PieceGroup& group, const Value& value)
+{
+  Value sum{};
+  for (const std::vector<Value>& part : GatherRecords(group, std::vector<Value>{ value }))
+  {
+    sum += part.front();
+  }
+  return sum;
+}
+
+/// Scatters the bits of a number.
+inline std::uint64_t ScatterBits(std::uint64_t bits)
+{
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  return bits ^ (bits >> 31);
+}
+
+/// The rank that collects what all ranks know about something with this hash.
+inline int GetHome(std::uint64_t hash, const PieceGroup& group)
+{
+  return static_cast<int>(hash % static_cast<std::uint64_t>(group.GetSize()));
+}
+
+}
+
+#endif

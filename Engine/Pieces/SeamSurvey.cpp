@@ -1,0 +1,432 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SeamSurvey.h"
+
+#include "QuadSoup.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// A triangle at an edge whose ends are both shared, as its rank sends it.
+struct SeamCorner
+{
+  PointPair Ends; ///< Keys.
+  std::int64_t Opposite; ///< A key.
+  std::int64_t Triangle;
+  SeamSide Side;
+  std::int32_t Slot;
+};
+
+struct RankedCorner
+{
+  SeamCorner Corner;
+  int Rank;
+};
+
+/// What a rank must know about a corner that it has sent.
+struct SeamAnswer
+{
+  std::int64_t Triangle;
+  std::int32_t Slot;
+  bool IsFixed;
+  bool IsHeld; ///< The rank has two triangles of the edge, and would flip it.
+};
+
+/// One edge: its corners, by rank.
+struct SeamEdge
+{
+  const RankedCorner* Begin;
+  const RankedCorner* End;
+  bool IsConstraint;
+
+  std::int64_t GetSize() const { return this->End - this->Begin; }
+  bool IsOnOneRank() const { return this->Begin->Rank == (this->End - 1)->Rank; }
+  /// Whether it has two triangles, on two ranks, with different opposite points.
+  bool IsQuad() const
+  {
+    return this->GetSize() == 2 && !this->IsOnOneRank() &&
+      this->Begin[0].Corner.Opposite != this->Begin[1].Corner.Opposite;
+  }
+  std::int64_t CountOn(int rank) const
+  {
+    return std::count_if(
+      this->Begin, this->End, [=](const RankedCorner& corner) { return corner.Rank == rank; });
+  }
+};
+
+void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
+{
+  sum.Edges += factor * part.Edges;
+  sum.Boundary += factor * part.Boundary;
+  sum.NonManifold += factor * part.NonManifold;
+  sum.WronglyWound += factor * part.WronglyWound;
+  sum.Feature += factor * part.Feature;
+  sum.Constraint += factor * part.Constraint;
+  sum.Region += factor * part.Region;
+  sum.Fixed += factor * part.Fixed;
+}
+
+/// Makes the corners of a rank.
+class CornerLister
+{
+public:
+  CornerLister(const MeshPiece& piece, const PieceMesh& mesh)
+    : Piece(piece),
+      Mesh(mesh)
+  {
+  }
+
+  SeamCorner Make(std::int64_t t, int slot) const
+  {
+    const PieceTriangle& triangle = this->Mesh.Triangles[t];
+    SeamCorner corner{};
+    corner.Ends = this->Mesh.GetKeys(triangle.GetEdge(slot));
+    corner.Opposite = this->Mesh.GetKey(triangle.Points[slot]);
+    corner.Triangle = t;
+    corner.Slot = slot;
+    SeamSide& side = corner.Side;
+    side.RunsForward = this->Mesh.GetKey(triangle.GetStart(slot)) == corner.Ends[0];
+    this->Mesh.GetPosition(
+      side.RunsForward ? triangle.GetStart(slot) : triangle.GetEnd(slot), side.Ends[0]);
+    this->Mesh.GetPosition(
+      side.RunsForward ? triangle.GetEnd(slot) : triangle.GetStart(slot), side.Ends[1]);
+    this->Mesh.GetPosition(triangle.Points[slot], side.Opposite);
+    side.IsFrozen = this->IsFrozen(t);
+    side.Region = this->Piece.Mesh.Regions ? this->Piece.Mesh.Regions[t] : 0;
+    return corner;
+  }
+
+  bool IsShared(std::int64_t t, int slot) const
+  {
+    const PieceTriangle& triangle = this->Mesh.Triangles[t];
+    const std::int32_t start = triangle.GetStart(slot);
+    const std::int32_t end = triangle.GetEnd(slot);
+    return start != end && this->Mesh.Shared[start] && this->Mesh.Shared[end];
+  }
+
+private:
+  /// Also with a repeated id.
+  bool IsFrozen(std::int64_t t) const
+  {
+    const std::int32_t(&p)[3] = this->Mesh.Triangles[t].Points;
+    const unsigned char* frozen = this->Piece.Mesh.FrozenTriangles;
+    return (frozen && frozen[t] != 0) || p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+  }
+
+  const MeshPiece& Piece;
+  const PieceMesh& Mesh;
+};
+
+std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
+{
+  return GetHome(PairHash()(keys), group);
+}
+
+RecordLists<SeamCorner> ListCorners(
+  const MeshPiece& piece, const PieceMesh& mesh, const PieceGroup& group)
+{
+  const CornerLister lister(piece, mesh);
+  RecordLists<SeamCorner> toHome(group.GetSize());
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (lister.IsShared(t, slot))
+      {
+        const SeamCorner corner = lister.Make(t, slot);
+        toHome[GetHomeOf(corner.Ends, group)].push_back(corner);
+      }
+    }
+  }
+  return toHome;
+}
+
+/// Sends constraints between shared points to the ranks that know their edges, and keeps the others
+/// for this rank alone.
+RecordLists<PointPair> DivideConstraints(
+  const TriangleMesh& caller, const PieceMesh& mesh, SeamSurvey& survey, const PieceGroup& group)
+{
+  RecordLists<PointPair> toHome(group.GetSize());
+  for (std::int64_t i = 0; i < caller.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t a = caller.ConstraintEdges[2 * i];
+    const std::int64_t b = caller.ConstraintEdges[2 * i + 1];
+    if (mesh.Shared[a] && mesh.Shared[b])
+    {
+      const PointPair keys = mesh.GetKeys({ a, b });
+      toHome[GetHomeOf(keys, group)].push_back(keys);
+    }
+    else
+    {
+      survey.Constraints.insert(survey.Constraints.end(), { a, b });
+      survey.ToInsert.push_back(caller.ConstraintsToInsert ? caller.ConstraintsToInsert[i] : 0);
+    }
+  }
+  return toHome;
+}
+
+/// Decides about the edges that all ranks have sent to this one.
+class SeamJudge
+{
+public:
+  SeamJudge(const PieceSurvey& survey, const FlipOptions& options, int ranks)
+    : Survey(survey),
+      Options(options),
+      Answers(ranks)
+  {
+  }
+
+  void Judge(const RecordLists<SeamCorner>& corners, const RecordLists<PointPair>& constraints)
+  {
+    this->Collect(corners);
+    this->CollectConstraints(constraints);
+    this->FindEdges();
+    QuadSoup soup(this->Survey, this->Options);
+    std::vector<const SeamEdge*> quads;
+    for (const SeamEdge& edge : this->Edges)
+    {
+      if (edge.IsQuad())
+      {
+        soup.Add(edge.Begin[0].Corner.Side, edge.Begin[1].Corner.Side);
+        quads.push_back(&edge);
+      }
+    }
+    const std::vector<unsigned char> fixed = soup.FindFixed(this->Counts.Edges);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+    {
+      this->AnswerQuad(*quads[i], fixed[i] != 0);
+    }
+    for (const SeamEdge& edge : this->Edges)
+    {
+      this->AnswerOther(edge);
+    }
+    this->CountBad();
+  }
+
+  const RecordLists<SeamAnswer>& GetAnswers() const { return this->Answers; }
+  const SeamCounts& GetCounts() const { return this->Counts; }
+
+private:
+  void Collect(const RecordLists<SeamCorner>& lists)
+  {
+    for (std::size_t rank = 0; rank < lists.size(); ++rank)
+    {
+      for (const SeamCorner& corner : lists[rank])
+      {
+        this->Corners.push_back({ corner, static_cast<int>(rank) });
+      }
+    }
+    const auto order = [](const RankedCorner& a)
+    { return std::tie(a.Corner.Ends, a.Rank, a.Corner.Triangle, a.Corner.Slot); };
+    std::sort(this->Corners.begin(), this->Corners.end(),
+      [&](const RankedCorner& a, const RankedCorner& b) { return order(a) < order(b); });
+  }
+
+  void CollectConstraints(const RecordLists<PointPair>& lists)
+  {
+    for (const std::vector<PointPair>& list : lists)
+    {
+      this->Constraints.insert(this->Constraints.end(), list.begin(), list.end());
+    }
+    std::sort(this->Constraints.begin(), this->Constraints.end());
+    this->Constraints.erase(
+      std::unique(this->Constraints.begin(), this->Constraints.end()), this->Constraints.end());
+  }
+
+  void FindEdges()
+  {
+    std::int64_t matched = 0;
+    for (std::size_t begin = 0; begin < this->Corners.size();)
+    {
+      const PointPair& ends = this->Corners[begin].Corner.Ends;
+      std::size_t end = begin + 1;
+      while (end < this->Corners.size() && this->Corners[end].Corner.Ends == ends)
+      {
+        ++end;
+      }
+      const bool isConstraint =
+        std::binary_search(this->Constraints.begin(), this->Constraints.end(), ends);
+      matched += isConstraint ? 1 : 0;
+      this->Edges.push_back(
+        { this->Corners.data() + begin, this->Corners.data() + end, isConstraint });
+      begin = end;
+    }
+    this->Counts.MissingConstraints = static_cast<std::int64_t>(this->Constraints.size()) - matched;
+  }
+
+  /// An edge with a triangle on each of two ranks.
+  void AnswerQuad(const SeamEdge& edge, bool isFixed)
+  {
+    // Each rank has counted an edge at its boundary.
+    AddCounts(this->Counts.Edges, MakeBoundary(), -2);
+    this->Counts.Edges.Constraint += edge.IsConstraint ? 1 : 0;
+    this->Counts.Edges.Fixed += edge.IsConstraint && !isFixed ? 1 : 0;
+    const bool stays = isFixed || edge.IsConstraint;
+    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    {
+      this->Answer(*one, stays, false);
+    }
+    if (!stays)
+    {
+      ++this->Counts.Seams;
+      this->Open.push_back(&edge);
+    }
+  }
+
+  /// An edge with all of its triangles on one rank, or with more than two.
+  void AnswerOther(const SeamEdge& edge)
+  {
+    if (edge.IsOnOneRank())
+    {
+      for (const RankedCorner* one = edge.Begin; one != edge.End && edge.IsConstraint; ++one)
+      {
+        this->Answer(*one, true, true);
+      }
+      return;
+    }
+    if (edge.IsQuad())
+    {
+      return;
+    }
+    this->CountOther(edge);
+    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    {
+      this->Answer(*one, true, edge.CountOn(one->Rank) == 2);
+    }
+  }
+
+  /// Takes back what the ranks have counted alone.
+  void CountOther(const SeamEdge& edge)
+  {
+    EdgeCounts all;
+    all.Edges = 1;
+    all.Fixed = 1;
+    all.NonManifold = edge.GetSize() > 2 ? 1 : 0;
+    all.Constraint = edge.IsConstraint ? 1 : 0;
+    if (edge.GetSize() == 2) // two triangles on the same three points
+    {
+      all.WronglyWound =
+        edge.Begin[0].Corner.Side.RunsForward == edge.Begin[1].Corner.Side.RunsForward ? 1 : 0;
+      all.Region = edge.Begin[0].Corner.Side.Region != edge.Begin[1].Corner.Side.Region ? 1 : 0;
+    }
+    AddCounts(this->Counts.Edges, all, 1);
+    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    {
+      if (one == edge.Begin || one->Rank != one[-1].Rank)
+      {
+        AddCounts(this->Counts.Edges, this->CountAlone(edge, one), -1);
+      }
+    }
+  }
+
+  /// What a rank counts of an edge of which others have triangles, too.
+  EdgeCounts CountAlone(const SeamEdge& edge, const RankedCorner* first) const
+  {
+    const std::int64_t size = edge.CountOn(first->Rank);
+    EdgeCounts counts = MakeBoundary();
+    if (size == 2)
+    {
+      counts = EdgeCounts();
+      QuadSoup soup(this->Survey, this->Options);
+      soup.Add(first[0].Corner.Side, first[1].Corner.Side);
+      soup.FindFixed(counts);
+      counts.Fixed = 1; // it is held
+      counts.Constraint = 1;
+    }
+    else if (size > 2)
+    {
+      counts.Boundary = 0;
+      counts.NonManifold = 1;
+    }
+    return counts;
+  }
+
+  static EdgeCounts MakeBoundary()
+  {
+    EdgeCounts counts;
+    counts.Edges = 1;
+    counts.Boundary = 1;
+    counts.Fixed = 1;
+    return counts;
+  }
+
+  void Answer(const RankedCorner& corner, bool isFixed, bool isHeld)
+  {
+    this->Answers[corner.Rank].push_back(
+      { corner.Corner.Triangle, corner.Corner.Slot, isFixed, isHeld });
+  }
+
+  void CountBad()
+  {
+    QuadSoup soup(this->Survey, this->Options);
+    for (const SeamEdge* edge : this->Open)
+    {
+      soup.Add(edge->Begin[0].Corner.Side, edge->Begin[1].Corner.Side);
+    }
+    std::int64_t blocked = 0;
+    const std::vector<unsigned char> bad = soup.FindBad(blocked);
+    this->Counts.NonDelaunay = blocked + std::count(bad.begin(), bad.end(), 1);
+  }
+
+  const PieceSurvey& Survey;
+  const FlipOptions& Options;
+  std::vector<RankedCorner> Corners;
+  std::vector<PointPair> Constraints;
+  std::vector<SeamEdge> Edges;
+  std::vector<const SeamEdge*> Open;
+  RecordLists<SeamAnswer> Answers;
+  SeamCounts Counts;
+};
+
+void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, SeamSurvey& survey)
+{
+  for (const std::vector<SeamAnswer>& list : lists)
+  {
+    for (const SeamAnswer& answer : list)
+    {
+      survey.Marks.push_back(
+        { answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
+      if (answer.IsHeld)
+      {
+        survey.HeldEdges.push_back(mesh.Triangles[answer.Triangle].GetEdge(answer.Slot));
+      }
+    }
+  }
+}
+}
+
+SeamCounts& SeamCounts::operator+=(const SeamCounts& part)
+{
+  AddCounts(this->Edges, part.Edges, 1);
+  this->Seams += part.Seams;
+  this->NonDelaunay += part.NonDelaunay;
+  this->MissingConstraints += part.MissingConstraints;
+  return *this;
+}
+
+EdgeCounts SeamCounts::AddTo(EdgeCounts sum) const
+{
+  AddCounts(sum, this->Edges, 1);
+  return sum;
+}
+
+SeamSurvey SurveySeams(const MeshPiece& piece, const PieceMesh& mesh, const PieceSurvey& survey,
+  const FlipOptions& options, PieceGroup& group)
+{
+  SeamSurvey seams;
+  const RecordLists<SeamCorner> corners = ExchangeRecords(group, ListCorners(piece, mesh, group));
+  const RecordLists<PointPair> constraints =
+    ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
+  SeamJudge judge(survey, options, group.GetSize());
+  DoTogether(group, [&]() { judge.Judge(corners, constraints); });
+  TakeAnswers(ExchangeRecords(group, judge.GetAnswers()), mesh, seams);
+  seams.Counts = SumOverRanks(group, judge.GetCounts());
+  return seams;
+}
+
+}

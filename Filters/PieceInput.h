@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PieceInput_h
+#define PieceInput_h
+
+#include "PieceGroup.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace delaunayflip
+{
+
+/// The mesh without cells that are copies of those of other ranks (vtkGhostType); the mesh itself
+/// if it has none.
+vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh);
+
+/// The values of vtkGlobalPointIds, one per point; empty if the mesh has none.
+std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh);
+
+/// Gives regions the same labels on all ranks.
+/// @param labels one per triangle, as LabelRegions has numbered them for the cells of `mesh`.
+void ShareRegionLabels(vtkPolyData* mesh, const std::string& array,
+  std::vector<std::int32_t>& labels, PieceGroup& group);
+
+/// The constraints of all ranks as one mesh: each rank may have all of them, or a part. Null if
+/// they name points of the rank's own mesh by id, or if there are none.
+vtkSmartPointer<vtkPolyData> GatherConstraints(
+  vtkPolyData* constraints, vtkPolyData* mesh, PieceGroup& group);
+
+}
+
+#endif

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceUpdate.h"
+
+#include "DelaunayFlip.h"
+#include "MalformedArrays.h"
+#include "PieceFlip.h"
+#include "PieceInput.h"
+#include "PieceOutput.h"
+#include "PointPlaces.h"
+#include "PointViews.h"
+#include "ReportTables.h"
+#include "TriangleAngles.h"
+#include "TupleTransfer.h"
+#include "UpdatePlan.h"
+#include "WorkProgress.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* AngleBefore = "vtkDelaunayFlipAngleBefore";
+constexpr const char* AngleAfter = "vtkDelaunayFlipAngleAfter";
+
+/// Whether any rank says so.
+bool IsOnAnyRank(bool flag, PieceGroup& group)
+{
+  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
+  return std::any_of(
+    flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
+}
+
+/// The edges of gathered constraints with an end that no rank has together with the other end.
+std::int64_t CountEdgesElsewhere(
+  vtkPolyData* constraints, const PointArray& mesh, PieceGroup& group)
+{
+  std::vector<double> storage;
+  const PointArray ends = ViewPoints(constraints, storage);
+  PointPlaces places(ends.Floats != nullptr || mesh.Floats != nullptr);
+  for (std::int64_t i = 0; i < mesh.Count; ++i)
+  {
+    places.Add(mesh, i);
+  }
+  Message has(ends.Count / 2);
+  for (std::int64_t i = 0; i < ends.Count / 2; ++i)
+  {
+    has[i] = places.Find(ends, 2 * i) != PointPlaces::None &&
+        places.Find(ends, 2 * i + 1) != PointPlaces::None
+      ? 1
+      : 0;
+  }
+  for (const Message& other : group.Gather(has))
+  {
+    std::transform(has.begin(), has.end(), other.begin(), has.begin(),
+      [](char a, char b) { return static_cast<char>(a | b); });
+  }
+  PointPlaces all(ends.Floats != nullptr || mesh.Floats != nullptr);
+  std::set<std::pair<std::int64_t, std::int64_t>> elsewhere;
+  for (std::int64_t i = 0; i < ends.Count / 2; ++i)
+  {
+    const auto place = std::minmax({ all.Add(ends, 2 * i), all.Add(ends, 2 * i + 1) });
+    if (has[i] == 0 && place.first != place.second)
+    {
+      elsewhere.insert(place);
+    }
+  }
+  return static_cast<std::int64_t>(elsewhere.size());
+}
+
+/// The update of one rank.
+class PieceUpdater
+{
+public:
+  PieceUpdater(const PieceRequest& request, PieceGroup& group)
+    : Request(request),
+      Group(group)
+  {
+  }
+
+  PieceUpdate Run(vtkPolyData* output)
+  {
+    this->ReadInput();
+    const MeshPiece piece{ this->Bridge->GetMesh(),
+      this->Numbers.empty() ? nullptr : this->Numbers.data() };
+    const PiecesReport report =
+      FlipPiece(piece, this->Request.Options, this->Group, this->Flipped, this->Request.Progress);
+    PieceUpdate update;
+    update.Report = UpdateReport(report);
+    update.Report.Rounds = report.Rounds;
+    update.Report.MovedTriangles = report.MovedTriangles;
+    update.AmbiguousPoints = report.AmbiguousPoints;
+    this->AddElsewhere(update.Report);
+    this->Store(report.GeometryUsed, output);
+    AddFieldData(update.Report, output->GetFieldData());
+    return update;
+  }
+
+private:
+  void ReadInput()
+  {
+    vtkSmartPointer<vtkPolyData> input;
+    DoTogether(this->Group,
+      [&]()
+      {
+        input = this->Request.GetInput();
+        this->Mesh = DropDuplicateCells(input);
+        this->Numbers = ReadPointNumbers(this->Mesh);
+      });
+    if (IsOnAnyRank(this->Request.Constraints != nullptr, this->Group))
+    {
+      this->Constraints = GatherConstraints(this->Request.Constraints, this->Mesh, this->Group);
+    }
+    DoTogether(this->Group, [this]() { this->MakeBridge(); });
+    if (!this->Request.Settings.RegionArray.empty())
+    {
+      ShareRegionLabels(
+        this->Mesh, this->Request.Settings.RegionArray, this->Bridge->GetRegions(), this->Group);
+    }
+  }
+
+  void MakeBridge()
+  {
+    PolyDataBridge::Settings settings = this->Request.Settings;
+    const bool isEmpty =
+      this->Mesh->GetNumberOfPolys() == 0 && this->Mesh->GetNumberOfStrips() == 0;
+    if (isEmpty)
+    {
+      settings.RegionArray.clear(); // an empty piece has no arrays
+    }
+    const UpdatePlan plan({ this->Mesh, this->Constraints, settings.LinesAsConstraints,
+                            !settings.RegionArray.empty(), false, this->Request.Wanted.Angles },
+      {});
+    this->Bridge.reset(new PolyDataBridge(this->Mesh, this->Constraints, settings, plan));
+    this->Bridge->RequireValidIds();
+  }
+
+  void AddElsewhere(UpdateReport& report)
+  {
+    const std::int64_t count = this->Constraints
+      ? CountEdgesElsewhere(this->Constraints, this->Bridge->GetMesh().Points, this->Group)
+      : 0;
+    report.UnmatchedConstraints += count;
+    if (count > 0)
+    {
+      report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
+        count, {}, DefectIds::Points });
+    }
+  }
+
+  void Store(GeometryKind geometry, vtkPolyData* output)
+  {
+    vtkNew<vtkCellData> data;
+    std::unique_ptr<PieceOutput> writer;
+    DoTogether(this->Group,
+      [&]()
+      {
+        data->ShallowCopy(TakeWholeArrays(this->Mesh));
+        writer.reset(new PieceOutput(
+          this->Mesh, this->Bridge->GetSlots(), this->Flipped, this->Group.GetRank()));
+      });
+    const bool areDivided = IsOnAnyRank(this->Bridge->GetSlots().DivideCells(), this->Group);
+    writer->Store(data, areDivided, this->Group, output);
+    DoTogether(this->Group,
+      [&]()
+      {
+        writer->RenewNormals(output);
+        if (this->Request.Wanted.FlipCounts)
+        {
+          writer->AddTriangleArray<vtkIntArray>("vtkDelaunayFlipCount",
+            std::vector<int>(this->Flipped.FlipCounts.begin(), this->Flipped.FlipCounts.end()), 0,
+            output);
+        }
+      });
+    if (this->Request.Wanted.Angles)
+    {
+      this->AddAngles(geometry, *writer, output);
+    }
+  }
+
+  /// The angles that triangles had in their first slots, on whatever rank.
+  std::vector<double> BringAnglesBefore(GeometryKind geometry)
+  {
+    const TriangleMesh mesh = this->Bridge->GetMesh();
+    vtkNew<vtkCellData> given;
+    DoTogether(this->Group,
+      [&]()
+      {
+        vtkNew<vtkDoubleArray> angles;
+        angles->SetName(AngleBefore);
+        angles->SetNumberOfValues(mesh.Triangles.Count);
+        FindSmallestAngles(
+          mesh, geometry, this->Request.Options.NumberOfThreads, angles->GetPointer(0), {});
+        given->AddArray(angles);
+      });
+    vtkNew<vtkCellData> brought;
+    BringTuples(
+      this->Flipped.Origins, given, [](std::int64_t slot) { return static_cast<vtkIdType>(slot); },
+      this->Group, brought);
+    const double* first =
+      vtkDoubleArray::SafeDownCast(brought->GetArray(AngleBefore))->GetPointer(0);
+    return std::vector<double>(first, first + this->Flipped.Origins.size());
+  }
+
+  void AddAngles(GeometryKind geometry, const PieceOutput& writer, vtkPolyData* output)
+  {
+    const std::vector<double> before = this->BringAnglesBefore(geometry);
+    writer.AddTriangleArray<vtkDoubleArray>(AngleBefore, before, NaN, output);
+    std::vector<double> storage;
+    TriangleMesh mesh;
+    mesh.Points = ViewPoints(output, storage);
+    mesh.Triangles = TriangleArray(this->Flipped.Triangles.data(),
+      static_cast<std::int64_t>(this->Flipped.Triangles.size()) / 3);
+    std::vector<double> angles(mesh.Triangles.Count);
+    FindSmallestAngles(mesh, geometry, this->Request.Options.NumberOfThreads, angles.data(), {});
+    writer.AddTriangleArray<vtkDoubleArray>(AngleAfter, angles, NaN, output);
+  }
+
+  const PieceRequest& Request;
+  PieceGroup& Group;
+  vtkSmartPointer<vtkPolyData> Mesh;
+  std::vector<std::int64_t> Numbers;
+  vtkSmartPointer<vtkPolyData> Constraints; ///< Of all ranks, or null.
+  std::unique_ptr<PolyDataBridge> Bridge;
+  FlippedPiece Flipped;
+};
+
+}
+
+PieceUpdate FlipPieces(const PieceRequest& request, PieceGroup& group, vtkPolyData* output)
+{
+  return PieceUpdater(request, group).Run(output);
+}
+
+}

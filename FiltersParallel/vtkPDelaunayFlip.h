@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPDelaunayFlip
+ * @brief   vtkDelaunayFlip for one mesh whose pieces are on many ranks
+ *
+ * Every process of the controller has a piece of a mesh, and all of them update together. The edges
+ * between pieces flip like all others, so that the result is that of one process: in planar
+ * geometry with the canonical tie rule the same triangles; otherwise a mesh with no edge left that
+ * may flip, which depends on how the mesh is divided, and on nothing else. With one process, or
+ * without a controller, this filter is vtkDelaunayFlip.
+ *
+ * Input: a vtkPolyData on every process; it may be empty. Points of several pieces are the same if
+ * they have the same global id (active global ids of the point data, on all processes that have
+ * points) or, without global ids, if their coordinates are equal and one of them is at the border
+ * of its piece. Points that coincide within a piece are then not matched; a warning counts them.
+ * Duplicate ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on any
+ * process, all or in part; they are matched by coordinates.
+ *
+ * Output: the piece of each process. Triangles may move to another process, with their cell data;
+ * those that stayed come first, in their order, then those received. The points are those of the
+ * input, the same vtkPoints object if none were received, else followed by received points with
+ * their point data. Verts, lines and cells that are not flipped stay.
+ *
+ * All results (GetTotalFlips() and the like, the field data) are those of the whole mesh, the same
+ * on every process; only rank 0 has the table of iterations and gives messages. GetNumberOfRounds()
+ * tells how often pieces were flipped and the edges between them tested. AbortExecute on any
+ * process stops all of them. If one process fails, the update fails on all, with the same message.
+ *
+ * @warning
+ * Constraints that are not edges of the mesh are inserted only within a piece. Blocks of composite
+ * datasets are flipped as by vtkDelaunayFlip, piece by piece.
+ *
+ * @sa
+ * vtkDelaunayFlip
+ */
+#ifndef vtkPDelaunayFlip_h
+#define vtkPDelaunayFlip_h
+
+#include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipFiltersParallelModule.h" // For export macro
+
+#include <memory> // For std::unique_ptr
+
+class vtkMultiProcessController;
+
+class VTKDELAUNAYFLIPFILTERSPARALLEL_EXPORT vtkPDelaunayFlip : public vtkDelaunayFlip
+{
+public:
+  static vtkPDelaunayFlip* New();
+  vtkTypeMacro(vtkPDelaunayFlip, vtkDelaunayFlip);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The controller whose processes have the pieces. Default: the global one. Null: the input of
+   * this process is the whole mesh.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+protected:
+  vtkPDelaunayFlip();
+  ~vtkPDelaunayFlip() override;
+
+#ifndef __VTK_WRAP__
+  std::unique_ptr<delaunayflip::PieceGroup> MakeGroup() override;
+#endif
+
+  vtkMultiProcessController* Controller = nullptr;
+
+private:
+  vtkPDelaunayFlip(const vtkPDelaunayFlip&) = delete;
+  void operator=(const vtkPDelaunayFlip&) = delete;
+};
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GeneratedMeshes.h"
+#include "PieceTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+/// @file
+/// Divided meshes become those that one rank makes.
+
+namespace delaunayflip
+{
+namespace
+{
+
+class RanksTest : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(RanksTest, RandomMeshCutBySpace)
+{
+  const OwnedMesh<float> mesh = MakeRandomBadMesh(6000 / Reduction, 5);
+  ExpectSameTriangles(
+    mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), MakeCanonical());
+}
+
+TEST_P(RanksTest, RandomMeshScattered)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000 / Reduction, 6);
+  ExpectSameTriangles(
+    mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 7), GetParam(), MakeCanonical());
+}
+
+TEST_P(RanksTest, PointsWithoutNumbers)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000 / Reduction, 8);
+  ExpectSameTriangles(
+    mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), MakeCanonical(), false);
+}
+
+TEST_P(RanksTest, Ties)
+{
+  const OwnedMesh<double> mesh = MakeGridMesh(30, 20);
+  ExpectSameTriangles(
+    mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), MakeCanonical());
+}
+
+TEST_P(RanksTest, TiltedPlane)
+{
+  const AffineMap map = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 2, -3, 0, 0 } } };
+  const OwnedMesh<double> mesh = Transform(MakeRandomBadMeshDouble(2000 / Reduction, 9), map);
+  FlipOptions options = MakeCanonical();
+  options.Geometry = GeometryKind::Planar;
+  ExpectSameTriangles(mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), options);
+}
+
+TEST_P(RanksTest, WorstCase)
+{
+  const OwnedMesh<double> mesh = MakeWorstCaseMesh(40);
+  ExpectSameTriangles(
+    mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), MakeCanonical());
+}
+
+TEST_P(RanksTest, ClockwiseTriangles)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 10);
+  ReverseTriangles(mesh.Triangles);
+  ExpectSameTriangles(
+    mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), MakeCanonical());
+}
+
+TEST_P(RanksTest, Sphere)
+{
+  const OwnedMesh<double> mesh = MakeBadSphere(60, 30, 11);
+  const FlipOptions options = MakeOnSurface();
+  ExpectGoodTriangles(mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), options);
+}
+
+TEST_P(RanksTest, SphereScattered)
+{
+  const OwnedMesh<double> mesh = MakeBadSphere(24, 12, 12);
+  const FlipOptions options = MakeOnSurface();
+  ExpectGoodTriangles(
+    mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 13), GetParam(), options);
+}
+
+TEST_P(RanksTest, SurfaceOfPointsWithFewTriangles)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(400, 19);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i + 2] = 0.3 * std::sin(9 * mesh.Points[i]) * std::cos(7 * mesh.Points[i + 1]);
+  }
+  const FlipOptions options = MakeOnSurface();
+  ExpectGoodTriangles(mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), options);
+}
+
+TEST_P(RanksTest, MoebiusStrip)
+{
+  const OwnedMesh<double> mesh = MakeMoebiusStrip(60, 6, 14);
+  const FlipOptions options = MakeOnSurface();
+  ExpectGoodTriangles(mesh.View(), DivideBySpace(mesh.View(), GetParam()), GetParam(), options);
+}
+
+TEST_P(RanksTest, RepeatedTriangles)
+{
+  const OwnedMesh<double> mesh = RepeatTriangles(MakeBadSphere(30, 15, 15));
+  const FlipOptions options = MakeOnSurface();
+  ExpectGoodTriangles(
+    mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 16), GetParam(), options);
+}
+
+TEST_P(RanksTest, RepeatedTrianglesInAPlane)
+{
+  const OwnedMesh<double> mesh = RepeatTriangles(MakeRandomBadMeshDouble(400, 17));
+  FlipOptions options = MakeCanonical();
+  options.TieRule = TieRuleKind::Keep;
+  ExpectGoodTriangles(
+    mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 18), GetParam(), options);
+}
+
+std::string NameRanks(const testing::TestParamInfo<int>& info)
+{
+  return std::to_string(info.param) + "Ranks";
+}
+
+INSTANTIATE_TEST_SUITE_P(Pieces, RanksTest, testing::Values(1, 2, 3, 4, 7, 16), NameRanks);
+
+}
+}

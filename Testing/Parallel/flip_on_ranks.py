@@ -1,0 +1,267 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run by test_ranks.py under mpirun: flip_on_ranks.py CASE [NAME=VALUE...]
+
+Rank 0 prints a line of JSON. A rank that finds something wrong ends the job with a traceback.
+"""
+import json
+import sys
+import traceback
+
+from mpi4py import MPI
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+from vtkmodules.vtkParallelMPI import vtkMPIController
+
+import delaunayflip
+import rank_meshes
+
+WORLD = MPI.COMM_WORLD
+RANK, RANKS = WORLD.rank, WORLD.size
+
+
+def start():
+    controller = vtkMPIController()
+    controller.Initialize()
+    vtkMultiProcessController.SetGlobalController(controller)
+    return controller
+
+
+def set_options(flip, options):
+    for name, value in options.items():
+        getattr(flip, "Set" + name)(value)
+    return flip
+
+
+def listen(flip):
+    said = []
+
+    def note(_caller, _event, text):
+        said.append(text)
+
+    note.CallDataType = "string0"
+    flip.AddObserver("ErrorEvent", note)
+    flip.AddObserver("WarningEvent", note)
+    return said
+
+
+def flip_piece(piece, options):
+    flip = set_options(delaunayflip.vtkPDelaunayFlip(), options)
+    flip.SetInputData(piece)
+    said = listen(flip)
+    flip.UpdatePiece(RANK, RANKS, 0)
+    return flip, said
+
+
+def describe(flip, said):
+    return {
+        "flips": flip.GetTotalFlips(), "rounds": flip.GetNumberOfRounds(),
+        "moved": flip.GetNumberOfMovedTriangles(), "left": flip.GetNumberOfNonDelaunayEdges(),
+        "stopped": flip.GetStopReasonAsString(), "geometry": flip.GetGeometryUsedAsString(),
+        "constraints": flip.GetNumberOfConstraintEdges(),
+        "unmatched": flip.GetNumberOfUnmatchedConstraintEdges(), "error": flip.GetErrorMessage(),
+        "iterations": flip.GetNumberOfIterations(), "said": said}
+
+
+def require(condition, text):
+    if not condition:
+        raise AssertionError(f"rank {RANK}: {text}")
+
+
+def find_ids(points, found):
+    """The ids in the whole mesh of points at the same places."""
+    ids = {tuple(x): i for i, x in enumerate(points)}
+    return np.array([ids[tuple(x)] for x in found], np.int64)
+
+
+def check_data(points, output):
+    """Every triangle and point has the data that it had."""
+    if output.GetNumberOfPolys() == 0:
+        return
+    slots = vtk_to_numpy(output.GetCellData().GetArray("slot"))
+    names = output.GetCellData().GetAbstractArray("name")
+    for cell, slot in enumerate(slots):
+        require(names.GetValue(cell) == f"triangle {slot}", "a name is lost")
+    heights = vtk_to_numpy(output.GetPointData().GetArray("height"))
+    require(np.array_equal(heights, rank_meshes.read_points(output) @ [1.0, 2.0, 3.0]),
+            "point data are lost")
+
+
+def gather_triangles(points, output):
+    """The triangles of all ranks by ids of the whole mesh, and their slots; on rank 0."""
+    ids = find_ids(points, rank_meshes.read_points(output))
+    triangles = rank_meshes.read_triangles(output)
+    own = ids[triangles] if len(triangles) else triangles
+    slots = output.GetCellData().GetArray("slot")
+    parts = WORLD.gather((own, vtk_to_numpy(slots) if slots else np.zeros(0, np.int64)))
+    if RANK == 0:
+        return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+    return None, None
+
+
+def flip_alone(points, triangles, options):
+    flip = set_options(delaunayflip.vtkDelaunayFlip(), options)
+    flip.SetInputData(rank_meshes.make_poly_data(points, triangles))
+    flip.Update()
+    return flip
+
+
+def same(points, triangles, kind="space", ids=True, options=None, unique=True):
+    """Compares the pieces with a run of one rank."""
+    options = options or {}
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), ids)
+    flip, said = flip_piece(piece, options)
+    output = flip.GetOutput()
+    check_data(points, output)
+    facts = describe(flip, said)
+    facts["said"] = []
+    for other in WORLD.allgather(facts):
+        require(other == facts, f"ranks differ: {other} {facts}")
+    after, slots = gather_triangles(points, output)
+    if RANK == 0:
+        require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
+        alone = flip_alone(points, triangles, options)
+        if unique:
+            expected = rank_meshes.read_triangles(alone.GetOutput())
+            facts["same"] = bool(np.array_equal(
+                rank_meshes.as_set(after), rank_meshes.as_set(expected)))
+        again = flip_alone(points, after, {**options, "FeatureAngle": 180.0})
+        facts["again"] = again.GetTotalFlips()
+        facts["left again"] = again.GetNumberOfNonDelaunayEdges()
+        facts["geometry alone"] = alone.GetGeometryUsedAsString()
+    return facts, said
+
+
+def run_same(maker, count, kind, ids, options, unique=True):
+    points, triangles = getattr(rank_meshes, maker)(count)
+    return same(points, triangles, kind, ids, options, unique)
+
+
+def run_ghosts(count):
+    """Every piece also has the neighbours' triangles at its border, as duplicate ghosts."""
+    points, triangles = rank_meshes.make_random(count)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    touched = np.isin(triangles, triangles[owners == RANK]).any(1)
+    slots = np.flatnonzero(touched)
+    piece = rank_meshes.make_piece(points, triangles, slots, True)
+    ghosts = np.where(owners[slots] == RANK, 0, vtkDataSetAttributes.DUPLICATECELL)
+    rank_meshes.add_array(piece.GetCellData(), "vtkGhostType", ghosts.astype(np.uint8))
+    flip, said = flip_piece(piece, {"TieRule": 1})
+    after, slots = gather_triangles(points, flip.GetOutput())
+    facts = describe(flip, said)
+    if RANK == 0:
+        alone = flip_alone(points, triangles, {"TieRule": 1})
+        facts["same"] = bool(np.array_equal(
+            rank_meshes.as_set(after),
+            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+    return facts, said
+
+
+def run_failure(rank, wrong):
+    """One rank has a triangle that names a point which does not exist, or an option is wrong."""
+    points, triangles = rank_meshes.make_random(200)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    options = {}
+    if RANK == rank and wrong == "point":
+        cells = rank_meshes.read_triangles(piece).copy()
+        cells[3, 1] = 7777
+        piece.SetPolys(rank_meshes.make_poly_data(points, cells).GetPolys())
+    if wrong == "regions":
+        options["RegionArray"] = "missing"
+    flip, said = flip_piece(piece, options)
+    require(flip.GetOutput().GetNumberOfCells() == 0, "output after an error")
+    errors = WORLD.allgather(flip.GetErrorMessage())
+    require(len(set(errors)) == 1, f"different messages: {errors}")
+    require((len(said) > 0) == (RANK == 0), f"messages of rank {RANK}: {said}")
+    facts = describe(flip, said)
+    flip.SetInputData(rank_meshes.make_piece(
+        points, triangles, np.flatnonzero(owners == RANK), True))
+    flip.SetRegionArray("")
+    flip.UpdatePiece(RANK, RANKS, 0)
+    facts["then"] = flip.GetStopReasonAsString()
+    return facts, said
+
+
+def run_abort(rank):
+    points, triangles = rank_meshes.make_random(2000)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1})
+    flip.SetInputData(piece)
+    if RANK == rank:
+        flip.AddObserver("ProgressEvent", lambda *_: flip.SetAbortExecute(1))
+    flip.UpdatePiece(RANK, RANKS, 0)
+    reasons = WORLD.allgather(flip.GetStopReasonAsString())
+    cells = WORLD.allreduce(flip.GetOutput().GetNumberOfCells())
+    require(cells == len(triangles), f"{cells} triangles")
+    return {"reasons": reasons}, []
+
+
+def measure_memory():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * 4096
+
+
+def run_growth(updates):
+    """Updates again and again. @returns by how many bytes the memory of any rank grew in the second
+    half."""
+    points, triangles = rank_meshes.make_random(400)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1, "NumberOfThreads": 1})
+    flip.SetInputData(piece)
+    half = 0
+    for update in range(updates):
+        flip.Modified()
+        flip.UpdatePiece(RANK, RANKS, 0)
+        half = measure_memory() if update == updates // 2 else half
+    return {"growth": max(WORLD.allgather(measure_memory() - half))}, []
+
+
+def run_constraints(count, kind):
+    """Lines of the pieces and a second input, which only rank 0 has."""
+    points, triangles = rank_meshes.make_random(count)
+    chosen = triangles[::7, :2]
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    options = {"TieRule": 1, "InsertConstraints": False}
+    flip = set_options(delaunayflip.vtkPDelaunayFlip(), options)
+    flip.SetInputData(piece)
+    whole = rank_meshes.make_lines(points, chosen)
+    flip.SetConstraintsData(whole if RANK == 0 else rank_meshes.vtkPolyData())
+    flip.UpdatePiece(RANK, RANKS, 0)
+    after, _ = gather_triangles(points, flip.GetOutput())
+    facts = describe(flip, [])
+    if RANK == 0:
+        alone = set_options(delaunayflip.vtkDelaunayFlip(), options)
+        alone.SetInputData(rank_meshes.make_poly_data(points, triangles))
+        alone.SetConstraintsData(whole)
+        alone.Update()
+        facts["same"] = bool(np.array_equal(
+            rank_meshes.as_set(after),
+            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+        facts["constraints alone"] = alone.GetNumberOfConstraintEdges()
+        facts["unmatched alone"] = alone.GetNumberOfUnmatchedConstraintEdges()
+    return facts, []
+
+
+def main():
+    controller = start()
+    name, arguments = sys.argv[1], json.loads(sys.argv[2])
+    facts, _ = globals()["run_" + name](**arguments)
+    if RANK == 0:
+        print(json.dumps(facts), flush=True)
+    vtkMultiProcessController.SetGlobalController(None)
+    del controller
+
+
+try:
+    main()
+except BaseException:  # or the other ranks would wait
+    traceback.print_exc()
+    sys.stderr.flush()
+    WORLD.Abort(1)

@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filter for many ranks under mpirun, with more ranks than cores. flip_on_ranks.py is run by
+every rank and compares the pieces with a run of one rank."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PATIENCE = 300  # seconds: a rank must not wait forever for another one
+
+try:
+    from vtkmodules.vtkParallelMPI import vtkMPIController  # noqa: F401
+    import mpi4py  # noqa: F401
+    HAS_MPI = shutil.which("mpirun") is not None
+except ImportError:
+    HAS_MPI = False
+
+
+def flip_on(ranks, case, **arguments):
+    """What rank 0 prints about a case."""
+    environment = {name: value for name, value in os.environ.items()
+                   if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
+    run = subprocess.run(
+        ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), sys.executable,
+         os.path.join(HERE, "flip_on_ranks.py"), case, json.dumps(arguments)],
+        encoding="utf-8", env=environment, timeout=PATIENCE, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    lines = [line for line in run.stdout.splitlines() if line.startswith("{")]
+    if run.returncode != 0 or not lines:
+        raise AssertionError(run.stdout)
+    return json.loads(lines[-1])
+
+
+@unittest.skipUnless(HAS_MPI, "needs mpirun, mpi4py and a VTK with MPI")
+class RanksTest(unittest.TestCase):
+    def expect_done(self, facts):
+        self.assertEqual((facts["stopped"], facts["again"]), ("converged", 0), facts)
+        self.assertEqual(facts["left"], facts["left again"])
+        self.assertEqual(facts["geometry"], facts["geometry alone"])
+
+    def expect_same(self, ranks, **arguments):
+        arguments = {"maker": "make_random", "count": 500, "kind": "space", "ids": True,
+                     "options": {"TieRule": 1, "NumberOfThreads": 1}, **arguments}
+        facts = flip_on(ranks, "same", **arguments)
+        self.expect_done(facts)
+        self.assertTrue(facts["same"], facts)
+        return facts
+
+
+class Planar(RanksTest):
+    def test_many_ranks(self):
+        for ranks in (1, 2, 3, 4, 8):
+            with self.subTest(ranks):
+                facts = self.expect_same(ranks)
+                self.assertEqual(facts["rounds"] > 1, ranks > 1)
+
+    def test_points_by_their_places(self):
+        self.expect_same(3, ids=False)
+
+    def test_scattered_triangles(self):
+        self.expect_same(4, count=300, kind="scattered")
+        self.expect_same(2, count=300, kind="scattered", ids=False)
+
+
+class Surfaces(RanksTest):
+    def test_surface(self):
+        for ranks, angle in ((2, 180.0), (5, 20.0)):
+            with self.subTest(ranks):
+                facts = flip_on(
+                    ranks, "same", maker="make_bumps", count=400, kind="space", ids=True,
+                    options={"Geometry": 3, "FeatureAngle": angle, "NumberOfThreads": 1},
+                    unique=False)
+                self.assertEqual(facts["stopped"], "converged")
+                if angle == 180.0:
+                    self.expect_done(facts)
+
+    def test_all_arrays(self):
+        facts = flip_on(
+            3, "same", maker="make_bumps", count=200, kind="space", ids=False,
+            options={"Geometry": 2, "GenerateQuality": True, "GenerateFlipCount": True},
+            unique=False)
+        self.expect_done(facts)
+
+
+class Pieces(RanksTest):
+    def test_one_rank_has_all(self):
+        self.assertEqual(self.expect_same(3, kind="one has all")["rounds"], 1)
+
+    def test_one_rank_is_empty(self):
+        self.expect_same(4, kind="one is empty")
+
+    def test_ghosts_are_dropped(self):
+        facts = flip_on(3, "ghosts", count=400)
+        self.assertTrue(facts["same"], facts)
+
+    def test_constraints(self):
+        for kind in ("space", "scattered"):
+            with self.subTest(kind):
+                facts = flip_on(3, "constraints", count=300, kind=kind)
+                self.assertTrue(facts["same"], facts)
+                self.assertEqual(facts["constraints"], facts["constraints alone"])
+                self.assertEqual(facts["unmatched"], facts["unmatched alone"])
+
+
+class Failures(RanksTest):
+    def test_a_failure_is_that_of_all(self):
+        for rank in (0, 2):
+            with self.subTest(rank):
+                facts = flip_on(3, "failure", rank=rank, wrong="point")
+                self.assertIn(f"rank {rank}: Invalid mesh: cell 3 names point 7777",
+                              facts["error"])
+                self.assertTrue(facts["stopped"].startswith("failed: rank"))
+                self.assertEqual((len(facts["said"]), facts["then"]), (1, "converged"))
+
+    def test_missing_regions(self):
+        facts = flip_on(2, "failure", rank=0, wrong="regions")
+        self.assertIn('no cell array named "missing"', facts["error"])
+
+    def test_any_rank_stops_all(self):
+        for rank in (0, 2):
+            with self.subTest(rank):
+                facts = flip_on(3, "abort", rank=rank)
+                self.assertEqual(facts["reasons"], ["aborted"] * 3)
+
+
+class Growth(RanksTest):
+    def test_memory_does_not_grow(self):
+        facts = flip_on(2, "growth", updates=100)
+        self.assertLess(facts["growth"], 4 << 20)
+
+
+if __name__ == "__main__":
+    unittest.main()
