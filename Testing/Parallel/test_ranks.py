@@ -24,6 +24,8 @@ def flip_on(ranks, case, **arguments):
     """What rank 0 prints about a case."""
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
+    # Open MPI's hwloc would look for GPUs at every X server, and die with one that other tests end.
+    environment["HWLOC_COMPONENTS"] = "-gl"
     run = subprocess.run(
         ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), sys.executable,
          os.path.join(HERE, "flip_on_ranks.py"), case, json.dumps(arguments)],
