@@ -12,7 +12,7 @@ usage()
   cat <<'END'
 Usage: reproduce_paper.sh [OPTION...] [OUTPUT]
 Writes OUTPUT/report.html, report.md, plots/, results.json and parts/ (default: paper-output).
-  --quick                meshes of up to 1 M points; meant to take 10 minutes on two cores
+  --quick                meshes of up to 1 M points; on two cores less than 10 minutes
   --meshes FOLDER        surfaces (.ply, .stl, .vtk) for Fig. 11 and Table 2
   --time-limit SECONDS   begin no part that would end later; the next call goes on from there
   --parts PATTERN        run only parts with such names, a regular expression; for example, "gpu$"
