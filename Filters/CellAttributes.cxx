@@ -122,18 +122,28 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
   }
 }
 
-void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output)
+vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output)
 {
   vtkDataArray* shared = output->GetCellData()->GetNormals();
   if (!shared || shared->GetNumberOfComponents() != 3 ||
     shared->GetNumberOfTuples() < output->GetNumberOfCells())
   {
-    return;
+    return nullptr;
   }
   // Not its NewInstance, which cannot be written where values are computed.
   auto normals =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
+  return normals;
+}
+
+void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output)
+{
+  const vtkSmartPointer<vtkDataArray> normals = CopyNormals(output);
+  if (!normals)
+  {
+    return;
+  }
   vtkSMPTools::For(0, slots.GetNumberOfPolygons(),
     [&](vtkIdType begin, vtkIdType end)
     {

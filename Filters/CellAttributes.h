@@ -3,10 +3,13 @@
 #ifndef CellAttributes_h
 #define CellAttributes_h
 
+#include "vtkSmartPointer.h"
+
 #include <cstdint>
 #include <vector>
 
 class vtkCellData;
+class vtkDataArray;
 class vtkPolyData;
 
 namespace delaunayflip
@@ -23,6 +26,9 @@ void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* ou
 
 /// Turns global ids into pedigree ids: when cells are divided, several share an id.
 void DemoteGlobalIds(vtkCellData* data);
+
+/// A copy of the active cell normals, to be changed; null if there are none, or too few.
+vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output);
 
 /// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
 /// normal that pointed against the winding of the old triangle points against that of the new one.

@@ -273,15 +273,11 @@ template void PieceOutput::AddTriangleArray<vtkDoubleArray>(
 
 void PieceOutput::RenewNormals(vtkPolyData* output) const
 {
-  vtkDataArray* shared = output->GetCellData()->GetNormals();
-  if (!shared || shared->GetNumberOfComponents() != 3 ||
-    shared->GetNumberOfTuples() < output->GetNumberOfCells())
+  const vtkSmartPointer<vtkDataArray> normals = CopyNormals(output);
+  if (!normals)
   {
     return;
   }
-  auto normals =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
-  normals->DeepCopy(shared);
   for (std::size_t polygon = 0; polygon < this->Polygons.size(); ++polygon)
   {
     const vtkIdType triangle = this->Polygons[polygon].Triangle;

@@ -96,7 +96,7 @@ TriangleMesh PieceRun::GetFirstMesh() const
 
 void PieceRun::FlipFirst()
 {
-  for (const PointPair& edge : this->Seams.HeldEdges)
+  for (const PointPair& edge : this->Seams.EdgesToFix)
   {
     this->Seams.Constraints.insert(this->Seams.Constraints.end(), { edge[0], edge[1] });
     this->Seams.ToInsert.push_back(0);

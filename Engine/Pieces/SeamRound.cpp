@@ -3,10 +3,10 @@
 #include "SeamRound.h"
 
 #include "QuadSoup.h"
+#include "SeamTriangle.h"
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -14,41 +14,6 @@ namespace delaunayflip
 
 namespace
 {
-/// A triangle at an edge between ranks, as its rank sends it.
-struct SeamTriangle
-{
-  PointPair Ends; ///< Keys.
-  std::int64_t Opposite; ///< A key.
-  std::int64_t Triangle;
-  SeamSide Side;
-};
-
-struct RankedTriangle
-{
-  SeamTriangle Seam;
-  int Rank;
-};
-
-SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t t, int slot)
-{
-  const PieceTriangle& triangle = mesh.Triangles[t];
-  SeamTriangle seam{};
-  seam.Ends = mesh.GetKeys(triangle.GetEdge(slot));
-  seam.Opposite = mesh.GetKey(triangle.Points[slot]);
-  seam.Triangle = t;
-  std::int32_t first = triangle.GetStart(slot);
-  std::int32_t second = triangle.GetEnd(slot);
-  seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
-  if (!seam.Side.RunsForward)
-  {
-    std::swap(first, second);
-  }
-  mesh.GetPosition(first, seam.Side.Ends[0]);
-  mesh.GetPosition(second, seam.Side.Ends[1]);
-  mesh.GetPosition(triangle.Points[slot], seam.Side.Opposite);
-  return seam;
-}
-
 RecordLists<SeamTriangle> ListSeams(const PieceMesh& mesh, const PieceGroup& group)
 {
   RecordLists<SeamTriangle> toHome(group.GetSize());
@@ -66,26 +31,9 @@ RecordLists<SeamTriangle> ListSeams(const PieceMesh& mesh, const PieceGroup& gro
   return toHome;
 }
 
-/// The triangles that all ranks have sent, those of an edge next to each other.
-std::vector<RankedTriangle> SortSeams(const RecordLists<SeamTriangle>& lists)
-{
-  std::vector<RankedTriangle> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const SeamTriangle& seam : lists[rank])
-    {
-      all.push_back({ seam, static_cast<int>(rank) });
-    }
-  }
-  std::sort(all.begin(), all.end(),
-    [](const RankedTriangle& a, const RankedTriangle& b)
-    { return std::tie(a.Seam.Ends, a.Rank) < std::tie(b.Seam.Ends, b.Rank); });
-  return all;
-}
-
 void TellBad(const RankedTriangle& one, const RankedTriangle& other, RecordLists<BadSeam>& toRank)
 {
-  toRank[one.Rank].push_back({ one.Seam.Triangle, one.Seam.Ends,
+  toRank[one.Rank].push_back({ one.Seam.GetTriangle(), one.Seam.Ends,
     MakePair(one.Seam.Opposite, other.Seam.Opposite), other.Rank });
 }
 
@@ -127,7 +75,7 @@ SeamTest TestSeams(
   const PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
 {
   const std::vector<RankedTriangle> seams =
-    SortSeams(ExchangeRecords(group, ListSeams(mesh, group)));
+    SortByEdge(ExchangeRecords(group, ListSeams(mesh, group)));
   HomeTest home;
   home.ToRank.resize(group.GetSize());
   DoTogether(group, [&]() { home.Run(seams, QuadSoup(survey, options)); });

@@ -3,45 +3,29 @@
 #include "SeamSurvey.h"
 
 #include "QuadSoup.h"
+#include "SeamTriangle.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace delaunayflip
 {
 
 namespace
 {
-/// A triangle at an edge whose ends are both shared, as its rank sends it.
-struct SeamCorner
-{
-  PointPair Ends; ///< Keys.
-  std::int64_t Opposite; ///< A key.
-  std::int64_t Triangle;
-  SeamSide Side;
-  std::int32_t Slot;
-};
-
-struct RankedCorner
-{
-  SeamCorner Corner;
-  int Rank;
-};
-
-/// What a rank must know about a corner that it has sent.
+/// What a rank must know about a triangle that it has sent.
 struct SeamAnswer
 {
   std::int64_t Triangle;
   std::int32_t Slot;
   bool IsFixed;
-  bool IsHeld; ///< The rank has two triangles of the edge, and would flip it.
+  bool IsToFix; ///< The rank has two triangles of the edge, and would flip it.
 };
 
-/// One edge: its corners, by rank.
+/// One edge: its triangles, by rank.
 struct SeamEdge
 {
-  const RankedCorner* Begin;
-  const RankedCorner* End;
+  const RankedTriangle* Begin;
+  const RankedTriangle* End;
   bool IsConstraint;
 
   std::int64_t GetSize() const { return this->End - this->Begin; }
@@ -50,12 +34,12 @@ struct SeamEdge
   bool IsQuad() const
   {
     return this->GetSize() == 2 && !this->IsOnOneRank() &&
-      this->Begin[0].Corner.Opposite != this->Begin[1].Corner.Opposite;
+      this->Begin[0].Seam.Opposite != this->Begin[1].Seam.Opposite;
   }
   std::int64_t CountOn(int rank) const
   {
     return std::count_if(
-      this->Begin, this->End, [=](const RankedCorner& corner) { return corner.Rank == rank; });
+      this->Begin, this->End, [=](const RankedTriangle& seam) { return seam.Rank == rank; });
   }
 };
 
@@ -71,34 +55,22 @@ void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
   sum.Fixed += factor * part.Fixed;
 }
 
-/// Makes the corners of a rank.
-class CornerLister
+/// Makes the triangles that a rank sends.
+class SeamLister
 {
 public:
-  CornerLister(const MeshPiece& piece, const PieceMesh& mesh)
+  SeamLister(const MeshPiece& piece, const PieceMesh& mesh)
     : Piece(piece),
       Mesh(mesh)
   {
   }
 
-  SeamCorner Make(std::int64_t t, int slot) const
+  SeamTriangle Make(std::int64_t t, int slot) const
   {
-    const PieceTriangle& triangle = this->Mesh.Triangles[t];
-    SeamCorner corner{};
-    corner.Ends = this->Mesh.GetKeys(triangle.GetEdge(slot));
-    corner.Opposite = this->Mesh.GetKey(triangle.Points[slot]);
-    corner.Triangle = t;
-    corner.Slot = slot;
-    SeamSide& side = corner.Side;
-    side.RunsForward = this->Mesh.GetKey(triangle.GetStart(slot)) == corner.Ends[0];
-    this->Mesh.GetPosition(
-      side.RunsForward ? triangle.GetStart(slot) : triangle.GetEnd(slot), side.Ends[0]);
-    this->Mesh.GetPosition(
-      side.RunsForward ? triangle.GetEnd(slot) : triangle.GetStart(slot), side.Ends[1]);
-    this->Mesh.GetPosition(triangle.Points[slot], side.Opposite);
-    side.IsFrozen = this->IsFrozen(t);
-    side.Region = this->Piece.Mesh.Regions ? this->Piece.Mesh.Regions[t] : 0;
-    return corner;
+    SeamTriangle seam = MakeSeamTriangle(this->Mesh, t, slot);
+    seam.Side.IsFrozen = this->IsFrozen(t);
+    seam.Side.Region = this->Piece.Mesh.Regions ? this->Piece.Mesh.Regions[t] : 0;
+    return seam;
   }
 
   bool IsShared(std::int64_t t, int slot) const
@@ -127,19 +99,19 @@ std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
   return GetHome(PairHash()(keys), group);
 }
 
-RecordLists<SeamCorner> ListCorners(
+RecordLists<SeamTriangle> ListSeamTriangles(
   const MeshPiece& piece, const PieceMesh& mesh, const PieceGroup& group)
 {
-  const CornerLister lister(piece, mesh);
-  RecordLists<SeamCorner> toHome(group.GetSize());
+  const SeamLister lister(piece, mesh);
+  RecordLists<SeamTriangle> toHome(group.GetSize());
   for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
   {
     for (int slot = 0; slot < 3; ++slot)
     {
       if (lister.IsShared(t, slot))
       {
-        const SeamCorner corner = lister.Make(t, slot);
-        toHome[GetHomeOf(corner.Ends, group)].push_back(corner);
+        const SeamTriangle seam = lister.Make(t, slot);
+        toHome[GetHomeOf(seam.Ends, group)].push_back(seam);
       }
     }
   }
@@ -181,9 +153,9 @@ public:
   {
   }
 
-  void Judge(const RecordLists<SeamCorner>& corners, const RecordLists<PointPair>& constraints)
+  void Judge(const RecordLists<SeamTriangle>& seams, const RecordLists<PointPair>& constraints)
   {
-    this->Collect(corners);
+    this->Seams = SortByEdge(seams);
     this->CollectConstraints(constraints);
     this->FindEdges();
     QuadSoup soup(this->Survey, this->Options);
@@ -192,7 +164,7 @@ public:
     {
       if (edge.IsQuad())
       {
-        soup.Add(edge.Begin[0].Corner.Side, edge.Begin[1].Corner.Side);
+        soup.Add(edge.Begin[0].Seam.Side, edge.Begin[1].Seam.Side);
         quads.push_back(&edge);
       }
     }
@@ -212,21 +184,6 @@ public:
   const SeamCounts& GetCounts() const { return this->Counts; }
 
 private:
-  void Collect(const RecordLists<SeamCorner>& lists)
-  {
-    for (std::size_t rank = 0; rank < lists.size(); ++rank)
-    {
-      for (const SeamCorner& corner : lists[rank])
-      {
-        this->Corners.push_back({ corner, static_cast<int>(rank) });
-      }
-    }
-    const auto order = [](const RankedCorner& a)
-    { return std::tie(a.Corner.Ends, a.Rank, a.Corner.Triangle, a.Corner.Slot); };
-    std::sort(this->Corners.begin(), this->Corners.end(),
-      [&](const RankedCorner& a, const RankedCorner& b) { return order(a) < order(b); });
-  }
-
   void CollectConstraints(const RecordLists<PointPair>& lists)
   {
     for (const std::vector<PointPair>& list : lists)
@@ -241,19 +198,18 @@ private:
   void FindEdges()
   {
     std::int64_t matched = 0;
-    for (std::size_t begin = 0; begin < this->Corners.size();)
+    for (std::size_t begin = 0; begin < this->Seams.size();)
     {
-      const PointPair& ends = this->Corners[begin].Corner.Ends;
+      const PointPair& ends = this->Seams[begin].Seam.Ends;
       std::size_t end = begin + 1;
-      while (end < this->Corners.size() && this->Corners[end].Corner.Ends == ends)
+      while (end < this->Seams.size() && this->Seams[end].Seam.Ends == ends)
       {
         ++end;
       }
       const bool isConstraint =
         std::binary_search(this->Constraints.begin(), this->Constraints.end(), ends);
       matched += isConstraint ? 1 : 0;
-      this->Edges.push_back(
-        { this->Corners.data() + begin, this->Corners.data() + end, isConstraint });
+      this->Edges.push_back({ this->Seams.data() + begin, this->Seams.data() + end, isConstraint });
       begin = end;
     }
     this->Counts.MissingConstraints = static_cast<std::int64_t>(this->Constraints.size()) - matched;
@@ -267,7 +223,7 @@ private:
     this->Counts.Edges.Constraint += edge.IsConstraint ? 1 : 0;
     this->Counts.Edges.Fixed += edge.IsConstraint && !isFixed ? 1 : 0;
     const bool stays = isFixed || edge.IsConstraint;
-    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
     {
       this->Answer(*one, stays, false);
     }
@@ -283,7 +239,7 @@ private:
   {
     if (edge.IsOnOneRank())
     {
-      for (const RankedCorner* one = edge.Begin; one != edge.End && edge.IsConstraint; ++one)
+      for (const RankedTriangle* one = edge.Begin; one != edge.End && edge.IsConstraint; ++one)
       {
         this->Answer(*one, true, true);
       }
@@ -294,7 +250,7 @@ private:
       return;
     }
     this->CountOther(edge);
-    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
     {
       this->Answer(*one, true, edge.CountOn(one->Rank) == 2);
     }
@@ -311,11 +267,11 @@ private:
     if (edge.GetSize() == 2) // two triangles on the same three points
     {
       all.WronglyWound =
-        edge.Begin[0].Corner.Side.RunsForward == edge.Begin[1].Corner.Side.RunsForward ? 1 : 0;
-      all.Region = edge.Begin[0].Corner.Side.Region != edge.Begin[1].Corner.Side.Region ? 1 : 0;
+        edge.Begin[0].Seam.Side.RunsForward == edge.Begin[1].Seam.Side.RunsForward ? 1 : 0;
+      all.Region = edge.Begin[0].Seam.Side.Region != edge.Begin[1].Seam.Side.Region ? 1 : 0;
     }
     AddCounts(this->Counts.Edges, all, 1);
-    for (const RankedCorner* one = edge.Begin; one != edge.End; ++one)
+    for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
     {
       if (one == edge.Begin || one->Rank != one[-1].Rank)
       {
@@ -325,7 +281,7 @@ private:
   }
 
   /// What a rank counts of an edge of which others have triangles, too.
-  EdgeCounts CountAlone(const SeamEdge& edge, const RankedCorner* first) const
+  EdgeCounts CountAlone(const SeamEdge& edge, const RankedTriangle* first) const
   {
     const std::int64_t size = edge.CountOn(first->Rank);
     EdgeCounts counts = MakeBoundary();
@@ -333,9 +289,9 @@ private:
     {
       counts = EdgeCounts();
       QuadSoup soup(this->Survey, this->Options);
-      soup.Add(first[0].Corner.Side, first[1].Corner.Side);
+      soup.Add(first[0].Seam.Side, first[1].Seam.Side);
       soup.FindFixed(counts);
-      counts.Fixed = 1; // it is held
+      counts.Fixed = 1; // on this rank
       counts.Constraint = 1;
     }
     else if (size > 2)
@@ -355,10 +311,10 @@ private:
     return counts;
   }
 
-  void Answer(const RankedCorner& corner, bool isFixed, bool isHeld)
+  void Answer(const RankedTriangle& seam, bool isFixed, bool isToFix)
   {
-    this->Answers[corner.Rank].push_back(
-      { corner.Corner.Triangle, corner.Corner.Slot, isFixed, isHeld });
+    this->Answers[seam.Rank].push_back(
+      { seam.Seam.GetTriangle(), seam.Seam.GetSlot(), isFixed, isToFix });
   }
 
   void CountBad()
@@ -366,7 +322,7 @@ private:
     QuadSoup soup(this->Survey, this->Options);
     for (const SeamEdge* edge : this->Open)
     {
-      soup.Add(edge->Begin[0].Corner.Side, edge->Begin[1].Corner.Side);
+      soup.Add(edge->Begin[0].Seam.Side, edge->Begin[1].Seam.Side);
     }
     std::int64_t blocked = 0;
     const std::vector<unsigned char> bad = soup.FindBad(blocked);
@@ -375,7 +331,7 @@ private:
 
   const PieceSurvey& Survey;
   const FlipOptions& Options;
-  std::vector<RankedCorner> Corners;
+  std::vector<RankedTriangle> Seams;
   std::vector<PointPair> Constraints;
   std::vector<SeamEdge> Edges;
   std::vector<const SeamEdge*> Open;
@@ -391,9 +347,9 @@ void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, Se
     {
       survey.Marks.push_back(
         { answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
-      if (answer.IsHeld)
+      if (answer.IsToFix)
       {
-        survey.HeldEdges.push_back(mesh.Triangles[answer.Triangle].GetEdge(answer.Slot));
+        survey.EdgesToFix.push_back(mesh.Triangles[answer.Triangle].GetEdge(answer.Slot));
       }
     }
   }
@@ -419,11 +375,12 @@ SeamSurvey SurveySeams(const MeshPiece& piece, const PieceMesh& mesh, const Piec
   const FlipOptions& options, PieceGroup& group)
 {
   SeamSurvey seams;
-  const RecordLists<SeamCorner> corners = ExchangeRecords(group, ListCorners(piece, mesh, group));
+  const RecordLists<SeamTriangle> triangles =
+    ExchangeRecords(group, ListSeamTriangles(piece, mesh, group));
   const RecordLists<PointPair> constraints =
     ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
   SeamJudge judge(survey, options, group.GetSize());
-  DoTogether(group, [&]() { judge.Judge(corners, constraints); });
+  DoTogether(group, [&]() { judge.Judge(triangles, constraints); });
   TakeAnswers(ExchangeRecords(group, judge.GetAnswers()), mesh, seams);
   seams.Counts = SumOverRanks(group, judge.GetCounts());
   return seams;

@@ -37,7 +37,7 @@ struct SeamSurvey
 {
   std::vector<MarkedCorner> Marks;
   /// Edges that have two triangles here and must stay because of what other ranks know of them.
-  std::vector<PointPair> HeldEdges;
+  std::vector<PointPair> EdgesToFix;
   /// The constraint edges of the caller that this rank can match alone.
   std::vector<std::int64_t> Constraints;
   std::vector<unsigned char> ToInsert;

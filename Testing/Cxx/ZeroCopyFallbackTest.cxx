@@ -19,20 +19,18 @@ namespace
 /// A run that is drawn from copies for a reason, with the right pictures.
 void ExpectCopies(const std::string& reason, vtkPolyData* mesh = MakeBadPlane())
 {
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
+  ViewPair views(mesh);
   bool goesOn = true;
   while (goesOn)
   {
-    goesOn = copying->Step();
-    EXPECT_EQ(sharing->Step(), goesOn);
-    EXPECT_EQ(sharing.GetStatus(), copying.GetStatus());
-    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+    goesOn = views.Copying->Step();
+    EXPECT_EQ(views.Sharing->Step(), goesOn);
+    EXPECT_EQ(views.Sharing.GetStatus(), views.Copying.GetStatus());
+    EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
   }
-  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: " + reason);
-  EXPECT_TRUE(sharing.Errors.empty());
-  EXPECT_EQ(GetCells(sharing.Filter->GetOutput()->GetPolys()), FlipAtOnce(mesh));
+  EXPECT_EQ(views.Sharing->GetDrawing(), "drawn from copies: " + reason);
+  EXPECT_TRUE(views.Sharing.Errors.empty());
+  EXPECT_EQ(GetCells(views.Sharing.Filter->GetOutput()->GetPolys()), FlipAtOnce(mesh));
 }
 
 }
@@ -76,20 +74,17 @@ TEST(ZeroCopyFallback, ALostContextDoesNotComeBack)
   TestFiller& filler = TestFiller::Install();
   filler.FailingRegister = 2;
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
+  ViewPair views(mesh);
   for (int i = 0; i < 4; ++i)
   {
-    copying->Step();
-    sharing->Step();
-    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
+    views.Step();
+    EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
     if (i == 1)
     {
-      sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(sharing.Window);
+      views.Sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(views.Sharing.Window);
     }
   }
-  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: no registration");
+  EXPECT_EQ(views.Sharing->GetDrawing(), "drawn from copies: no registration");
 }
 
 TEST(ZeroCopyFallback, BuffersThatAreMadeAgainFail)
@@ -97,18 +92,16 @@ TEST(ZeroCopyFallback, BuffersThatAreMadeAgainFail)
   TestFiller& filler = TestFiller::Install();
   filler.FailingRegister = 2;
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
-  for (RunView* view : { &copying, &sharing })
+  ViewPair views(mesh);
+  for (RunView* view : { &views.Copying, &views.Sharing })
   {
     (*view)->Step();
     (*view)->Step();
     (*view)->SetEdgeVisibilityToOff(); // VTK makes other buffers
     (*view)->Render();
   }
-  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
-  EXPECT_EQ(sharing->GetDrawing(), "drawn from copies: no registration");
+  EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
+  EXPECT_EQ(views.Sharing->GetDrawing(), "drawn from copies: no registration");
 }
 
 TEST(ZeroCopyFallback, OtherMeshesAreCopied)

@@ -26,10 +26,8 @@ void ExpectSamePictures(int colorBy, bool hasEdges)
 {
   TestFiller::Install();
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
-  for (RunView* view : { &copying, &sharing })
+  ViewPair views(mesh);
+  for (RunView* view : { &views.Copying, &views.Sharing })
   {
     (*view)->SetColorBy(colorBy);
     (*view)->SetEdgeVisibility(hasEdges ? vtkDelaunayFlipLiveView::EDGE_VISIBILITY_ON
@@ -38,14 +36,14 @@ void ExpectSamePictures(int colorBy, bool hasEdges)
   bool goesOn = true;
   while (goesOn)
   {
-    goesOn = copying->Step();
-    EXPECT_EQ(sharing->Step(), goesOn);
-    EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
-    EXPECT_EQ(sharing.GetStatus(), copying.GetStatus());
-    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance)
-      << "frame " << sharing->GetFrameNumber();
+    goesOn = views.Copying->Step();
+    EXPECT_EQ(views.Sharing->Step(), goesOn);
+    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
+    EXPECT_EQ(views.Sharing.GetStatus(), views.Copying.GetStatus());
+    EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance)
+      << "frame " << views.Sharing->GetFrameNumber();
   }
-  EXPECT_EQ(copying->GetDrawing(), "drawn from copies: ZeroCopy is off");
+  EXPECT_EQ(views.Copying->GetDrawing(), "drawn from copies: ZeroCopy is off");
 }
 
 }
@@ -159,10 +157,8 @@ TEST(ZeroCopy, ResizingAndEdges)
 {
   TestFiller::Install();
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
-  for (RunView* view : { &copying, &sharing })
+  ViewPair views(mesh);
+  for (RunView* view : { &views.Copying, &views.Sharing })
   {
     (*view)->Step();
     (*view)->Step();
@@ -174,8 +170,8 @@ TEST(ZeroCopy, ResizingAndEdges)
     (*view)->SetEdgeVisibilityToOn();
     (*view)->Render();
   }
-  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
-  EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+  EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
+  EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
 }
 
 TEST(ZeroCopy, SeveralRenderers)
@@ -255,15 +251,12 @@ TEST(ZeroCopy, MovedPointsAreDrawn)
 {
   TestFiller::Install();
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
+  ViewPair views(mesh);
   const auto step = [&]()
   {
-    copying->Step();
-    sharing->Step();
-    EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
-    EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+    views.Step();
+    EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
+    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
   };
   step();
   step();
@@ -281,23 +274,19 @@ TEST(ZeroCopy, LostResourcesAreMadeAgain)
 {
   TestFiller& filler = TestFiller::Install();
   auto mesh = MakeBadPlane();
-  RunView copying(mesh);
-  RunView sharing(mesh);
-  copying->ZeroCopyOff();
+  ViewPair views(mesh);
   for (int i = 0; i < 3; ++i)
   {
-    copying->Step();
-    sharing->Step();
+    views.Step();
   }
-  sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(sharing.Window);
+  views.Sharing.GetActor()->GetMapper()->ReleaseGraphicsResources(views.Sharing.Window);
   EXPECT_FALSE(filler.IsRegistered);
-  sharing.Window->Render();
+  views.Sharing.Window->Render();
   EXPECT_TRUE(filler.IsRegistered);
-  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
-  copying->Step();
-  sharing->Step();
-  EXPECT_LE(Compare(sharing.GetPicture(), copying.GetPicture()), Tolerance);
-  EXPECT_EQ(sharing->GetDrawing(), WithoutCopies);
+  EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
+  views.Step();
+  EXPECT_LE(Compare(views.Sharing.GetPicture(), views.Copying.GetPicture()), Tolerance);
+  EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
 }
 
 TEST(ZeroCopy, EverythingIsReleased)

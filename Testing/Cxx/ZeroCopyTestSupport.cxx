@@ -44,6 +44,19 @@ std::string RunView::Print()
   return text.str();
 }
 
+ViewPair::ViewPair(vtkPolyData* mesh)
+  : Copying(mesh),
+    Sharing(mesh)
+{
+  this->Copying->ZeroCopyOff();
+}
+
+void ViewPair::Step()
+{
+  this->Copying->Step();
+  this->Sharing->Step();
+}
+
 double Compare(const Bytes& a, const Bytes& b)
 {
   EXPECT_EQ(a.size(), b.size());

@@ -33,6 +33,17 @@ public:
   std::string Print();
 };
 
+/// The same run twice: once drawn from copies, once without as far as possible.
+struct ViewPair
+{
+  explicit ViewPair(vtkPolyData* mesh);
+
+  /// A step of both.
+  void Step();
+
+  RunView Copying, Sharing;
+};
+
 /// The share of pixels with a component that differs by more than 8 of 255.
 double Compare(const Bytes& a, const Bytes& b);
 

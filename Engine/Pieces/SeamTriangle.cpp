@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SeamTriangle.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace delaunayflip
+{
+
+SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t t, int slot)
+{
+  const PieceTriangle& triangle = mesh.Triangles[t];
+  SeamTriangle seam{};
+  seam.Ends = mesh.GetKeys(triangle.GetEdge(slot));
+  seam.Opposite = mesh.GetKey(triangle.Points[slot]);
+  seam.Corner = 3 * t + slot;
+  std::int32_t first = triangle.GetStart(slot);
+  std::int32_t second = triangle.GetEnd(slot);
+  seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
+  if (!seam.Side.RunsForward)
+  {
+    std::swap(first, second);
+  }
+  mesh.GetPosition(first, seam.Side.Ends[0]);
+  mesh.GetPosition(second, seam.Side.Ends[1]);
+  mesh.GetPosition(triangle.Points[slot], seam.Side.Opposite);
+  return seam;
+}
+
+std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
+{
+  std::vector<RankedTriangle> all;
+  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  {
+    for (const SeamTriangle& seam : lists[rank])
+    {
+      all.push_back({ seam, static_cast<int>(rank) });
+    }
+  }
+  std::sort(all.begin(), all.end(),
+    [](const RankedTriangle& a, const RankedTriangle& b)
+    {
+      return std::tie(a.Seam.Ends, a.Rank, a.Seam.Corner) <
+        std::tie(b.Seam.Ends, b.Rank, b.Seam.Corner);
+    });
+  return all;
+}
+
+}
