@@ -150,6 +150,7 @@ fi
 
 printf '\n'
 if [ ${#broken[@]} -gt 0 ]; then
+  /usr/bin/python3 "$root/Utilities/list_failed_tests.py" "${broken[@]/#/$root/}"
   echo "FAILED in: ${broken[*]} (their output is above)"
 fi
 if [ ${#absent[@]} -gt 0 ]; then
