@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFile.h"
+#include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <initializer_list>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 /// @file
 /// The reader of the files that Testing/Gpu/export_meshes.py writes.
@@ -21,8 +22,6 @@ namespace
 class MeshFileTest : public testing::Test
 {
 protected:
-  void TearDown() override { std::remove(this->Path.c_str()); }
-
   template <typename Number>
   void Append(std::initializer_list<Number> numbers)
   {
@@ -48,7 +47,8 @@ protected:
     return ReadMeshFile(this->Path);
   }
 
-  const std::string Path = testing::TempDir() + "MeshFileTest.dfmesh";
+  const TemporaryFolder Folder;
+  const std::string Path = this->Folder / "MeshFileTest.dfmesh";
   std::string Bytes;
 };
 
@@ -64,8 +64,7 @@ TEST_F(MeshFileTest, GivesBackTheMesh)
   EXPECT_EQ(3, mesh.View().Triangles.Get(1, 2));
   ASSERT_EQ(1, mesh.View().NumberOfConstraintEdges);
   EXPECT_EQ(2, mesh.View().ConstraintEdges[0]);
-  const std::vector<std::string> files = ListMeshFiles(testing::TempDir());
-  EXPECT_EQ(1, std::count(files.begin(), files.end(), this->Path));
+  EXPECT_EQ(ListMeshFiles(this->Folder.GetPath()), std::vector<std::string>{ this->Path });
 }
 
 TEST_F(MeshFileTest, RefusesWhatIsNotWhole)

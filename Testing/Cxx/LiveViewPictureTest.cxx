@@ -3,6 +3,7 @@
 /// Live views: the picture, the texts and the files.
 
 #include "LiveViewTestSupport.h"
+#include "TemporaryFolder.h"
 
 #include "vtkCamera.h"
 #include "vtkImageData.h"
@@ -20,30 +21,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// A folder that is removed after the test.
-class Folder
-{
-public:
-  Folder()
-    : Path(fs::path(testing::TempDir()) /
-        (std::string("live_view_") + testing::UnitTest::GetInstance()->current_test_info()->name()))
-  {
-    fs::remove_all(this->Path);
-    fs::create_directories(this->Path);
-  }
-  ~Folder() { fs::remove_all(this->Path); }
-
-  std::string operator/(const char* name) const { return (this->Path / name).string(); }
-  long CountFiles() const
-  {
-    return std::distance(fs::directory_iterator(this->Path), fs::directory_iterator());
-  }
-
-private:
-  fs::path Path;
-};
-
+using delaunayflip::TemporaryFolder;
 using Bytes = std::vector<unsigned char>;
 
 /// The pixels of the window.
@@ -217,7 +195,7 @@ TEST(LiveViewPicture, KeepsACamera)
 
 TEST(LiveViewPicture, EveryFrameIsWritten)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   WatchedView view;
   view->SetFramePrefix((folder / "run_").c_str());
   while (view->Step())
@@ -234,7 +212,7 @@ TEST(LiveViewPicture, EveryFrameIsWritten)
 
 TEST(LiveViewPicture, FramesOfAWindowOnTheScreen)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   WatchedView view(MakeBadPlane(), false);
   view->SetFramePrefix((folder / "f").c_str());
   view.RunToTheEnd();
@@ -249,7 +227,7 @@ TEST(LiveViewPicture, FramesOfAWindowOnTheScreen)
 
 TEST(LiveViewPicture, AFolderThatIsNotThereEndsTheWriting)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   WatchedView view;
   view->SetFramePrefix((folder / "missing/f").c_str());
   while (view->Step())
@@ -269,7 +247,7 @@ TEST(LiveViewPicture, AFullDiskEndsTheWriting)
   {
     GTEST_SKIP() << "needs /dev/full";
   }
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::create_symlink("/dev/full", folder / "f0001.png");
   WatchedView view;
   view->SetFramePrefix((folder / "f").c_str());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Live views that draw without copies: the same pictures and meshes as with copies.
 
+#include "TemporaryFolder.h"
 #include "TestFiller.h"
 #include "ZeroCopyTestSupport.h"
 
@@ -196,7 +197,8 @@ TEST(ZeroCopy, FramesAreWritten)
 {
   TestFiller::Install();
   RunView view;
-  const std::string prefix = testing::TempDir() + "zero_copy_frame";
+  const delaunayflip::TemporaryFolder folder;
+  const std::string prefix = folder / "frame";
   view->SetFramePrefix(prefix.c_str());
   view->Step();
   view->Step();

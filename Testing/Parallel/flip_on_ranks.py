@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by test_ranks.py under mpirun: flip_on_ranks.py CASE [NAME=VALUE...]
+"""Run by test_ranks.py under mpirun: flip_on_ranks.py CASE ARGUMENTS FILE
 
-Rank 0 prints a line of JSON. A rank that finds something wrong ends the job with a traceback.
+ARGUMENTS is JSON. Rank 0 writes what it finds to FILE, as JSON. A rank that finds something wrong
+ends the job with a traceback.
 """
 import json
 import sys
@@ -253,8 +254,9 @@ def main():
     controller = start()
     name, arguments = sys.argv[1], json.loads(sys.argv[2])
     facts, _ = globals()["run_" + name](**arguments)
-    if RANK == 0:
-        print(json.dumps(facts), flush=True)
+    if RANK == 0:  # not to stdout, where mpirun may put words of other ranks into the line
+        with open(sys.argv[3], "w", encoding="utf-8") as file:
+            json.dump(facts, file)
     vtkMultiProcessController.SetGlobalController(None)
     del controller
 

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -21,20 +22,22 @@ except ImportError:
 
 
 def flip_on(ranks, case, **arguments):
-    """What rank 0 prints about a case."""
+    """What rank 0 says of a case."""
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
     # Open MPI's hwloc would look for GPUs at every X server, and die with one that other tests end.
     environment["HWLOC_COMPONENTS"] = "-gl"
-    run = subprocess.run(
-        ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), sys.executable,
-         os.path.join(HERE, "flip_on_ranks.py"), case, json.dumps(arguments)],
-        encoding="utf-8", env=environment, timeout=PATIENCE, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    lines = [line for line in run.stdout.splitlines() if line.startswith("{")]
-    if run.returncode != 0 or not lines:
-        raise AssertionError(run.stdout)
-    return json.loads(lines[-1])
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "facts.json")
+        run = subprocess.run(
+            ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), sys.executable,
+             os.path.join(HERE, "flip_on_ranks.py"), case, json.dumps(arguments), path],
+            encoding="utf-8", env=environment, timeout=PATIENCE, stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        if run.returncode != 0:
+            raise AssertionError(run.stdout)
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
 
 
 @unittest.skipUnless(HAS_MPI, "needs mpirun, mpi4py and a VTK with MPI")
