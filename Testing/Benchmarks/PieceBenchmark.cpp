@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DelaunayFlip.h"
+#include "GeneratedMeshes.h"
+#include "Machine.h"
+#include "MeshDivision.h"
+#include "MeteredGroup.h"
+#include "PieceFlip.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// @file
+/// delaunay-flip-pieces: flips one random bad mesh in pieces, a rank each in a thread of its own,
+/// and prints a line of JSON. Usage: delaunay-flip-pieces [NAME=VALUE ...]
+///
+///     points=500000   of the mesh
+///     pieces=2        0: undivided
+///     threads=1       of each rank
+///     surface=0       1: hills, flipped by opposite angles
+///     devices=        CUDA's numbers of GPUs, separated by commas: the ranks use them in turn
+///     runs=1          the fastest is printed
+///
+/// Not measured is how the mesh is made and divided. `hash` is one of all triangles in their order:
+/// two programs that print the same have made the same result.
+
+using namespace delaunayflip;
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+using Settings = std::map<std::string, std::string>;
+
+Settings ReadSettings(int argc, char** argv)
+{
+  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "threads", "1" },
+    { "surface", "0" }, { "devices", "" }, { "runs", "1" } };
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    const std::size_t sign = word.find('=');
+    const auto known = settings.find(word.substr(0, sign));
+    if (sign == std::string::npos || known == settings.end())
+    {
+      throw std::runtime_error("unknown setting: " + word);
+    }
+    known->second = word.substr(sign + 1);
+  }
+  return settings;
+}
+
+std::vector<int> ReadDevices(const std::string& list)
+{
+  std::vector<int> devices;
+  std::stringstream stream(list);
+  for (std::string one; std::getline(stream, one, ',');)
+  {
+    devices.push_back(std::atoi(one.c_str()));
+  }
+  return devices;
+}
+
+/// @param isSurface whether points get heights.
+OwnedMesh<float> MakeMesh(std::int64_t points, bool isSurface)
+{
+  constexpr std::int64_t PointsPerTile = 100000;
+  const auto side = static_cast<std::int32_t>(
+    std::ceil(std::sqrt(static_cast<double>(points) / static_cast<double>(PointsPerTile))));
+  OwnedMesh<float> mesh = MakeTiledBadMesh(points, std::max(side, 1), 1);
+  for (std::size_t i = 0; i < mesh.Points.size() && isSurface; i += 3)
+  {
+    const double x = mesh.Points[i];
+    const double y = mesh.Points[i + 1];
+    mesh.Points[i + 2] = static_cast<float>(0.05 * std::sin(20.0 * x) * std::cos(17.0 * y));
+  }
+  return mesh;
+}
+
+struct Measure
+{
+  double Seconds = 0.0;
+  double CpuSeconds = 0.0; ///< Of all threads.
+  PiecesReport Report;
+  GroupMeter Meter; ///< Of the rank that sent most.
+  std::vector<FlippedPiece> Pieces;
+};
+
+/// @param work makes a measure but its times.
+template <typename Work>
+Measure TakeTime(const Work& work)
+{
+  Measure measure;
+  const std::clock_t cpu = std::clock();
+  const auto start = Clock::now();
+  work(measure);
+  measure.Seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  measure.CpuSeconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  return measure;
+}
+
+Measure FlipUndivided(const OwnedMesh<float>& mesh, const FlipOptions& options)
+{
+  FlippedPiece flipped;
+  flipped.Triangles.resize(mesh.Triangles.size());
+  const MutableTriangleArray triangles(flipped.Triangles.data(), mesh.NumberOfTriangles());
+  return TakeTime(
+    [&](Measure& measure)
+    {
+      static_cast<FlipReport&>(measure.Report) = FlipToDelaunay(mesh.View(), options, triangles);
+    });
+}
+
+Measure FlipPieces(
+  const std::vector<OwnPiece>& pieces, const FlipOptions& options, const std::vector<int>& devices)
+{
+  const int ranks = static_cast<int>(pieces.size());
+  std::vector<int> turns;
+  for (int rank = 0; rank < ranks && !devices.empty(); ++rank)
+  {
+    turns.push_back(rank % static_cast<int>(devices.size()));
+  }
+  std::vector<GroupMeter> meters(ranks);
+  std::vector<FlippedPiece> flipped(ranks);
+  Measure measure = TakeTime(
+    [&](Measure& sum)
+    {
+      RunInThreads(
+        ranks,
+        [&](PieceGroup& group)
+        {
+          MeteredGroup metered(group, meters[group.GetRank()]);
+          const int rank = group.GetRank();
+          FlipOptions own = options;
+          own.Device = devices.empty() ? -1 : devices[turns[rank]];
+          const PiecesReport report = FlipPiece(pieces[rank].View(), own, metered, flipped[rank]);
+          if (rank == 0)
+          {
+            sum.Report = report;
+          }
+        },
+        turns);
+    });
+  measure.Meter = *std::max_element(meters.begin(), meters.end(),
+    [](const GroupMeter& a, const GroupMeter& b) { return a.BytesSent < b.BytesSent; });
+  measure.Pieces = std::move(flipped);
+  return measure;
+}
+
+/// FNV-1a of all triangles.
+std::uint64_t Hash(const std::vector<FlippedPiece>& pieces)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  for (const FlippedPiece& piece : pieces)
+  {
+    for (const std::int64_t id : piece.Triangles)
+    {
+      hash = (hash ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
+    }
+  }
+  return hash;
+}
+
+std::string DescribeCounts(const Measure& measure)
+{
+  const PiecesReport& report = measure.Report;
+  std::ostringstream text;
+  text << "\"triangles\": " << report.Triangles << ", \"flips\": " << report.TotalFlips
+       << ", \"rounds\": " << report.Rounds << ", \"moved\": " << report.MovedTriangles
+       << ", \"seam_edges\": " << report.SeamEdges
+       << ", \"bytes_sent\": " << measure.Meter.BytesSent << ", \"calls\": " << measure.Meter.Calls
+       << ", \"backend\": \"" << report.Backend << "\", \"hash\": \"" << std::hex
+       << Hash(measure.Pieces) << "\"";
+  return text.str();
+}
+
+void Print(const Settings& settings, const Measure& measure)
+{
+  for (const auto& [name, value] : settings)
+  {
+    std::printf("%s\"%s\": \"%s\"", name == settings.begin()->first ? "{" : ", ", name.c_str(),
+      value.c_str());
+  }
+  std::printf(", \"seconds\": %.4f, \"cpu_seconds\": %.4f, \"communication_seconds\": %.4f, %s, "
+              "\"machine\": \"%s\"}\n",
+    measure.Seconds, measure.CpuSeconds, measure.Meter.Seconds, DescribeCounts(measure).c_str(),
+    DescribeMachine().c_str());
+}
+
+void Run(const Settings& settings)
+{
+  const bool isSurface = settings.at("surface") == "1";
+  const OwnedMesh<float> mesh = MakeMesh(std::atoll(settings.at("points").c_str()), isSurface);
+  const int count = std::atoi(settings.at("pieces").c_str());
+  const std::vector<int> devices = ReadDevices(settings.at("devices"));
+  FlipOptions options;
+  options.Geometry = isSurface ? GeometryKind::Surface : GeometryKind::Planar;
+  options.TieRule = isSurface ? TieRuleKind::Keep : TieRuleKind::Canonical;
+  options.Backend = devices.empty() ? BackendKind::Threads : BackendKind::CUDA;
+  options.NumberOfThreads = std::atoi(settings.at("threads").c_str());
+  options.Device = devices.empty() ? -1 : devices.front();
+  const std::vector<OwnPiece> pieces =
+    count > 0 ? DivideMesh(mesh.View(), count) : std::vector<OwnPiece>();
+  Measure best;
+  for (int run = 0; run < std::atoi(settings.at("runs").c_str()); ++run)
+  {
+    Measure measure =
+      count > 0 ? FlipPieces(pieces, options, devices) : FlipUndivided(mesh, options);
+    if (run == 0 || measure.Seconds < best.Seconds)
+    {
+      best = std::move(measure);
+    }
+  }
+  Print(settings, best);
+}
+
+}
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    Run(ReadSettings(argc, argv));
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "delaunay-flip-pieces: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
