@@ -138,6 +138,10 @@ struct WholeMesh
   int PlaneAxis = -1;
   bool PlaneIsTilted = false;
 
+  /// In planar geometry: whether all triangles strictly turn to the same side, and those around
+  /// every point cover no direction twice. Then flips cannot make an edge that exists.
+  bool StarsAreSimple = false;
+
   /// One set of bits per point, or null: the places outside this piece, whatever they are, where
   /// the point may have edges. A flip that would join two points with a common bit is blocked, as
   /// by an edge that exists.

@@ -133,15 +133,15 @@ PlaneSums SumPlane(
   return sums;
 }
 
-/// @param hasBrokenFans whether there are non-manifold or wrongly wound edges, or triangles with a
+/// @param skipStars whether there are non-manifold or wrongly wound edges, or triangles with a
 /// non-finite coordinate; then StarsAreSimple is false without examination.
 /// @param usedPoints the number of vertices of triangles.
 /// @throws BeyondDevice if a device cannot decide an orientation.
 template <typename Backend>
-PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBrokenFans,
+PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipStars,
   std::int64_t usedPoints, const Backend& backend)
 {
-  const PlaneSums sums = SumPlane(mesh, points, !hasBrokenFans, backend);
+  const PlaneSums sums = SumPlane(mesh, points, !skipStars, backend);
   const OrientationSums& turns = sums.Turns;
   const bool uniform = turns.None.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
   if (turns.Uncertain > 0 || (uniform && sums.Stars.Uncertain > 0))
@@ -157,7 +157,7 @@ PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool hasBro
   {
     survey.UniformSide = mostlyLeft ? 1 : -1;
     survey.StarsAreSimple =
-      !hasBrokenFans && sums.Stars.SeveralFans == 0 && sums.Stars.Covers == usedPoints;
+      !skipStars && sums.Stars.SeveralFans == 0 && sums.Stars.Covers == usedPoints;
   }
   return survey;
 }

@@ -86,7 +86,6 @@ struct StarSurvey
     }
   }
 
-private:
   /// Whether direction v-p lies in the half plane v > 0, or on its border with u > 0.
   DELAUNAYFLIP_HOST_DEVICE static bool IsUpper(const PlanePoint& v, const PlanePoint& p)
   {
@@ -94,6 +93,7 @@ private:
     return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
   }
 
+private:
   /// Whether the corner at v from `first` (included) to `last` (not) covers +u.
   DELAUNAYFLIP_HOST_DEVICE static bool CoversPositiveU(
     const PlanePoint& v, const PlanePoint& first, const PlanePoint& last, int side)

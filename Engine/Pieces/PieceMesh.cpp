@@ -18,6 +18,7 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
 {
   keys.Keys.clear();
   keys.Shared.clear();
+  keys.Closed = std::vector<unsigned char>();
   this->Numbers = std::move(keys);
   for (std::int64_t i = 0; i < this->Given.Count; ++i)
   {

@@ -111,7 +111,7 @@ private:
 
   PointArray Given;
   std::vector<double> Received; ///< Coordinates of the points behind those.
-  PointKeys Numbers; ///< Without Keys and Shared, which are above.
+  PointKeys Numbers; ///< Without what has one value per point.
   std::vector<std::int64_t> Keys;
   std::int64_t FirstOwnKey;
   std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.

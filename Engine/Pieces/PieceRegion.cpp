@@ -58,7 +58,7 @@ void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
     double x[3];
     mesh.GetPosition(this->PointOf[i], x);
     this->Points.Add(x);
-    if (survey.NeedsGuard)
+    if (survey.NeedsGuard())
     {
       // Edges at it may be on other ranks, or outside the region.
       constexpr int Elsewhere = 1, Outside = 2;

@@ -90,7 +90,7 @@ TriangleMesh PieceRun::GetFirstMesh() const
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
   mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
   mesh.Whole = this->Job.Survey.Whole;
-  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard ? this->Mesh.Shared.data() : nullptr;
+  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.Shared.data() : nullptr;
   return mesh;
 }
 
@@ -176,7 +176,7 @@ bool PieceRun::MayGoOn()
   {
     this->WholeStopReason = StopReasonKind::Aborted;
   }
-  else if (all.Limited > 0 || (this->Job.Survey.NeedsGuard && this->Whole.Rounds > MostRounds))
+  else if (all.Limited > 0 || (this->Job.Survey.NeedsGuard() && this->Whole.Rounds > MostRounds))
   {
     this->WholeStopReason = StopReasonKind::IterationLimit;
   }
@@ -194,7 +194,7 @@ bool PieceRun::MakeRound()
   this->FoldedSeams = test.BlockedOfAll;
   GuardRound waiting;
   waiting.FreeOfAll = test.BadOfAll;
-  if (this->Job.Survey.NeedsGuard && mayGoOn)
+  if (this->Job.Survey.NeedsGuard() && mayGoOn)
   {
     waiting =
       FlipWaitingEdges(this->Mesh, this->Job.Survey, this->Job.Options, test, this->Job.Group);

@@ -7,6 +7,7 @@
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"
 #include "Records.h"
+#include "StarCheck.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -111,8 +112,8 @@ void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
   }
 }
 
-/// Whether all triangles of all ranks strictly turn to the same side in the plane.
-bool TurnUniformly(
+/// The side to which all triangles of all ranks strictly turn in the plane: 1 or -1; else 0.
+int FindUniformSide(
   const TriangleMesh& mesh, const PlaneProjection& plane, const GroupBackend& backend)
 {
   const OrientationSums turns = backend.Sum<OrientationSums>(mesh.Triangles.Count,
@@ -128,7 +129,19 @@ bool TurnUniformly(
       sums.Note(isFinite ? FindOrientation(corners[0], corners[1], corners[2]) : 0,
         static_cast<TriangleId>(t));
     });
-  return turns.None.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
+  if (turns.None.Count > 0 || (turns.Left.Count > 0 && turns.Right.Count > 0))
+  {
+    return 0;
+  }
+  return turns.Left.Count > 0 ? 1 : -1;
+}
+
+/// Whether no flip in a plane can make an edge that exists.
+bool NeedsNoGuard(
+  const TriangleMesh& mesh, const PlaneProjection& plane, const GroupBackend& backend)
+{
+  const int side = FindUniformSide(mesh, plane, backend);
+  return side != 0 && AreStarsSimple(mesh, plane, side, backend.Keys, backend.Group);
 }
 }
 
@@ -168,8 +181,8 @@ PieceSurvey SurveyPieces(
   }
   const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
   survey.IsFloat = SumOverRanks(group, doubles) == 0;
-  survey.NeedsGuard =
-    found.Geometry == GeometryKind::Surface || !TurnUniformly(mesh, found.Projection, backend);
+  survey.Whole.StarsAreSimple =
+    found.Geometry != GeometryKind::Surface && NeedsNoGuard(mesh, found.Projection, backend);
   return survey;
 }
 

@@ -20,9 +20,8 @@ struct PieceSurvey
   Defect NearlyHeightField; ///< As that of MeshSurvey.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 
-  /// Whether flips could make an edge that exists on another rank: on surfaces, and in the plane
-  /// unless all triangles strictly turn to the same side.
-  bool NeedsGuard = true;
+  /// Whether flips could make an edge that exists, on any rank.
+  bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
 };
 
 /// @throws on every rank: InvalidMesh for an id that is not a point of its rank; InvalidOptions.

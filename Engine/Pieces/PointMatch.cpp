@@ -91,6 +91,17 @@ public:
   /// the piece. Also true where they are wound in different ways.
   bool IsAtBorder(std::int64_t point) const { return this->Fans[point] != 0; }
 
+  /// One flag per point: whether it is used and not at the border.
+  std::vector<unsigned char> FindClosed() const
+  {
+    std::vector<unsigned char> closed(this->Used.size());
+    for (std::size_t i = 0; i < closed.size(); ++i)
+    {
+      closed[i] = this->Used[i] != 0 && this->Fans[i] == 0 ? 1 : 0;
+    }
+    return closed;
+  }
+
   /// @returns whether the point has a place: no coordinate is NaN.
   bool FindPlace(std::int64_t point, Place& place) const
   {
@@ -304,12 +315,14 @@ PointKeys MatchPoints(const MeshPiece& given, PieceGroup& group)
   MatchCounts counts;
   const RecordLists<SharedPoint> answers =
     ExchangeRecords(group, JoinCandidates(candidates, counts));
+  keys.Closed = finder.FindClosed();
   for (const std::vector<SharedPoint>& list : answers)
   {
     for (const SharedPoint& point : list)
     {
       keys.Keys[point.Own - firstKey] = point.Key;
       keys.Shared[point.Own - firstKey] = 1;
+      keys.Closed[point.Own - firstKey] = 0;
     }
   }
   counts = SumOverRanks(group, counts);

@@ -37,26 +37,6 @@ PlanarSurvey Survey(const OwnedMesh<double>& owned)
   return SurveyPlane(result.Edges, points, false, survey.UsedPoints, backend);
 }
 
-/// `count` triangles around point 0, each an eighth of a turn from `start` eighths on, open.
-OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
-{
-  constexpr int Ring[8][2] = { { 2, 0 }, { 2, 2 }, { 0, 2 }, { -2, 2 }, { -2, 0 }, { -2, -2 },
-    { 0, -2 }, { 2, -2 } };
-  OwnedMesh<double> mesh;
-  mesh.Points = { 0, 0, 0 };
-  for (int i = 0; i <= count; ++i)
-  {
-    const int* place = Ring[(start + i) % 8];
-    mesh.Points.insert(mesh.Points.end(), { double(place[0]), double(place[1]), 0.0 });
-  }
-  for (std::int32_t i = 1; i <= count; ++i)
-  {
-    mesh.Triangles.insert(
-      mesh.Triangles.end(), { 0, clockwise ? i + 1 : i, clockwise ? i : i + 1 });
-  }
-  return mesh;
-}
-
 TEST(PlanarSurvey, FansOfLessThanATurnAreSimple)
 {
   for (int start = 0; start < 8; ++start)

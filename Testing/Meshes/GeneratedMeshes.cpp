@@ -206,6 +206,25 @@ OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std:
   return mesh;
 }
 
+OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
+{
+  constexpr int Ring[8][2] = { { 2, 0 }, { 2, 2 }, { 0, 2 }, { -2, 2 }, { -2, 0 }, { -2, -2 },
+    { 0, -2 }, { 2, -2 } };
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0 };
+  for (int i = 0; i <= count; ++i)
+  {
+    const int* place = Ring[(start + i) % 8];
+    mesh.Points.insert(mesh.Points.end(), { double(place[0]), double(place[1]), 0.0 });
+  }
+  for (std::int32_t i = 1; i <= count; ++i)
+  {
+    mesh.Triangles.insert(
+      mesh.Triangles.end(), { 0, clockwise ? i + 1 : i, clockwise ? i : i + 1 });
+  }
+  return mesh;
+}
+
 OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh)
 {
   const std::vector<std::int32_t> clean = mesh.Triangles;

@@ -73,6 +73,10 @@ OwnedMesh<double> MakeLatLongSphere(std::int32_t columns, std::int32_t rows);
 /// edges at the seam. `columns` >= 3, `rows` >= 1.
 OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std::uint32_t seed);
 
+/// `count` triangles around point 0, each an eighth of a turn from `start` eighths on. They do not
+/// close, and overlap where they are more than eight.
+OwnedMesh<double> MakeFan(int start, int count, bool clockwise);
+
 /// The mesh with every tenth triangle repeated, so that many edges have three or more triangles.
 OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh);
 
