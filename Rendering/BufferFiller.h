@@ -32,7 +32,8 @@ struct DrawnBuffers
 struct FilledMesh
 {
   const FlipSession& Session; ///< Of Count triangles.
-  PointArray Points; ///< In the host's memory; the same in all calls.
+  PointArray Points; ///< In the host's memory.
+  std::uint64_t PointsTime = 0; ///< Another one than in the last call if points have moved.
   bool ByFlipCount = false; ///< Colours show flip counts, else smallest angles.
   /// The colours, given the largest flip count of a triangle (0 for angles).
   std::function<ColorBands(double largestCount)> ChooseColors;

@@ -144,22 +144,16 @@ private:
   cudaGraphicsResource_t Colors = nullptr;
 };
 
-/// A copy of the points in the memory of the current device.
+/// A copy of points in the memory of the current device.
 class PointCopy
 {
 public:
+  /// Memory for such points.
   explicit PointCopy(const PointArray& points)
     : Points(points)
   {
-    const void* host = points.Floats ? static_cast<const void*>(points.Floats) : points.Doubles;
-    const std::size_t bytes = 3 * points.Count * (points.Floats ? sizeof(float) : sizeof(double));
-    Require(cudaMalloc(&this->Memory, std::max<std::size_t>(bytes, 1)), "allocate memory");
-    const cudaError_t error = cudaMemcpy(this->Memory, host, bytes, cudaMemcpyHostToDevice);
-    if (error != cudaSuccess)
-    {
-      cudaFree(this->Memory);
-    }
-    Require(error, "copy points");
+    Require(
+      cudaMalloc(&this->Memory, std::max<std::size_t>(CountBytes(points), 1)), "allocate memory");
   }
   ~PointCopy()
   {
@@ -169,6 +163,18 @@ public:
   PointCopy(const PointCopy&) = delete;
   PointCopy& operator=(const PointCopy&) = delete;
 
+  bool Fits(const PointArray& points) const
+  {
+    return points.Count == this->Points.Count && !points.Floats == !this->Points.Floats;
+  }
+
+  void Write(const PointArray& points)
+  {
+    const void* host = points.Floats ? static_cast<const void*>(points.Floats) : points.Doubles;
+    Require(
+      cudaMemcpy(this->Memory, host, CountBytes(points), cudaMemcpyHostToDevice), "copy points");
+  }
+
   DevicePointArray View() const
   {
     return this->Points.Floats
@@ -177,6 +183,11 @@ public:
   }
 
 private:
+  static std::size_t CountBytes(const PointArray& points)
+  {
+    return 3 * points.Count * (points.Floats ? sizeof(float) : sizeof(double));
+  }
+
   PointArray Points;
   void* Memory = nullptr;
 };
@@ -225,10 +236,7 @@ public:
       throw std::runtime_error("the filter no longer works on the GPU");
     }
     const CurrentGpu current(this->Device);
-    if (!this->Points)
-    {
-      this->Points = std::make_unique<PointCopy>(mesh.Points);
-    }
+    this->CopyPoints(mesh);
     double smallest = 0.0;
     this->Buffers->Map(this->Count,
       [&](std::int32_t* triangles, std::uint32_t* colors)
@@ -237,6 +245,21 @@ public:
   }
 
 private:
+  void CopyPoints(const FilledMesh& mesh)
+  {
+    const bool fits = this->Points && this->Points->Fits(mesh.Points);
+    if (fits && this->PointsTime == mesh.PointsTime)
+    {
+      return;
+    }
+    if (!fits)
+    {
+      this->Points = std::make_unique<PointCopy>(mesh.Points);
+    }
+    this->Points->Write(mesh.Points);
+    this->PointsTime = mesh.PointsTime;
+  }
+
   /// The values that colours show are written where the colours go.
   double Write(const FilledMesh& mesh, std::int32_t* triangles, std::uint32_t* colors) const
   {
@@ -266,6 +289,7 @@ private:
   std::int64_t Count = 0;
   std::unique_ptr<SharedBuffers> Buffers;
   std::unique_ptr<PointCopy> Points;
+  std::uint64_t PointsTime = 0; ///< When they were copied.
 };
 
 }

@@ -91,7 +91,9 @@ struct DeviceDrawing::Parts
   Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
   ~Parts();
 
+  vtkPolyData* GetOutput() const;
   std::string FindObstacle();
+  bool Fits(vtkPolyData* mesh) const;
   void FillBuffers();
   bool IsQuiet() const;
 };
@@ -101,7 +103,10 @@ DeviceDrawing::Parts::Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelauna
     Actor(actor),
     Filter(filter)
 {
-  this->Source->GetMesh = [this]() { return CopyRun(this->Filter); };
+  this->Source->GetMesh = [this]()
+  {
+    return this->Filter->GetMeshIsWithheld() ? CopyRun(this->Filter) : MakeFaces(this->GetOutput());
+  };
   this->Mapper->SetInputConnection(this->Source->GetOutputPort());
   this->Mapper->SetScalarModeToUseCellFieldData();
   this->Mapper->SetColorModeToDirectScalars();
@@ -123,6 +128,11 @@ DeviceDrawing::Parts::~Parts()
   this->Source->GetMesh = nullptr;
 }
 
+vtkPolyData* DeviceDrawing::Parts::GetOutput() const
+{
+  return vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
+}
+
 std::string DeviceDrawing::Parts::FindObstacle()
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
@@ -130,8 +140,7 @@ std::string DeviceDrawing::Parts::FindObstacle()
   {
     return "the window does not draw by OpenGL";
   }
-  auto* mesh = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
-  const std::string inMesh = FindObstacleInMesh(mesh, this->Filter->GetSession());
+  const std::string inMesh = FindObstacleInMesh(this->GetOutput(), this->Filter->GetSession());
   if (!inMesh.empty())
   {
     return inMesh;
@@ -140,12 +149,21 @@ std::string DeviceDrawing::Parts::FindObstacle()
   return this->Filler->FindObstacle(this->Filter);
 }
 
+/// Whether a mesh has as many points and triangles as the one that is drawn.
+bool DeviceDrawing::Parts::Fits(vtkPolyData* mesh) const
+{
+  vtkPolyData* drawn = this->Mapper->GetInput();
+  return this->Mapper->IsReady() && drawn->GetNumberOfPoints() == mesh->GetNumberOfPoints() &&
+    drawn->GetNumberOfPolys() == mesh->GetNumberOfPolys();
+}
+
 void DeviceDrawing::Parts::FillBuffers()
 {
   if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
   {
-    this->SmallestAngle = this->Filler->Fill({ *session, ViewPoints(this->Mapper->GetInput()),
-      this->Colors.ByFlipCount, this->Colors.Choose });
+    vtkPolyData* mesh = this->Mapper->GetInput();
+    this->SmallestAngle = this->Filler->Fill({ *session, ViewPoints(mesh),
+      mesh->GetPoints()->GetMTime(), this->Colors.ByFlipCount, this->Colors.Choose });
   }
 }
 
@@ -190,6 +208,17 @@ void DeviceDrawing::NoteStep()
 {
   this->On->Source->Modified();
   this->On->Mapper->NoteChange();
+}
+
+bool DeviceDrawing::TakeNextRun()
+{
+  const bool fits = this->On->FindObstacle().empty() && this->On->Fits(this->On->GetOutput());
+  if (fits)
+  {
+    this->NoteStep();
+    this->On->Source->Update(); // the points may be elsewhere
+  }
+  return fits;
 }
 
 /// If VTK has no buffers yet, it makes them when it draws.

@@ -49,6 +49,10 @@ public:
   /// Says that the session has made a step.
   void NoteStep();
 
+  /// Goes on with a new run of the filter, whose mesh has been put out.
+  /// @returns false, and does nothing, if the buffers are not made for such a mesh.
+  bool TakeNextRun();
+
   /// Brings the buffers up to date, with these colours.
   /// @returns false if that failed; GetFailure() says why.
   bool Fill(const Coloring& coloring);

@@ -3,17 +3,23 @@
 #include "DeviceMapper.h"
 
 #include "vtkActor.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLIndexBufferObject.h"
+#include "vtkOpenGLVertexBufferObject.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
+#include "vtkTransform.h"
 
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -80,27 +86,73 @@ void DeviceMapper::UpdateInput()
   this->CurrentInput = this->GetInput();
 }
 
-/// New cells alone are no reason: the buffers have them already.
+/// New cells alone are no reason: the buffers have them already. Of new points only the places are
+/// written anew.
 bool DeviceMapper::GetNeedToRebuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   const bool isOther = this->Superclass::GetNeedToRebuildBufferObjects(renderer, actor);
   const Stamps stamps = { actor->GetProperty()->GetMTime(),
-    actor->GetTexture() ? actor->GetTexture()->GetMTime() : 0,
-    this->CurrentInput->GetPoints()->GetMTime(), this->GetMTime() };
+    actor->GetTexture() ? actor->GetTexture()->GetMTime() : 0, this->GetMTime() };
   const bool isNew = std::exchange(this->Built, stamps) != stamps;
-  return isNew || this->AreSpoiled || (isOther && !this->IsRegistered);
+  const vtkMTimeType points = this->CurrentInput->GetPoints()->GetMTime();
+  const bool hasMoved = std::exchange(this->BuiltPoints, points) != points;
+  const bool isOut = isNew || this->AreSpoiled || (isOther && !this->IsRegistered);
+  this->HasOnlyMoved = hasMoved && !isOut;
+  return isOut || hasMoved;
 }
 
 void DeviceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
-  this->Release();
   this->UpdateInput();
+  if (std::exchange(this->HasOnlyMoved, false) && this->CanMovePoints())
+  {
+    this->MovePoints(renderer);
+    return;
+  }
+  this->Release();
   if (std::exchange(this->AreSpoiled, false))
   {
     this->IBOBuildState.Clear();
     this->CellTextureBuildState.Clear();
   }
   this->Superclass::BuildBufferObjects(renderer, actor);
+  this->BuiltPlaces = this->CurrentInput->GetNumberOfPoints();
+}
+
+/// Whether the registered buffers, which are those of triangles and colours, can stay.
+bool DeviceMapper::CanMovePoints() const
+{
+  vtkPointData* data = this->CurrentInput->GetPointData();
+  return this->IsRegistered && !data->GetNormals() && !data->GetTCoords() &&
+    this->CurrentInput->GetNumberOfPoints() == this->BuiltPlaces;
+}
+
+void DeviceMapper::MovePoints(vtkRenderer* renderer)
+{
+  vtkDataArray* places = this->CurrentInput->GetPoints()->GetData();
+  this->VBOs->CacheDataArray("vertexMC", places, renderer, VTK_FLOAT);
+  using Buffer = vtkOpenGLVertexBufferObject;
+  const auto method = static_cast<Buffer::ShiftScaleMethod>(this->ShiftScaleMethod);
+  this->VBOs->GetVBO("vertexMC")->SetCoordShiftAndScaleMethod(method);
+  this->VBOs->BuildAllVBOs(renderer);
+  this->VBOBuildTime.Modified();
+  this->FindInverseShift();
+  this->IsBehind = true;
+}
+
+/// VTK keeps points in single precision, shifted and scaled where that would be too coarse. Finds
+/// the matrix with which its shader takes this back.
+void DeviceMapper::FindInverseShift()
+{
+  vtkOpenGLVertexBufferObject* places = this->VBOs->GetVBO("vertexMC");
+  if (places->GetCoordShiftAndScaleEnabled())
+  {
+    const std::vector<double>& scale = places->GetScale();
+    this->VBOInverseTransform->Identity();
+    this->VBOInverseTransform->Translate(places->GetShift().data());
+    this->VBOInverseTransform->Scale(1.0 / scale[0], 1.0 / scale[1], 1.0 / scale[2]);
+    this->VBOInverseTransform->GetTranspose(this->VBOShiftScale);
+  }
 }
 
 void DeviceMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)

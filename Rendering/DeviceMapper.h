@@ -67,17 +67,23 @@ protected:
   void BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
-  using Stamps = std::array<vtkMTimeType, 4>;
+  using Stamps = std::array<vtkMTimeType, 3>;
 
   template <typename Call>
   bool Try(const Call& call);
   void Release();
+  bool CanMovePoints() const;
+  void MovePoints(vtkRenderer* renderer);
+  void FindInverseShift();
   DrawnBuffers GetBuffers() const;
   void UpdateInput();
 
   Callbacks Calls;
   std::string Failure;
-  Stamps Built{}; ///< What the buffers were made from, but for triangles and colours.
+  Stamps Built{}; ///< What the buffers were made from, but for points, triangles and colours.
+  vtkMTimeType BuiltPoints = 0;
+  vtkIdType BuiltPlaces = 0; ///< The number of points.
+  bool HasOnlyMoved = false; ///< Nothing but points makes the buffers out of date.
   bool IsRegistered = false;
   bool IsBehind = false; ///< The buffers hold an earlier mesh.
   bool AreSpoiled = false; ///< They hold nothing that could be drawn.

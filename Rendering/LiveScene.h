@@ -53,6 +53,10 @@ public:
   /// The mesh must be that of the last SetMesh().
   void OfferRun(vtkDelaunayFlip* filter);
 
+  /// Shows the first mesh of a filter's new run in the buffers of the run before, which is drawn
+  /// without copies. @returns false, and does nothing, if there is none or the mesh does not fit.
+  bool TakeNextRun(vtkDelaunayFlip* filter, vtkPolyData* mesh);
+
   /// Says why OfferRun() was not called.
   void DeclineRun(const std::string& reason);
 

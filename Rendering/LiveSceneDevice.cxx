@@ -30,6 +30,16 @@ void LiveScene::OfferRun(vtkDelaunayFlip* filter)
   this->Run = filter;
 }
 
+bool LiveScene::TakeNextRun(vtkDelaunayFlip* filter, vtkPolyData* mesh)
+{
+  const bool isTaken = this->DrawsRun() && this->Run == filter && this->Device.TakeNextRun();
+  if (isTaken)
+  {
+    this->Mesh->ShallowCopy(mesh);
+  }
+  return isTaken;
+}
+
 void LiveScene::DeclineRun(const std::string& reason)
 {
   this->Device.End(reason);

@@ -269,7 +269,12 @@ void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
 
 void vtkDelaunayFlipLiveView::ShowOutput()
 {
-  this->Scene->SetMesh(MakeFaces(this->Filter->GetOutputDataObject(0)));
+  const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
+  if (this->ZeroCopy && this->Scene->TakeNextRun(this->Filter, mesh))
+  {
+    return;
+  }
+  this->Scene->SetMesh(mesh);
   if (this->ZeroCopy)
   {
     this->Scene->OfferRun(this->Filter);
