@@ -114,8 +114,7 @@ Measure FlipUndivided(const OwnedMesh<float>& mesh, const FlipOptions& options)
   flipped.Triangles.resize(mesh.Triangles.size());
   const MutableTriangleArray triangles(flipped.Triangles.data(), mesh.NumberOfTriangles());
   return TakeTime(
-    [&](Measure& measure)
-    {
+    [&](Measure& measure) {
       static_cast<FlipReport&>(measure.Report) = FlipToDelaunay(mesh.View(), options, triangles);
     });
 }

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// How a session begins: checks, constraints, the engine, and what is reported of the input.
+
+#include "SessionWork.h"
+
+#include "BuildProgress.h"
+#include "InputChecks.h"
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Share of a run that the insertion of constraints takes, where there are any: it builds an edge
+/// mesh of its own.
+constexpr double InsertionShare = 0.3;
+}
+
+FlipSession::Implementation::Implementation(
+  const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+  : Mesh(mesh),
+    Options(Check(mesh, options)),
+    Observer(progress)
+{
+  this->Try([this]() { this->Build(); });
+}
+
+FlipOptions FlipSession::Implementation::Check(const CallerMesh& mesh, const FlipOptions& options)
+{
+  CheckOptions(options);
+  CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  FlipOptions checked = options;
+  checked.Device = mesh.ChooseDevice(options.Device);
+  return checked;
+}
+
+//------------------------------------------------------------------------------
+/// When an exception leaves, there is no engine.
+void FlipSession::Implementation::Build()
+{
+  try
+  {
+    this->BuildEngine([this](double share) { return this->Progress.Tell(this->Observer, share); });
+  }
+  catch (...)
+  {
+    this->Reset();
+    throw;
+  }
+}
+
+void FlipSession::Implementation::BuildEngine(const ProgressObserver& tell)
+{
+  const StopWatch watch;
+  const CallerMesh mesh = this->InsertConstraints(tell);
+  const double begin = this->Insertion.HasFlips() ? InsertionShare : 0.0;
+  // A copy stays in the engine, for when the CPU must start again.
+  const BuildProgress progress(
+    [tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
+  this->Engine.emplace(mesh, this->Insertion.GetOptions(this->Options), progress);
+  this->Report = this->Engine->GetInputReport();
+  this->Insertion.AddTo(this->Report);
+  progress.Reach(this->Report.GeometryUsed, BuildStep::Prepared);
+  this->Report.MinimumAngleBefore = this->MeasureAngle();
+  this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
+  this->Report.BuildSeconds = watch.GetSeconds();
+  progress.Reach(this->Report.GeometryUsed, BuildStep::Measured);
+  this->DetectFirst();
+  progress.Reach(this->Report.GeometryUsed, BuildStep::Tested);
+  this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
+}
+
+/// @returns the mesh that iterations start from.
+CallerMesh FlipSession::Implementation::InsertConstraints(const ProgressObserver& tell)
+{
+  this->Insertion = ConstraintInsertion();
+  if (!this->Mesh.HasConstraintsToInsert())
+  {
+    return this->Mesh;
+  }
+  const TriangleMesh& mesh = this->Mesh.GetOnHost();
+  this->Insertion = ConstraintInsertion(
+    mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
+  return CallerMesh(this->Insertion.GetMesh(mesh));
+}
+
+/// Reports on the input, and ends the run if there is nothing to do or no iteration is allowed.
+void FlipSession::Implementation::DetectFirst()
+{
+  const StopWatch watch;
+  this->Detected(this->Engine->Detect());
+  this->Report.NonDelaunayBefore = this->Found.Bad + this->Found.GetBlocked();
+  this->Report.FlipSeconds = watch.GetSeconds();
+}
+
+void FlipSession::Implementation::Reset()
+{
+  this->Engine.reset();
+  this->Insertion = ConstraintInsertion();
+  this->Report = FlipReport();
+  this->Report.Points = this->Mesh.CountPoints();
+  this->Report.Triangles = this->Mesh.CountTriangles();
+  this->IsMeasured = true;
+}
+
+}
