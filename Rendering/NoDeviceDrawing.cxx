@@ -32,6 +32,8 @@ bool DeviceDrawing::IsOn() const { return false; }
 
 void DeviceDrawing::NoteStep() {}
 
+bool DeviceDrawing::TakeNextRun() { return false; }
+
 bool DeviceDrawing::Fill(const Coloring&) { return false; }
 
 void DeviceDrawing::SetQuiet(bool) {}
