@@ -12,19 +12,6 @@ namespace delaunayflip
 
 namespace
 {
-/// A triangle and one of its corners.
-struct Corner
-{
-  std::int64_t Triangle;
-  int Slot;
-};
-
-/// An inner edge of this rank: its two corners.
-struct InnerQuad
-{
-  Corner One, Other;
-};
-
 /// An edge to flip, and the edge that this would make.
 struct Question
 {
@@ -33,33 +20,50 @@ struct Question
   bool IsSeam; ///< Between ranks, so that it cannot flip now.
 };
 
-/// The inner edges between two triangles whose opposite points are both shared.
-std::vector<InnerQuad> ListWaiting(const PieceMesh& mesh)
+/// Triangles at shared points, more than once.
+std::vector<std::int64_t> FindTrianglesAtShared(const PieceMesh& mesh)
 {
-  PairMap<Corner> first;
+  std::vector<std::int64_t> triangles;
+  for (const std::int32_t point : mesh.GetSharedPoints())
+  {
+    mesh.ForEachAt(point, [&](std::int64_t t) { triangles.push_back(t); });
+  }
+  return triangles;
+}
+
+/// The inner edges of some triangles whose two opposite points are both shared, in the order of the
+/// later of their triangles.
+std::vector<InnerQuad> ListWaiting(const PieceMesh& mesh, std::vector<std::int64_t> triangles)
+{
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   std::vector<InnerQuad> quads;
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  for (const std::int64_t t : triangles)
   {
     const PieceTriangle& triangle = mesh.Triangles[t];
-    for (int slot = 0; slot < 3; ++slot)
+    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
     {
-      if (!mesh.Shared[triangle.Points[slot]] || triangle.Has(FixedMark, slot) ||
-        triangle.Has(SeamMark, slot))
+      const PieceCorner corner{ t, slot };
+      const PieceCorner mate =
+        mesh.IsShared(triangle.Points[slot]) ? mesh.FindOpenMate(corner) : PieceCorner{ -1, 0 };
+      if (mate.Triangle >= 0 && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]))
       {
-        continue;
-      }
-      const Corner corner{ static_cast<std::int64_t>(t), slot };
-      const auto [place, isNew] = first.emplace(triangle.GetEdge(slot), corner);
-      if (!isNew)
-      {
-        quads.push_back({ place->second, corner });
+        const bool isFirst = t < mate.Triangle;
+        quads.push_back({ isFirst ? corner : mate, isFirst ? mate : corner });
       }
     }
   }
+  const auto place = [](const InnerQuad& quad)
+  { return 3 * quad.Other.Triangle + quad.Other.Slot; };
+  std::sort(quads.begin(), quads.end(),
+    [&](const InnerQuad& a, const InnerQuad& b) { return place(a) < place(b); });
+  quads.erase(std::unique(quads.begin(), quads.end(),
+                [&](const InnerQuad& a, const InnerQuad& b) { return place(a) == place(b); }),
+    quads.end());
   return quads;
 }
 
-SeamSide MakeSide(const PieceMesh& mesh, const Corner& corner, const PointPair& ends)
+SeamSide MakeSide(const PieceMesh& mesh, const PieceCorner& corner, const PointPair& ends)
 {
   const PieceTriangle& triangle = mesh.Triangles[corner.Triangle];
   SeamSide side{};
@@ -71,10 +75,10 @@ SeamSide MakeSide(const PieceMesh& mesh, const Corner& corner, const PointPair& 
 }
 
 /// Those of the waiting edges that are bad and whose flip would not fold the mesh over.
-std::vector<InnerQuad> FindBadQuads(
-  const PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options)
+std::vector<InnerQuad> FindBadQuads(const PieceMesh& mesh,
+  const std::vector<std::int64_t>& triangles, const PieceSurvey& survey, const FlipOptions& options)
 {
-  const std::vector<InnerQuad> quads = ListWaiting(mesh);
+  const std::vector<InnerQuad> quads = ListWaiting(mesh, triangles);
   QuadSoup soup(survey, options);
   for (const InnerQuad& quad : quads)
   {
@@ -106,35 +110,12 @@ Question MakeQuestion(const PieceMesh& mesh, const InnerQuad& quad)
 std::vector<unsigned char> FindExisting(
   const PieceMesh& mesh, const std::vector<Question>& questions)
 {
-  PairMap<unsigned char> exists;
-  PointFlags flags;
+  std::vector<unsigned char> answers;
   for (const Question& question : questions)
   {
     const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
     const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
-    if (a >= 0 && b >= 0)
-    {
-      flags.Set(static_cast<std::int32_t>(a));
-      flags.Set(static_cast<std::int32_t>(b));
-      exists.emplace(question.Opposite, 0);
-    }
-  }
-  for (const PieceTriangle& triangle : mesh.Triangles)
-  {
-    for (int slot = 0; slot < 3 && flags.Count(triangle) > 1; ++slot)
-    {
-      const auto found = exists.find(mesh.GetKeys(triangle.GetEdge(slot)));
-      if (found != exists.end())
-      {
-        found->second = 1;
-      }
-    }
-  }
-  std::vector<unsigned char> answers;
-  for (const Question& question : questions)
-  {
-    const auto found = exists.find(question.Opposite);
-    answers.push_back(found != exists.end() ? found->second : 0);
+    answers.push_back(a >= 0 && b >= 0 && mesh.HasEdge({ a, b }) ? 1 : 0);
   }
   return answers;
 }
@@ -187,7 +168,7 @@ void SetMarks(PieceTriangle& triangle, int slot, unsigned char marks)
 
 /// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
 /// (b, q, a).
-void Flip(PieceMesh& mesh, const InnerQuad& quad)
+void FlipQuad(PieceMesh& mesh, const InnerQuad& quad)
 {
   PieceTriangle& t = mesh.Triangles[quad.One.Triangle];
   PieceTriangle& s = mesh.Triangles[quad.Other.Triangle];
@@ -219,7 +200,8 @@ std::unordered_set<std::int64_t> FlipGranted(PieceMesh& mesh, const std::vector<
     {
       continue;
     }
-    Flip(mesh, quad);
+    mesh.ChangeTriangles(
+      { quad.One.Triangle, quad.Other.Triangle }, [&]() { FlipQuad(mesh, quad); });
     ++round.Flipped;
     for (const std::int64_t t : { quad.One.Triangle, quad.Other.Triangle })
     {
@@ -232,13 +214,26 @@ std::unordered_set<std::int64_t> FlipGranted(PieceMesh& mesh, const std::vector<
 }
 }
 
-GuardRound FlipWaitingEdges(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options,
-  SeamTest& test, PieceGroup& group)
+void WaitingEdges::Find(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options)
 {
-  std::vector<InnerQuad> quads;
-  DoTogether(group, [&]() { quads = FindBadQuads(mesh, survey, options); });
+  const std::vector<std::int64_t> changed = mesh.TakeChanged();
+  this->Triangles.insert(this->Triangles.end(), changed.begin(), changed.end());
+  this->Bad = FindBadQuads(
+    mesh, this->IsFirst ? FindTrianglesAtShared(mesh) : this->Triangles, survey, options);
+  this->IsFirst = false;
+  this->Triangles.clear();
+  for (const InnerQuad& quad : this->Bad)
+  {
+    this->Triangles.insert(this->Triangles.end(), { quad.One.Triangle, quad.Other.Triangle });
+  }
+}
+
+GuardRound WaitingEdges::Flip(PieceMesh& mesh, const PieceSurvey& survey,
+  const FlipOptions& options, SeamTest& test, PieceGroup& group)
+{
+  DoTogether(group, [&]() { this->Find(mesh, survey, options); });
   std::vector<Question> questions;
-  for (const InnerQuad& quad : quads)
+  for (const InnerQuad& quad : this->Bad)
   {
     questions.push_back(MakeQuestion(mesh, quad));
   }
@@ -249,7 +244,7 @@ GuardRound FlipWaitingEdges(PieceMesh& mesh, const PieceSurvey& survey, const Fl
   const PairMap<PointPair> granted = GrantFlips(mesh, questions, group);
   GuardRound round;
   round.FreeOfAll = static_cast<std::int64_t>(granted.size());
-  const std::unordered_set<std::int64_t> changed = FlipGranted(mesh, quads, granted, round);
+  const std::unordered_set<std::int64_t> changed = FlipGranted(mesh, this->Bad, granted, round);
   // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
   const auto mustStay = [&](const BadSeam& seam)
   { return changed.count(seam.Triangle) > 0 || !IsGranted(granted, seam.Ends, seam.Opposite); };

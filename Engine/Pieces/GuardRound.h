@@ -22,10 +22,28 @@ struct GuardRound
   std::vector<std::int32_t> Points; ///< Around which edges must now be judged.
 };
 
-/// Flips edges of `mesh` that have waited, and removes the edges from `test` whose flip would make
-/// an edge that exists or that another flip makes.
-GuardRound FlipWaitingEdges(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options,
-  SeamTest& test, PieceGroup& group);
+/// An inner edge of a rank: its two corners.
+struct InnerQuad
+{
+  PieceCorner One, Other;
+};
+
+/// The edges of a rank that wait.
+class WaitingEdges
+{
+public:
+  /// Flips edges of `mesh` that have waited, and removes the edges from `test` whose flip would
+  /// make an edge that exists or that another flip makes.
+  GuardRound Flip(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options,
+    SeamTest& test, PieceGroup& group);
+
+private:
+  void Find(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options);
+
+  bool IsFirst = true;
+  std::vector<InnerQuad> Bad;
+  std::vector<std::int64_t> Triangles; ///< Of those; other edges are bad only if they have changed.
+};
 
 }
 

@@ -4,6 +4,7 @@
 
 #include "FlipError.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -27,7 +28,16 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
       this->OtherKeys.emplace(this->Keys[i], static_cast<std::int32_t>(i));
     }
   }
+  for (std::size_t i = 0; i < this->Shared.size(); ++i)
+  {
+    if (this->Shared[i])
+    {
+      this->SharedPoints.push_back(static_cast<std::int32_t>(i));
+    }
+  }
   const TriangleArray& triangles = piece.Mesh.Triangles;
+  constexpr std::int64_t PartToReceive = 16; // so that the first arrival does not copy all
+  this->Triangles.reserve(triangles.Count + triangles.Count / PartToReceive);
   this->Triangles.resize(triangles.Count);
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
@@ -61,6 +71,93 @@ void PieceMesh::GetPosition(std::int64_t point, double (&x)[3]) const
   }
 }
 
+//------------------------------------------------------------------------------
+void PieceMesh::BeginRounds()
+{
+  this->Stars.AddAll(this->Triangles, this->GetNumberOfPoints());
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    this->NoteSeams(static_cast<std::int64_t>(t));
+  }
+}
+
+void PieceMesh::NoteSeams(std::int64_t t)
+{
+  PieceTriangle& triangle = this->Triangles[t];
+  if (triangle.HasSeam() && !triangle.IsNoted)
+  {
+    triangle.IsNoted = true;
+    this->MayHaveSeams.push_back(t);
+  }
+}
+
+void PieceMesh::SetSeam(const PieceCorner& corner)
+{
+  this->Triangles[corner.Triangle].Set(SeamMark, corner.Slot);
+  this->NoteSeams(corner.Triangle);
+}
+
+std::vector<PieceCorner> PieceMesh::FindSeams()
+{
+  std::vector<PieceCorner> corners;
+  std::size_t kept = 0;
+  for (const std::int64_t t : this->MayHaveSeams)
+  {
+    PieceTriangle& triangle = this->Triangles[t];
+    triangle.IsNoted = triangle.HasSeam() && !triangle.HasLeft;
+    for (int slot = 0; slot < 3 && triangle.IsNoted; ++slot)
+    {
+      if (triangle.Has(SeamMark, slot))
+      {
+        corners.push_back({ t, slot });
+      }
+    }
+    if (triangle.IsNoted)
+    {
+      this->MayHaveSeams[kept++] = t;
+    }
+  }
+  this->MayHaveSeams.resize(kept);
+  return corners;
+}
+
+//------------------------------------------------------------------------------
+PieceCorner PieceMesh::FindMate(const PieceCorner& corner) const
+{
+  const PieceTriangle& triangle = this->Triangles[corner.Triangle];
+  const PointPair edge = triangle.GetEdge(corner.Slot);
+  PieceCorner mate{ -1, 0 };
+  this->Stars.ForEach(triangle.GetStart(corner.Slot),
+    [&](std::int64_t t)
+    {
+      for (int slot = 0; slot < 3 && t != corner.Triangle; ++slot)
+      {
+        mate = this->Triangles[t].GetEdge(slot) == edge ? PieceCorner{ t, slot } : mate;
+      }
+    });
+  return mate;
+}
+
+PieceCorner PieceMesh::FindOpenMate(const PieceCorner& corner) const
+{
+  const PieceTriangle& triangle = this->Triangles[corner.Triangle];
+  const bool isMarked = triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot);
+  return isMarked ? PieceCorner{ -1, 0 } : this->FindMate(corner);
+}
+
+bool PieceMesh::HasEdge(const PointPair& ends) const
+{
+  bool has = false;
+  this->Stars.ForEach(static_cast<std::int32_t>(ends[0]),
+    [&](std::int64_t t)
+    {
+      const std::int32_t(&points)[3] = this->Triangles[t].Points;
+      has = has || std::find(points, points + 3, ends[1]) != points + 3;
+    });
+  return has;
+}
+
+//------------------------------------------------------------------------------
 TravellingTriangle PieceMesh::Pack(const PieceTriangle& triangle) const
 {
   TravellingTriangle packed{};
@@ -75,18 +172,55 @@ TravellingTriangle PieceMesh::Pack(const PieceTriangle& triangle) const
   return packed;
 }
 
-PieceTriangle PieceMesh::Unpack(const TravellingTriangle& packed)
+std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_t>& triangles)
 {
+  this->Stars.Remove(this->Triangles, triangles);
+  std::vector<TravellingTriangle> packed;
+  for (const std::int64_t t : triangles)
+  {
+    packed.push_back(this->Pack(this->Triangles[t]));
+    for (const std::int32_t point : this->Triangles[t].Points)
+    {
+      this->Share(point);
+    }
+    this->Triangles[t].HasLeft = true;
+  }
+  return packed;
+}
+
+std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
+{
+  // Corners are numbered by 32 bits.
+  constexpr std::size_t Most = std::numeric_limits<std::uint32_t>::max() / 3;
+  if (this->Triangles.size() == Most)
+  {
+    throw MeshTooLarge("a piece has too many triangles: divide the mesh among more ranks");
+  }
   PieceTriangle triangle{};
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);
-    this->Shared[triangle.Points[slot]] = 1;
+    this->Share(triangle.Points[slot]);
   }
   triangle.Origin = packed.Origin;
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
-  return triangle;
+  const auto t = static_cast<std::int64_t>(this->Triangles.size());
+  this->Triangles.push_back(triangle);
+  this->Stars.Add(this->Triangles, t);
+  this->NoteSeams(t);
+  this->Changed.push_back(t);
+  return t;
+}
+
+void PieceMesh::Share(std::int32_t point)
+{
+  if (!this->Shared[point])
+  {
+    this->Shared[point] = 1;
+    this->SharedPoints.push_back(point);
+    this->Stars.ForEach(point, [&](std::int64_t t) { this->Changed.push_back(t); });
+  }
 }
 
 std::int32_t PieceMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])
@@ -102,7 +236,7 @@ std::int32_t PieceMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])
   }
   const auto point = static_cast<std::int32_t>(this->Keys.size());
   this->Keys.push_back(key);
-  this->Shared.push_back(1);
+  this->Shared.push_back(0);
   this->Received.insert(this->Received.end(), x, x + 3);
   this->OtherKeys.emplace(key, point);
   return point;

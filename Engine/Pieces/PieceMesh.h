@@ -4,65 +4,17 @@
 #define DELAUNAYFLIP_PIECEMESH_H
 
 #include "PieceFlip.h"
+#include "PieceTriangle.h"
 #include "PointMatch.h"
-#include "Records.h"
+#include "PointStars.h"
 
-#include <array>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
-
-/// Two points, the smaller first: keys or ids.
-using PointPair = std::array<std::int64_t, 2>;
-
-inline PointPair MakePair(std::int64_t a, std::int64_t b)
-{
-  return a < b ? PointPair{ a, b } : PointPair{ b, a };
-}
-
-struct PairHash
-{
-  std::size_t operator()(const PointPair& pair) const
-  {
-    return ScatterBits(pair[0] + ScatterBits(pair[1]));
-  }
-};
-
-/// Never iterated over: its order varies.
-template <typename Value>
-using PairMap = std::unordered_map<PointPair, Value, PairHash>;
-
-/// What is known about the edge of a triangle opposite to one of its corners.
-enum EdgeMark : unsigned char
-{
-  FixedMark = 1, ///< It stays for ever.
-  SeamMark = 8 ///< It may flip, and its other triangle is on another rank.
-};
-
-/// A triangle with its marks: bit `slot` of a mark, shifted, is for the edge opposite that corner.
-struct PieceTriangle
-{
-  std::int32_t Points[3]; ///< Ids of this rank.
-  std::int32_t Flips;
-  std::int64_t Origin; ///< The number of its slot among those of all ranks.
-  unsigned char Marks;
-
-  bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
-  void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }
-  void Clear(EdgeMark mark, int slot)
-  {
-    this->Marks &= static_cast<unsigned char>(~(mark << slot));
-  }
-  bool HasSeam() const { return this->Marks >= SeamMark; }
-
-  /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
-  std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
-  std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
-  PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
-};
 
 /// A triangle on its way to another rank.
 struct TravellingTriangle
@@ -82,8 +34,48 @@ public:
   /// @param firstOrigin the number of the first of them among those of all ranks.
   PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
 
-  std::vector<PieceTriangle> Triangles;
-  std::vector<unsigned char> Shared; ///< One flag per point: other ranks may have triangles at it.
+  std::vector<PieceTriangle> Triangles; ///< Some may be empty places (PieceTriangle::HasLeft).
+
+  /// Lists what rounds need, so that they take no time for other triangles. From now on triangles
+  /// change by the functions below only.
+  void BeginRounds();
+  /// Calls change() for triangles with other points or marks afterwards.
+  template <typename Change>
+  void ChangeTriangles(const std::vector<std::int64_t>& triangles, const Change& change)
+  {
+    this->Stars.Remove(this->Triangles, triangles);
+    change();
+    for (const std::int64_t t : triangles)
+    {
+      this->Stars.Add(this->Triangles, t);
+      this->NoteSeams(t);
+    }
+    this->Changed.insert(this->Changed.end(), triangles.begin(), triangles.end());
+  }
+  /// The triangles that have changed or come since the last call, and those at points that have
+  /// become shared; some more than once.
+  std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
+  /// Marks an edge as one between ranks.
+  void SetSeam(const PieceCorner& corner);
+  /// @returns the triangles at the edges between ranks.
+  std::vector<PieceCorner> FindSeams();
+  /// Calls visit(triangle) for every corner at a point.
+  template <typename Visit>
+  void ForEachAt(std::int32_t point, const Visit& visit) const
+  {
+    this->Stars.ForEach(point, visit);
+  }
+  /// Another triangle here at the edge opposite to a corner.
+  PieceCorner FindMate(const PieceCorner& corner) const;
+  /// The same, but none if the edge is fixed or between ranks.
+  PieceCorner FindOpenMate(const PieceCorner& corner) const;
+  bool HasEdge(const PointPair& ends) const;
+
+  bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
+  /// One flag per point: whether other ranks may have triangles at it.
+  const std::vector<unsigned char>& GetShared() const { return this->Shared; }
+  /// Those points, without an order.
+  const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
 
   std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
   std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
@@ -95,8 +87,10 @@ public:
     return MakePair(this->Keys[pair[0]], this->Keys[pair[1]]);
   }
 
-  TravellingTriangle Pack(const PieceTriangle& triangle) const;
-  PieceTriangle Unpack(const TravellingTriangle& triangle);
+  /// Removes triangles that go to other ranks. @returns them in their order.
+  std::vector<TravellingTriangle> Release(const std::vector<std::int64_t>& triangles);
+  /// Adds one that comes from another rank. @returns its number here.
+  std::int64_t Receive(const TravellingTriangle& triangle);
 
   /// Points that were not among the caller's, from this id on.
   std::int64_t GetFirstReceived() const { return this->Given.Count; }
@@ -108,7 +102,15 @@ public:
 
 private:
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
+  TravellingTriangle Pack(const PieceTriangle& triangle) const;
+  void Share(std::int32_t point);
+  void NoteSeams(std::int64_t triangle);
 
+  PointStars Stars;
+  std::vector<std::int64_t> Changed;
+  std::vector<std::int64_t> MayHaveSeams; ///< Triangles (PieceTriangle::IsNoted).
+  std::vector<unsigned char> Shared;
+  std::vector<std::int32_t> SharedPoints;
   PointArray Given;
   std::vector<double> Received; ///< Coordinates of the points behind those.
   PointKeys Numbers; ///< Without what has one value per point.

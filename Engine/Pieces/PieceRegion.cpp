@@ -4,48 +4,104 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace delaunayflip
 {
 
 namespace
 {
-/// The triangles of the piece at flagged points.
-std::vector<std::int64_t> FindFlagged(const PieceMesh& mesh, const PointFlags& flags)
+/// Collects different things of a rank, each once.
+template <typename Id, typename Flag>
+class UniqueList
 {
-  std::vector<std::int64_t> found;
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+public:
+  /// @param flags all 0 now, and again in the end.
+  explicit UniqueList(std::vector<Flag>& flags)
+    : Flags(flags)
   {
-    if (flags.Count(mesh.Triangles[t]) > 0)
+  }
+
+  void Add(Id id)
+  {
+    if (this->Flags[id] == 0)
     {
-      found.push_back(static_cast<std::int64_t>(t));
+      this->Flags[id] = 1;
+      this->Ids.push_back(id);
     }
   }
-  return found;
+
+  /// Ends the list. @returns it, ascending.
+  std::vector<Id> Take()
+  {
+    std::sort(this->Ids.begin(), this->Ids.end());
+    for (const Id id : this->Ids)
+    {
+      this->Flags[id] = 0;
+    }
+    return std::move(this->Ids);
+  }
+
+private:
+  std::vector<Flag>& Flags;
+  std::vector<Id> Ids;
+};
+
+std::vector<std::int32_t> FindPointsOf(
+  const PieceMesh& mesh, const std::vector<std::int64_t>& triangles, RegionScratch& scratch)
+{
+  UniqueList<std::int32_t, std::int32_t> points(scratch.Points);
+  for (const std::int64_t t : triangles)
+  {
+    for (const std::int32_t point : mesh.Triangles[t].Points)
+    {
+      points.Add(point);
+    }
+  }
+  return points.Take();
+}
+
+std::vector<std::int64_t> FindTrianglesAt(
+  const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
+{
+  UniqueList<std::int64_t, unsigned char> triangles(scratch.Triangles);
+  for (const std::int32_t point : points)
+  {
+    mesh.ForEachAt(point, [&](std::int64_t t) { triangles.Add(t); });
+  }
+  return triangles.Take();
 }
 }
 
 PieceRegion::PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points,
-  PointFlags& flags, const PieceSurvey& survey)
+  const PieceSurvey& survey, RegionScratch& scratch)
   : Whole(survey.Whole),
     Points(survey.IsFloat)
 {
-  this->Collect(mesh, points, flags);
+  scratch.Points.resize(mesh.GetNumberOfPoints());
+  scratch.Triangles.resize(mesh.Triangles.size());
+  this->Collect(mesh, points, scratch);
+  this->NumberPoints(mesh, scratch);
   this->Describe(mesh, survey);
 }
 
 PieceRegion::PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey)
   : Whole(survey.Whole),
-    Triangles(mesh.Triangles.size()),
     PointOf(mesh.GetNumberOfPoints()),
     Inner(mesh.GetNumberOfPoints(), 1),
     Points(survey.IsFloat)
 {
-  std::iota(this->Triangles.begin(), this->Triangles.end(), 0);
   std::iota(this->PointOf.begin(), this->PointOf.end(), 0);
-  for (const PieceTriangle& triangle : mesh.Triangles)
+  this->Triangles.reserve(mesh.Triangles.size());
+  this->Ids.reserve(3 * mesh.Triangles.size());
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
   {
-    this->Ids.insert(this->Ids.end(), triangle.Points, triangle.Points + 3);
+    const PieceTriangle& triangle = mesh.Triangles[t];
+    if (!triangle.HasLeft)
+    {
+      this->Triangles.push_back(static_cast<std::int64_t>(t));
+      this->Ids.insert(this->Ids.end(), triangle.Points, triangle.Points + 3);
+    }
   }
   this->Describe(mesh, survey);
 }
@@ -53,6 +109,7 @@ PieceRegion::PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey)
 void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
 {
   this->ListFixedEdges(mesh);
+  this->Points.Reserve(static_cast<std::int64_t>(this->PointOf.size()));
   for (std::size_t i = 0; i < this->PointOf.size(); ++i)
   {
     double x[3];
@@ -63,51 +120,41 @@ void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
       // Edges at it may be on other ranks, or outside the region.
       constexpr int Elsewhere = 1, Outside = 2;
       this->Shared.push_back(static_cast<unsigned char>(
-        (mesh.Shared[this->PointOf[i]] ? Elsewhere : 0) | (this->Inner[i] ? 0 : Outside)));
+        (mesh.IsShared(this->PointOf[i]) ? Elsewhere : 0) | (this->Inner[i] ? 0 : Outside)));
     }
   }
 }
 
 void PieceRegion::Collect(
-  const PieceMesh& mesh, const std::vector<std::int32_t>& points, PointFlags& flags)
+  const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
 {
-  const auto flag = [&](const std::vector<std::int64_t>& triangles, bool set)
-  {
-    for (const std::int64_t t : triangles)
-    {
-      for (const std::int32_t point : mesh.Triangles[t].Points)
-      {
-        set ? flags.Set(point) : flags.Clear(point);
-      }
-    }
-  };
-  std::for_each(points.begin(), points.end(), [&](std::int32_t point) { flags.Set(point); });
-  const std::vector<std::int64_t> near = FindFlagged(mesh, flags);
-  flag(near, true);
-  this->Triangles = FindFlagged(mesh, flags);
-  this->NumberPoints(mesh);
+  const std::vector<std::int32_t> inner =
+    FindPointsOf(mesh, FindTrianglesAt(mesh, points, scratch), scratch);
+  this->Triangles = FindTrianglesAt(mesh, inner, scratch);
+  this->PointOf = FindPointsOf(mesh, this->Triangles, scratch);
   for (const std::int32_t point : this->PointOf)
   {
-    this->Inner.push_back(flags.Has(point) ? 1 : 0);
+    this->Inner.push_back(std::binary_search(inner.begin(), inner.end(), point) ? 1 : 0);
   }
-  flag(near, false);
-  std::for_each(points.begin(), points.end(), [&](std::int32_t point) { flags.Clear(point); });
 }
 
-void PieceRegion::NumberPoints(const PieceMesh& mesh)
+void PieceRegion::NumberPoints(const PieceMesh& mesh, RegionScratch& scratch)
 {
+  for (std::size_t i = 0; i < this->PointOf.size(); ++i)
+  {
+    scratch.Points[this->PointOf[i]] = static_cast<std::int32_t>(i);
+  }
+  this->Ids.reserve(3 * this->Triangles.size());
   for (const std::int64_t t : this->Triangles)
   {
-    const std::int32_t(&points)[3] = mesh.Triangles[t].Points;
-    this->PointOf.insert(this->PointOf.end(), points, points + 3);
+    for (const std::int32_t point : mesh.Triangles[t].Points)
+    {
+      this->Ids.push_back(scratch.Points[point]);
+    }
   }
-  this->Ids = this->PointOf;
-  std::sort(this->PointOf.begin(), this->PointOf.end());
-  this->PointOf.erase(std::unique(this->PointOf.begin(), this->PointOf.end()), this->PointOf.end());
-  for (std::int32_t& id : this->Ids)
+  for (const std::int32_t point : this->PointOf)
   {
-    id = static_cast<std::int32_t>(
-      std::lower_bound(this->PointOf.begin(), this->PointOf.end(), id) - this->PointOf.begin());
+    scratch.Points[point] = 0;
   }
 }
 
@@ -138,11 +185,13 @@ TriangleMesh PieceRegion::View() const
   return mesh;
 }
 
-void PieceRegion::Store(const std::vector<std::int32_t>& ids,
-  const std::vector<std::int32_t>& flips, PieceMesh& mesh) const
+namespace
+{
+/// The marks of the edges of some triangles.
+PairMap<unsigned char> ListMarks(const PieceMesh& mesh, const std::vector<std::int64_t>& triangles)
 {
   PairMap<unsigned char> marks;
-  for (const std::int64_t t : this->Triangles)
+  for (const std::int64_t t : triangles)
   {
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -153,7 +202,25 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
       }
     }
   }
+  return marks;
+}
+}
+
+void PieceRegion::Store(const std::vector<std::int32_t>& ids,
+  const std::vector<std::int32_t>& flips, PieceMesh& mesh) const
+{
+  std::vector<std::int64_t> changed;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < this->Triangles.size(); ++i)
+  {
+    if (flips[i] > 0)
+    {
+      changed.push_back(this->Triangles[i]);
+      places.push_back(i);
+    }
+  }
+  const PairMap<unsigned char> marks = ListMarks(mesh, changed);
+  const auto change = [&](std::size_t i)
   {
     PieceTriangle& triangle = mesh.Triangles[this->Triangles[i]];
     triangle.Marks = 0;
@@ -168,7 +235,8 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
       triangle.Marks |=
         static_cast<unsigned char>(found != marks.end() ? found->second << slot : 0);
     }
-  }
+  };
+  mesh.ChangeTriangles(changed, [&]() { std::for_each(places.begin(), places.end(), change); });
 }
 
 std::vector<std::int32_t> PieceRegion::FindNext(
@@ -182,8 +250,6 @@ std::vector<std::int32_t> PieceRegion::FindNext(
       next.push_back(this->PointOf[ids[i]]);
     }
   }
-  std::sort(next.begin(), next.end());
-  next.erase(std::unique(next.begin(), next.end()), next.end());
   return next;
 }
 

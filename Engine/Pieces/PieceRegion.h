@@ -13,31 +13,12 @@
 namespace delaunayflip
 {
 
-/// Flags of the points of a rank, which are cleared by the same lists that set them.
-class PointFlags
+/// Room for one value per point and per triangle of a rank. All are 0 between two regions, which
+/// clear what they have set, so that a region takes no time for the rest of the piece.
+struct RegionScratch
 {
-public:
-  void Set(std::int32_t point)
-  {
-    if (static_cast<std::size_t>(point) >= this->Flags.size())
-    {
-      this->Flags.resize(point + std::size_t(1) + this->Flags.size() / 2);
-    }
-    this->Flags[point] = 1;
-  }
-  void Clear(std::int32_t point) { this->Flags[point] = 0; }
-  bool Has(std::int32_t point) const
-  {
-    return static_cast<std::size_t>(point) < this->Flags.size() && this->Flags[point] != 0;
-  }
-  int Count(const PieceTriangle& triangle) const
-  {
-    return int(this->Has(triangle.Points[0])) + int(this->Has(triangle.Points[1])) +
-      int(this->Has(triangle.Points[2]));
-  }
-
-private:
-  std::vector<unsigned char> Flags;
+  std::vector<std::int32_t> Points;
+  std::vector<unsigned char> Triangles;
 };
 
 /// Some triangles of a rank as a mesh of their own, with its own numbers of points.
@@ -45,8 +26,8 @@ class PieceRegion
 {
 public:
   /// The triangles at some points, and those that share a point with them.
-  PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points, PointFlags& flags,
-    const PieceSurvey& survey);
+  PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points,
+    const PieceSurvey& survey, RegionScratch& scratch);
 
   /// All triangles of a rank, with all of its points.
   PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey);
@@ -68,9 +49,10 @@ public:
     const std::vector<std::int32_t>& ids, const std::vector<std::int32_t>& flips) const;
 
 private:
-  void Collect(const PieceMesh& mesh, const std::vector<std::int32_t>& points, PointFlags& flags);
+  void Collect(
+    const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch);
+  void NumberPoints(const PieceMesh& mesh, RegionScratch& scratch);
   void Describe(const PieceMesh& mesh, const PieceSurvey& survey);
-  void NumberPoints(const PieceMesh& mesh);
   void ListFixedEdges(const PieceMesh& mesh);
 
   WholeMesh Whole;

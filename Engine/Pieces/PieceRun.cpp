@@ -5,6 +5,7 @@
 #include "DelaunayFlip.h"
 #include "GuardRound.h"
 #include "MeshAudit.h"
+#include "PieceStore.h"
 #include "QuadSoup.h"
 
 #include <algorithm>
@@ -31,13 +32,6 @@ std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& gr
     firsts.push_back(firsts.back() + count.front());
   }
   return firsts;
-}
-
-PieceOrigin FindOrigin(const std::vector<std::int64_t>& firsts, std::int64_t number)
-{
-  const auto after = std::upper_bound(firsts.begin(), firsts.end(), number);
-  const auto rank = static_cast<std::int32_t>(after - firsts.begin() - 1);
-  return { rank, number - firsts[rank] };
 }
 
 /// How many ranks have stopped, and why.
@@ -90,7 +84,7 @@ TriangleMesh PieceRun::GetFirstMesh() const
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
   mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
   mesh.Whole = this->Job.Survey.Whole;
-  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.Shared.data() : nullptr;
+  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
   return mesh;
 }
 
@@ -131,6 +125,10 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   }
   this->Edges.Apply(this->Mesh.Triangles);
   this->Edges = MarkedEdges();
+  if (this->Job.Group.GetSize() > 1)
+  {
+    this->Mesh.BeginRounds();
+  }
 }
 
 /// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
@@ -197,7 +195,7 @@ bool PieceRun::MakeRound()
   if (this->Job.Survey.NeedsGuard() && mayGoOn)
   {
     waiting =
-      FlipWaitingEdges(this->Mesh, this->Job.Survey, this->Job.Options, test, this->Job.Group);
+      this->Waiting.Flip(this->Mesh, this->Job.Survey, this->Job.Options, test, this->Job.Group);
     this->KeepFlips(waiting.Flipped);
   }
   if (!mayGoOn || waiting.FreeOfAll == 0)
@@ -225,7 +223,7 @@ void PieceRun::FlipAround(std::vector<std::int32_t> points)
       this->StopReason = StopReasonKind::Aborted;
       return;
     }
-    points = this->FlipRegion(PieceRegion(this->Mesh, points, this->Flags, this->Job.Survey));
+    points = this->FlipRegion(PieceRegion(this->Mesh, points, this->Job.Survey, this->Scratch));
   }
 }
 
@@ -339,51 +337,8 @@ PiecesReport PieceRun::MakeReport()
 //------------------------------------------------------------------------------
 void PieceRun::Store(FlippedPiece& flipped) const
 {
-  const std::int32_t rank = this->Job.Group.GetRank();
-  std::vector<PieceTriangle> triangles = this->Mesh.Triangles;
-  const auto isOwn = [&](const PieceTriangle& triangle)
-  {
-    return this->FirstOrigins[rank] <= triangle.Origin &&
-      triangle.Origin < this->FirstOrigins[rank + 1];
-  };
-  std::sort(triangles.begin(), triangles.end(),
-    [&](const PieceTriangle& a, const PieceTriangle& b)
-    { return std::make_pair(!isOwn(a), a.Origin) < std::make_pair(!isOwn(b), b.Origin); });
-  flipped = FlippedPiece();
+  StorePiece(this->Mesh, this->FirstOrigins, this->Job.Group.GetRank(), flipped);
   flipped.AreFloats = this->Job.Survey.IsFloat;
-  std::vector<std::int64_t> idOfReceived(
-    this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
-  for (const PieceTriangle& triangle : triangles)
-  {
-    flipped.Origins.push_back(FindOrigin(this->FirstOrigins, triangle.Origin));
-    flipped.FlipCounts.push_back(triangle.Flips);
-    for (const std::int32_t point : triangle.Points)
-    {
-      flipped.Triangles.push_back(this->StorePoint(point, idOfReceived, flipped));
-    }
-  }
-}
-
-/// @param idOfReceived the ids that received points have in the result; -1: not yet.
-/// @returns the id that a point has there.
-std::int64_t PieceRun::StorePoint(
-  std::int64_t point, std::vector<std::int64_t>& idOfReceived, FlippedPiece& flipped) const
-{
-  const std::int64_t first = this->Mesh.GetFirstReceived();
-  if (point < first)
-  {
-    return point;
-  }
-  std::int64_t& id = idOfReceived[point - first];
-  if (id < 0)
-  {
-    id = first + static_cast<std::int64_t>(flipped.ReceivedPoints.size());
-    double x[3];
-    this->Mesh.GetPosition(point, x);
-    flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
-    flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
-  }
-  return id;
 }
 
 }

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_PIECERUN_H
 
 #include "FixedPairs.h"
+#include "GuardRound.h"
 #include "JoinReports.h"
 #include "PieceFlip.h"
 #include "PieceMesh.h"
@@ -62,13 +63,12 @@ private:
   bool Tell(double share) const;
   void CountRest();
   PiecesReport MakeReport();
-  std::int64_t StorePoint(
-    std::int64_t point, std::vector<std::int64_t>& idOfReceived, FlippedPiece& flipped) const;
 
   PieceJob Job;
   std::vector<std::int64_t> FirstOrigins; ///< The number of the first triangle of every rank.
   PieceMesh Mesh;
-  PointFlags Flags;
+  RegionScratch Scratch;
+  WaitingEdges Waiting;
   SeamSurvey Seams;
   std::int64_t RepeatedPoints;
 

@@ -7,6 +7,11 @@
 namespace delaunayflip
 {
 
+void PointList::Reserve(std::int64_t size)
+{
+  this->IsFloat ? this->Floats.reserve(3 * size) : this->Doubles.reserve(3 * size);
+}
+
 void PointList::Add(const double (&x)[3])
 {
   for (const double coordinate : x)

@@ -22,6 +22,7 @@ public:
     : IsFloat(isFloat)
   {
   }
+  void Reserve(std::int64_t size);
   void Add(const double (&x)[3]);
   std::int64_t GetSize() const;
   PointArray View() const;

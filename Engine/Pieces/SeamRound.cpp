@@ -14,19 +14,13 @@ namespace delaunayflip
 
 namespace
 {
-RecordLists<SeamTriangle> ListSeams(const PieceMesh& mesh, const PieceGroup& group)
+RecordLists<SeamTriangle> ListSeams(PieceMesh& mesh, const PieceGroup& group)
 {
   RecordLists<SeamTriangle> toHome(group.GetSize());
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  for (const PieceCorner& corner : mesh.FindSeams())
   {
-    for (int slot = 0; slot < 3 && mesh.Triangles[t].HasSeam(); ++slot)
-    {
-      if (mesh.Triangles[t].Has(SeamMark, slot))
-      {
-        const SeamTriangle seam = MakeSeamTriangle(mesh, static_cast<std::int64_t>(t), slot);
-        toHome[GetHome(PairHash()(seam.Ends), group)].push_back(seam);
-      }
-    }
+    const SeamTriangle seam = MakeSeamTriangle(mesh, corner.Triangle, corner.Slot);
+    toHome[GetHome(PairHash()(seam.Ends), group)].push_back(seam);
   }
   return toHome;
 }
@@ -72,7 +66,7 @@ struct HomeTest
 }
 
 SeamTest TestSeams(
-  const PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
+  PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
 {
   const std::vector<RankedTriangle> seams =
     SortByEdge(ExchangeRecords(group, ListSeams(mesh, group)));
@@ -110,68 +104,34 @@ Receivers ChooseReceivers(const std::vector<BadSeam>& bad, bool toLower, int ran
 }
 
 /// Marks the inner edges of triangles that will move as edges between ranks, on both sides.
-void MarkSeams(PieceMesh& mesh, const Receivers& leaving)
+void MarkSeams(PieceMesh& mesh, const std::vector<std::int64_t>& leaving)
 {
-  PairMap<int> edges;
-  PointFlags flags;
-  for (const auto& [t, receiver] : leaving)
+  for (const std::int64_t t : leaving)
   {
-    const PieceTriangle& triangle = mesh.Triangles[t];
     for (int slot = 0; slot < 3; ++slot)
     {
-      flags.Set(triangle.Points[slot]);
-      mesh.Shared[triangle.Points[slot]] = 1;
-      if (!triangle.Has(FixedMark, slot) && !triangle.Has(SeamMark, slot))
+      const PieceCorner mate = mesh.FindOpenMate({ t, slot });
+      if (mate.Triangle >= 0) // else the edge is at the boundary
       {
-        edges.emplace(triangle.GetEdge(slot), 0);
+        mesh.SetSeam({ t, slot });
+        mesh.SetSeam(mate);
       }
     }
   }
-  const auto forEachCorner = [&](const auto& visit)
-  {
-    for (PieceTriangle& triangle : mesh.Triangles)
-    {
-      for (int slot = 0; slot < 3 && flags.Count(triangle) > 1; ++slot)
-      {
-        const auto edge = edges.find(triangle.GetEdge(slot));
-        if (edge != edges.end())
-        {
-          visit(triangle, slot, edge->second);
-        }
-      }
-    }
-  };
-  forEachCorner([](PieceTriangle&, int, int& count) { ++count; });
-  forEachCorner(
-    [](PieceTriangle& triangle, int slot, int count)
-    {
-      if (count == 2) // else the edge is at the boundary
-      {
-        triangle.Set(SeamMark, slot);
-      }
-    });
 }
 
-/// Takes the marks from edges that are inner ones again.
-void ClearSeams(PieceMesh& mesh)
+/// Takes the marks from edges of a triangle that are inner ones again.
+void ClearSeams(PieceMesh& mesh, std::int64_t t)
 {
-  PairMap<std::pair<std::int64_t, int>> first; // a triangle and its slot
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  for (int slot = 0; slot < 3; ++slot)
   {
     PieceTriangle& triangle = mesh.Triangles[t];
-    for (int slot = 0; slot < 3 && triangle.HasSeam(); ++slot)
+    const PieceCorner mate =
+      triangle.Has(SeamMark, slot) ? mesh.FindMate({ t, slot }) : PieceCorner{ -1, 0 };
+    if (mate.Triangle >= 0)
     {
-      if (!triangle.Has(SeamMark, slot))
-      {
-        continue;
-      }
-      const auto [place, isNew] =
-        first.emplace(triangle.GetEdge(slot), std::make_pair(static_cast<std::int64_t>(t), slot));
-      if (!isNew)
-      {
-        triangle.Clear(SeamMark, slot);
-        mesh.Triangles[place->second.first].Clear(SeamMark, place->second.second);
-      }
+      triangle.Clear(SeamMark, slot);
+      mesh.Triangles[mate.Triangle].Clear(SeamMark, mate.Slot);
     }
   }
 }
@@ -179,28 +139,40 @@ void ClearSeams(PieceMesh& mesh)
 /// Removes the triangles that leave. @returns them, by their receivers.
 RecordLists<TravellingTriangle> TakeAway(PieceMesh& mesh, const Receivers& leaving, int ranks)
 {
-  RecordLists<TravellingTriangle> toRank(ranks);
-  std::size_t kept = 0;
-  auto next = leaving.begin();
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  std::vector<std::int64_t> triangles;
+  for (const auto& [t, receiver] : leaving)
   {
-    if (next != leaving.end() && next->first == static_cast<std::int64_t>(t))
-    {
-      toRank[next->second].push_back(mesh.Pack(mesh.Triangles[t]));
-      ++next;
-    }
-    else
-    {
-      mesh.Triangles[kept++] = mesh.Triangles[t];
-    }
+    triangles.push_back(t);
   }
-  mesh.Triangles.resize(kept);
+  MarkSeams(mesh, triangles);
+  RecordLists<TravellingTriangle> toRank(ranks);
+  auto next = leaving.begin();
+  for (const TravellingTriangle& triangle : mesh.Release(triangles))
+  {
+    toRank[next->second].push_back(triangle);
+    ++next;
+  }
   return toRank;
 }
 
 void AddPoints(const PieceTriangle& triangle, std::vector<std::int32_t>& points)
 {
   points.insert(points.end(), triangle.Points, triangle.Points + 3);
+}
+
+/// Adds the triangles that have come, and their points to `points`.
+void TakeIn(PieceMesh& mesh, const RecordLists<TravellingTriangle>& arriving,
+  std::vector<std::int32_t>& points)
+{
+  for (const std::vector<TravellingTriangle>& list : arriving)
+  {
+    for (const TravellingTriangle& triangle : list)
+    {
+      const std::int64_t t = mesh.Receive(triangle);
+      ClearSeams(mesh, t);
+      AddPoints(mesh.Triangles[t], points);
+    }
+  }
 }
 }
 
@@ -218,22 +190,8 @@ std::vector<std::int32_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSe
     }
     one = stays ? leaving.erase(one) : std::next(one);
   }
-  if (!leaving.empty())
-  {
-    MarkSeams(mesh, leaving);
-  }
   moved = SumOverRanks(group, static_cast<std::int64_t>(leaving.size()));
-  const RecordLists<TravellingTriangle> arriving =
-    ExchangeRecords(group, TakeAway(mesh, leaving, group.GetSize()));
-  for (const std::vector<TravellingTriangle>& list : arriving)
-  {
-    for (const TravellingTriangle& triangle : list)
-    {
-      mesh.Triangles.push_back(mesh.Unpack(triangle));
-      AddPoints(mesh.Triangles.back(), points);
-    }
-  }
-  ClearSeams(mesh);
+  TakeIn(mesh, ExchangeRecords(group, TakeAway(mesh, leaving, group.GetSize())), points);
   return points;
 }
 

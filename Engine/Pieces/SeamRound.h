@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_SEAMROUND_H
 
 #include "PieceMesh.h"
-#include "PieceRegion.h"
 #include "PieceSurvey.h"
 
 #include <cstdint>
@@ -32,7 +31,7 @@ struct SeamTest
 
 /// Finds the bad edges between ranks that may flip, as far as their shape tells.
 SeamTest TestSeams(
-  const PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group);
+  PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group);
 
 /// Gives triangles of bad edges to the lower of their ranks in odd rounds, to the higher in even
 /// ones, so that at least one of these edges becomes an inner edge.

@@ -5,6 +5,7 @@
 
 #include "PieceMesh.h"
 #include "PieceSurvey.h"
+#include "SeamJudge.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,18 +19,6 @@ struct MarkedCorner
   std::int64_t Triangle;
   std::int32_t Slot;
   EdgeMark Mark;
-};
-
-/// What is found about all seams together.
-struct SeamCounts
-{
-  EdgeCounts Edges; ///< To be added to the sum of what the ranks count alone; may be negative.
-  std::int64_t Seams = 0; ///< Edges with triangles on two ranks that may flip.
-  std::int64_t NonDelaunay = 0; ///< Of these.
-  std::int64_t MissingConstraints = 0; ///< Between shared points, and edges on no rank.
-
-  SeamCounts& operator+=(const SeamCounts& part);
-  EdgeCounts AddTo(EdgeCounts sum) const;
 };
 
 /// The edges with triangles on several ranks, before the first flip. Decided once, for all ranks.

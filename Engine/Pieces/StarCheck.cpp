@@ -97,16 +97,13 @@ public:
     std::int64_t covers = 0;
     for (std::int64_t t = 0; t < this->Mesh.Triangles.Count; ++t)
     {
+      const PlanePoint p[3] = { this->Project(t, 0), this->Project(t, 1), this->Project(t, 2) };
       for (int slot = 0; slot < 3; ++slot)
       {
-        if (this->Keys.Closed[this->Mesh.Triangles.Get(t, slot)])
-        {
-          const PlanePoint apex = this->Project(t, slot);
-          covers += !StarSurvey::IsUpper(apex, this->Project(t, this->GetFirst(slot))) &&
-              StarSurvey::IsUpper(apex, this->Project(t, 3 - slot - this->GetFirst(slot)))
-            ? 1
-            : 0;
-        }
+        const int first = this->GetFirst(slot);
+        const bool isCovered = !StarSurvey::IsUpper(p[slot], p[first]) &&
+          StarSurvey::IsUpper(p[slot], p[3 - slot - first]);
+        covers += isCovered ? this->Keys.Closed[this->Mesh.Triangles.Get(t, slot)] : 0;
       }
     }
     return covers;

@@ -27,6 +27,7 @@
 ///     pieces=2        0: undivided
 ///     threads=1       of each rank
 ///     surface=0       1: hills, flipped by opposite angles
+///     feature=180     the feature angle
 ///     devices=        CUDA's numbers of GPUs, separated by commas: the ranks use them in turn
 ///     runs=1          the fastest is printed
 ///
@@ -44,7 +45,7 @@ using Settings = std::map<std::string, std::string>;
 Settings ReadSettings(int argc, char** argv)
 {
   Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "threads", "1" },
-    { "surface", "0" }, { "devices", "" }, { "runs", "1" } };
+    { "surface", "0" }, { "feature", "180" }, { "devices", "" }, { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string word = argv[i];
@@ -204,6 +205,7 @@ void Run(const Settings& settings)
   FlipOptions options;
   options.Geometry = isSurface ? GeometryKind::Surface : GeometryKind::Planar;
   options.TieRule = isSurface ? TieRuleKind::Keep : TieRuleKind::Canonical;
+  options.FeatureAngle = std::atof(settings.at("feature").c_str());
   options.Backend = devices.empty() ? BackendKind::Threads : BackendKind::CUDA;
   options.NumberOfThreads = std::atoi(settings.at("threads").c_str());
   options.Device = devices.empty() ? -1 : devices.front();

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceStore.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace delaunayflip
+{
+
+namespace
+{
+PieceOrigin FindOrigin(const std::vector<std::int64_t>& firsts, std::int64_t number)
+{
+  const auto after = std::upper_bound(firsts.begin(), firsts.end(), number);
+  const auto rank = static_cast<std::int32_t>(after - firsts.begin() - 1);
+  return { rank, number - firsts[rank] };
+}
+
+class PieceStore
+{
+public:
+  PieceStore(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
+    FlippedPiece& flipped)
+    : Mesh(mesh),
+      FirstOrigins(firstOrigins),
+      Rank(rank),
+      Flipped(flipped),
+      IdOfReceived(mesh.GetNumberOfPoints() - mesh.GetFirstReceived(), -1)
+  {
+  }
+
+  void Run()
+  {
+    const std::vector<PieceTriangle> triangles = this->SortTriangles();
+    this->Flipped.Triangles.reserve(3 * triangles.size());
+    this->Flipped.Origins.reserve(triangles.size());
+    this->Flipped.FlipCounts.reserve(triangles.size());
+    for (const PieceTriangle& triangle : triangles)
+    {
+      this->Flipped.Origins.push_back(FindOrigin(this->FirstOrigins, triangle.Origin));
+      this->Flipped.FlipCounts.push_back(triangle.Flips);
+      for (const std::int32_t point : triangle.Points)
+      {
+        this->Flipped.Triangles.push_back(this->StorePoint(point));
+      }
+    }
+  }
+
+private:
+  bool IsOwn(const PieceTriangle& triangle) const
+  {
+    return this->FirstOrigins[this->Rank] <= triangle.Origin &&
+      triangle.Origin < this->FirstOrigins[this->Rank + 1];
+  }
+
+  /// The triangles in the order in which a caller gets them.
+  std::vector<PieceTriangle> SortTriangles() const
+  {
+    const auto isBefore = [&](const PieceTriangle& a, const PieceTriangle& b)
+    {
+      const bool isOwn = this->IsOwn(a);
+      return isOwn == this->IsOwn(b) ? a.Origin < b.Origin : isOwn;
+    };
+    std::vector<PieceTriangle> triangles;
+    triangles.reserve(this->Mesh.Triangles.size());
+    std::remove_copy_if(this->Mesh.Triangles.begin(), this->Mesh.Triangles.end(),
+      std::back_inserter(triangles), [](const PieceTriangle& one) { return one.HasLeft; });
+    // Those that have never left are in order.
+    const auto received = std::is_sorted_until(triangles.begin(), triangles.end(), isBefore);
+    std::sort(received, triangles.end(), isBefore);
+    std::inplace_merge(triangles.begin(), received, triangles.end(), isBefore);
+    return triangles;
+  }
+
+  /// @returns the id that a point has in the result.
+  std::int64_t StorePoint(std::int64_t point)
+  {
+    const std::int64_t first = this->Mesh.GetFirstReceived();
+    if (point < first)
+    {
+      return point;
+    }
+    std::int64_t& id = this->IdOfReceived[point - first];
+    if (id < 0)
+    {
+      id = first + static_cast<std::int64_t>(this->Flipped.ReceivedPoints.size());
+      double x[3];
+      this->Mesh.GetPosition(point, x);
+      this->Flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
+      this->Flipped.ReceivedCoordinates.insert(this->Flipped.ReceivedCoordinates.end(), x, x + 3);
+    }
+    return id;
+  }
+
+  const PieceMesh& Mesh;
+  const std::vector<std::int64_t>& FirstOrigins;
+  int Rank;
+  FlippedPiece& Flipped;
+  std::vector<std::int64_t> IdOfReceived; ///< Ids of received points in the result; -1: not yet.
+};
+}
+
+void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
+  FlippedPiece& flipped)
+{
+  flipped = FlippedPiece();
+  PieceStore(mesh, firstOrigins, rank, flipped).Run();
+}
+
+}

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PIECESTORE_H
+#define DELAUNAYFLIP_PIECESTORE_H
+
+#include "PieceFlip.h"
+#include "PieceMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Stores what a rank has in the end, but for FlippedPiece::AreFloats.
+/// @param firstOrigins the number of the first triangle of every rank.
+void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
+  FlippedPiece& flipped);
+
+}
+
+#endif

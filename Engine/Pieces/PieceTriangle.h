@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PIECETRIANGLE_H
+#define DELAUNAYFLIP_PIECETRIANGLE_H
+
+#include "Records.h"
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+namespace delaunayflip
+{
+
+/// Two points, the smaller first: keys or ids.
+using PointPair = std::array<std::int64_t, 2>;
+
+inline PointPair MakePair(std::int64_t a, std::int64_t b)
+{
+  return a < b ? PointPair{ a, b } : PointPair{ b, a };
+}
+
+struct PairHash
+{
+  std::size_t operator()(const PointPair& pair) const
+  {
+    return ScatterBits(pair[0] + ScatterBits(pair[1]));
+  }
+};
+
+/// Never iterated over: its order varies.
+template <typename Value>
+using PairMap = std::unordered_map<PointPair, Value, PairHash>;
+
+/// What is known about the edge of a triangle opposite to one of its corners.
+enum EdgeMark : unsigned char
+{
+  FixedMark = 1, ///< It stays for ever.
+  SeamMark = 8 ///< It may flip, and its other triangle is on another rank.
+};
+
+/// A triangle with its marks: bit `slot` of a mark, shifted, is for the edge opposite that corner.
+struct PieceTriangle
+{
+  std::int32_t Points[3]; ///< Ids of this rank.
+  std::int32_t Flips;
+  std::int64_t Origin; ///< The number of its slot among those of all ranks.
+  unsigned char Marks;
+  bool HasLeft; ///< It is on another rank now, and its place is empty.
+  bool IsInStars; ///< In the lists of PointStars.
+  bool IsNoted; ///< In the list of triangles that may have seam edges.
+
+  bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
+  void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }
+  void Clear(EdgeMark mark, int slot)
+  {
+    this->Marks &= static_cast<unsigned char>(~(mark << slot));
+  }
+  bool HasSeam() const { return this->Marks >= SeamMark; }
+
+  /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
+  std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
+  std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
+  PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
+};
+
+/// A triangle of a rank and one of its corners.
+struct PieceCorner
+{
+  std::int64_t Triangle; ///< -1: there is none.
+  int Slot;
+};
+
+}
+
+#endif

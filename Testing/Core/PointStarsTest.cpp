@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointStars.h"
+#include "FlipTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr int Points = 12;
+
+PieceTriangle Draw(std::mt19937& random)
+{
+  PieceTriangle triangle{};
+  for (std::int32_t& point : triangle.Points)
+  {
+    point = DrawIndex(random, Points);
+  }
+  return triangle;
+}
+
+/// Expects that the lists have the triangles that are in them by their flag, and no others.
+void ExpectLists(const PointStars& stars, const std::vector<PieceTriangle>& triangles)
+{
+  for (std::int32_t point = 0; point < Points; ++point)
+  {
+    std::vector<std::int64_t> expected, found;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      const std::int32_t(&points)[3] = triangles[t].Points;
+      const auto corners = triangles[t].IsInStars ? std::count(points, points + 3, point) : 0;
+      expected.insert(expected.end(), corners, static_cast<std::int64_t>(t));
+    }
+    stars.ForEach(point, [&](std::int64_t t) { found.push_back(t); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(expected, found) << "point " << point;
+  }
+}
+
+TEST(PointStars, FollowTrianglesThatChange)
+{
+  std::mt19937 random(4);
+  std::vector<PieceTriangle> triangles;
+  for (int i = 0; i < 30; ++i)
+  {
+    triangles.push_back(Draw(random));
+  }
+  PointStars stars;
+  stars.AddAll(triangles, Points / 2); // the other points come later
+  ExpectLists(stars, triangles);
+  for (int step = 0; step < 40; ++step)
+  {
+    const std::vector<std::int64_t> changed{ step % 30, (7 * step + 1) % 30, (11 * step + 2) % 30 };
+    stars.Remove(triangles, changed);
+    ExpectLists(stars, triangles);
+    for (const std::int64_t t : changed)
+    {
+      if (!triangles[t].IsInStars && t != step % 5) // some stay away
+      {
+        triangles[t] = Draw(random);
+        stars.Add(triangles, t);
+      }
+    }
+    triangles.push_back(Draw(random));
+    stars.Add(triangles, static_cast<std::int64_t>(triangles.size()) - 1);
+    ExpectLists(stars, triangles);
+  }
+}
+
+}
+}
