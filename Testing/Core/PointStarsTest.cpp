@@ -58,6 +58,10 @@ TEST(PointStars, FollowTrianglesThatChange)
   {
     const std::vector<std::int64_t> changed{ step % 30, (7 * step + 1) % 30, (11 * step + 2) % 30 };
     stars.Remove(triangles, changed);
+    for (const std::int64_t t : changed)
+    {
+      EXPECT_FALSE(triangles[t].IsInStars);
+    }
     ExpectLists(stars, triangles);
     for (const std::int64_t t : changed)
     {
