@@ -69,6 +69,30 @@ unsigned int CountPartitions(vtkPartitionedDataSet* partitions)
 
 }
 
+std::vector<Block> ListBlocks(vtkCompositeDataSet* blocks)
+{
+  const bool holdsMeshes = GetTree(blocks) != nullptr;
+  const double all = std::max(1.0, CountCells(blocks));
+  double before = 0.0;
+  std::vector<Block> list;
+  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    vtkDataObject* data = leaf->GetCurrentDataObject();
+    const double own = CountCells(data);
+    list.push_back({ data, leaf->GetCurrentFlatIndex(), GetName(leaf), own > 0.0, holdsMeshes,
+      before / all, own / all });
+    before += own;
+  }
+  return list;
+}
+
+vtkSmartPointer<vtkDataObject> CopyBlock(vtkDataObject* data)
+{
+  auto passed = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+  passed->ShallowCopy(data);
+  return passed;
+}
+
 void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   const std::function<vtkSmartPointer<vtkDataObject>(const Block& block)>& transform)
 {
@@ -76,17 +100,11 @@ void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
   const auto blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
   blocks->ShallowCopy(input);
-  const bool holdsMeshes = GetTree(input) != nullptr;
-  const double all = std::max(1.0, CountCells(blocks));
-  double before = 0.0;
-  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  const auto leaf = Traverse(blocks);
+  for (const Block& block : ListBlocks(blocks))
   {
-    vtkDataObject* data = leaf->GetCurrentDataObject();
-    const double own = CountCells(data);
-    const auto result = transform({ data, leaf->GetCurrentFlatIndex(), GetName(leaf), own > 0.0,
-      holdsMeshes, before / all, own / all });
-    output->SetDataSet(leaf, result);
-    before += own;
+    output->SetDataSet(leaf, transform(block));
+    leaf->GoToNextItem();
   }
 }
 

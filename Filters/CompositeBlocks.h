@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 class vtkCompositeDataSet;
 class vtkDataObject;
@@ -27,6 +28,13 @@ struct Block
   double Before; ///< The share of the dataset's cells in the leaves before it, 0 to 1.
   double Share; ///< The share of the dataset's cells in it, 0 to 1.
 };
+
+/// The leaves that are not null, in VTK's order.
+std::vector<Block> ListBlocks(vtkCompositeDataSet* blocks);
+
+/// A shallow copy: of a leaf that passes unchanged, with the warning NotASurface if it has cells.
+vtkSmartPointer<vtkDataObject> CopyBlock(vtkDataObject* data);
+constexpr const char* NotASurface = "not a surface, passed unchanged";
 
 /// Gives `output` the structure of `input`, and for each leaf the result of `transform`. Empty
 /// leaves stay empty. `transform` may change `input`.

@@ -149,6 +149,13 @@ void ListSegments(vtkPolyData* constraints, vtkPoints* points, SegmentList& segm
 
 }
 
+bool IsOnAnyRank(bool flag, PieceGroup& group)
+{
+  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
+  return std::any_of(
+    flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
+}
+
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 {
   auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(

@@ -16,6 +16,9 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
+/// Whether any rank says so. All ranks must call this together, as most functions here.
+bool IsOnAnyRank(bool flag, PieceGroup& group);
+
 /// The mesh without cells that are copies of those of other ranks (vtkGhostType); the mesh itself
 /// if it has none.
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh);

@@ -36,14 +36,6 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* AngleBefore = "vtkDelaunayFlipAngleBefore";
 constexpr const char* AngleAfter = "vtkDelaunayFlipAngleAfter";
 
-/// Whether any rank says so.
-bool IsOnAnyRank(bool flag, PieceGroup& group)
-{
-  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
-  return std::any_of(
-    flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
-}
-
 /// The edges of gathered constraints with an end that no rank has together with the other end.
 std::int64_t CountEdgesElsewhere(
   vtkPolyData* constraints, const PointArray& mesh, PieceGroup& group)
@@ -94,6 +86,13 @@ public:
   PieceUpdate Run(vtkPolyData* output)
   {
     this->ReadInput();
+    if (!IsOnAnyRank(!this->IsEmpty(), this->Group))
+    {
+      output->ShallowCopy(this->Mesh);
+      PieceUpdate nothing;
+      nothing.Report.StopReason = StopReasonKind::Converged;
+      return nothing;
+    }
     const MeshPiece piece{ this->Bridge->GetMesh(),
       this->Numbers.empty() ? nullptr : this->Numbers.data() };
     const PiecesReport report =
@@ -110,6 +109,11 @@ public:
   }
 
 private:
+  bool IsEmpty() const
+  {
+    return this->Mesh->GetNumberOfPolys() == 0 && this->Mesh->GetNumberOfStrips() == 0;
+  }
+
   void ReadInput()
   {
     vtkSmartPointer<vtkPolyData> input;
@@ -135,9 +139,7 @@ private:
   void MakeBridge()
   {
     PolyDataBridge::Settings settings = this->Request.Settings;
-    const bool isEmpty =
-      this->Mesh->GetNumberOfPolys() == 0 && this->Mesh->GetNumberOfStrips() == 0;
-    if (isEmpty)
+    if (this->IsEmpty())
     {
       settings.RegionArray.clear(); // an empty piece has no arrays
     }

@@ -56,12 +56,13 @@
  * and the other blocks are flipped. The methods that return results, and the only table, have the
  * sums over all blocks; the field data of a block are its own. Composite constraints with the same
  * structure apply block by block. In a parallel run, where each rank of the global
- * vtkMultiProcessController updates one piece, as in ParaView, the sums are over all pieces. All
+ * vtkMultiProcessController updates one piece, the sums are over all pieces. All
  * ranks must update together. Rank 0 has the table and gives the messages.
  *
  * @warning
  * Edges between the pieces of a parallel run, or between the partitions of a dataset, stay and are
- * not counted. An update that leaves such edges gives a warning.
+ * not counted. An update that leaves such edges gives a warning. vtkPDelaunayFlip flips those
+ * between pieces, too.
  *
  * @par References
  * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
@@ -97,6 +98,7 @@ struct FlipOptions;
 struct FlipReport;
 struct IterationRecord;
 struct MeshOutcome;
+struct SharedBlock;
 struct UpdateReport;
 struct UpdateSummary;
 enum class StopReasonKind;
@@ -647,6 +649,7 @@ protected:
 private:
   struct Connection;
   struct Resumption;
+  struct SharedMesh;
 
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -655,8 +658,15 @@ private:
   delaunayflip::UpdateSummary FlipBlocks(
     vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output);
   delaunayflip::UpdateSummary FlipTogether(vtkDataObject* input, vtkDataObject* constraints,
-    vtkPolyData* output, delaunayflip::PieceGroup& group);
-  vtkSmartPointer<vtkPolyData> RequireMesh(vtkDataObject* input);
+    vtkDataObject* output, delaunayflip::PieceGroup& group);
+  delaunayflip::UpdateSummary FlipSharedBlocks(vtkCompositeDataSet* input,
+    vtkDataObject* constraints, vtkCompositeDataSet* output, delaunayflip::PieceGroup& group);
+  vtkSmartPointer<vtkDataObject> FlipSharedBlock(const delaunayflip::SharedBlock& block,
+    vtkPolyData* constraints, delaunayflip::PieceGroup& group,
+    delaunayflip::UpdateSummary& summary);
+  void FlipShared(
+    const SharedMesh& mesh, delaunayflip::PieceGroup& group, delaunayflip::UpdateSummary& summary);
+  vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
   vtkSmartPointer<vtkDataObject> FlipBlock(const delaunayflip::Block& block,
     vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
   delaunayflip::MeshOutcome TryToFlip(const Connection& data);

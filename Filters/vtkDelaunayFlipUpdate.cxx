@@ -10,7 +10,6 @@
 #include "FlipRun.h"
 #include "HostProgram.h"
 #include "PieceGroup.h"
-#include "PieceUpdate.h"
 #include "RankSum.h"
 #include "ReportTables.h"
 #include "TimedAdvance.h"
@@ -69,10 +68,13 @@ private:
   bool& Flag;
 };
 
-void WarnOfLiveUpdate(UpdateSummary& summary)
+void WarnOfLiveUpdate(bool isIgnored, UpdateSummary& summary)
 {
-  summary.Warnings.push_back(
-    { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+  if (isIgnored)
+  {
+    summary.Warnings.push_back(
+      { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
+  }
 }
 
 }
@@ -93,19 +95,15 @@ int vtkDelaunayFlip::RequestData(
   auto* mesh = vtkPolyData::SafeDownCast(output);
   const FlagScope atWork(this->IsAtWork);
   this->HasExecuted = true;
-  const std::unique_ptr<PieceGroup> group = blocks ? nullptr : this->MakeGroup();
+  const std::unique_ptr<PieceGroup> group = this->MakeGroup();
   UpdateSummary summary;
   const FlipFailure failure = Attempt(
     [&]()
     {
-      summary = blocks
-        ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
-        : group ? this->FlipTogether(input, constraints, mesh, *group)
-                : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
-      if (this->LiveUpdate && (blocks || group || piece.Count > 1))
-      {
-        WarnOfLiveUpdate(summary);
-      }
+      summary = group ? this->FlipTogether(input, constraints, output, *group)
+        : blocks ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
+                 : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
+      WarnOfLiveUpdate(this->LiveUpdate && (blocks || group || piece.Count > 1), summary);
     });
   if (failure)
   {
@@ -208,47 +206,6 @@ UpdateSummary vtkDelaunayFlip::FlipMesh(
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<PieceGroup> vtkDelaunayFlip::MakeGroup() { return nullptr; }
-
-/// @throws InvalidMesh if the input is not a surface.
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::RequireMesh(vtkDataObject* input)
-{
-  const vtkSmartPointer<vtkPolyData> mesh = this->GetMesh(input);
-  if (!mesh)
-  {
-    throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
-  }
-  return mesh;
-}
-
-/// Flips a mesh of which every rank of a group has a piece.
-UpdateSummary vtkDelaunayFlip::FlipTogether(
-  vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, PieceGroup& group)
-{
-  this->Run.reset();
-  *this->Report = UpdateReport();
-  this->CanContinue = false;
-  const PieceUpdate update =
-    FlipPieces({ [&]() { return this->RequireMesh(input); }, vtkPolyData::SafeDownCast(constraints),
-                 { this->Triangulate, this->LinesAsConstraints, this->InsertLines,
-                   this->InsertConstraints, this->RegionArray },
-                 this->GetOptions(), { this->GenerateFlipCount, this->GenerateQuality },
-                 [this](double fraction) { return this->ObserveProgress(fraction); } },
-      group, output);
-  UpdateSummary summary;
-  summary.AddMesh(
-    { update.Report, {}, DescribeTrouble(update.Report, this->MaximumIterations >= 0) }, 0, "");
-  if (update.AmbiguousPoints > 0)
-  {
-    summary.Warnings.push_back({ "",
-      std::to_string(update.AmbiguousPoints) +
-        " points at the borders of pieces coincide with others of the same piece, and edges there "
-        "stayed; give the points global ids" });
-  }
-  return summary;
-}
-
-//------------------------------------------------------------------------------
 UpdateSummary vtkDelaunayFlip::FlipBlocks(
   vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output)
 {
@@ -293,11 +250,9 @@ vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipBlock(
   }
   if (block.HasCells)
   {
-    summary.Warnings.push_back({ block.Name, "not a surface, passed unchanged" });
+    summary.Warnings.push_back({ block.Name, NotASurface });
   }
-  auto passed = vtkSmartPointer<vtkDataObject>::Take(block.Data->NewInstance());
-  passed->ShallowCopy(block.Data);
-  return passed;
+  return CopyBlock(block.Data);
 }
 
 //------------------------------------------------------------------------------

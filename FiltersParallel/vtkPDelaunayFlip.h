@@ -10,12 +10,17 @@
  * may flip, which depends on how the mesh is divided, and on nothing else. With one process, or
  * without a controller, this filter is vtkDelaunayFlip.
  *
- * Input: a vtkPolyData on every process; it may be empty. Points of several pieces are the same if
- * they have the same global id (active global ids of the point data, on all processes that have
- * points) or, without global ids, if their coordinates are equal and one of them is at the border
- * of its piece. Points that coincide within a piece are then not matched; a warning counts them.
- * Duplicate ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on any
- * process, all or in part; they are matched by coordinates.
+ * Input: a vtkPolyData on every process; it may be empty. Or composite data on every process: each
+ * leaf is a mesh of its own, of which each process may have a piece, in the same place of the same
+ * structure; null where it has none. Leaves that are no meshes pass unchanged, with a warning.
+ * Partitions of a dataset are counted without those that are null or have no cells: the first ones
+ * of all processes are one mesh, the second ones another, with a warning if there are any. Points
+ * of several pieces are the same if they have the same global id (active global ids of the point
+ * data, on all processes that have points) or, without global ids, if their coordinates are equal
+ * and one of them is at the border of its piece. Points that coincide within a piece are then not
+ * matched; a warning counts them. Duplicate ghost cells (vtkGhostType) are dropped first.
+ * Constraints (second input) may be on any process, all or in part; they are matched by
+ * coordinates.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
@@ -28,8 +33,9 @@
  * process stops all of them. If one process fails, the update fails on all, with the same message.
  *
  * @warning
- * Constraints that are not edges of the mesh are inserted only within a piece. Blocks of composite
- * datasets are flipped as by vtkDelaunayFlip, piece by piece.
+ * Constraints that are not edges of the mesh are inserted only within a piece. TrackQuality has no
+ * effect: only the last iteration has a smallest angle. With several processes LiveUpdate is off,
+ * with a warning. Every process must have an input, of the same kind.
  *
  * @sa
  * vtkDelaunayFlip

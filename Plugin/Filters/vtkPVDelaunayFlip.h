@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVDelaunayFlip
- * @brief   vtkDelaunayFlip for all types of surfaces in ParaView
+ * @brief   vtkPDelaunayFlip for all types of surfaces in ParaView
  *
  * Besides vtkPolyData it accepts unstructured grids of surface cells (vertices, lines, triangles,
  * quads, pixels, polygons, strips) and two-dimensional structured, rectilinear and image data, e.g.
@@ -11,22 +11,25 @@
  *
  * A dataset with other cells is an error. As a block of a composite dataset it passes unchanged,
  * with one warning per update.
+ *
+ * In a parallel server all processes flip their pieces as one mesh; with one process, also without
+ * MPI, this is vtkDelaunayFlip.
  */
 #ifndef vtkPVDelaunayFlip_h
 #define vtkPVDelaunayFlip_h
 
-#include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipParaViewFiltersModule.h" // For export macro
+#include "vtkPDelaunayFlip.h"
 #include "vtkSmartPointer.h" // For the surface of the last update
 
 class vtkDataSet;
 class vtkPolyData;
 
-class VTKDELAUNAYFLIPPARAVIEWFILTERS_EXPORT vtkPVDelaunayFlip : public vtkDelaunayFlip
+class VTKDELAUNAYFLIPPARAVIEWFILTERS_EXPORT vtkPVDelaunayFlip : public vtkPDelaunayFlip
 {
 public:
   static vtkPVDelaunayFlip* New();
-  vtkTypeMacro(vtkPVDelaunayFlip, vtkDelaunayFlip);
+  vtkTypeMacro(vtkPVDelaunayFlip, vtkPDelaunayFlip);
 
 protected:
   vtkPVDelaunayFlip();

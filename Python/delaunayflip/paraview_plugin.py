@@ -9,7 +9,9 @@ In ParaView choose Tools > Manage Plugins > Load New and this file, or in pvpyth
 
 It has the properties of the plugin in C++, but not its chart, its text in the view and its widgets.
 For LiveUpdate, use Step or, in scripts, Advance: ParaView does not request the next frame of
-filters in Python. Each plugin can read the state files of the other, but only one of the two can be
+filters in Python. In a server with several processes each of these flips its own piece alone: edges
+between pieces stay, with a warning, and the statistics are those of the first process. The plugin in
+C++ flips the pieces as one mesh. Each plugin can read the state files of the other, but only one of the two can be
 loaded.
 
 The file is not called paraview.py, because ParaView imports a plugin under its name, which would

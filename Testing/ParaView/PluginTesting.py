@@ -13,81 +13,17 @@ import tempfile
 import unittest
 
 from paraview import servermanager, simple
-from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkOutputWindow, vtkPoints
-from vtkmodules.vtkCommonCore import vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import (
-    VTK_TRIANGLE, vtkCellArray, vtkImageData, vtkPolyData, vtkStructuredGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from surfaces import (  # noqa: F401
+    convert_surface, get_triangles, make_cells, make_fan, make_lattice, make_surface)
 
 PLUGIN = os.environ["DELAUNAYFLIP_PLUGIN"]
 if not hasattr(inspect, "getargspec"):
     # ParaView 5.11 asks for it to load a plugin in Python, but Python 3.11 has no such function.
     inspect.getargspec = inspect.getfullargspec
-
-
-def make_cells(cells):
-    array = vtkCellArray()
-    for cell in cells:
-        array.InsertNextCell(len(cell), cell)
-    return array
-
-
-def make_fan(number_of_points):
-    """Points on a parabola, all connected to the last one: the worst case, about n^2 / 2 flips.
-
-    Its cell array Side distinguishes the triangles of the left half from those of the right.
-    """
-    points = vtkPoints()
-    for i in range(number_of_points):
-        points.InsertNextPoint(i, 0.1 * i * i, 0.0)
-    last = number_of_points - 1
-    triangles = [(last, i, i + 1) for i in range(last - 1)]
-    sides = vtkIntArray()
-    sides.SetName("Side")
-    for triangle in triangles:
-        sides.InsertNextValue(int(2 * triangle[1] >= number_of_points))
-    mesh = vtkPolyData()
-    mesh.SetPoints(points)
-    mesh.SetPolys(make_cells(triangles))
-    mesh.GetCellData().AddArray(sides)
-    return mesh
-
-
-def make_lattice(side, shear=0.7):
-    """side x side points in a sheared lattice, row by row, and the quads between them."""
-    points = vtkPoints()
-    for i in range(side * side):
-        points.InsertNextPoint(i % side + shear * (i // side), i // side, 0.0)
-    corners = [x + side * y for y in range(side - 1) for x in range(side - 1)]
-    mesh = vtkPolyData()
-    mesh.SetPoints(points)
-    mesh.SetPolys(make_cells([(i, i + 1, i + side + 1, i + side) for i in corners]))
-    return mesh
-
-
-def make_surface(size, kind):
-    """A mesh whose points and cells are those of convert_surface's result of this kind."""
-    if kind == "vtkImageData":
-        return make_lattice(size, 0.0)
-    return make_lattice(size) if kind == "vtkStructuredGrid" else make_fan(size)
-
-
-def convert_surface(size, kind):
-    """A surface as another type of dataset."""
-    mesh = make_surface(size, kind)
-    if kind == "vtkImageData":
-        result = vtkImageData()
-        result.SetDimensions(size, size, 1)
-    elif kind == "vtkStructuredGrid":
-        result = vtkStructuredGrid()
-        result.SetDimensions(size, size, 1)
-        result.SetPoints(mesh.GetPoints())
-    else:
-        result = vtkUnstructuredGrid()
-        result.SetPoints(mesh.GetPoints())
-        result.SetCells(VTK_TRIANGLE, mesh.GetPolys())
-        result.GetCellData().ShallowCopy(mesh.GetCellData())
-    return result
 
 
 def make_line(mesh, start, end):
@@ -99,15 +35,6 @@ def make_line(mesh, start, end):
         line.GetPoints().InsertNextPoint(mesh.GetPoint(point))
     line.SetLines(make_cells([(0, 1)]))
     return line
-
-
-def get_triangles(mesh):
-    ids = vtkIdList()
-    result = []
-    for i in range(mesh.GetPolys().GetNumberOfCells()):
-        mesh.GetPolys().GetCellAtId(i, ids)
-        result.append(tuple(ids.GetId(k) for k in range(ids.GetNumberOfIds())))
-    return result
 
 
 def get_edges(mesh):

@@ -3,11 +3,11 @@
 """Live update without polling: scripts make the steps; pvbatch and several ranks make none."""
 
 import os
-import shutil
 import subprocess
 
 from paraview import simple
 
+from launching import HAS_MPIRUN, launch, make_environment
 from PluginTesting import PluginTest, fetch, get_triangles, main, make_fan, refresh
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -50,12 +50,10 @@ class Batch(PluginTest):
         if not os.path.exists(pvbatch):
             self.skipTest("no pvbatch")
         script = os.path.join(HERE, "live_batch.py")
-        # pvpython runs under MPI itself; within it, mpirun would start no other run.
-        environment = {name: value for name, value in os.environ.items()
-                       if not name.startswith(("OMPI_", "PMIX_", "OPAL_"))}
         run = subprocess.run(
             [*launcher, pvbatch, script, self.save(make_fan(20))], encoding="utf-8", check=False,
-            env=environment, timeout=120, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            env=make_environment(), timeout=120, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT)
         self.assertEqual(run.returncode, 0, run.stdout)
         self.assertIn("stopped: converged", run.stdout)
 
@@ -63,9 +61,9 @@ class Batch(PluginTest):
         self.expect_the_end()
 
     def test_two_ranks(self):
-        if not shutil.which("mpirun"):
+        if not HAS_MPIRUN:
             self.skipTest("no mpirun")
-        self.expect_the_end("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2")
+        self.expect_the_end(*launch(2))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by test_ranks.py under mpirun: flip_on_ranks.py CASE ARGUMENTS FILE
+"""Run by tests under mpirun: flip_on_ranks.py CASE ARGUMENTS FILE
 
 ARGUMENTS is JSON. Rank 0 writes what it finds to FILE, as JSON. A rank that finds something wrong
 ends the job with a traceback.
@@ -9,105 +9,16 @@ import json
 import sys
 import traceback
 
-from mpi4py import MPI
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from vtkmodules.vtkParallelMPI import vtkMPIController
 
 import delaunayflip
+import rank_blocks
 import rank_meshes
-
-WORLD = MPI.COMM_WORLD
-RANK, RANKS = WORLD.rank, WORLD.size
-
-
-def start():
-    controller = vtkMPIController()
-    controller.Initialize()
-    vtkMultiProcessController.SetGlobalController(controller)
-    return controller
-
-
-def set_options(flip, options):
-    for name, value in options.items():
-        getattr(flip, "Set" + name)(value)
-    return flip
-
-
-def listen(flip):
-    said = []
-
-    def note(_caller, _event, text):
-        said.append(text)
-
-    note.CallDataType = "string0"
-    flip.AddObserver("ErrorEvent", note)
-    flip.AddObserver("WarningEvent", note)
-    return said
-
-
-def flip_piece(piece, options):
-    flip = set_options(delaunayflip.vtkPDelaunayFlip(), options)
-    flip.SetInputData(piece)
-    said = listen(flip)
-    flip.UpdatePiece(RANK, RANKS, 0)
-    return flip, said
-
-
-def describe(flip, said):
-    return {
-        "flips": flip.GetTotalFlips(), "rounds": flip.GetNumberOfRounds(),
-        "moved": flip.GetNumberOfMovedTriangles(), "left": flip.GetNumberOfNonDelaunayEdges(),
-        "stopped": flip.GetStopReasonAsString(), "geometry": flip.GetGeometryUsedAsString(),
-        "constraints": flip.GetNumberOfConstraintEdges(),
-        "unmatched": flip.GetNumberOfUnmatchedConstraintEdges(), "error": flip.GetErrorMessage(),
-        "iterations": flip.GetNumberOfIterations(), "said": said}
-
-
-def require(condition, text):
-    if not condition:
-        raise AssertionError(f"rank {RANK}: {text}")
-
-
-def find_ids(points, found):
-    """The ids in the whole mesh of points at the same places."""
-    ids = {tuple(x): i for i, x in enumerate(points)}
-    return np.array([ids[tuple(x)] for x in found], np.int64)
-
-
-def check_data(points, output):
-    """Every triangle and point has the data that it had."""
-    if output.GetNumberOfPolys() == 0:
-        return
-    slots = vtk_to_numpy(output.GetCellData().GetArray("slot"))
-    names = output.GetCellData().GetAbstractArray("name")
-    for cell, slot in enumerate(slots):
-        require(names.GetValue(cell) == f"triangle {slot}", "a name is lost")
-    heights = vtk_to_numpy(output.GetPointData().GetArray("height"))
-    require(np.array_equal(heights, rank_meshes.read_points(output) @ [1.0, 2.0, 3.0]),
-            "point data are lost")
-
-
-def gather_triangles(points, output):
-    """The triangles of all ranks by ids of the whole mesh, and their slots; on rank 0."""
-    ids = find_ids(points, rank_meshes.read_points(output))
-    triangles = rank_meshes.read_triangles(output)
-    own = ids[triangles] if len(triangles) else triangles
-    slots = output.GetCellData().GetArray("slot")
-    parts = WORLD.gather((own, vtk_to_numpy(slots) if slots else np.zeros(0, np.int64)))
-    if RANK == 0:
-        return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
-    return None, None
-
-
-def flip_alone(points, triangles, options):
-    flip = set_options(delaunayflip.vtkDelaunayFlip(), options)
-    flip.SetInputData(rank_meshes.make_poly_data(points, triangles))
-    flip.Update()
-    return flip
-
+from rank_runs import (
+    RANK, RANKS, WORLD, check_data, describe, flip_alone, flip_piece, gather_triangles, require,
+    set_options, start)
 
 def same(points, triangles, kind="space", ids=True, options=None, unique=True):
     """Compares the pieces with a run of one rank."""
@@ -253,7 +164,7 @@ def run_constraints(count, kind):
 def main():
     controller = start()
     name, arguments = sys.argv[1], json.loads(sys.argv[2])
-    facts, _ = globals()["run_" + name](**arguments)
+    facts, _ = {**vars(rank_blocks), **globals()}["run_" + name](**arguments)
     if RANK == 0:  # not to stdout, where mpirun may put words of other ranks into the line
         with open(sys.argv[3], "w", encoding="utf-8") as file:
             json.dump(facts, file)

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes of the plugin's tests. Imports nothing of ParaView, so servers can run it."""
+
+from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_TRIANGLE, vtkCellArray, vtkImageData, vtkPolyData, vtkStructuredGrid, vtkUnstructuredGrid)
+
+
+def make_cells(cells):
+    array = vtkCellArray()
+    for cell in cells:
+        array.InsertNextCell(len(cell), cell)
+    return array
+
+
+def make_fan(number_of_points):
+    """Points on a parabola, all connected to the last one: the worst case, about n^2 / 2 flips.
+
+    Its cell array Side distinguishes the triangles of the left half from those of the right.
+    """
+    points = vtkPoints()
+    for i in range(number_of_points):
+        points.InsertNextPoint(i, 0.1 * i * i, 0.0)
+    last = number_of_points - 1
+    triangles = [(last, i, i + 1) for i in range(last - 1)]
+    sides = vtkIntArray()
+    sides.SetName("Side")
+    for triangle in triangles:
+        sides.InsertNextValue(int(2 * triangle[1] >= number_of_points))
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(make_cells(triangles))
+    mesh.GetCellData().AddArray(sides)
+    return mesh
+
+
+def make_lattice(side, shear=0.7):
+    """side x side points in a sheared lattice, row by row, and the quads between them."""
+    points = vtkPoints()
+    for i in range(side * side):
+        points.InsertNextPoint(i % side + shear * (i // side), i // side, 0.0)
+    corners = [x + side * y for y in range(side - 1) for x in range(side - 1)]
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(make_cells([(i, i + 1, i + side + 1, i + side) for i in corners]))
+    return mesh
+
+
+def make_surface(size, kind):
+    """A mesh whose points and cells are those of convert_surface's result of this kind."""
+    if kind == "vtkImageData":
+        return make_lattice(size, 0.0)
+    return make_lattice(size) if kind == "vtkStructuredGrid" else make_fan(size)
+
+
+def convert_surface(size, kind):
+    """A surface as another type of dataset."""
+    mesh = make_surface(size, kind)
+    if kind == "vtkImageData":
+        result = vtkImageData()
+        result.SetDimensions(size, size, 1)
+    elif kind == "vtkStructuredGrid":
+        result = vtkStructuredGrid()
+        result.SetDimensions(size, size, 1)
+        result.SetPoints(mesh.GetPoints())
+    else:
+        result = vtkUnstructuredGrid()
+        result.SetPoints(mesh.GetPoints())
+        result.SetCells(VTK_TRIANGLE, mesh.GetPolys())
+        result.GetCellData().ShallowCopy(mesh.GetCellData())
+    return result
+
+
+def get_triangles(mesh):
+    ids = vtkIdList()
+    result = []
+    for i in range(mesh.GetPolys().GetNumberOfCells()):
+        mesh.GetPolys().GetCellAtId(i, ids)
+        result.append(tuple(ids.GetId(k) for k in range(ids.GetNumberOfIds())))
+    return result
