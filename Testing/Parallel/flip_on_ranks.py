@@ -121,7 +121,7 @@ def measure_memory():
 def run_growth(updates):
     """Updates again and again. @returns by how many bytes the memory of any rank grew in the second
     half."""
-    points, triangles = rank_meshes.make_random(400)
+    points, triangles = rank_meshes.make_random(100)
     owners = rank_meshes.divide(points, triangles, RANKS, "space")
     piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
     flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1, "NumberOfThreads": 1})
