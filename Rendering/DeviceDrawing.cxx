@@ -10,7 +10,6 @@
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -57,10 +56,6 @@ std::string FindObstacleInMesh(vtkPolyData* mesh, const FlipSession* session)
     session->GetReport().Triangles != count)
   {
     return "the mesh has other cells than triangles";
-  }
-  if (mesh->GetCellData()->GetNormals())
-  {
-    return "the mesh has normals of cells";
   }
   return ViewPoints(mesh).Count == 0 ? "the points are neither float nor double" : "";
 }

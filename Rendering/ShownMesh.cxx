@@ -6,8 +6,10 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -84,6 +86,8 @@ vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
     split->Update();
     faces->ShallowCopy(split->GetOutput());
   }
+  // Else VTK would shade by them, and those of flipped triangles would be of other triangles.
+  faces->GetCellData()->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
   return faces;
 }
 

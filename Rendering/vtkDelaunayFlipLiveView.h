@@ -172,10 +172,10 @@ public:
   /**
    * Whether the mesh is drawn without copies where that is possible: the run writes its triangles,
    * and their colours, into the buffers that OpenGL draws. That takes VTK 9.1, a filter that works
-   * on a GPU by CUDA, OpenGL on the same GPU, and a mesh of triangles alone, without strips, active
-   * normals of cells, and triangles with two points at one place. Otherwise the mesh is copied to
-   * the host and back. Default on. Takes effect at the next step. The picture is the same, but for
-   * triangles whose value is at the edge of two colours.
+   * on a GPU by CUDA, OpenGL on the same GPU, and a mesh of triangles alone, without strips and
+   * triangles with two points at one place. Otherwise the mesh is copied to the host and back.
+   * Default on. Takes effect at the next step. The picture is the same, but for triangles whose
+   * value is at the edge of two colours.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);

@@ -6,8 +6,6 @@
 #include "ZeroCopyTestSupport.h"
 
 #include "vtkActor.h"
-#include "vtkCellData.h"
-#include "vtkFloatArray.h"
 #include "vtkMapper.h"
 #include "vtkProperty.h"
 
@@ -113,15 +111,6 @@ TEST(ZeroCopyFallback, OtherMeshesAreCopied)
   quad.Filter->TriangulateOff();
   quad->Step();
   EXPECT_EQ(quad->GetDrawing(), "drawn from copies: the mesh has other cells than triangles");
-  auto mesh = MakeBadPlane();
-  vtkNew<vtkFloatArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(mesh->GetNumberOfCells());
-  normals->Fill(0.5);
-  mesh->GetCellData()->SetNormals(normals);
-  RunView lit(mesh);
-  lit->Step();
-  EXPECT_EQ(lit->GetDrawing(), "drawn from copies: the mesh has normals of cells");
   EXPECT_EQ(filler.Registers, 0);
 }
 

@@ -7,7 +7,9 @@
 #include "ZeroCopyTestSupport.h"
 
 #include "vtkActor.h"
+#include "vtkCellData.h"
 #include "vtkCellPicker.h"
+#include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
@@ -267,6 +269,25 @@ TEST(ZeroCopy, SelectionsSeeTheTrianglesThatAreDrawn)
   vtkNew<vtkCellPicker> picker;
   picker->Pick(100, 90, 0, view->GetRenderer());
   EXPECT_EQ(ids->GetValue(0), picker->GetCellId());
+}
+
+TEST(ZeroCopy, NormalsOfCellsAreNotThoseOfFlippedTriangles)
+{
+  TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh->GetNumberOfCells());
+  normals->Fill(0.5);
+  mesh->GetCellData()->SetNormals(normals);
+  ViewPair views(mesh);
+  RunView plain;
+  for (int i = 0; i < 3; ++i)
+  {
+    ExpectSameStep(views);
+    plain->Step();
+    EXPECT_LE(Compare(views.Copying.GetPicture(), plain.GetPicture()), Tolerance);
+  }
 }
 
 TEST(ZeroCopy, MovedPointsAreDrawnInTheSameBuffers)
