@@ -19,7 +19,7 @@ tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg
   python3-numpy python3-matplotlib python3-venv valgrind openmpi-bin python3-mpi4py)
 docs=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-copybutton
   python3-numpy)
-proof=(clang libclang-rt-dev python3-clang gcovr)
+proof=(clang llvm libclang-rt-dev python3-clang)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
   python3-numpy python3-matplotlib)
 # What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
