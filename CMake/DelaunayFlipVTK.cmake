@@ -24,6 +24,9 @@ if(DELAUNAYFLIP_BUILD_TESTING)
     TestingRendering)
 endif()
 set(delaunayflip_vtk_optional ParallelCore WrappingPythonCore WrappingTools ${delaunayflip_vtk_drawing})
+if(DELAUNAYFLIP_BUILD_TESTING)
+  list(APPEND delaunayflip_vtk_optional IOParallelXML ParallelMPI) # of an example
+endif()
 list(REMOVE_ITEM delaunayflip_vtk_optional ${delaunayflip_vtk}) # CMake allows no component in both
 find_package(VTK 9.1 REQUIRED
   COMPONENTS ${delaunayflip_vtk}
