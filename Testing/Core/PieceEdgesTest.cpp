@@ -272,6 +272,31 @@ TEST_P(PieceEdgesTest, AMeshOfOneProcessInPieces)
   }
 }
 
+TEST_P(PieceEdgesTest, WhatIsFixedInAMeshOfOneProcessStays)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(800, 35);
+  TriangleMesh given = mesh.View();
+  const std::vector<std::int64_t> edges = ChooseEdges(given);
+  const std::vector<std::int32_t> labels = MakeStripes(given);
+  std::vector<unsigned char> frozen(mesh.NumberOfTriangles());
+  for (std::size_t t = 0; t < frozen.size(); t += 20)
+  {
+    frozen[t] = 1;
+  }
+  given.ConstraintEdges = edges.data();
+  given.NumberOfConstraintEdges = static_cast<std::int64_t>(edges.size()) / 2;
+  given.Regions = labels.data();
+  given.FrozenTriangles = frozen.data();
+  const FlipResult alone = Flip(given, MakeCanonical());
+  std::vector<std::int32_t> triangles = mesh.Triangles;
+  const PiecesReport report = FlipInPieces(given, MakeCanonical(), { GetParam(), {} },
+    MutableTriangleArray(triangles.data(), mesh.NumberOfTriangles()));
+  EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(triangles));
+  ExpectSameCounts(alone.Report, report);
+  EXPECT_LT(0, report.Edges.Constraint);
+  EXPECT_LT(0, report.Edges.Region);
+}
+
 TEST_P(PieceEdgesTest, TheCallerCanStopAMeshInPieces)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 34);
