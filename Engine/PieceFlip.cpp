@@ -4,6 +4,7 @@
 
 #include "PieceRun.h"
 
+#include <functional>
 #include <utility>
 
 namespace delaunayflip
@@ -12,12 +13,17 @@ namespace delaunayflip
 PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group,
   FlippedPiece& flipped, const ProgressObserver& progress)
 {
-  CheckPieces(piece, options, group);
-  PointKeys keys = MatchPoints(piece, group);
-  const PieceSurvey survey = SurveyPieces(piece, keys, options, group);
-  PieceRun run({ piece, options, survey, group, progress }, std::move(keys));
-  PiecesReport report = run.Run();
-  run.Store(flipped);
+  PiecesReport report;
+  const auto flip = [&](PieceGroup& told)
+  {
+    CheckPieces(piece, options, told);
+    PointKeys keys = MatchPoints(piece, told);
+    const PieceSurvey survey = SurveyPieces(piece, keys, options, told);
+    PieceRun run({ piece, options, survey, told, progress }, std::move(keys));
+    report = run.Run();
+    run.Store(flipped);
+  };
+  RunTogether(group, std::ref(flip)); // a copy of flip would need memory
   return report;
 }
 

@@ -47,6 +47,13 @@ public:
 /// rank, as far as it is an exception of FlipError.h or RunAborted; else std::runtime_error.
 DELAUNAYFLIP_EXPORT void DoTogether(PieceGroup& group, const std::function<void()>& work);
 
+/// Calls work(group) on every rank, with a group that takes the place of this one. If a rank fails
+/// outside of the group's functions, the others learn it at their next call of the group, or at the
+/// end: no rank waits for it.
+/// @throws as DoTogether.
+DELAUNAYFLIP_EXPORT void RunTogether(
+  PieceGroup& group, const std::function<void(PieceGroup&)>& work);
+
 /// A group of one rank.
 DELAUNAYFLIP_EXPORT std::unique_ptr<PieceGroup> MakeSingleGroup();
 

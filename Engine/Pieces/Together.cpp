@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -95,22 +97,19 @@ RankFailure DescribeException()
   }
 }
 
-/// Throws on every rank if one has failed: the exception of the first of these, which names it.
-void ThrowTogether(PieceGroup& group, const RankFailure& failure)
+/// Throws if a rank has failed: the exception of the first of these, which names it.
+/// @param all what the ranks have sent: a text, and the kind of failure as the last character.
+void ThrowFirst(const std::vector<Message>& all)
 {
-  Message message(failure.Text.size() + 1);
-  message.front() = failure.Kind;
-  std::copy(failure.Text.begin(), failure.Text.end(), message.begin() + 1);
-  const std::vector<Message> all = group.Gather(message);
   bool isAborted = false;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    const char kind = all[rank].front();
+    const char kind = all[rank].back();
     isAborted = isAborted || kind == Abort;
     if (kind != None && kind != Abort)
     {
       const std::string where = all.size() > 1 ? "rank " + std::to_string(rank) + ": " : "";
-      Throw(kind, where + std::string(all[rank].begin() + 1, all[rank].end()));
+      Throw(kind, where + std::string(all[rank].begin(), all[rank].end() - 1));
     }
   }
   if (isAborted)
@@ -119,20 +118,101 @@ void ThrowTogether(PieceGroup& group, const RankFailure& failure)
   }
 }
 
+/// Another group, whose ranks all learn of it if one of them fails between two calls.
+///
+/// Whatever the others call next, their first message to the group below is that of a Gather, with
+/// a character more that says whether the rank has failed. So a rank that has can answer it without
+/// knowing what they call.
+class ToldGroup : public PieceGroup
+{
+public:
+  explicit ToldGroup(PieceGroup& group)
+    : Group(group)
+  {
+  }
+
+  int GetRank() const override { return this->Group.GetRank(); }
+  int GetSize() const override { return this->Group.GetSize(); }
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    this->Share({ None });
+    this->HasEnded = true; // unless the call returns
+    std::vector<Message> received = this->Group.Exchange(std::move(messages));
+    this->HasEnded = false;
+    return received;
+  }
+  std::vector<Message> Gather(const Message& message) override
+  {
+    Message told;
+    told.reserve(message.size() + 1);
+    told = message;
+    told.push_back(None);
+    return this->Share(told);
+  }
+  void Work(const std::function<void()>& work) override { this->Group.Work(work); }
+
+  /// Tells the other ranks that this one has failed, if they do not know. @throws as they do.
+  void Tell(const RankFailure& failure)
+  {
+    if (!this->HasEnded)
+    {
+      Message message(failure.Text.begin(), failure.Text.end());
+      message.push_back(failure.Kind);
+      this->Share(message);
+    }
+  }
+
+private:
+  std::vector<Message> Share(const Message& message)
+  {
+    this->HasEnded = true;
+    std::vector<Message> all = this->Group.Gather(message);
+    ThrowFirst(all);
+    this->HasEnded = false;
+    for (Message& one : all)
+    {
+      one.pop_back();
+    }
+    return all;
+  }
+
+  PieceGroup& Group;
+  bool HasEnded = false; ///< All ranks know of a failure, or the group itself has failed.
+};
+}
+
+void RunTogether(PieceGroup& group, const std::function<void(PieceGroup&)>& work)
+{
+  if (dynamic_cast<ToldGroup*>(&group))
+  {
+    work(group); // within a RunTogether, which tells the others
+    return;
+  }
+  ToldGroup told(group);
+  try
+  {
+    work(told);
+    told.Gather({}); // a rank that fails until here is heard
+  }
+  catch (...)
+  {
+    told.Tell(DescribeException());
+    throw;
+  }
 }
 
 void DoTogether(PieceGroup& group, const std::function<void()>& work)
 {
-  RankFailure failure;
-  try
+  const bool isWithin = dynamic_cast<ToldGroup*>(&group) != nullptr;
+  const auto workAndWait = [&](PieceGroup& told)
   {
-    group.Work(work);
-  }
-  catch (...)
-  {
-    failure = DescribeException();
-  }
-  ThrowTogether(group, failure);
+    told.Work(work);
+    if (isWithin) // else RunTogether waits
+    {
+      told.Gather({});
+    }
+  };
+  RunTogether(group, std::ref(workAndWait));
 }
 
 }

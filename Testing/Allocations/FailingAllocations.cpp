@@ -19,6 +19,7 @@ namespace
 std::atomic<bool> isOn{ false };
 std::atomic<std::int64_t> left{ 0 };
 std::atomic<std::size_t> smallestCounted{ 0 };
+thread_local bool isSpared = false;
 
 /// What lies at an address: the program itself, the filter, VTK, or something else.
 enum class Owner
@@ -46,7 +47,7 @@ Owner FindOwner(void* address)
 /// Whether the call from `caller` is the one to fail.
 bool ShouldFail(std::size_t bytes, void* caller, bool isArray)
 {
-  if (!isOn || bytes < smallestCounted)
+  if (!isOn || isSpared || bytes < smallestCounted)
   {
     return false;
   }
@@ -83,6 +84,14 @@ bool FailingAllocations::Stop()
   isOn = false;
   return HasFailed();
 }
+
+SparedAllocations::SparedAllocations()
+  : WasSpared(isSpared)
+{
+  isSpared = true;
+}
+
+SparedAllocations::~SparedAllocations() { isSpared = this->WasSpared; }
 
 void* operator new(std::size_t bytes)
 {

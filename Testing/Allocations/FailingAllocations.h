@@ -30,4 +30,17 @@ public:
   static bool Stop();
 };
 
+/// Meanwhile allocations of this thread neither count nor fail.
+class SparedAllocations
+{
+public:
+  SparedAllocations();
+  ~SparedAllocations();
+  SparedAllocations(const SparedAllocations&) = delete;
+  SparedAllocations& operator=(const SparedAllocations&) = delete;
+
+private:
+  bool WasSpared;
+};
+
 #endif
