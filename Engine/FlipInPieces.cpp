@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CallerMesh.h"
+#include "ConstraintInsertion.h"
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshDivision.h"
 #include "PieceFlip.h"
 #include "PieceSurvey.h"
+#include "RunProgress.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -54,19 +59,12 @@ std::vector<int> MakeTurns(const PieceDivision& division)
   }
   return turns;
 }
-}
 
-PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
+/// Flips a mesh without constraints that are to be inserted.
+PiecesReport FlipDivided(const TriangleMesh& mesh, const FlipOptions& options,
   const PieceDivision& division, const MutableTriangleArray& triangles,
   const ProgressObserver& progress)
 {
-  if (division.Pieces < 1)
-  {
-    throw InvalidOptions(
-      "a mesh cannot be divided into " + std::to_string(division.Pieces) + " pieces");
-  }
-  const std::unique_ptr<PieceGroup> single = MakeSingleGroup();
-  CheckPieces({ mesh, nullptr }, options, *single);
   const std::vector<OwnPiece> pieces = DivideMesh(mesh, division.Pieces);
   std::vector<FlippedPiece> flipped(division.Pieces);
   PiecesReport report;
@@ -77,7 +75,7 @@ PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
     // Rank 0 is the calling thread, whose observer is asked.
     const ProgressObserver observer = [&](double share)
     {
-      goesOn = goesOn && (rank != 0 || !progress || progress(share));
+      goesOn = goesOn && (rank != 0 || progress(share));
       return goesOn.load();
     };
     const PiecesReport own = FlipPiece(
@@ -92,6 +90,64 @@ PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   {
     Collect(pieces, rank, flipped[rank], triangles);
   }
+  return report;
+}
+
+/// @returns whether there was time for it.
+bool InsertConstraints(const TriangleMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, ConstraintInsertion& insertion)
+{
+  try
+  {
+    if (CallerMesh(mesh).HasConstraintsToInsert())
+    {
+      insertion = ConstraintInsertion(mesh, options,
+        [&](double share)
+        { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });
+    }
+    return true;
+  }
+  catch (const RunAborted&)
+  {
+    return false;
+  }
+}
+
+PiecesReport StopBeforeFlips(const TriangleArray& input, const MutableTriangleArray& triangles)
+{
+  for (std::int64_t i = 0; i < 3 * input.Count; ++i)
+  {
+    triangles.Set(i / 3, static_cast<int>(i % 3), input.Get(i / 3, static_cast<int>(i % 3)));
+  }
+  PiecesReport report;
+  report.Triangles = input.Count;
+  report.StopReason = StopReasonKind::Aborted;
+  return report;
+}
+}
+
+PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
+  const PieceDivision& division, const MutableTriangleArray& triangles,
+  const ProgressObserver& progress)
+{
+  if (division.Pieces < 1)
+  {
+    throw InvalidOptions(
+      "a mesh cannot be divided into " + std::to_string(division.Pieces) + " pieces");
+  }
+  const std::unique_ptr<PieceGroup> single = MakeSingleGroup();
+  CheckPieces({ mesh, nullptr }, options, *single);
+  ConstraintInsertion insertion;
+  if (!InsertConstraints(mesh, options, progress, insertion))
+  {
+    return StopBeforeFlips(mesh.Triangles, triangles);
+  }
+  const double begin = insertion.GetShare();
+  const ProgressObserver observer = [&](double share)
+  { return !progress || progress(begin + (1.0 - begin) * share); };
+  PiecesReport report = FlipDivided(
+    insertion.GetMesh(mesh), insertion.GetOptions(options), division, triangles, observer);
+  insertion.AddTo(report);
   return report;
 }
 

@@ -10,13 +10,6 @@
 namespace delaunayflip
 {
 
-namespace
-{
-/// Share of a run that the insertion of constraints takes, where there are any: it builds an edge
-/// mesh of its own.
-constexpr double InsertionShare = 0.3;
-}
-
 FlipSession::Implementation::Implementation(
   const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
   : Mesh(mesh),
@@ -54,7 +47,7 @@ void FlipSession::Implementation::BuildEngine(const ProgressObserver& tell)
 {
   const StopWatch watch;
   const CallerMesh mesh = this->InsertConstraints(tell);
-  const double begin = this->Insertion.HasFlips() ? InsertionShare : 0.0;
+  const double begin = this->Insertion.GetShare();
   // A copy stays in the engine, for when the CPU must start again.
   const BuildProgress progress(
     [tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
@@ -80,8 +73,8 @@ CallerMesh FlipSession::Implementation::InsertConstraints(const ProgressObserver
     return this->Mesh;
   }
   const TriangleMesh& mesh = this->Mesh.GetOnHost();
-  this->Insertion = ConstraintInsertion(
-    mesh, this->Options, [&](double share) { return tell(InsertionShare * share); });
+  this->Insertion = ConstraintInsertion(mesh, this->Options,
+    [&](double share) { return tell(ConstraintInsertion::ShareOfRun * share); });
   return CallerMesh(this->Insertion.GetMesh(mesh));
 }
 

@@ -297,6 +297,31 @@ TEST_P(PieceEdgesTest, WhatIsFixedInAMeshOfOneProcessStays)
   EXPECT_LT(0, report.Edges.Region);
 }
 
+TEST_P(PieceEdgesTest, ConstraintsAreInsertedAcrossThePiecesOfOneProcess)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(400, 36);
+  const std::vector<std::int64_t> edges{ 10, 390, 20, 380, 30, 370, 40, 200, 50, 60 };
+  const std::vector<unsigned char> insert{ 1, 1, 1, 0, 1 };
+  TriangleMesh given = mesh.View();
+  given.ConstraintEdges = edges.data();
+  given.NumberOfConstraintEdges = static_cast<std::int64_t>(insert.size());
+  given.ConstraintsToInsert = insert.data();
+  const FlipResult alone = Flip(given, MakeCanonical());
+  ASSERT_LT(2, alone.Report.InsertedConstraints);
+  std::vector<std::int32_t> triangles = mesh.Triangles;
+  const MutableTriangleArray output(triangles.data(), mesh.NumberOfTriangles());
+  const PieceDivision division{ GetParam(), {} };
+  const auto stop = [](double) { return false; };
+  const PiecesReport stopped = FlipInPieces(given, MakeCanonical(), division, output, stop);
+  EXPECT_EQ(StopReasonKind::Aborted, stopped.StopReason);
+  EXPECT_EQ(mesh.Triangles, triangles);
+  const PiecesReport report = FlipInPieces(given, MakeCanonical(), division, output);
+  EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(triangles));
+  EXPECT_EQ(alone.Report.InsertedConstraints, report.InsertedConstraints);
+  EXPECT_EQ(alone.Report.ConstraintFlips, report.ConstraintFlips);
+  EXPECT_EQ(alone.Report.Edges.Constraint, report.Edges.Constraint);
+}
+
 TEST_P(PieceEdgesTest, TheCallerCanStopAMeshInPieces)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 34);
