@@ -16,7 +16,8 @@ namespace delaunayflip
 struct GroupMeter
 {
   std::int64_t BytesSent = 0;
-  std::int64_t Calls = 0; ///< Of the group.
+  std::int64_t Exchanges = 0;
+  std::int64_t Gathers = 0;
   double Seconds = 0.0; ///< In these, waiting included.
 };
 
@@ -38,11 +39,13 @@ public:
     {
       this->Meter.BytesSent += rank == this->GetRank() ? 0 : Size(messages[rank]);
     }
+    ++this->Meter.Exchanges;
     return this->Measure([&]() { return this->Group.Exchange(std::move(messages)); });
   }
   std::vector<Message> Gather(const Message& message) override
   {
     this->Meter.BytesSent += (this->GetSize() - 1) * Size(message);
+    ++this->Meter.Gathers;
     return this->Measure([&]() { return this->Group.Gather(message); });
   }
   void Work(const std::function<void()>& work) override { this->Group.Work(work); }
@@ -60,7 +63,6 @@ private:
     std::vector<Message> received = call();
     this->Meter.Seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    ++this->Meter.Calls;
     return received;
   }
 

@@ -74,10 +74,11 @@ std::vector<int> ReadDevices(const std::string& list)
 /// @param isSurface whether points get heights.
 OwnedMesh<float> MakeMesh(std::int64_t points, bool isSurface)
 {
+  // An odd number of tiles per side: pieces must not be cut along tiles, whose borders are good.
   constexpr std::int64_t PointsPerTile = 100000;
-  const auto side = static_cast<std::int32_t>(
-    std::ceil(std::sqrt(static_cast<double>(points) / static_cast<double>(PointsPerTile))));
-  OwnedMesh<float> mesh = MakeTiledBadMesh(points, std::max(side, 1), 1);
+  const double tiles = static_cast<double>(points) / static_cast<double>(PointsPerTile);
+  const auto side = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))) | 1;
+  OwnedMesh<float> mesh = MakeTiledBadMesh(points, side, 1);
   for (std::size_t i = 0; i < mesh.Points.size() && isSurface; i += 3)
   {
     const double x = mesh.Points[i];
@@ -177,9 +178,10 @@ std::string DescribeCounts(const Measure& measure)
   text << "\"triangles\": " << report.Triangles << ", \"flips\": " << report.TotalFlips
        << ", \"rounds\": " << report.Rounds << ", \"moved\": " << report.MovedTriangles
        << ", \"seam_edges\": " << report.SeamEdges
-       << ", \"bytes_sent\": " << measure.Meter.BytesSent << ", \"calls\": " << measure.Meter.Calls
-       << ", \"backend\": \"" << report.Backend << "\", \"hash\": \"" << std::hex
-       << Hash(measure.Pieces) << "\"";
+       << ", \"bytes_sent\": " << measure.Meter.BytesSent
+       << ", \"exchanges\": " << measure.Meter.Exchanges
+       << ", \"gathers\": " << measure.Meter.Gathers << ", \"backend\": \"" << report.Backend
+       << "\", \"hash\": \"" << std::hex << Hash(measure.Pieces) << "\"";
   return text.str();
 }
 
