@@ -97,27 +97,29 @@ void PieceMesh::SetSeam(const PieceCorner& corner)
   this->NoteSeams(corner.Triangle);
 }
 
-std::vector<PieceCorner> PieceMesh::FindSeams()
+void PieceMesh::ClearSeam(const PieceCorner& corner)
+{
+  PieceTriangle& triangle = this->Triangles[corner.Triangle];
+  triangle.Clear(SeamMark, corner.Slot);
+  this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
+}
+
+std::vector<PieceCorner> PieceMesh::TakeNewSeams()
 {
   std::vector<PieceCorner> corners;
-  std::size_t kept = 0;
   for (const std::int64_t t : this->MayHaveSeams)
   {
     PieceTriangle& triangle = this->Triangles[t];
-    triangle.IsNoted = triangle.HasSeam() && !triangle.HasLeft;
-    for (int slot = 0; slot < 3 && triangle.IsNoted; ++slot)
+    triangle.IsNoted = false;
+    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
     {
       if (triangle.Has(SeamMark, slot))
       {
         corners.push_back({ t, slot });
       }
     }
-    if (triangle.IsNoted)
-    {
-      this->MayHaveSeams[kept++] = t;
-    }
   }
-  this->MayHaveSeams.resize(kept);
+  this->MayHaveSeams.clear();
   return corners;
 }
 
@@ -179,6 +181,13 @@ std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_
   for (const std::int64_t t : triangles)
   {
     packed.push_back(this->Pack(this->Triangles[t]));
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (this->Triangles[t].Has(SeamMark, slot))
+      {
+        this->LostSeams.push_back(this->GetKeys(this->Triangles[t].GetEdge(slot)));
+      }
+    }
     for (const std::int32_t point : this->Triangles[t].Points)
     {
       this->Share(point);

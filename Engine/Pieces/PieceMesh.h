@@ -57,8 +57,13 @@ public:
   std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
   /// Marks an edge as one between ranks.
   void SetSeam(const PieceCorner& corner);
-  /// @returns the triangles at the edges between ranks.
-  std::vector<PieceCorner> FindSeams();
+  /// Marks it as an inner edge again.
+  void ClearSeam(const PieceCorner& corner);
+  /// The edges between ranks whose triangles here have changed or come since the last call.
+  std::vector<PieceCorner> TakeNewSeams();
+  /// Those without a triangle here since the last call: keys. Some of them may have one again, and
+  /// some may never have been told.
+  std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
   /// Calls visit(triangle) for every corner at a point.
   template <typename Visit>
   void ForEachAt(std::int32_t point, const Visit& visit) const
@@ -108,7 +113,8 @@ private:
 
   PointStars Stars;
   std::vector<std::int64_t> Changed;
-  std::vector<std::int64_t> MayHaveSeams; ///< Triangles (PieceTriangle::IsNoted).
+  std::vector<std::int64_t> MayHaveSeams; ///< New ones: triangles (PieceTriangle::IsNoted).
+  std::vector<PointPair> LostSeams;
   std::vector<unsigned char> Shared;
   std::vector<std::int32_t> SharedPoints;
   PointArray Given;

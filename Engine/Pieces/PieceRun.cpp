@@ -187,7 +187,8 @@ bool PieceRun::MakeRound()
 {
   ++this->Whole.Rounds;
   const bool mayGoOn = this->MayGoOn();
-  SeamTest test = TestSeams(this->Mesh, this->Job.Survey, this->Job.Options, this->Job.Group);
+  SeamTest test =
+    this->Tester.Run(this->Mesh, this->Job.Survey, this->Job.Options, this->Job.Group);
   this->BadSeams = test.BadOfAll + test.BlockedOfAll;
   this->FoldedSeams = test.BlockedOfAll;
   GuardRound waiting;

@@ -12,6 +12,7 @@
 #include "PieceSurvey.h"
 #include "SeamRound.h"
 #include "SeamSurvey.h"
+#include "SeamTester.h"
 
 #include <cstdint>
 #include <vector>
@@ -68,6 +69,7 @@ private:
   std::vector<std::int64_t> FirstOrigins; ///< The number of the first triangle of every rank.
   PieceMesh Mesh;
   RegionScratch Scratch;
+  SeamTester Tester;
   WaitingEdges Waiting;
   SeamSurvey Seams;
   std::int64_t RepeatedPoints;

@@ -48,7 +48,7 @@ struct PieceTriangle
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
   bool IsInStars; ///< In the lists of PointStars.
-  bool IsNoted; ///< In the list of triangles that may have seam edges.
+  bool IsNoted; ///< In the list of triangles that may have new seam edges.
 
   bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
   void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }

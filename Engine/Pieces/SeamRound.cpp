@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamRound.h"
 
-#include "QuadSoup.h"
-#include "SeamTriangle.h"
+#include "Records.h"
 
 #include <algorithm>
 #include <map>
@@ -11,77 +10,6 @@
 
 namespace delaunayflip
 {
-
-namespace
-{
-RecordLists<SeamTriangle> ListSeams(PieceMesh& mesh, const PieceGroup& group)
-{
-  RecordLists<SeamTriangle> toHome(group.GetSize());
-  for (const PieceCorner& corner : mesh.FindSeams())
-  {
-    const SeamTriangle seam = MakeSeamTriangle(mesh, corner.Triangle, corner.Slot);
-    toHome[GetHome(PairHash()(seam.Ends), group)].push_back(seam);
-  }
-  return toHome;
-}
-
-void TellBad(const RankedTriangle& one, const RankedTriangle& other, RecordLists<BadSeam>& toRank)
-{
-  toRank[one.Rank].push_back({ one.Seam.GetTriangle(), one.Seam.Ends,
-    MakePair(one.Seam.Opposite, other.Seam.Opposite), other.Rank });
-}
-
-/// The edges whose home this rank is.
-struct HomeTest
-{
-  RecordLists<BadSeam> ToRank;
-  std::int64_t Bad = 0;
-  std::int64_t Blocked = 0;
-
-  void Run(const std::vector<RankedTriangle>& seams, QuadSoup soup)
-  {
-    std::vector<std::size_t> firsts;
-    for (std::size_t i = 1; i < seams.size(); ++i)
-    {
-      const bool isQuad = seams[i].Seam.Ends == seams[i - 1].Seam.Ends &&
-        seams[i].Seam.Opposite != seams[i - 1].Seam.Opposite;
-      if (isQuad)
-      {
-        soup.Add(seams[i - 1].Seam.Side, seams[i].Seam.Side);
-        firsts.push_back(i - 1);
-      }
-    }
-    const std::vector<unsigned char> bad = soup.FindBad(this->Blocked);
-    for (std::size_t i = 0; i < bad.size(); ++i)
-    {
-      if (bad[i] != 0)
-      {
-        TellBad(seams[firsts[i]], seams[firsts[i] + 1], this->ToRank);
-        TellBad(seams[firsts[i] + 1], seams[firsts[i]], this->ToRank);
-        ++this->Bad;
-      }
-    }
-  }
-};
-}
-
-SeamTest TestSeams(
-  PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
-{
-  const std::vector<RankedTriangle> seams =
-    SortByEdge(ExchangeRecords(group, ListSeams(mesh, group)));
-  HomeTest home;
-  home.ToRank.resize(group.GetSize());
-  DoTogether(group, [&]() { home.Run(seams, QuadSoup(survey, options)); });
-  SeamTest test;
-  for (const std::vector<BadSeam>& list : ExchangeRecords(group, home.ToRank))
-  {
-    test.Bad.insert(test.Bad.end(), list.begin(), list.end());
-  }
-  test.BadOfAll = SumOverRanks(group, home.Bad);
-  test.BlockedOfAll = SumOverRanks(group, home.Blocked);
-  return test;
-}
 
 namespace
 {
@@ -125,13 +53,12 @@ void ClearSeams(PieceMesh& mesh, std::int64_t t)
 {
   for (int slot = 0; slot < 3; ++slot)
   {
-    PieceTriangle& triangle = mesh.Triangles[t];
-    const PieceCorner mate =
-      triangle.Has(SeamMark, slot) ? mesh.FindMate({ t, slot }) : PieceCorner{ -1, 0 };
+    const bool isSeam = mesh.Triangles[t].Has(SeamMark, slot);
+    const PieceCorner mate = isSeam ? mesh.FindMate({ t, slot }) : PieceCorner{ -1, 0 };
     if (mate.Triangle >= 0)
     {
-      triangle.Clear(SeamMark, slot);
-      mesh.Triangles[mate.Triangle].Clear(SeamMark, mate.Slot);
+      mesh.ClearSeam({ t, slot });
+      mesh.ClearSeam(mate);
     }
   }
 }

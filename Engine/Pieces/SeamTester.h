@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SEAMTESTER_H
+#define DELAUNAYFLIP_SEAMTESTER_H
+
+#include "PieceMesh.h"
+#include "PieceSurvey.h"
+#include "Records.h"
+#include "SeamTriangle.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A bad edge between two ranks, as each of them is told.
+struct BadSeam
+{
+  std::int64_t Triangle; ///< The rank's own.
+  PointPair Ends; ///< Keys.
+  PointPair Opposite; ///< Keys of the points that its flip would join.
+  std::int32_t OtherRank;
+};
+
+/// What a test of all edges between ranks has found.
+struct SeamTest
+{
+  std::vector<BadSeam> Bad; ///< Of this rank; each is known to both of its ranks.
+  std::int64_t BadOfAll = 0; ///< Edges of all ranks.
+  std::int64_t BlockedOfAll = 0; ///< Bad, but the flip would fold the mesh over.
+};
+
+/// Finds the bad edges between ranks that may flip, as far as their shape tells. Remembers the
+/// edges whose home this rank is, so that ranks send only what has changed, and good edges are not
+/// tested again.
+class SeamTester
+{
+public:
+  /// All ranks call it together, after BeginRounds.
+  SeamTest Run(
+    PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group);
+
+private:
+  /// A triangle at an edge.
+  struct Side
+  {
+    RankedTriangle Triangle;
+    bool IsToTest; ///< Unless neither side is, the edge is tested.
+  };
+
+  struct Found
+  {
+    RecordLists<BadSeam> ToRank;
+    std::int64_t Bad = 0;
+    std::int64_t Blocked = 0;
+  };
+
+  void Update(const std::vector<RankedTriangle>& news);
+  std::vector<std::size_t> ListToTest() const;
+  Found Judge(const PieceSurvey& survey, const FlipOptions& options, int ranks);
+
+  std::vector<Side> Sides; ///< Those of an edge next to each other, by rank.
+};
+
+}
+
+#endif
