@@ -88,8 +88,8 @@ struct PieceDivision
 
 /// Divides a mesh into pieces next to each other, flips it by FlipPiece in threads, and writes the
 /// result to `triangles`, which may be the array that mesh.Triangles views. The report is that of
-/// the whole mesh, without points that no triangle uses. Constraints are inserted before the mesh is
-/// divided; after an abort then, the triangles are the input's.
+/// the whole mesh, without points that no triangle uses. Constraints are inserted before the mesh
+/// is divided; after an abort then, the triangles are the input's.
 /// @throws as FlipPiece; InvalidOptions for no pieces.
 DELAUNAYFLIP_EXPORT PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   const PieceDivision& division, const MutableTriangleArray& triangles,
