@@ -129,15 +129,15 @@ TEST(PlanarSurvey, TouchingCornersAreNotSimple)
 TEST(PlaneFinder, TakesTheFirstOfTheFarthest)
 {
   Farthest farthest;
-  farthest += { 7, 2.0 };
+  farthest += { 7, 2.0, {} };
   EXPECT_EQ(7, farthest.Point);
-  farthest += { 3, 1.0 };
+  farthest += { 3, 1.0, {} };
   EXPECT_EQ(7, farthest.Point);
-  farthest += { 9, 2.0 };
+  farthest += { 9, 2.0, {} };
   EXPECT_EQ(7, farthest.Point);
-  farthest += { 4, 2.0 };
+  farthest += { 4, 2.0, {} };
   EXPECT_EQ(4, farthest.Point);
-  farthest += { 8, 3.0 };
+  farthest += { 8, 3.0, {} };
   EXPECT_EQ(8, farthest.Point);
 }
 
