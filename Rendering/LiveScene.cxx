@@ -139,9 +139,9 @@ void LiveScene::Enter(vtkRenderWindow* window)
     this->Renderer = renderer;
   }
   this->Renderer->AddActor(this->Actor);
-  this->Renderer->AddActor2D(this->Scale);
-  this->Renderer->AddActor2D(this->Status);
-  this->Renderer->AddActor2D(this->Keys);
+  this->Renderer->AddViewProp(this->Scale);
+  this->Renderer->AddViewProp(this->Status);
+  this->Renderer->AddViewProp(this->Keys);
   this->LargestCount = 0.0;
   const Color& ink = IsDark(this->Renderer) ? LightInk : DarkInk;
   std::copy(ink.begin(), ink.end(), this->Ink);
@@ -154,9 +154,9 @@ void LiveScene::Leave()
   if (this->Renderer)
   {
     this->Renderer->RemoveActor(this->Actor);
-    this->Renderer->RemoveActor2D(this->Scale);
-    this->Renderer->RemoveActor2D(this->Status);
-    this->Renderer->RemoveActor2D(this->Keys);
+    this->Renderer->RemoveViewProp(this->Scale);
+    this->Renderer->RemoveViewProp(this->Status);
+    this->Renderer->RemoveViewProp(this->Keys);
   }
   this->Renderer = nullptr;
 }
