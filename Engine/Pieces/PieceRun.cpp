@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRun.h"
 
+#include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "GuardRound.h"
 #include "MeshAudit.h"
@@ -323,16 +324,32 @@ PiecesReport PieceRun::MakeReport()
   {
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
   }
-  const Defect missing{ "constraint edges that are not edges of the mesh", seams.MissingConstraints,
-    {}, DefectIds::Points };
-  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, missing })
+  this->AddDefects(report);
+  return report;
+}
+
+void PieceRun::AddDefects(FlipReport& report) const
+{
+  for (Defect& defect : report.Defects)
+  {
+    if (this->Job.Group.GetSize() > 1 && defect.What == ConstraintInsertion::LeavesMesh)
+    {
+      defect.What += ", or the piece of their rank";
+    }
+  }
+  const SeamCounts& seams = this->Seams.Counts;
+  const Defect notInserted{ "constraint edges that are not inserted because both of their points "
+                            "are shared by ranks",
+    seams.NotInserted, {}, DefectIds::Points };
+  const Defect missing{ "constraint edges that are not edges of the mesh",
+    seams.MissingConstraints - seams.NotInserted, {}, DefectIds::Points };
+  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, notInserted, missing })
   {
     if (defect.Count > 0)
     {
       report.Defects.push_back(defect);
     }
   }
-  return report;
 }
 
 //------------------------------------------------------------------------------

@@ -64,6 +64,7 @@ private:
   bool Tell(double share) const;
   void CountRest();
   PiecesReport MakeReport();
+  void AddDefects(FlipReport& report) const;
 
   PieceJob Job;
   std::vector<std::int64_t> FirstOrigins; ///< The number of the first triangle of every rank.

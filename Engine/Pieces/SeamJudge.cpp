@@ -58,7 +58,8 @@ public:
   {
   }
 
-  void Judge(const RecordLists<SeamTriangle>& seams, const RecordLists<PointPair>& constraints)
+  void Judge(
+    const RecordLists<SeamTriangle>& seams, const RecordLists<SharedConstraint>& constraints)
   {
     this->Seams = SortByEdge(seams);
     this->CollectConstraints(constraints);
@@ -88,20 +89,40 @@ public:
   SeamVerdict Take() { return { std::move(this->Answers), this->Counts }; }
 
 private:
-  void CollectConstraints(const RecordLists<PointPair>& lists)
+  void CollectConstraints(const RecordLists<SharedConstraint>& lists)
   {
-    for (const std::vector<PointPair>& list : lists)
+    for (const std::vector<SharedConstraint>& list : lists)
     {
       this->Constraints.insert(this->Constraints.end(), list.begin(), list.end());
     }
-    std::sort(this->Constraints.begin(), this->Constraints.end());
+    const auto place = [](const SharedConstraint& one)
+    { return std::make_pair(one.Ends, -one.IsToInsert); };
+    std::sort(this->Constraints.begin(), this->Constraints.end(),
+      [&](const SharedConstraint& a, const SharedConstraint& b) { return place(a) < place(b); });
     this->Constraints.erase(
-      std::unique(this->Constraints.begin(), this->Constraints.end()), this->Constraints.end());
+      std::unique(this->Constraints.begin(), this->Constraints.end(),
+        [](const SharedConstraint& a, const SharedConstraint& b) { return a.Ends == b.Ends; }),
+      this->Constraints.end());
+  }
+
+  /// Whether an edge is a constraint, which then is not missing.
+  bool MatchConstraint(const PointPair& ends)
+  {
+    const auto found = std::lower_bound(this->Constraints.begin(), this->Constraints.end(), ends,
+      [](const SharedConstraint& one, const PointPair& pair) { return one.Ends < pair; });
+    const bool isConstraint = found != this->Constraints.end() && found->Ends == ends;
+    this->Counts.MissingConstraints -= isConstraint ? 1 : 0;
+    this->Counts.NotInserted -= isConstraint ? found->IsToInsert : 0;
+    return isConstraint;
   }
 
   void FindEdges()
   {
-    std::int64_t matched = 0;
+    for (const SharedConstraint& one : this->Constraints)
+    {
+      ++this->Counts.MissingConstraints;
+      this->Counts.NotInserted += one.IsToInsert;
+    }
     for (std::size_t begin = 0; begin < this->Seams.size();)
     {
       const PointPair& ends = this->Seams[begin].Seam.Ends;
@@ -110,13 +131,10 @@ private:
       {
         ++end;
       }
-      const bool isConstraint =
-        std::binary_search(this->Constraints.begin(), this->Constraints.end(), ends);
-      matched += isConstraint ? 1 : 0;
+      const bool isConstraint = this->MatchConstraint(ends);
       this->Edges.push_back({ this->Seams.data() + begin, this->Seams.data() + end, isConstraint });
       begin = end;
     }
-    this->Counts.MissingConstraints = static_cast<std::int64_t>(this->Constraints.size()) - matched;
   }
 
   /// An edge with a triangle on each of two ranks.
@@ -236,7 +254,7 @@ private:
   const PieceSurvey& Survey;
   const FlipOptions& Options;
   std::vector<RankedTriangle> Seams;
-  std::vector<PointPair> Constraints;
+  std::vector<SharedConstraint> Constraints;
   std::vector<SeamEdge> Edges;
   std::vector<const SeamEdge*> Open;
   RecordLists<SeamAnswer> Answers;
@@ -250,6 +268,7 @@ SeamCounts& SeamCounts::operator+=(const SeamCounts& part)
   this->Seams += part.Seams;
   this->NonDelaunay += part.NonDelaunay;
   this->MissingConstraints += part.MissingConstraints;
+  this->NotInserted += part.NotInserted;
   return *this;
 }
 
@@ -260,7 +279,8 @@ EdgeCounts SeamCounts::AddTo(EdgeCounts sum) const
 }
 
 SeamVerdict JudgeSeams(const RecordLists<SeamTriangle>& seams,
-  const RecordLists<PointPair>& constraints, const PieceSurvey& survey, const FlipOptions& options)
+  const RecordLists<SharedConstraint>& constraints, const PieceSurvey& survey,
+  const FlipOptions& options)
 {
   SeamJudge judge(survey, options, seams.size());
   judge.Judge(seams, constraints);

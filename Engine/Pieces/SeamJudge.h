@@ -20,9 +20,17 @@ struct SeamCounts
   std::int64_t Seams = 0; ///< Edges with triangles on two ranks that may flip.
   std::int64_t NonDelaunay = 0; ///< Of these.
   std::int64_t MissingConstraints = 0; ///< Between shared points, and edges on no rank.
+  std::int64_t NotInserted = 0; ///< Of these, those that should have been inserted.
 
   SeamCounts& operator+=(const SeamCounts& part);
   EdgeCounts AddTo(EdgeCounts sum) const;
+};
+
+/// A constraint between shared points.
+struct SharedConstraint
+{
+  PointPair Ends; ///< Keys.
+  std::int64_t IsToInsert; ///< 0 or 1.
 };
 
 /// What a rank must know about a triangle that it has sent.
@@ -41,9 +49,9 @@ struct SeamVerdict
   SeamCounts Counts;
 };
 
-/// @param constraints the pairs of shared points that are constraints.
 SeamVerdict JudgeSeams(const RecordLists<SeamTriangle>& seams,
-  const RecordLists<PointPair>& constraints, const PieceSurvey& survey, const FlipOptions& options);
+  const RecordLists<SharedConstraint>& constraints, const PieceSurvey& survey,
+  const FlipOptions& options);
 
 }
 

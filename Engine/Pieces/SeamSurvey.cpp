@@ -74,23 +74,24 @@ RecordLists<SeamTriangle> ListSeamTriangles(
 
 /// Sends constraints between shared points to the ranks that know their edges, and keeps the others
 /// for this rank alone.
-RecordLists<PointPair> DivideConstraints(
+RecordLists<SharedConstraint> DivideConstraints(
   const TriangleMesh& caller, const PieceMesh& mesh, SeamSurvey& survey, const PieceGroup& group)
 {
-  RecordLists<PointPair> toHome(group.GetSize());
+  RecordLists<SharedConstraint> toHome(group.GetSize());
   for (std::int64_t i = 0; i < caller.NumberOfConstraintEdges; ++i)
   {
     const std::int64_t a = caller.ConstraintEdges[2 * i];
     const std::int64_t b = caller.ConstraintEdges[2 * i + 1];
+    const unsigned char isToInsert = caller.ConstraintsToInsert ? caller.ConstraintsToInsert[i] : 0;
     if (mesh.IsShared(a) && mesh.IsShared(b))
     {
       const PointPair keys = mesh.GetKeys({ a, b });
-      toHome[GetHomeOf(keys, group)].push_back(keys);
+      toHome[GetHomeOf(keys, group)].push_back({ keys, isToInsert != 0 ? 1 : 0 });
     }
     else
     {
       survey.Constraints.insert(survey.Constraints.end(), { a, b });
-      survey.ToInsert.push_back(caller.ConstraintsToInsert ? caller.ConstraintsToInsert[i] : 0);
+      survey.ToInsert.push_back(isToInsert);
     }
   }
   return toHome;
@@ -119,7 +120,7 @@ SeamSurvey SurveySeams(const MeshPiece& piece, const PieceMesh& mesh, const Piec
   SeamSurvey seams;
   const RecordLists<SeamTriangle> triangles =
     ExchangeRecords(group, ListSeamTriangles(piece, mesh, group));
-  const RecordLists<PointPair> constraints =
+  const RecordLists<SharedConstraint> constraints =
     ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
   SeamVerdict verdict;
   DoTogether(group, [&]() { verdict = JudgeSeams(triangles, constraints, survey, options); });

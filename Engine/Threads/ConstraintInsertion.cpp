@@ -45,7 +45,7 @@ const char* Describe(Refusal refusal)
   switch (refusal)
   {
     case Refusal::Leaves:
-      return "constraint edges that cannot be inserted because they leave the mesh";
+      return ConstraintInsertion::LeavesMesh;
     case Refusal::Crosses:
       return "constraint edges that cannot be inserted because they cross edges that stay";
     case Refusal::Overlaps:

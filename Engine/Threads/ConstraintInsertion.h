@@ -21,6 +21,10 @@ namespace delaunayflip
 class ConstraintInsertion
 {
 public:
+  /// What is said of constraints that leave the mesh.
+  static constexpr const char* LeavesMesh =
+    "constraint edges that cannot be inserted because they leave the mesh";
+
   /// Nothing is to be inserted.
   ConstraintInsertion() = default;
 

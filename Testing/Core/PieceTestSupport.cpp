@@ -60,6 +60,17 @@ FlipOptions MakeOnSurface(double featureAngle)
   return options;
 }
 
+std::vector<std::int64_t> ChooseEdges(const TriangleMesh& mesh)
+{
+  std::vector<std::int64_t> edges;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; t += 3)
+  {
+    edges.push_back(mesh.Triangles.Get(t, 0));
+    edges.push_back(mesh.Triangles.Get(t, 1));
+  }
+  return edges;
+}
+
 void ExpectSameCounts(const FlipReport& alone, const PiecesReport& together)
 {
   EXPECT_EQ(alone.Points, together.Points);

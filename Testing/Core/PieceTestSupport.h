@@ -20,6 +20,9 @@ FlipOptions MakeCanonical();
 /// On a surface, on one thread per rank.
 FlipOptions MakeOnSurface(double featureAngle = 180.0);
 
+/// Every ninth edge, as constraints.
+std::vector<std::int64_t> ChooseEdges(const TriangleMesh& mesh);
+
 void ExpectSameOnAllRanks(const std::vector<PiecesReport>& reports);
 
 /// Reports a failure for every count of the whole mesh that one rank finds otherwise.
