@@ -16,36 +16,10 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 import delaunayflip
 import rank_blocks
 import rank_meshes
+import rank_seams
 from rank_runs import (
-    RANK, RANKS, WORLD, check_data, describe, flip_alone, flip_piece, gather_triangles, require,
+    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same,
     set_options, start)
-
-def same(points, triangles, kind="space", ids=True, options=None, unique=True):
-    """Compares the pieces with a run of one rank."""
-    options = options or {}
-    owners = rank_meshes.divide(points, triangles, RANKS, kind)
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), ids)
-    flip, said = flip_piece(piece, options)
-    output = flip.GetOutput()
-    check_data(points, output)
-    facts = describe(flip, said)
-    facts["said"] = []
-    for other in WORLD.allgather(facts):
-        require(other == facts, f"ranks differ: {other} {facts}")
-    after, slots = gather_triangles(points, output)
-    if RANK == 0:
-        require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
-        alone = flip_alone(points, triangles, options)
-        if unique:
-            expected = rank_meshes.read_triangles(alone.GetOutput())
-            facts["same"] = bool(np.array_equal(
-                rank_meshes.as_set(after), rank_meshes.as_set(expected)))
-        again = flip_alone(points, after, {**options, "FeatureAngle": 180.0})
-        facts["again"] = again.GetTotalFlips()
-        facts["left again"] = again.GetNumberOfNonDelaunayEdges()
-        facts["geometry alone"] = alone.GetGeometryUsedAsString()
-    return facts, said
-
 
 def run_same(maker, count, kind, ids, options, unique=True):
     points, triangles = getattr(rank_meshes, maker)(count)
@@ -137,8 +111,9 @@ def run_growth(updates):
 def run_constraints(count, kind):
     """Lines of the pieces and a second input, which only rank 0 has."""
     points, triangles = rank_meshes.make_random(count)
-    chosen = triangles[::7, :2]
-    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space" if kind == "seams" else kind)
+    is_seam = kind == "seams"
+    chosen = rank_meshes.list_seams(triangles, owners) if is_seam else triangles[::7, :2]
     piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
     options = {"TieRule": 1, "InsertConstraints": False}
     flip = set_options(delaunayflip.vtkPDelaunayFlip(), options)
@@ -164,7 +139,7 @@ def run_constraints(count, kind):
 def main():
     controller = start()
     name, arguments = sys.argv[1], json.loads(sys.argv[2])
-    facts, _ = {**vars(rank_blocks), **globals()}["run_" + name](**arguments)
+    facts, _ = {**vars(rank_blocks), **vars(rank_seams), **globals()}["run_" + name](**arguments)
     if RANK == 0:  # not to stdout, where mpirun may put words of other ranks into the line
         with open(sys.argv[3], "w", encoding="utf-8") as file:
             json.dump(facts, file)

@@ -56,6 +56,52 @@ def divide(points, triangles, ranks, kind):
     return owners
 
 
+def make_book(side):
+    """Three flat sheets of badly joined points, side x side each, that meet in a line of edges with
+    three triangles each."""
+    x, y = np.divmod(np.arange(side * side), side)
+    jitter = np.random.default_rng(2).uniform(-0.3, 0.3, (2, len(x))) * (x > 0)
+    sheet = np.c_[x + jitter[0], y + 3.0 * x + jitter[1], np.zeros(len(x))]
+    corners = np.argwhere((x < side - 1) & (y < side - 1)).ravel()[:, None]
+    triangles = np.r_[corners + [0, side, side + 1], corners + [0, side + 1, 1]]
+    pages = [sheet @ [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [0, 0, 1]]
+             for angle in (0.0, 2.0, 4.0)]
+    cells = [np.where(triangles < side, triangles, triangles + page * len(x)) for page in range(3)]
+    return np.concatenate(pages), np.concatenate(cells)
+
+
+def make_spiral(count):
+    """A flat mesh that winds around its middle twice, so that it overlaps itself: rings of points,
+    and triangles between them that all turn the same way."""
+    angles = np.linspace(0.0, 4 * np.pi, 2 * count, endpoint=False)
+    radii = np.r_[1.0 + 0.3 * np.sin(5 * angles), 2.0 + 0.3 * np.cos(angles / 2)]
+    turns = np.r_[angles, angles + 0.1]
+    ring = np.c_[radii * np.cos(turns), radii * np.sin(turns), np.zeros(len(turns))]
+    size, triangles = len(angles), []
+    for i in range(size):
+        j = (i + 1) % size
+        triangles += [(0, 1 + i, 1 + j), (1 + i, 1 + size + i, 1 + j),
+                      (1 + j, 1 + size + i, 1 + size + j)]
+    return np.r_[np.zeros((1, 3)), ring], np.array(triangles)
+
+
+def list_seams(triangles, owners):
+    """The edges between triangles of different owners."""
+    known, seams = {}, []
+    for triangle, owner in zip(triangles, owners):
+        for i in range(3):
+            edge = frozenset((triangle[i - 1], triangle[i]))
+            if known.setdefault(edge, owner) != owner:
+                seams.append(sorted(edge))
+    return np.array(seams)
+
+
+def count_crowded_edges(triangles):
+    """Edges with three triangles or more."""
+    edges = np.sort(np.concatenate([triangles[:, [i - 1, i]] for i in range(3)]), axis=1)
+    return int((np.unique(edges, axis=0, return_counts=True)[1] > 2).sum())
+
+
 def make_poly_data(points, triangles):
     mesh, at, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
     at.SetData(numpy_to_vtk(points, deep=1))

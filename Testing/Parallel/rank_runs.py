@@ -98,3 +98,36 @@ def flip_alone(points, triangles, options):
     flip.SetInputData(rank_meshes.make_poly_data(points, triangles))
     flip.Update()
     return flip
+
+
+def same(points, triangles, kind="space", ids=True, options=None, unique=True):
+    """Flips a mesh that is divided in a way of rank_meshes.divide; see compare."""
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), ids)
+    return compare(points, triangles, piece, options or {}, unique)
+
+
+def compare(points, triangles, piece, options, unique):
+    """Flips this rank's piece of a mesh, and compares the pieces with a run of one rank."""
+    flip, said = flip_piece(piece, options)
+    output = flip.GetOutput()
+    check_data(points, output)
+    facts = describe(flip, said)
+    facts["said"] = []
+    for other in WORLD.allgather(facts):
+        require(other == facts, f"ranks differ: {other} {facts}")
+    after, slots = gather_triangles(points, output)
+    if RANK == 0:
+        require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
+        alone = flip_alone(points, triangles, options)
+        if unique:
+            expected = rank_meshes.read_triangles(alone.GetOutput())
+            facts["same"] = bool(np.array_equal(
+                rank_meshes.as_set(after), rank_meshes.as_set(expected)))
+        again = flip_alone(points, after, {**options, "FeatureAngle": 180.0})
+        facts["again"] = again.GetTotalFlips()
+        facts["left again"] = again.GetNumberOfNonDelaunayEdges()
+        facts["geometry alone"] = alone.GetGeometryUsedAsString()
+        facts["crowded"] = rank_meshes.count_crowded_edges(after)
+        facts["crowded before"] = rank_meshes.count_crowded_edges(triangles)
+    return facts, said

@@ -54,7 +54,7 @@ class Pieces(RanksTest):
         self.assertTrue(facts["same"], facts)
 
     def test_constraints(self):
-        for kind in ("space", "scattered"):
+        for kind in ("space", "scattered", "seams"):
             with self.subTest(kind):
                 facts = flip_on(3, "constraints", count=300, kind=kind)
                 self.assertTrue(facts["same"], facts)

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cases of real meshes, of seams where meshes are not simple, and of a rank that dies."""
+import os
+import signal
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+
+import delaunayflip
+import rank_meshes
+from rank_runs import (
+    RANK, RANKS, compare, describe, flip_alone, flip_piece, same, set_options)
+
+READERS = {".vtk": vtkPolyDataReader, ".obj": vtkOBJReader, ".stl": vtkSTLReader}
+
+
+def read_mesh(name):
+    path = os.path.join(os.environ["DELAUNAYFLIP_DATA_DIR"], name)
+    reader = READERS[os.path.splitext(name)[1]]()
+    reader.SetFileName(path)
+    reader.Update()
+    mesh = reader.GetOutput()
+    points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(float)
+    return points, rank_meshes.read_triangles(mesh)
+
+
+def run_real(name, kind, options, unique=True):
+    points, triangles = read_mesh(name)
+    return same(points, triangles, kind, True, options, unique)
+
+
+def run_lines(name):
+    """The lines of a file, which all are edges of its mesh and seams between pieces here and there,
+    as constraints: no edge flips."""
+    reader = vtkPolyDataReader()
+    reader.SetFileName(os.path.join(os.environ["DELAUNAYFLIP_DATA_DIR"], name))
+    reader.Update()
+    points, triangles = read_mesh(name)
+    lines = vtkPolyData()
+    lines.SetPoints(reader.GetOutput().GetPoints())
+    lines.SetLines(reader.GetOutput().GetLines())
+    facts = {}
+    for kept in (True, False):
+        flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"Geometry": 1})
+        owners = rank_meshes.divide(points, triangles, RANKS, "space")
+        flip.SetInputData(rank_meshes.make_piece(
+            points, triangles, np.flatnonzero(owners == RANK), True))
+        if kept:
+            flip.SetConstraintsData(lines)
+        flip.UpdatePiece(RANK, RANKS, 0)
+        facts["kept" if kept else "not kept"] = describe(flip, [])
+    return facts, []
+
+
+def run_book(side, kind):
+    """Each sheet on a rank of its own ("sheets"), or all of them on several: the edges where they
+    meet stay, and are counted."""
+    points, triangles = rank_meshes.make_book(side)
+    options = {"Geometry": 3, "FeatureAngle": 180.0}
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    if kind == "sheets":
+        owners = np.arange(len(triangles)) * RANKS // len(triangles)
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    return compare(points, triangles, piece, options, False)
+
+
+def run_spiral(count, kind):
+    """A planar mesh that overlaps itself. No flip may make an edge that another rank has."""
+    points, triangles = rank_meshes.make_spiral(count)
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    return compare(points, triangles, piece, {"Geometry": 1}, False)
+
+
+def run_track_quality():
+    points, triangles = rank_meshes.make_random(100)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    flip, _ = flip_piece(piece, {"TrackQuality": True, "TieRule": 1})
+    alone = flip_alone(points, triangles, {"TieRule": 1})
+    facts = {}
+    for name, one in (("angles", flip), ("angles alone", alone)):
+        column = one.GetOutput().GetFieldData().GetArray("DelaunayFlip:MinimumAngle")
+        values = [column.GetValue(i) for i in range(column.GetNumberOfValues())]
+        facts[name] = [value if value == value else None for value in values]
+    return facts, []
+
+
+def run_death(rank):
+    """A rank is killed in the middle of an update, while the others wait for it."""
+    points, triangles = rank_meshes.make_random(300)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    flip = delaunayflip.vtkPDelaunayFlip()
+    flip.SetInputData(rank_meshes.make_piece(
+        points, triangles, np.flatnonzero(owners == RANK), True))
+    if RANK == rank:
+        flip.AddObserver("ProgressEvent", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+    flip.UpdatePiece(RANK, RANKS, 0)
+    return {}, []

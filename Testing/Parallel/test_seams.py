@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Real meshes under mpirun, seams where meshes are not simple, and a rank that is killed."""
+import os
+import unittest
+
+from RanksTesting import RanksTest, flip_on
+
+SURFACE = {"Geometry": 3, "FeatureAngle": 180.0}
+
+
+class Seams(RanksTest):
+    def expect_valid(self, facts):
+        self.expect_done(facts)
+        self.assertEqual(facts["crowded"], facts["crowded before"])
+
+    def test_edges_with_three_triangles(self):
+        for ranks, kind in ((3, "sheets"), (4, "scattered"), (2, "space")):
+            with self.subTest(kind):
+                facts = flip_on(ranks, "book", side=8, kind=kind)
+                self.expect_valid(facts)
+                self.assertEqual(facts["crowded"], 7)
+                self.assertEqual(facts["rounds"] > 1, kind != "sheets")
+
+    def test_a_plane_that_overlaps_itself(self):
+        for ranks, kind in ((3, "space"), (4, "scattered")):
+            with self.subTest(kind):
+                facts = flip_on(ranks, "spiral", count=24, kind=kind)
+                self.expect_valid(facts)
+                self.assertEqual(facts["geometry"], "planar")
+                self.assertGreater(facts["rounds"], 1)
+
+    def test_angles_of_iterations(self):
+        """Only the last iteration has one."""
+        facts = flip_on(3, "track_quality")
+        self.assertEqual(set(facts["angles"][:-1]), {None})
+        self.assertEqual(facts["angles"][-1], facts["angles alone"][-1])
+
+
+@unittest.skipUnless(os.path.isdir(os.environ["DELAUNAYFLIP_DATA_DIR"]), "no DELAUNAYFLIP_DATA_DIR")
+class RealMeshes(RanksTest):
+    def expect_flips(self, facts, fewest):
+        self.expect_done(facts)
+        self.assertGreater(facts["flips"], fewest)
+        self.assertEqual(facts["crowded"], facts["crowded before"])
+
+    def test_coast(self):
+        for ranks, kind in ((2, "space"), (4, "space"), (3, "one is empty")):
+            with self.subTest(f"{ranks} {kind}"):
+                facts = flip_on(ranks, "real", name="adcirc_alaska.vtk", kind=kind,
+                                options={"Geometry": 2, "TieRule": 1})
+                self.expect_flips(facts, 5000)
+                self.assertTrue(facts["same"])
+
+    def test_surfaces(self):
+        for name, ranks, fewest in (("cm_fandisk.obj", 4, 500), ("gc_triple_vierbein.obj", 3, -1)):
+            with self.subTest(name):
+                self.expect_flips(flip_on(ranks, "real", name="small/" + name, kind="space",
+                                          options=SURFACE, unique=False), fewest)
+
+    def test_lines_that_stay(self):
+        facts = flip_on(4, "lines", name="lake_superior_cdt_constrained.vtk")
+        self.assertEqual((facts["kept"]["constraints"], facts["kept"]["unmatched"]), (499, 0))
+        self.assertEqual((facts["kept"]["flips"], facts["not kept"]["flips"]), (0, 32))
+
+
+class Deaths(RanksTest):
+    def test_a_killed_rank_ends_the_job(self):
+        for rank in (0, 2):
+            with self.subTest(rank):
+                with self.assertRaisesRegex(
+                        AssertionError, rf"process rank {rank} .* exited on signal 9 \(Killed\)"):
+                    flip_on(3, "death", rank=rank)
+
+
+if __name__ == "__main__":
+    unittest.main()
