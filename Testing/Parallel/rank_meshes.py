@@ -70,21 +70,6 @@ def make_book(side):
     return np.concatenate(pages), np.concatenate(cells)
 
 
-def make_spiral(count):
-    """A flat mesh that winds around its middle twice, so that it overlaps itself: rings of points,
-    and triangles between them that all turn the same way."""
-    angles = np.linspace(0.0, 4 * np.pi, 2 * count, endpoint=False)
-    radii = np.r_[1.0 + 0.3 * np.sin(5 * angles), 2.0 + 0.3 * np.cos(angles / 2)]
-    turns = np.r_[angles, angles + 0.1]
-    ring = np.c_[radii * np.cos(turns), radii * np.sin(turns), np.zeros(len(turns))]
-    size, triangles = len(angles), []
-    for i in range(size):
-        j = (i + 1) % size
-        triangles += [(0, 1 + i, 1 + j), (1 + i, 1 + size + i, 1 + j),
-                      (1 + j, 1 + size + i, 1 + size + j)]
-    return np.r_[np.zeros((1, 3)), ring], np.array(triangles)
-
-
 def list_seams(triangles, owners):
     """The edges between triangles of different owners."""
     known, seams = {}, []

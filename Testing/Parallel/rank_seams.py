@@ -68,9 +68,13 @@ def run_book(side, kind):
     return compare(points, triangles, piece, options, False)
 
 
-def run_spiral(count, kind):
-    """A planar mesh that overlaps itself. No flip may make an edge that another rank has."""
-    points, triangles = rank_meshes.make_spiral(count)
+def run_overlap(count, kind):
+    """Two flat sheets over the same points. No flip may make an edge that the other sheet has, on
+    whatever rank."""
+    points, below = rank_meshes.make_random(count)
+    above = rank_meshes.read_triangles(
+        flip_alone(points, below, {"MaximumIterations": 2}).GetOutput())
+    triangles = np.concatenate([below, above])
     owners = rank_meshes.divide(points, triangles, RANKS, kind)
     piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
     return compare(points, triangles, piece, {"Geometry": 1}, False)
