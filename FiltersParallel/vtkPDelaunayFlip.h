@@ -15,12 +15,11 @@
  * structure; null where it has none. Leaves that are no meshes pass unchanged, with a warning.
  * Partitions of a dataset are counted without those that are null or have no cells: the first ones
  * of all processes are one mesh, the second ones another, with a warning if there are any. Points
- * of several pieces are the same if they have the same global id (active global ids of the point
- * data, on all processes that have points) or, without global ids, if their coordinates are equal
- * and one of them is at the border of its piece. Points that coincide within a piece are then not
- * matched; a warning counts them. Duplicate ghost cells (vtkGhostType) are dropped first.
- * Constraints (second input) may be on any process, all or in part; they are matched by
- * coordinates.
+ * of several pieces are the same if one of them is at the border of its piece and they have the
+ * same global id (active global ids of the point data, on all processes that have points) or,
+ * without global ids, equal coordinates. Points that coincide within a piece are then not matched;
+ * a warning counts them. Duplicate ghost cells (vtkGhostType) are dropped first. Constraints
+ * (second input) may be on any process, all or in part; they are matched by coordinates.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
