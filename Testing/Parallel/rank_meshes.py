@@ -58,10 +58,10 @@ def divide(points, triangles, ranks, kind):
 
 def make_book(side):
     """Three flat sheets of badly joined points, side x side each, that meet in a line of edges with
-    three triangles each."""
+    three triangles each. All of these edges are bad."""
     x, y = np.divmod(np.arange(side * side), side)
-    jitter = np.random.default_rng(2).uniform(-0.3, 0.3, (2, len(x))) * (x > 0)
-    sheet = np.c_[x + jitter[0], y + 3.0 * x + jitter[1], np.zeros(len(x))]
+    jitter = np.random.default_rng(2).uniform(-0.1, 0.1, (2, len(x))) * (x > 0)
+    sheet = np.c_[0.25 * x + jitter[0], y - 0.5 * x + jitter[1], np.zeros(len(x))]
     corners = np.argwhere((x < side - 1) & (y < side - 1)).ravel()[:, None]
     triangles = np.r_[corners + [0, side, side + 1], corners + [0, side + 1, 1]]
     pages = [sheet @ [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [0, 0, 1]]

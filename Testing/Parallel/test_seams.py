@@ -23,7 +23,7 @@ class Seams(RanksTest):
                 self.assertEqual(facts["rounds"] > 1, kind != "sheets")
 
     def test_a_plane_that_overlaps_itself(self):
-        for ranks, kind in ((3, "space"), (4, "scattered")):
+        for ranks, kind in ((2, "space"), (3, "scattered")):
             with self.subTest(kind):
                 facts = flip_on(ranks, "overlap", count=60, kind=kind)
                 self.expect_valid(facts)
