@@ -89,16 +89,16 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
 {
   PieceUpdate update;
   MeshOutcome outcome;
-  outcome.Failure = Attempt(
-    [&]()
-    {
-      update = FlipPieces({ mesh.GetPiece, mesh.Constraints,
-                            { this->Triangulate, this->LinesAsConstraints, this->InsertLines,
-                              this->InsertConstraints, this->RegionArray },
-                            this->GetOptions(), { this->GenerateFlipCount, this->GenerateQuality },
-                            [this](double fraction) { return this->ObserveProgress(fraction); } },
-        group, mesh.Output);
-    });
+  const auto flip = [&](PieceGroup& told)
+  {
+    const PieceRequest request{ mesh.GetPiece, mesh.Constraints,
+      { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
+        this->RegionArray },
+      this->GetOptions(), { this->GenerateFlipCount, this->GenerateQuality },
+      [this](double fraction) { return this->ObserveProgress(fraction); } };
+    update = FlipPieces(request, told, mesh.Output);
+  };
+  outcome.Failure = Attempt([&]() { RunTogether(group, std::ref(flip)); });
   if (outcome.Failure)
   {
     mesh.Output->Initialize();
@@ -138,7 +138,9 @@ UpdateSummary vtkDelaunayFlip::FlipSharedBlocks(vtkCompositeDataSet* input,
   UpdateSummary summary;
   summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
   std::map<unsigned int, vtkSmartPointer<vtkDataObject>> results;
-  const std::vector<SharedBlock> shared = ListSharedBlocks(blocks, group);
+  std::vector<SharedBlock> shared;
+  const auto list = [&](PieceGroup& told) { shared = ListSharedBlocks(blocks, told); };
+  RunTogether(group, std::ref(list)); // a copy would need memory
   for (const SharedBlock& block : shared)
   {
     vtkPolyData* own =
