@@ -3,7 +3,6 @@
 #include "PieceStore.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace delaunayflip
 {
@@ -32,12 +31,13 @@ public:
 
   void Run()
   {
-    const std::vector<PieceTriangle> triangles = this->SortTriangles();
-    this->Flipped.Triangles.reserve(3 * triangles.size());
-    this->Flipped.Origins.reserve(triangles.size());
-    this->Flipped.FlipCounts.reserve(triangles.size());
-    for (const PieceTriangle& triangle : triangles)
+    const std::vector<std::int64_t> order = this->SortTriangles();
+    this->Flipped.Triangles.reserve(3 * order.size());
+    this->Flipped.Origins.reserve(order.size());
+    this->Flipped.FlipCounts.reserve(order.size());
+    for (const std::int64_t t : order)
     {
+      const PieceTriangle& triangle = this->Mesh.Triangles[t];
       this->Flipped.Origins.push_back(FindOrigin(this->FirstOrigins, triangle.Origin));
       this->Flipped.FlipCounts.push_back(triangle.Flips);
       for (const std::int32_t point : triangle.Points)
@@ -55,22 +55,28 @@ private:
   }
 
   /// The triangles in the order in which a caller gets them.
-  std::vector<PieceTriangle> SortTriangles() const
+  std::vector<std::int64_t> SortTriangles() const
   {
-    const auto isBefore = [&](const PieceTriangle& a, const PieceTriangle& b)
+    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    const auto isBefore = [&](std::int64_t a, std::int64_t b)
     {
-      const bool isOwn = this->IsOwn(a);
-      return isOwn == this->IsOwn(b) ? a.Origin < b.Origin : isOwn;
+      const bool isOwn = this->IsOwn(triangles[a]);
+      return isOwn == this->IsOwn(triangles[b]) ? triangles[a].Origin < triangles[b].Origin : isOwn;
     };
-    std::vector<PieceTriangle> triangles;
-    triangles.reserve(this->Mesh.Triangles.size());
-    std::remove_copy_if(this->Mesh.Triangles.begin(), this->Mesh.Triangles.end(),
-      std::back_inserter(triangles), [](const PieceTriangle& one) { return one.HasLeft; });
+    std::vector<std::int64_t> order;
+    order.reserve(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      if (!triangles[t].HasLeft)
+      {
+        order.push_back(static_cast<std::int64_t>(t));
+      }
+    }
     // Those that have never left are in order.
-    const auto received = std::is_sorted_until(triangles.begin(), triangles.end(), isBefore);
-    std::sort(received, triangles.end(), isBefore);
-    std::inplace_merge(triangles.begin(), received, triangles.end(), isBefore);
-    return triangles;
+    const auto received = std::is_sorted_until(order.begin(), order.end(), isBefore);
+    std::sort(received, order.end(), isBefore);
+    std::inplace_merge(order.begin(), received, order.end(), isBefore);
+    return order;
   }
 
   /// @returns the id that a point has in the result.
