@@ -6,7 +6,7 @@
 # Copies this checkout into a minimal Debian of that release and runs demo.sh, build-plugin.sh and
 # test.sh there, as on a new machine; then makes a Debian package, installs it in another minimal
 # Debian and runs it. Prints a line for the README's table of releases at the end. Exit status 0: all
-# of it succeeded. Needs root and debootstrap.
+# of it succeeded. Needs root, debootstrap and ca-certificates.
 #
 # The Debian is made once and kept, with the build folders in it, so that the next run only rebuilds.
 # It is in DELAUNAYFLIP_ROOTS/debian-RELEASE (default: ~/.cache/delaunayflip-roots), and the other
@@ -30,6 +30,7 @@ roots=${DELAUNAYFLIP_ROOTS:-$HOME/.cache/delaunayflip-roots}
 root=$roots/debian-$release
 other=$root-package
 copy=/delaunayflip/checkout # within the root
+certificates=/etc/ssl/certificates-of-host.crt # within the root
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 
 # Usage: make_debian FOLDER - under another name until it is complete.
@@ -66,10 +67,13 @@ copy_checkout()
 }
 
 # Usage: open_debian FOLDER - in a mount namespace of this script's own, so that nothing stays
-# mounted. Terminals are tested, so /dev comes with its devpts; MPI looks into /sys.
+# mounted. Terminals are tested, so /dev comes with its devpts; MPI looks into /sys. pip trusts whom
+# this machine trusts, e.g. a proxy.
 open_debian()
 {
   cp -L /etc/resolv.conf "$1/etc/resolv.conf"
+  mkdir -p "$1/etc/ssl"
+  cp -L /etc/ssl/certs/ca-certificates.crt "$1$certificates"
   mount -t proc proc "$1/proc"
   mount -t sysfs -o ro sysfs "$1/sys"
   mount --rbind /dev "$1/dev"
@@ -79,7 +83,7 @@ open_debian()
 in_debian()
 {
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" \
-    JOBS="${JOBS:-2}" chroot "$@"
+    JOBS="${JOBS:-2}" PIP_CERT="$certificates" chroot "$@"
 }
 
 inside()
