@@ -27,6 +27,9 @@ read -r -d '' build <<'SCRIPT' || true
 set -euo pipefail
 export PATH=/tools/bin:/cuda/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root
 export CMAKE_PREFIX_PATH=/tools
+# The caller's compilers and ccache are not in the root.
+unset CC CXX CFLAGS CXXFLAGS CUDAFLAGS LDFLAGS
+unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER CMAKE_CUDA_COMPILER_LAUNCHER
 [ -d /tools ] || python3 -m venv /tools
 pip install --quiet --disable-pip-version-check "$@"
 rm -rf /built
@@ -41,9 +44,11 @@ cp /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt "${licences[0]}
 wheel pack --dest-dir /built/repaired /built/delaunayflip-*
 SCRIPT
 
-if [ ! -e "$root/usr/bin/g++" ]; then
-  mkdir -p "$root"
-  debootstrap --variant=minbase --include="$(IFS=,; echo "${packages[*]}")" bullseye "$root"
+if [ ! -d "$root" ]; then # under another name until it is complete
+  rm -rf "$root.partial"
+  mkdir -p "$root.partial"
+  debootstrap --variant=minbase --include="$(IFS=,; echo "${packages[*]}")" bullseye "$root.partial"
+  mv "$root.partial" "$root"
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
