@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadBackend.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -63,16 +64,16 @@ int CountStartable(int most)
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
-/// oneTBB ends the process where the system refuses it a thread, so that is tried before. Half of
-/// those that there is room for leave memory for the mesh.
+/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with twice
+/// as many: there must be memory left for oneTBB itself and for the mesh.
 int LimitToStartable(int threads)
 {
   if (threads <= mostStarted)
   {
     return threads;
   }
-  const int startable = 1 + CountStartable(threads - 1);
-  return startable < threads ? std::max(1, startable / 2) : threads;
+  const int startable = 1 + CountStartable(2 * threads - 1);
+  return std::clamp(startable / 2, 1, threads);
 }
 
 int ResolveThreads(int threads)
