@@ -21,7 +21,7 @@ def list_places(mesh):
     return {frozenset(mesh.GetPoint(i) for i in triangle) for triangle in get_triangles(mesh)}
 
 
-class Example(PluginTest):
+class ExampleTest(PluginTest):
     def run_example(self, *arguments):
         environment = dict(make_environment(), PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
         return subprocess.run(
@@ -29,20 +29,34 @@ class Example(PluginTest):
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             encoding="utf-8", check=False)
 
-    def test_pieces(self):
+    def expect_pieces_of(self, mesh):
         path = self.path("flipped.pvtp")
-        done = self.run_example(self.save(make_fan(40)), path)
+        done = self.run_example(mesh, path)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertRegex(done.stdout, r"[1-9]\d* flips in [2-9]\d* rounds, 0 bad edges left")
         self.assertEqual(len(glob.glob(self.path("flipped*/*.vtp"))), 2)
         pieces = fetch(simple.XMLPartitionedPolydataReader(FileName=[path]))
-        alone = fetch(self.flip(self.read(make_fan(40), "alone.vtp")))
+        alone = fetch(self.flip(simple.OpenDataFile(mesh)))
+        self.assertEqual(pieces.GetNumberOfCells(), alone.GetNumberOfCells())
         self.assertEqual(list_places(pieces), list_places(alone))
+
+
+class Example(ExampleTest):
+    def test_pieces(self):
+        self.expect_pieces_of(self.save(make_fan(40)))
 
     def test_wrong_usage(self):
         done = self.run_example()
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("usage: mpirun", done.stdout)
+
+
+class RealMesh(ExampleTest):
+    def test_coast(self):
+        mesh = os.path.join(os.environ["DELAUNAYFLIP_DATA_DIR"], "adcirc_alaska.vtk")
+        if not os.path.exists(mesh):
+            self.skipTest("no DELAUNAYFLIP_DATA_DIR")
+        self.expect_pieces_of(mesh)
 
 
 if __name__ == "__main__":
