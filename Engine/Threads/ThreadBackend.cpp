@@ -64,8 +64,8 @@ int CountStartable(int most)
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
-/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with twice
-/// as many: there must be memory left for oneTBB itself and for the mesh.
+/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
+/// twice as many: there must be memory left for oneTBB itself and for the mesh.
 int LimitToStartable(int threads)
 {
   if (threads <= mostStarted)
