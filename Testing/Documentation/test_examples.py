@@ -18,7 +18,7 @@ from pages import ROOT, blocks, list_pages, read, snippets
 
 BIN = os.path.join(os.environ["DELAUNAYFLIP_BUILD"], "bin")
 TIME = re.compile(r"^(time|wrote) .*\n", re.MULTILINE)
-OPTION = re.compile(r"^ +(?:-\w, ?)?(--[\w-]+)", re.MULTILINE)
+OPTION = re.compile(r"^ +(?:-\w, *)?(--[\w-]+)", re.MULTILINE)
 NUMBER = re.compile(r"\d[\d,]*\.?\d*")
 
 # A live view is closed at the end of its run.
