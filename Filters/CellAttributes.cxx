@@ -163,7 +163,7 @@ void AddTriangleArray(
 {
   vtkNew<ArrayT> array;
   array->SetName(source.Name);
-  array->SetNumberOfValues(output->GetNumberOfCells());
+  array->SetNumberOfTuples(output->GetNumberOfCells());
   array->FillValue(source.Elsewhere);
   for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
   {

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <vector>
 
 #if defined(__linux__)
@@ -53,7 +54,7 @@ vtkSmartPointer<ArrayT> MakeOffsets(vtkIdType count)
 {
   using Value = typename ArrayT::ValueType;
   auto offsets = vtkSmartPointer<ArrayT>::New();
-  offsets->SetNumberOfValues(count + 1);
+  offsets->SetNumberOfTuples(count + 1);
   Value* values = offsets->GetPointer(0);
   vtkSMPTools::For(0, count + 1,
     [values](vtkIdType begin, vtkIdType end)
@@ -73,13 +74,39 @@ vtkSmartPointer<vtkCellArray> BuildTriangles(const FlipSession& session, vtkIdTy
 {
   const vtkSmartPointer<ArrayT> offsets = MakeOffsets<ArrayT>(count);
   vtkNew<ArrayT> connectivity;
-  connectivity->SetNumberOfValues(3 * count);
+  connectivity->SetNumberOfTuples(3 * count);
   AskForHugePages(connectivity.Get());
   session.StoreTriangles(
     MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
+}
+
+/// Cells with room for so many, so that inserting them asks for no memory: VTK 9.6 may abort then.
+vtkSmartPointer<vtkCellArray> MakeRoom(bool isWide, vtkIdType count, vtkIdType points)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  isWide ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  if (!cells->AllocateExact(count, points))
+  {
+    throw std::bad_alloc();
+  }
+  return cells;
+}
+
+/// How many points the polygons have that stay as they are.
+vtkIdType CountKeptPoints(const TriangleSlots& slots, vtkCellArray* polygons)
+{
+  vtkIdType count = 0;
+  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
+  {
+    if (slots.GetTriangle(polygon) == TriangleSlots::None)
+    {
+      count += polygons->GetCellSize(slots.GetCellOfPolygon(polygon) - slots.GetFirstPolygon());
+    }
+  }
+  return count;
 }
 
 /// Triangles of the session, and between them the polygons that stay as they are.
@@ -91,8 +118,8 @@ vtkSmartPointer<vtkCellArray> BuildMixedPolygons(
   const MutableTriangleArray triangles(storage.data(), count);
   session.StoreTriangles(triangles);
 
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  UsesWideIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  const vtkSmartPointer<vtkCellArray> cells = MakeRoom(UsesWideIds(mesh),
+    slots.GetNumberOfPolygons(), 3 * count + CountKeptPoints(slots, mesh->GetPolys()));
   vtkNew<vtkIdList> ids;
   for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
   {
@@ -141,11 +168,13 @@ vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyDat
   {
     return mesh->GetStrips();
   }
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  vtkCellArray* strips = mesh->GetStrips();
+  const vtkSmartPointer<vtkCellArray> cells = MakeRoom(sizeof(vtkIdType) == 8,
+    static_cast<vtkIdType>(slots.GetStrips().size()), strips->GetNumberOfConnectivityIds());
   vtkNew<vtkIdList> ids;
   for (const vtkIdType cell : slots.GetStrips())
   {
-    mesh->GetStrips()->GetCellAtId(cell - slots.GetFirstStrip(), ids);
+    strips->GetCellAtId(cell - slots.GetFirstStrip(), ids);
     cells->InsertNextCell(ids);
   }
   return cells;

@@ -252,7 +252,7 @@ void PieceOutput::AddTriangleArray(
 {
   vtkNew<ArrayT> array;
   array->SetName(name);
-  array->SetNumberOfValues(output->GetNumberOfCells());
+  array->SetNumberOfTuples(output->GetNumberOfCells());
   array->FillValue(elsewhere);
   const vtkIdType first = this->Slots.GetFirstPolygon();
   for (std::size_t polygon = 0; polygon < this->Polygons.size(); ++polygon)

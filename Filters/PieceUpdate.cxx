@@ -203,7 +203,7 @@ private:
       {
         vtkNew<vtkDoubleArray> angles;
         angles->SetName(AngleBefore);
-        angles->SetNumberOfValues(mesh.Triangles.Count);
+        angles->SetNumberOfTuples(mesh.Triangles.Count);
         FindSmallestAngles(
           mesh, geometry, this->Request.Options.NumberOfThreads, angles->GetPointer(0), {});
         given->AddArray(angles);

@@ -37,7 +37,7 @@ public:
   void AddColumn(const char* name, Member member) const
   {
     const auto column = this->AddArray<ArrayT>(name);
-    column->SetNumberOfValues(static_cast<vtkIdType>(this->Report.Iterations.size()));
+    column->SetNumberOfTuples(static_cast<vtkIdType>(this->Report.Iterations.size()));
     vtkIdType row = 0;
     for (const IterationRecord& record : this->Report.Iterations)
     {
@@ -48,7 +48,9 @@ public:
   template <typename ArrayT, typename Value>
   void AddValue(const char* name, const Value& value) const
   {
-    this->AddArray<ArrayT>(name)->InsertNextValue(value);
+    const auto array = this->AddArray<ArrayT>(name);
+    array->SetNumberOfTuples(1);
+    array->SetValue(0, value);
   }
 
 private:
