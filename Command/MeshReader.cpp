@@ -54,8 +54,8 @@ FileMesh ReadMesh(
   catch (const std::length_error&)
   {
   }
-  file.Fail("takes more memory than there is, or than a file of " +
-    std::to_string(file.GetBytes().size()) + " bytes can need (corrupt)");
+  file.Fail("cannot be read: not enough memory, or a corrupt file: more than its " +
+    std::to_string(file.GetBytes().size()) + " bytes can need");
 }
 
 }

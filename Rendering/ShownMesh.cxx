@@ -12,6 +12,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
 
@@ -29,6 +30,23 @@ bool HasOnlyTriangles(vtkPolyData* mesh)
   const vtkIdType triangles = mesh->GetNumberOfPolys();
   return mesh->GetNumberOfCells() == triangles &&
     mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0);
+}
+
+/// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
+/// with VTK 9.6 a line stays.
+vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
+{
+  const vtkIdType before = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
+  const vtkIdType count = mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips();
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(mesh->GetPoints());
+  surface->GetPointData()->ShallowCopy(mesh->GetPointData());
+  surface->SetPolys(mesh->GetPolys());
+  surface->SetStrips(mesh->GetStrips());
+  surface->GetCellData()->CopyAllOn();
+  surface->GetCellData()->CopyAllocate(mesh->GetCellData(), count);
+  surface->GetCellData()->CopyData(mesh->GetCellData(), 0, count, before);
+  return surface;
 }
 
 vtkSmartPointer<vtkPolyData> AppendBlocks(vtkCompositeDataSet* blocks)
@@ -80,9 +98,7 @@ vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
   else if (mesh)
   {
     vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(mesh);
-    split->PassVertsOff();
-    split->PassLinesOff();
+    split->SetInputData(TakeSurface(mesh));
     split->Update();
     faces->ShallowCopy(split->GetOutput());
   }

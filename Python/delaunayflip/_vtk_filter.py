@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._vtk_properties import PROPERTIES, add_properties
+from ._vtk_properties import PROPERTIES, add_properties, add_snake_case
 from ._vtk_update import Failure, Update, explain
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
@@ -238,6 +238,7 @@ def _add_counts(cls):
 
 
 _add_counts(vtkDelaunayFlip)
+add_snake_case(vtkDelaunayFlip)
 
 
 def _require_property(name):

@@ -9,6 +9,10 @@ import typing
 from vtkmodules.vtkCommonCore import VTK_ID_MAX, VTK_INT_MAX
 
 
+def _to_snake_case(name):
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+
+
 @dataclasses.dataclass(frozen=True)
 class Property:
     """One property. The meaning of each is documented in vtkDelaunayFlip.h."""
@@ -22,8 +26,7 @@ class Property:
 
     @property
     def key(self):
-        """The name in snake case."""
-        return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", self.name).lower()
+        return _to_snake_case(self.name)
 
     def convert(self, value):
         """The value that a setter stores."""
@@ -102,3 +105,12 @@ def add_properties(cls):
             setattr(cls, f"Set{item.name}To{choice}",
                     lambda self, set_=set_, value=value: set_(self, value))
     return cls
+
+
+def add_snake_case(cls):
+    """Adds a property for every getter and setter of the class itself, as VTK 9.6 does."""
+    methods = dict(vars(cls))
+    for name in {name[3:] for name in methods if re.match("[GS]et[A-Z]", name)}:
+        key = _to_snake_case(name)
+        if not hasattr(cls, key):
+            setattr(cls, key, property(methods.get("Get" + name), methods.get("Set" + name)))

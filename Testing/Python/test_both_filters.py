@@ -181,6 +181,17 @@ class Same(unittest.TestCase):
             if isinstance(value, int):
                 self.assertEqual(getattr(PythonFilter, name), value, name)
 
+    def test_snake_case(self):
+        """As VTK 9.6 gives it to C++ classes."""
+        flip = PythonFilter()
+        flip.SetInputData(make_bad_mesh())
+        flip.Update()
+        self.assertGreater(flip.total_flips, 0)
+        self.assertEqual(flip.number_of_iterations, flip.GetNumberOfIterations())
+        self.assertTrue(flip.converged)
+        with self.assertRaises(AttributeError):
+            flip.total_flips = 3
+
     def test_defaults_and_limits(self):
         cxx, python = CxxFilter(), PythonFilter()
         for name in list_properties():
