@@ -54,8 +54,9 @@ FileMesh ReadMesh(
   catch (const std::length_error&)
   {
   }
-  file.Fail("cannot be read: not enough memory, or a corrupt file: more than its " +
-    std::to_string(file.GetBytes().size()) + " bytes can need");
+  file.Fail(
+    "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
+    std::to_string(file.GetBytes().size()) + " bytes can hold");
 }
 
 }

@@ -15,11 +15,8 @@ namespace delaunayflip
 namespace
 {
 
-class PieceConstraintsTest : public testing::TestWithParam<int>
+class PieceConstraintsTest : public RanksTest
 {
-protected:
-  Owners Scatter(const TriangleMesh& mesh) const { return DivideAtRandom(mesh, GetParam(), 21); }
-  Owners Cut(const TriangleMesh& mesh) const { return DivideBySpace(mesh, GetParam()); }
 };
 
 TEST_P(PieceConstraintsTest, Constraints)
@@ -145,11 +142,6 @@ TEST_P(PieceConstraintsTest, ConstraintsAreInsertedAcrossThePiecesOfOneProcess)
   EXPECT_EQ(alone.Report.InsertedConstraints, report.InsertedConstraints);
   EXPECT_EQ(alone.Report.ConstraintFlips, report.ConstraintFlips);
   EXPECT_EQ(alone.Report.Edges.Constraint, report.Edges.Constraint);
-}
-
-std::string NameRanks(const testing::TestParamInfo<int>& info)
-{
-  return std::to_string(info.param) + "Ranks";
 }
 
 INSTANTIATE_TEST_SUITE_P(Pieces, PieceConstraintsTest, testing::Values(2, 3, 7), NameRanks);

@@ -30,11 +30,8 @@ std::vector<std::int32_t> MakeStripes(const TriangleMesh& mesh)
   return labels;
 }
 
-class PieceEdgesTest : public testing::TestWithParam<int>
+class PieceEdgesTest : public RanksTest
 {
-protected:
-  Owners Scatter(const TriangleMesh& mesh) const { return DivideAtRandom(mesh, GetParam(), 21); }
-  Owners Cut(const TriangleMesh& mesh) const { return DivideBySpace(mesh, GetParam()); }
 };
 
 TEST_P(PieceEdgesTest, Regions)
@@ -265,11 +262,6 @@ TEST_P(PieceEdgesTest, TheCallerCanStopAMeshInPieces)
   EXPECT_EQ(0, report.Edges.Edges); // as of a run on one rank that is stopped so early
   EXPECT_EQ(
     EulerCharacteristic(mesh.View().Triangles), EulerCharacteristic(ViewTriangles(triangles)));
-}
-
-std::string NameRanks(const testing::TestParamInfo<int>& info)
-{
-  return std::to_string(info.param) + "Ranks";
 }
 
 INSTANTIATE_TEST_SUITE_P(Pieces, PieceEdgesTest, testing::Values(2, 3, 7), NameRanks);

@@ -16,10 +16,6 @@ namespace delaunayflip
 namespace
 {
 
-class RanksTest : public testing::TestWithParam<int>
-{
-};
-
 TEST_P(RanksTest, RandomMeshCutBySpace)
 {
   const OwnedMesh<float> mesh = MakeRandomBadMesh(6000 / Reduction, 5);
@@ -120,11 +116,6 @@ TEST_P(RanksTest, RepeatedTrianglesInAPlane)
   options.TieRule = TieRuleKind::Keep;
   ExpectGoodTriangles(
     mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 18), GetParam(), options);
-}
-
-std::string NameRanks(const testing::TestParamInfo<int>& info)
-{
-  return std::to_string(info.param) + "Ranks";
 }
 
 INSTANTIATE_TEST_SUITE_P(Pieces, RanksTest, testing::Values(1, 2, 3, 4, 7, 16), NameRanks);

@@ -6,6 +6,10 @@
 #include "DividedMesh.h"
 #include "FlipTestSupport.h"
 
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
 #include <vector>
 
 /// @file
@@ -13,6 +17,20 @@
 
 namespace delaunayflip
 {
+
+/// The parameter is the number of ranks.
+class RanksTest : public testing::TestWithParam<int>
+{
+protected:
+  Owners Scatter(const TriangleMesh& mesh) const { return DivideAtRandom(mesh, GetParam(), 21); }
+  Owners Cut(const TriangleMesh& mesh) const { return DivideBySpace(mesh, GetParam()); }
+};
+
+/// 3 -> "3Ranks"
+inline std::string NameRanks(const testing::TestParamInfo<int>& info)
+{
+  return std::to_string(info.param) + "Ranks";
+}
 
 /// Planar, with canonical ties, on one thread per rank: the triangles are unique.
 FlipOptions MakeCanonical();
