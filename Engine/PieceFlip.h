@@ -19,23 +19,30 @@
 namespace delaunayflip
 {
 
-/// The piece of one rank. It may be empty. Triangles must not be repeated on several ranks.
-struct MeshPiece
-{
-  /// Regions must have the same labels on all ranks. A constraint edge may be given by any rank
-  /// that has both of its points.
-  TriangleMesh Mesh;
-
-  /// One number per point, the same for a point on all ranks that have it; or null. If no rank has
-  /// numbers, points at the borders of pieces are the same if their coordinates are equal.
-  const std::int64_t* PointNumbers = nullptr;
-};
-
 /// Something that was given by a rank.
 struct PieceOrigin
 {
   std::int32_t Rank;
   std::int64_t Id; ///< The rank's own id of it.
+};
+
+/// The piece of one rank. It may be empty. Triangles must not be repeated on several ranks.
+struct MeshPiece
+{
+  /// Regions must have the same labels on all ranks. A constraint edge may be given by any rank
+  /// that has both of its points, even if it has no triangle at them, and by several. Those that
+  /// are to be inserted may cross triangles of any rank; where they cross each other, those that a
+  /// rank can insert alone are first, then the others by rank and in its order.
+  TriangleMesh Mesh;
+
+  /// One number per point, the same for a point on all ranks that have it; or null. If no rank has
+  /// numbers, points at the borders of pieces are the same if their coordinates are equal.
+  const std::int64_t* PointNumbers = nullptr;
+
+  /// More constraint edges to be inserted, after those of Mesh, whose points may be those of any
+  /// rank: two for each, or null. Any rank may give them.
+  const PieceOrigin* FarConstraints = nullptr;
+  std::int64_t NumberOfFarConstraints = 0;
 };
 
 /// The piece of one rank after a run. Triangles change owner, so that it may have more or fewer

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceUpdate.h"
 
+#include "ConstraintsElsewhere.h"
 #include "DelaunayFlip.h"
 #include "MalformedArrays.h"
 #include "PieceFlip.h"
 #include "PieceInput.h"
 #include "PieceOutput.h"
-#include "PointPlaces.h"
 #include "PointViews.h"
 #include "ReportTables.h"
 #include "TriangleAngles.h"
@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
 namespace delaunayflip
@@ -35,43 +34,6 @@ namespace
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* AngleBefore = "vtkDelaunayFlipAngleBefore";
 constexpr const char* AngleAfter = "vtkDelaunayFlipAngleAfter";
-
-/// The edges of gathered constraints with an end that no rank has together with the other end.
-std::int64_t CountEdgesElsewhere(
-  vtkPolyData* constraints, const PointArray& mesh, PieceGroup& group)
-{
-  std::vector<double> storage;
-  const PointArray ends = ViewPoints(constraints, storage);
-  PointPlaces places(ends.Floats != nullptr || mesh.Floats != nullptr);
-  for (std::int64_t i = 0; i < mesh.Count; ++i)
-  {
-    places.Add(mesh, i);
-  }
-  Message has(ends.Count / 2);
-  for (std::int64_t i = 0; i < ends.Count / 2; ++i)
-  {
-    has[i] = places.Find(ends, 2 * i) != PointPlaces::None &&
-        places.Find(ends, 2 * i + 1) != PointPlaces::None
-      ? 1
-      : 0;
-  }
-  for (const Message& other : group.Gather(has))
-  {
-    std::transform(has.begin(), has.end(), other.begin(), has.begin(),
-      [](char a, char b) { return static_cast<char>(a | b); });
-  }
-  PointPlaces all(ends.Floats != nullptr || mesh.Floats != nullptr);
-  std::set<std::pair<std::int64_t, std::int64_t>> elsewhere;
-  for (std::int64_t i = 0; i < ends.Count / 2; ++i)
-  {
-    const auto place = std::minmax({ all.Add(ends, 2 * i), all.Add(ends, 2 * i + 1) });
-    if (has[i] == 0 && place.first != place.second)
-    {
-      elsewhere.insert(place);
-    }
-  }
-  return static_cast<std::int64_t>(elsewhere.size());
-}
 
 /// The update of one rank.
 class PieceUpdater
@@ -93,8 +55,10 @@ public:
       nothing.Report.StopReason = StopReasonKind::Converged;
       return nothing;
     }
+    this->FindElsewhere();
     const MeshPiece piece{ this->Bridge->GetMesh(),
-      this->Numbers.empty() ? nullptr : this->Numbers.data() };
+      this->Numbers.empty() ? nullptr : this->Numbers.data(), this->Elsewhere.Ends.data(),
+      static_cast<std::int64_t>(this->Elsewhere.Ends.size()) / 2 };
     const PiecesReport report =
       FlipPiece(piece, this->Request.Options, this->Group, this->Flipped, this->Request.Progress);
     PieceUpdate update;
@@ -150,16 +114,28 @@ private:
     this->Bridge->RequireValidIds();
   }
 
-  void AddElsewhere(UpdateReport& report)
+  /// The constraints that cross from rank to rank go to the engine if they are to be inserted.
+  void FindElsewhere()
   {
-    const std::int64_t count = this->Constraints
-      ? CountEdgesElsewhere(this->Constraints, this->Bridge->GetMesh().Points, this->Group)
-      : 0;
-    report.UnmatchedConstraints += count;
-    if (count > 0)
+    if (this->Constraints)
+    {
+      this->Elsewhere =
+        FindConstraintsElsewhere(this->Constraints, this->Bridge->GetMesh(), this->Group);
+    }
+    if (!this->Request.Settings.InsertConstraints)
+    {
+      this->Elsewhere.Unmatched += this->Elsewhere.Count;
+      this->Elsewhere.Ends.clear();
+    }
+  }
+
+  void AddElsewhere(UpdateReport& report) const
+  {
+    report.UnmatchedConstraints += this->Elsewhere.Unmatched;
+    if (this->Elsewhere.Unmatched > 0)
     {
       report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
-        count, {}, DefectIds::Points });
+        this->Elsewhere.Unmatched, {}, DefectIds::Points });
     }
   }
 
@@ -237,6 +213,7 @@ private:
   std::vector<std::int64_t> Numbers;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Of all ranks, or null.
   std::unique_ptr<PolyDataBridge> Bridge;
+  ConstraintsElsewhere Elsewhere;
   FlippedPiece Flipped;
 };
 

@@ -81,6 +81,22 @@ void PieceMesh::BeginRounds()
   }
 }
 
+void PieceMesh::EndRounds()
+{
+  const auto hasLeft = [](const PieceTriangle& triangle) { return triangle.HasLeft; };
+  this->Triangles.erase(
+    std::remove_if(this->Triangles.begin(), this->Triangles.end(), hasLeft), this->Triangles.end());
+  for (PieceTriangle& triangle : this->Triangles)
+  {
+    triangle.Marks = 0;
+    triangle.IsInStars = triangle.IsNoted = false;
+  }
+  this->Stars = PointStars();
+  this->Changed.clear();
+  this->MayHaveSeams.clear();
+  this->LostSeams.clear();
+}
+
 void PieceMesh::NoteSeams(std::int64_t t)
 {
   PieceTriangle& triangle = this->Triangles[t];

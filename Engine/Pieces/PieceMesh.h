@@ -39,6 +39,8 @@ public:
   /// Lists what rounds need, so that they take no time for other triangles. From now on triangles
   /// change by the functions below only.
   void BeginRounds();
+  /// Closes empty places, and forgets the lists and all marks. Triangles keep their order.
+  void EndRounds();
   /// Calls change() for triangles with other points or marks afterwards.
   template <typename Change>
   void ChangeTriangles(const std::vector<std::int64_t>& triangles, const Change& change)

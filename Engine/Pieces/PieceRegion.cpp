@@ -85,6 +85,19 @@ PieceRegion::PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>&
   this->Describe(mesh, survey);
 }
 
+PieceRegion::PieceRegion(const PieceMesh& mesh, std::vector<std::int64_t> triangles,
+  const PieceSurvey& survey, RegionScratch& scratch)
+  : Whole(survey.Whole),
+    Triangles(std::move(triangles)),
+    Points(survey.IsFloat)
+{
+  scratch.Points.resize(mesh.GetNumberOfPoints());
+  this->PointOf = FindPointsOf(mesh, this->Triangles, scratch);
+  this->Inner.resize(this->PointOf.size());
+  this->NumberPoints(mesh, scratch);
+  this->Describe(mesh, survey);
+}
+
 PieceRegion::PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey)
   : Whole(survey.Whole),
     PointOf(mesh.GetNumberOfPoints()),
@@ -171,6 +184,12 @@ void PieceRegion::ListFixedEdges(const PieceMesh& mesh)
       }
     }
   }
+}
+
+std::int64_t PieceRegion::FindPoint(std::int64_t point) const
+{
+  const auto found = std::lower_bound(this->PointOf.begin(), this->PointOf.end(), point);
+  return found != this->PointOf.end() && *found == point ? found - this->PointOf.begin() : -1;
 }
 
 TriangleMesh PieceRegion::View() const

@@ -29,6 +29,11 @@ public:
   PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points,
     const PieceSurvey& survey, RegionScratch& scratch);
 
+  /// Some triangles.
+  /// @param triangles ascending.
+  PieceRegion(const PieceMesh& mesh, std::vector<std::int64_t> triangles, const PieceSurvey& survey,
+    RegionScratch& scratch);
+
   /// All triangles of a rank, with all of its points.
   PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey);
 
@@ -38,6 +43,11 @@ public:
   {
     return static_cast<std::int64_t>(this->Triangles.size());
   }
+
+  /// The rank's own id of a point.
+  std::int32_t GetPoint(std::int64_t number) const { return this->PointOf[number]; }
+  /// The region's number of a point, or -1.
+  std::int64_t FindPoint(std::int64_t point) const;
 
   /// Gives the triangles of `mesh` the ids and flips of a run on View(), and their marks.
   void Store(const std::vector<std::int32_t>& ids, const std::vector<std::int32_t>& flips,

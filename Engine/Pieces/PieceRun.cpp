@@ -35,6 +35,21 @@ std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& gr
   return firsts;
 }
 
+/// Adds a defect that may be known already.
+void AddDefect(const Defect& defect, std::vector<Defect>& defects)
+{
+  const auto known = std::find_if(
+    defects.begin(), defects.end(), [&](const Defect& other) { return other.What == defect.What; });
+  if (known != defects.end())
+  {
+    known->Count += defect.Count;
+  }
+  else if (defect.Count > 0)
+  {
+    defects.push_back(defect);
+  }
+}
+
 /// How many ranks have stopped, and why.
 struct StopCounts
 {
@@ -55,8 +70,10 @@ PieceRun::PieceRun(const PieceJob& job, PointKeys keys)
   : Job(job),
     FirstOrigins(NumberTriangles(job.Piece, job.Group)),
     Mesh(job.Piece, keys, job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
-    Seams(SurveySeams(job.Piece, Mesh, job.Survey, job.Options, job.Group)),
-    RepeatedPoints(keys.Repeated)
+    Constraints(Job, Mesh),
+    Seams(std::move(Constraints.GetSeams())),
+    NumberOfPoints(keys.FirstKeys.back() - keys.Repeated),
+    UsedPoints(keys.UsedPoints)
 {
   this->Whole.SeamEdges = this->Seams.Counts.Seams;
   this->Whole.AmbiguousPoints = keys.Ambiguous;
@@ -74,13 +91,16 @@ PiecesReport PieceRun::Run()
 }
 
 /// Calls the observer of this rank. @returns whether to go on.
-bool PieceRun::Tell(double share) const { return !this->Job.Progress || this->Job.Progress(share); }
+bool PieceRun::Tell(double share) const
+{
+  return !this->Constraints.HasAborted() && (!this->Job.Progress || this->Job.Progress(share));
+}
 
 //------------------------------------------------------------------------------
-/// The caller's mesh, with the constraints that other ranks know of.
+/// The mesh that flips start from, with the constraints that other ranks know of.
 TriangleMesh PieceRun::GetFirstMesh() const
 {
-  TriangleMesh mesh = this->Job.Piece.Mesh;
+  TriangleMesh mesh = this->Constraints.GetPiece().Mesh;
   mesh.ConstraintEdges = this->Seams.Constraints.data();
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
   mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
@@ -100,7 +120,9 @@ void PieceRun::FlipFirst()
   FlipOptions options = this->Job.Options;
   options.Geometry = this->Job.Survey.Geometry;
   options.TrackQuality = false;
-  const ProgressObserver progress = [this](double share) { return this->Tell(FirstShare * share); };
+  const double begin = this->Constraints.GetShare();
+  const ProgressObserver progress = [=](double share)
+  { return this->Tell(begin + (FirstShare - begin) * share); };
   FlipSession session(mesh, options, progress);
   if (session.GetReport().StopReason != StopReasonKind::Aborted)
   {
@@ -117,12 +139,14 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   session.StoreTriangles(MutableTriangleArray(ids.data(), count));
   session.StoreFlipCounts(flips.data());
   this->Own = session.GetReport();
+  this->Constraints.AddTo(this->Own);
   this->KeepRows(this->Own);
+  this->StopReason = this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->StopReason;
   this->MarkEdges(mesh);
   for (std::int64_t t = 0; t < count; ++t)
   {
     std::copy_n(ids.data() + 3 * t, 3, this->Mesh.Triangles[t].Points);
-    this->Mesh.Triangles[t].Flips = flips[t];
+    this->Mesh.Triangles[t].Flips += flips[t];
   }
   this->Edges.Apply(this->Mesh.Triangles);
   this->Edges = MarkedEdges();
@@ -307,10 +331,10 @@ PiecesReport PieceRun::MakeReport()
   const SeamCounts& seams = this->Seams.Counts;
   PiecesReport report = this->Whole;
   static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
-  report.Points -= this->RepeatedPoints;
+  report.Points = this->NumberOfPoints;
   report.Edges = this->IsCounted ? seams.AddTo(report.Edges) : EdgeCounts();
-  report.EulerCharacteristic -= this->RepeatedPoints + seams.Edges.Edges;
-  report.EulerCharacteristic = this->IsCounted ? report.EulerCharacteristic : 0;
+  report.EulerCharacteristic =
+    this->IsCounted ? this->UsedPoints - report.Edges.Edges + report.Triangles : 0;
   report.UnmatchedConstraints += seams.MissingConstraints;
   report.NonDelaunayBefore += seams.NonDelaunay;
   report.NonDelaunayAfter += this->BadSeams;
@@ -330,25 +354,14 @@ PiecesReport PieceRun::MakeReport()
 
 void PieceRun::AddDefects(FlipReport& report) const
 {
-  for (Defect& defect : report.Defects)
-  {
-    if (this->Job.Group.GetSize() > 1 && defect.What == ConstraintInsertion::LeavesMesh)
-    {
-      defect.What += ", or the piece of their rank";
-    }
-  }
   const SeamCounts& seams = this->Seams.Counts;
-  const Defect notInserted{ "constraint edges that are not inserted because both of their points "
-                            "are shared by ranks",
-    seams.NotInserted, {}, DefectIds::Points };
+  const Defect onSurface{ ConstraintInsertion::OnSurface, seams.MissingToInsert, {},
+    DefectIds::PointPairs };
   const Defect missing{ "constraint edges that are not edges of the mesh",
-    seams.MissingConstraints - seams.NotInserted, {}, DefectIds::Points };
-  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, notInserted, missing })
+    seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };
+  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, onSurface, missing })
   {
-    if (defect.Count > 0)
-    {
-      report.Defects.push_back(defect);
-    }
+    AddDefect(defect, report.Defects);
   }
 }
 

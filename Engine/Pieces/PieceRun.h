@@ -6,10 +6,10 @@
 #include "FixedPairs.h"
 #include "GuardRound.h"
 #include "JoinReports.h"
-#include "PieceFlip.h"
+#include "PieceConstraints.h"
+#include "PieceJob.h"
 #include "PieceMesh.h"
 #include "PieceRegion.h"
-#include "PieceSurvey.h"
 #include "SeamRound.h"
 #include "SeamSurvey.h"
 #include "SeamTester.h"
@@ -21,16 +21,6 @@ namespace delaunayflip
 {
 
 class FlipSession;
-
-/// What a run is given. All must live as long as the run.
-struct PieceJob
-{
-  const MeshPiece& Piece;
-  const FlipOptions& Options;
-  const PieceSurvey& Survey;
-  PieceGroup& Group;
-  const ProgressObserver& Progress;
-};
 
 /// A run, as one of its ranks sees it.
 ///
@@ -72,8 +62,10 @@ private:
   RegionScratch Scratch;
   SeamTester Tester;
   WaitingEdges Waiting;
-  SeamSurvey Seams;
-  std::int64_t RepeatedPoints;
+  PieceConstraints Constraints;
+  SeamSurvey Seams; ///< Of the mesh with those constraints.
+  std::int64_t NumberOfPoints; ///< Of the whole mesh.
+  std::int64_t UsedPoints; ///< Those of triangles.
 
   // Of this rank:
   FlipReport Own; ///< Begins as that of the first flips.

@@ -3,6 +3,7 @@
 #include "PieceSurvey.h"
 
 #include "FixedEdges.h"
+#include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -145,6 +147,24 @@ bool NeedsNoGuard(
 }
 }
 
+namespace
+{
+/// Ids are checked by the ranks that have the points.
+void CheckFarConstraints(const MeshPiece& piece, const PieceGroup& group)
+{
+  for (std::int64_t i = 0; i < 2 * piece.NumberOfFarConstraints; ++i)
+  {
+    const PieceOrigin& end = piece.FarConstraints[i];
+    if (end.Rank < 0 || end.Rank >= group.GetSize())
+    {
+      throw InvalidMesh("constraint edge " + std::to_string(i / 2) + " names a point of rank " +
+          std::to_string(end.Rank) + ", but ranks are 0 to " + std::to_string(group.GetSize() - 1),
+        -1, end.Id);
+    }
+  }
+}
+}
+
 void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group)
 {
   DoTogether(group,
@@ -157,6 +177,7 @@ void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup&
       {
         CheckConstraint(piece.Mesh, i / 2, static_cast<int>(i % 2));
       }
+      CheckFarConstraints(piece, group);
       // The geometry does not matter here; this one takes the least time.
       BuildMeshSurvey(MeshInput{ piece.Mesh, piece.Mesh }, GeometryKind::PlanarXY, backend);
     });
@@ -172,6 +193,7 @@ PieceSurvey SurveyPieces(
   PieceSurvey survey;
   survey.Geometry = found.Geometry;
   survey.GeometryReason = found.GeometryReason;
+  survey.Projection = found.Projection;
   survey.NearlyHeightField = found.NearlyHeightField;
   survey.NearlyHeightField.FirstIds.clear(); // of other ranks
   if (found.Geometry == GeometryKind::Planar)

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECESURVEY_H
 #define DELAUNAYFLIP_PIECESURVEY_H
 
+#include "MeshSurvey.h"
 #include "PieceFlip.h"
 #include "PointMatch.h"
 
@@ -16,7 +17,8 @@ struct PieceSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   std::string GeometryReason;
-  WholeMesh Whole; ///< The plane, without flags of points.
+  PlaneProjection Projection; ///< For the planar kinds.
+  WholeMesh Whole; ///< The same plane, without flags of points.
   Defect NearlyHeightField; ///< As that of MeshSurvey.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 

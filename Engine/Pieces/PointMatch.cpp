@@ -50,6 +50,7 @@ struct Candidate
 {
   Place At;
   std::int64_t Key; ///< The one it has if it is not shared.
+  std::int64_t IsUnused; ///< 0 or 1.
 };
 
 struct SharedPoint
@@ -60,10 +61,11 @@ struct SharedPoint
 
 struct MatchCounts
 {
-  std::int64_t Repeated = 0, Ambiguous = 0;
+  std::int64_t Used = 0, Repeated = 0, Ambiguous = 0;
 
   MatchCounts& operator+=(const MatchCounts& part)
   {
+    this->Used += part.Used;
     this->Repeated += part.Repeated;
     this->Ambiguous += part.Ambiguous;
     return *this;
@@ -77,19 +79,37 @@ public:
   explicit PlaceFinder(const MeshPiece& piece)
     : Piece(piece),
       Fans(piece.Mesh.Points.Count, 0),
-      Used(piece.Mesh.Points.Count, 0)
+      Used(piece.Mesh.Points.Count, 0),
+      Ends(piece.Mesh.Points.Count, 0)
   {
     for (std::int64_t t = 0; t < piece.Mesh.Triangles.Count; ++t)
     {
       this->NoteTriangle(t);
     }
+    for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
+    {
+      this->Ends[piece.Mesh.ConstraintEdges[i]] = 1;
+    }
   }
 
   bool IsUsed(std::int64_t point) const { return this->Used[point] != 0; }
+  /// Whether it matters that other ranks have the point, too.
+  bool IsWanted(std::int64_t point) const
+  {
+    return this->Used[point] != 0 || this->Ends[point] != 0;
+  }
 
   /// Whether the triangles around a point do not close around it, so that it is at the border of
   /// the piece. Also true where they are wound in different ways.
-  bool IsAtBorder(std::int64_t point) const { return this->Fans[point] != 0; }
+  bool IsAtBorder(std::int64_t point) const
+  {
+    return this->Fans[point] != 0 || (!this->IsUsed(point) && this->IsWanted(point));
+  }
+
+  std::int64_t CountUsed() const
+  {
+    return std::count(this->Used.begin(), this->Used.end(), static_cast<unsigned char>(1));
+  }
 
   /// One flag per point: whether it is used and not at the border.
   std::vector<unsigned char> FindClosed() const
@@ -162,6 +182,7 @@ private:
   const MeshPiece& Piece;
   std::vector<std::uint64_t> Fans;
   std::vector<unsigned char> Used;
+  std::vector<unsigned char> Ends; ///< Of constraints.
 };
 
 /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
@@ -201,11 +222,12 @@ RecordLists<Candidate> ListCandidates(const MeshPiece& piece, const PlaceFinder&
   for (std::int64_t i = 0; i < piece.Mesh.Points.Count; ++i)
   {
     Place place{};
-    const bool isCandidate = finder.IsUsed(i) && finder.FindPlace(i, place) &&
+    const bool isCandidate = finder.IsWanted(i) && finder.FindPlace(i, place) &&
       (finder.IsAtBorder(i) || asked.count(place) > 0);
     if (isCandidate)
     {
-      toHome[GetHome(PlaceHash()(place), group)].push_back({ place, firstKey + i });
+      toHome[GetHome(PlaceHash()(place), group)].push_back(
+        { place, firstKey + i, finder.IsUsed(i) ? 0 : 1 });
     }
   }
   return toHome;
@@ -217,26 +239,47 @@ struct RankedCandidate
   int Rank;
 };
 
+/// The candidates of one place. Of points without triangles only one of a rank counts, and none if
+/// the rank has others.
+/// @param begin, end those with triangles first, both by key and so by rank.
+std::vector<RankedCandidate> ListOfRanks(const RankedCandidate* begin, const RankedCandidate* end)
+{
+  std::vector<RankedCandidate> list;
+  for (const RankedCandidate* one = begin; one != end; ++one)
+  {
+    const bool isKnown = std::any_of(list.begin(), list.end(),
+      [=](const RankedCandidate& other) { return other.Rank == one->Rank; });
+    if (one->Point.IsUnused == 0 || !isKnown)
+    {
+      list.push_back(*one);
+    }
+  }
+  return list;
+}
+
 /// Answers the candidates of one place.
-/// @param begin, end the candidates, by key and so by rank.
-void JoinPlace(const RankedCandidate* begin, const RankedCandidate* end,
-  RecordLists<SharedPoint>& answers, MatchCounts& counts)
+/// @param list by ListOfRanks.
+void JoinPlace(
+  const std::vector<RankedCandidate>& list, RecordLists<SharedPoint>& answers, MatchCounts& counts)
 {
   const auto isSameRank = [](const RankedCandidate& a, const RankedCandidate& b)
   { return a.Rank == b.Rank; };
-  if (begin->Rank == (end - 1)->Rank)
+  if (list.front().Point.IsUnused != 0 || list.front().Rank == list.back().Rank)
   {
     return;
   }
-  if (std::adjacent_find(begin, end, isSameRank) != end)
+  const auto size = static_cast<std::int64_t>(list.size());
+  if (std::adjacent_find(list.begin(), list.end(), isSameRank) != list.end())
   {
-    counts.Ambiguous += end - begin;
+    counts.Ambiguous += size;
     return;
   }
-  counts.Repeated += end - begin - 1;
-  for (const RankedCandidate* one = begin; one != end; ++one)
+  counts.Repeated += size - 1;
+  counts.Used -= std::count_if(list.begin() + 1, list.end(),
+    [](const RankedCandidate& one) { return one.Point.IsUnused == 0; });
+  for (const RankedCandidate& one : list)
   {
-    answers[one->Rank].push_back({ one->Point.Key, begin->Point.Key });
+    answers[one.Rank].push_back({ one.Point.Key, list.front().Point.Key });
   }
 }
 
@@ -251,7 +294,8 @@ RecordLists<SharedPoint> JoinCandidates(const RecordLists<Candidate>& lists, Mat
       all.push_back({ candidate, static_cast<int>(rank) });
     }
   }
-  const auto order = [](const RankedCandidate& a) { return std::tie(a.Point.At, a.Point.Key); };
+  const auto order = [](const RankedCandidate& a)
+  { return std::tie(a.Point.At, a.Point.IsUnused, a.Point.Key); };
   std::sort(all.begin(), all.end(),
     [&](const RankedCandidate& a, const RankedCandidate& b) { return order(a) < order(b); });
   RecordLists<SharedPoint> answers(lists.size());
@@ -262,7 +306,7 @@ RecordLists<SharedPoint> JoinCandidates(const RecordLists<Candidate>& lists, Mat
     {
       ++end;
     }
-    JoinPlace(all.data() + begin, all.data() + end, answers, counts);
+    JoinPlace(ListOfRanks(all.data() + begin, all.data() + end), answers, counts);
     begin = end;
   }
   return answers;
@@ -313,6 +357,7 @@ PointKeys MatchPoints(const MeshPiece& given, PieceGroup& group)
   const RecordLists<Candidate> candidates =
     ExchangeRecords(group, ListCandidates(piece, finder, asked, firstKey, group));
   MatchCounts counts;
+  counts.Used = finder.CountUsed();
   const RecordLists<SharedPoint> answers =
     ExchangeRecords(group, JoinCandidates(candidates, counts));
   keys.Closed = finder.FindClosed();
@@ -327,6 +372,7 @@ PointKeys MatchPoints(const MeshPiece& given, PieceGroup& group)
   }
   counts = SumOverRanks(group, counts);
   keys.Repeated = counts.Repeated;
+  keys.UsedPoints = counts.Used;
   keys.Ambiguous = counts.Ambiguous;
   return keys;
 }

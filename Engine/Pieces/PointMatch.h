@@ -22,14 +22,16 @@ struct PointKeys
   std::vector<unsigned char> Closed;
 
   // Of the whole mesh:
-  std::int64_t Repeated = 0; ///< Points that a lower rank has, too.
+  std::int64_t Repeated = 0; ///< Points that another rank has, too, and is the first to have.
+  std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
   std::int64_t Ambiguous = 0; ///< Coincide with others of their rank, and with one of another.
 
   PieceOrigin FindOrigin(std::int64_t key) const;
 };
 
 /// Finds the points that several ranks have: those with the same number or, without numbers, with
-/// the same coordinates if at least one of them is at the border of a piece.
+/// the same coordinates if at least one of them is at the border of a piece. A point without
+/// triangles counts as such if it is the end of a constraint.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
 }

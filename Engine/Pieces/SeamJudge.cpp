@@ -86,7 +86,18 @@ public:
     this->CountBad();
   }
 
-  SeamVerdict Take() { return { std::move(this->Answers), this->Counts }; }
+  SeamVerdict Take()
+  {
+    SeamVerdict verdict{ std::move(this->Answers), {}, this->Counts };
+    for (const SharedConstraint& one : this->Constraints)
+    {
+      if (one.IsToInsert != 0)
+      {
+        verdict.Missing.push_back(one.Ends);
+      }
+    }
+    return verdict;
+  }
 
 private:
   void CollectConstraints(const RecordLists<SharedConstraint>& lists)
@@ -112,7 +123,10 @@ private:
       [](const SharedConstraint& one, const PointPair& pair) { return one.Ends < pair; });
     const bool isConstraint = found != this->Constraints.end() && found->Ends == ends;
     this->Counts.MissingConstraints -= isConstraint ? 1 : 0;
-    this->Counts.NotInserted -= isConstraint ? found->IsToInsert : 0;
+    if (isConstraint)
+    {
+      this->Counts.MissingToInsert -= std::exchange(found->IsToInsert, 0);
+    }
     return isConstraint;
   }
 
@@ -121,7 +135,7 @@ private:
     for (const SharedConstraint& one : this->Constraints)
     {
       ++this->Counts.MissingConstraints;
-      this->Counts.NotInserted += one.IsToInsert;
+      this->Counts.MissingToInsert += one.IsToInsert;
     }
     for (std::size_t begin = 0; begin < this->Seams.size();)
     {
@@ -268,7 +282,8 @@ SeamCounts& SeamCounts::operator+=(const SeamCounts& part)
   this->Seams += part.Seams;
   this->NonDelaunay += part.NonDelaunay;
   this->MissingConstraints += part.MissingConstraints;
-  this->NotInserted += part.NotInserted;
+  this->MissingToInsert += part.MissingToInsert;
+  this->ToInsert += part.ToInsert;
   return *this;
 }
 

@@ -9,6 +9,7 @@
 #include "SeamTriangle.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -20,7 +21,8 @@ struct SeamCounts
   std::int64_t Seams = 0; ///< Edges with triangles on two ranks that may flip.
   std::int64_t NonDelaunay = 0; ///< Of these.
   std::int64_t MissingConstraints = 0; ///< Between shared points, and edges on no rank.
-  std::int64_t NotInserted = 0; ///< Of these, those that should have been inserted.
+  std::int64_t MissingToInsert = 0; ///< Of the missing ones, those that are to be inserted.
+  std::int64_t ToInsert = 0; ///< Those that ranks match alone and that are to be inserted.
 
   SeamCounts& operator+=(const SeamCounts& part);
   EdgeCounts AddTo(EdgeCounts sum) const;
@@ -46,6 +48,7 @@ struct SeamAnswer
 struct SeamVerdict
 {
   RecordLists<SeamAnswer> Answers; ///< For every rank.
+  std::vector<PointPair> Missing; ///< The constraints to be inserted that are no edges.
   SeamCounts Counts;
 };
 

@@ -4,6 +4,8 @@
 
 #include "SeamJudge.h"
 
+#include <algorithm>
+
 namespace delaunayflip
 {
 
@@ -83,7 +85,7 @@ RecordLists<SharedConstraint> DivideConstraints(
     const std::int64_t a = caller.ConstraintEdges[2 * i];
     const std::int64_t b = caller.ConstraintEdges[2 * i + 1];
     const unsigned char isToInsert = caller.ConstraintsToInsert ? caller.ConstraintsToInsert[i] : 0;
-    if (mesh.IsShared(a) && mesh.IsShared(b))
+    if (a != b && mesh.IsShared(a) && mesh.IsShared(b))
     {
       const PointPair keys = mesh.GetKeys({ a, b });
       toHome[GetHomeOf(keys, group)].push_back({ keys, isToInsert != 0 ? 1 : 0 });
@@ -114,18 +116,37 @@ void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, Se
 }
 }
 
-SeamSurvey SurveySeams(const MeshPiece& piece, const PieceMesh& mesh, const PieceSurvey& survey,
-  const FlipOptions& options, PieceGroup& group)
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
+  const std::vector<FarConstraint>& far)
 {
+  PieceGroup& group = job.Group;
   SeamSurvey seams;
   const RecordLists<SeamTriangle> triangles =
     ExchangeRecords(group, ListSeamTriangles(piece, mesh, group));
-  const RecordLists<SharedConstraint> constraints =
-    ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
+  RecordLists<SharedConstraint> toHome = DivideConstraints(piece.Mesh, mesh, seams, group);
+  for (const FarConstraint& one : far)
+  {
+    if (one.Ends[0] != one.Ends[1])
+    {
+      toHome[GetHomeOf(one.GetKeys(), group)].push_back({ one.GetKeys(), 1 });
+    }
+  }
+  const RecordLists<SharedConstraint> constraints = ExchangeRecords(group, toHome);
   SeamVerdict verdict;
-  DoTogether(group, [&]() { verdict = JudgeSeams(triangles, constraints, survey, options); });
+  DoTogether(
+    group, [&]() { verdict = JudgeSeams(triangles, constraints, job.Survey, job.Options); });
   TakeAnswers(ExchangeRecords(group, verdict.Answers), mesh, seams);
+  verdict.Counts.ToInsert = std::count_if(
+    seams.ToInsert.begin(), seams.ToInsert.end(), [](unsigned char flag) { return flag != 0; });
   seams.Counts = SumOverRanks(group, verdict.Counts);
+  if (seams.Counts.MissingToInsert > 0)
+  {
+    for (const std::vector<PointPair>& list : GatherRecords(group, verdict.Missing))
+    {
+      seams.Missing.insert(seams.Missing.end(), list.begin(), list.end());
+    }
+    std::sort(seams.Missing.begin(), seams.Missing.end());
+  }
   return seams;
 }
 

@@ -3,8 +3,9 @@
 #ifndef DELAUNAYFLIP_SEAMSURVEY_H
 #define DELAUNAYFLIP_SEAMSURVEY_H
 
+#include "FarConstraints.h"
+#include "PieceJob.h"
 #include "PieceMesh.h"
-#include "PieceSurvey.h"
 #include "SeamJudge.h"
 
 #include <cstdint>
@@ -30,11 +31,15 @@ struct SeamSurvey
   /// The constraint edges of the caller that this rank can match alone.
   std::vector<std::int64_t> Constraints;
   std::vector<unsigned char> ToInsert;
+  /// Constraints between shared points, of all ranks, that are to be inserted: keys, ascending.
+  std::vector<PointPair> Missing;
   SeamCounts Counts; ///< Of all ranks.
 };
 
-SeamSurvey SurveySeams(const MeshPiece& piece, const PieceMesh& mesh, const PieceSurvey& survey,
-  const FlipOptions& options, PieceGroup& group);
+/// @param piece as job.Piece, or as it has become.
+/// @param far more constraints to be inserted.
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
+  const std::vector<FarConstraint>& far = {});
 
 }
 

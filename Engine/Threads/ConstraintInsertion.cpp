@@ -9,7 +9,9 @@
 #include "MissingConstraints.h"
 #include "ThreadBackend.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -53,7 +55,7 @@ const char* Describe(Refusal refusal)
     case Refusal::Surface:
       break;
   }
-  return "constraint edges that are not edges of the mesh and cannot be inserted on a surface";
+  return ConstraintInsertion::OnSurface;
 }
 
 Refusal ToRefusal(PathResult result)
@@ -201,6 +203,10 @@ private:
     {
       defect.FirstIds.insert(defect.FirstIds.end(), ends, ends + 2);
     }
+    if (refusal == Refusal::Leaves)
+    {
+      this->Target.Leaving.insert(this->Target.Leaving.end(), ends, ends + 2);
+    }
   }
 
   void NameRefused()
@@ -232,6 +238,14 @@ ConstraintInsertion::ConstraintInsertion(
   {
     ConstraintInserter(*this, mesh, options, progress).Run();
   }
+}
+
+std::vector<std::int64_t> ConstraintInsertion::TakeLeaving()
+{
+  const auto leaves = [](const Defect& defect) { return defect.What == LeavesMesh; };
+  this->Refused.erase(
+    std::remove_if(this->Refused.begin(), this->Refused.end(), leaves), this->Refused.end());
+  return std::exchange(this->Leaving, {});
 }
 
 TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const

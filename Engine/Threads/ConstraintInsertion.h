@@ -25,6 +25,10 @@ public:
   static constexpr const char* LeavesMesh =
     "constraint edges that cannot be inserted because they leave the mesh";
 
+  /// What is said of those that are no edges of a surface.
+  static constexpr const char* OnSurface =
+    "constraint edges that are not edges of the mesh and cannot be inserted on a surface";
+
   /// Nothing is to be inserted.
   ConstraintInsertion() = default;
 
@@ -32,6 +36,10 @@ public:
   /// @throws as FlipSession's constructor; RunAborted.
   ConstraintInsertion(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+
+  /// The constraints that leave the mesh, two points for each, in their order. From now on they
+  /// are not refused: the mesh may go on elsewhere.
+  std::vector<std::int64_t> TakeLeaving();
 
   /// The share of a run that an insertion takes: it builds an edge mesh of its own.
   static constexpr double ShareOfRun = 0.3;
@@ -68,6 +76,7 @@ private:
   std::int64_t Inserted = 0;
   std::int64_t Flips = 0;
   std::vector<Defect> Refused;
+  std::vector<std::int64_t> Leaving; ///< Two points for each.
 };
 
 }

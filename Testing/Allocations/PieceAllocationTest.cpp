@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,7 +49,7 @@ private:
 };
 
 /// Flips the pieces. @returns what went wrong on every rank.
-std::vector<std::string> FlipAll(const std::vector<OwnPiece>& pieces, const FlipOptions& options)
+std::vector<std::string> FlipAll(const std::vector<MeshPiece>& pieces, const FlipOptions& options)
 {
   std::vector<std::string> errors(Ranks);
   RunInThreads(Ranks,
@@ -61,12 +62,12 @@ std::vector<std::string> FlipAll(const std::vector<OwnPiece>& pieces, const Flip
       {
         if (rank == Failing)
         {
-          FlipPiece(pieces[rank].View(), options, spared, flipped);
+          FlipPiece(pieces[rank], options, spared, flipped);
         }
         else
         {
           const SparedAllocations others;
-          FlipPiece(pieces[rank].View(), options, spared, flipped);
+          FlipPiece(pieces[rank], options, spared, flipped);
         }
       }
       catch (const std::exception& error)
@@ -79,11 +80,10 @@ std::vector<std::string> FlipAll(const std::vector<OwnPiece>& pieces, const Flip
 }
 
 /// Flips with the first allocation of a rank failing, its second, and so on until all get through.
-void FailEach(const OwnedMesh<double>& mesh, FlipOptions options)
+void FailEach(const std::vector<MeshPiece>& pieces, FlipOptions options)
 {
   options.Backend = BackendKind::Threads;
   options.NumberOfThreads = 1;
-  const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), Ranks);
   FlipAll(pieces, options); // also what a process allocates only once
   const std::vector<std::string> none(Ranks);
   const std::vector<std::string> expected(Ranks, "rank 1: not enough memory");
@@ -103,11 +103,46 @@ void FailEach(const OwnedMesh<double>& mesh, FlipOptions options)
   EXPECT_LT(managed, 10);
 }
 
+std::vector<MeshPiece> ViewAll(const std::vector<OwnPiece>& pieces)
+{
+  std::vector<MeshPiece> views;
+  for (const OwnPiece& piece : pieces)
+  {
+    views.push_back(piece.View());
+  }
+  return views;
+}
+
 TEST(PieceAllocations, OfAPlaneFailOnce)
 {
   FlipOptions options;
   options.TieRule = TieRuleKind::Canonical;
-  FailEach(MakeRandomBadMeshDouble(24, 1), options);
+  const std::vector<OwnPiece> pieces = DivideMesh(MakeRandomBadMeshDouble(24, 1).View(), Ranks);
+  FailEach(ViewAll(pieces), options);
+}
+
+/// Within each piece, from the failing rank through another one, and between two other ranks.
+TEST(PieceAllocations, OfConstraintsAcrossPiecesFailOnce)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(24, 1);
+  const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), Ranks);
+  std::vector<MeshPiece> views = ViewAll(pieces);
+  std::vector<std::vector<std::int64_t>> ends;
+  const std::vector<unsigned char> toInsert(3, 1);
+  for (MeshPiece& view : views)
+  {
+    const std::int64_t last = view.Mesh.Points.Count - 1;
+    ends.push_back({ 0, last, 1, last - 1, 2, last / 2 });
+    view.Mesh.ConstraintEdges = ends.back().data();
+    view.Mesh.NumberOfConstraintEdges = 3;
+    view.Mesh.ConstraintsToInsert = toInsert.data();
+  }
+  const std::vector<PieceOrigin> far = { { 0, 3 }, { 2, 4 }, { Failing, 5 }, { 2, 2 } };
+  views[Failing].FarConstraints = far.data();
+  views[Failing].NumberOfFarConstraints = 2;
+  FlipOptions options;
+  options.TieRule = TieRuleKind::Canonical;
+  FailEach(views, options);
 }
 
 TEST(PieceAllocations, OfASurfaceFailOnce)
@@ -115,7 +150,8 @@ TEST(PieceAllocations, OfASurfaceFailOnce)
   FlipOptions options;
   options.Geometry = GeometryKind::Surface;
   options.FeatureAngle = 180.0;
-  FailEach(MakeBadSphere(8, 4, 1), options);
+  const std::vector<OwnPiece> pieces = DivideMesh(MakeBadSphere(8, 4, 1).View(), Ranks);
+  FailEach(ViewAll(pieces), options);
 }
 
 }

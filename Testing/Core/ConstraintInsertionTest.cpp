@@ -19,38 +19,6 @@ constexpr const char* Crosses = "because they cross edges that stay";
 constexpr const char* Leaves = "because they leave the mesh";
 constexpr const char* Overlaps = "where triangles overlap or points coincide";
 
-/// Distinct points with whole coordinates from 0 to `size`, among them the corners.
-std::vector<std::array<double, 2>> DrawLattice(
-  std::size_t count, std::int32_t size, std::mt19937& random)
-{
-  const double last = size;
-  std::set<std::array<double, 2>> points = { { 0, 0 }, { last, 0 }, { 0, last }, { last, last } };
-  while (points.size() < count)
-  {
-    const double x = DrawIndex(random, size + 1);
-    const double y = DrawIndex(random, size + 1);
-    points.insert({ x, y });
-  }
-  std::vector<std::array<double, 2>> drawn(points.begin(), points.end());
-  std::shuffle(drawn.begin(), drawn.end(), random);
-  return drawn;
-}
-
-/// Random constraints on a random bad mesh. The fewer lattice points there are to choose from, the
-/// more constraints meet vertices.
-ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
-{
-  std::mt19937 random(seed);
-  ConstrainedMesh drawn;
-  drawn.Mesh = MakeSweptMesh(DrawLattice(points, size, random));
-  for (int i = 0; i < constraints; ++i)
-  {
-    const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
-    drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
-  }
-  return drawn;
-}
-
 /// The mesh right after the insertion.
 FlipResult Insert(const TriangleMesh& mesh, FlipOptions options = {})
 {

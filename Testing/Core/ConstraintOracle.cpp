@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintOracle.h"
 
+#include "CgalReference.h"
 #include "ExactReference.h"
 
 #include <gtest/gtest.h>
@@ -76,6 +77,22 @@ bool CrossAny(
     });
 }
 
+/// Distinct points with whole coordinates from 0 to `size`, among them the corners.
+std::vector<std::array<double, 2>> DrawLattice(
+  std::size_t count, std::int32_t size, std::mt19937& random)
+{
+  const double last = size;
+  std::set<std::array<double, 2>> points = { { 0, 0 }, { last, 0 }, { 0, last }, { last, last } };
+  while (points.size() < count)
+  {
+    const double x = DrawIndex(random, size + 1);
+    const double y = DrawIndex(random, size + 1);
+    points.insert({ x, y });
+  }
+  std::vector<std::array<double, 2>> drawn(points.begin(), points.end());
+  std::shuffle(drawn.begin(), drawn.end(), random);
+  return drawn;
+}
 }
 
 void ConstrainedMesh::Add(std::int64_t from, std::int64_t to, bool insert)
@@ -91,6 +108,37 @@ TriangleMesh ConstrainedMesh::View() const
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->ToInsert.size());
   mesh.ConstraintsToInsert = this->ToInsert.data();
   return mesh;
+}
+
+ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  ConstrainedMesh drawn;
+  drawn.Mesh = MakeSweptMesh(DrawLattice(points, size, random));
+  for (int i = 0; i < constraints; ++i)
+  {
+    const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+    drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
+  }
+  return drawn;
+}
+
+ConstrainedMesh DropCrossing(const ConstrainedMesh& mesh)
+{
+  ConstrainedMesh kept;
+  kept.Mesh = mesh.Mesh;
+  std::vector<VertexPair> pieces;
+  for (std::size_t i = 0; i < mesh.ToInsert.size(); ++i)
+  {
+    const std::int64_t* ends = mesh.Ends.data() + 2 * i;
+    const std::vector<VertexPair> own = SplitAtVertices(mesh.View(), ends[0], ends[1]);
+    if (ends[0] != ends[1] && !CrossAny(mesh.View(), own, pieces))
+    {
+      kept.Add(ends[0], ends[1], mesh.ToInsert[i] != 0);
+      pieces.insert(pieces.end(), own.begin(), own.end());
+    }
+  }
+  return kept;
 }
 
 std::vector<VertexPair> SplitAtVertices(

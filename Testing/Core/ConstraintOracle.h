@@ -28,6 +28,14 @@ struct ConstrainedMesh
   TriangleMesh View() const;
 };
 
+/// Random constraints on a random bad mesh. The fewer lattice points there are to choose from, the
+/// more constraints meet vertices.
+ConstrainedMesh DrawCase(
+  std::size_t points, std::int32_t size, int constraints, std::uint32_t seed);
+
+/// The mesh without constraints that would cross an earlier one.
+ConstrainedMesh DropCrossing(const ConstrainedMesh& mesh);
+
 /// The constraint cut at every vertex on it.
 std::vector<VertexPair> SplitAtVertices(
   const TriangleMesh& mesh, std::int64_t from, std::int64_t to);

@@ -126,6 +126,10 @@ private:
       if (a >= 0 && b >= 0)
       {
         this->Piece.Constraints.insert(this->Piece.Constraints.end(), { a, b });
+        if (this->Mesh.ConstraintsToInsert)
+        {
+          this->Piece.ToInsert.push_back(this->Mesh.ConstraintsToInsert[i]);
+        }
       }
     }
   }
@@ -195,9 +199,12 @@ MeshPiece OwnedPiece::View(bool withNumbers) const
     TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->SlotOf.size()));
   mesh.ConstraintEdges = this->Constraints.data();
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Constraints.size()) / 2;
+  mesh.ConstraintsToInsert = this->ToInsert.empty() ? nullptr : this->ToInsert.data();
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   piece.PointNumbers = withNumbers ? this->PointOf.data() : nullptr;
+  piece.FarConstraints = this->FarConstraints.data();
+  piece.NumberOfFarConstraints = static_cast<std::int64_t>(this->FarConstraints.size()) / 2;
   return piece;
 }
 

@@ -33,14 +33,15 @@ struct OwnedPiece
   std::vector<std::int64_t> PointOf; ///< The id in the whole mesh, by the piece's own.
   std::vector<std::int64_t> SlotOf; ///< The same for triangles.
   std::vector<std::int64_t> Constraints;
+  std::vector<unsigned char> ToInsert; ///< One flag per constraint, or empty.
+  std::vector<PieceOrigin> FarConstraints;
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Frozen;
 
   MeshPiece View(bool withNumbers) const;
 };
 
-/// @param withUnused whether a piece has all points, not only those of its triangles. Constraints
-/// go to all pieces that have their points.
+/// A piece has the points of its triangles. Constraints go to all pieces that have their points.
 std::vector<OwnedPiece> Divide(const TriangleMesh& mesh, const Owners& owners, int ranks);
 
 /// What all ranks together made.

@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
+#include <cstdint>
+#include <vector>
 
 /// @file
 /// Divided meshes with constraints.
@@ -48,75 +49,6 @@ TEST_P(PieceConstraintsTest, ConstraintsThatAreNoEdges)
   EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(result.View()));
   EXPECT_EQ(alone.Report.Edges.Constraint, result.Reports.front().Edges.Constraint);
   EXPECT_LE(result.Reports.front().UnmatchedConstraints, alone.Report.UnmatchedConstraints);
-}
-
-/// How often a report names a defect.
-std::int64_t CountDefects(const FlipReport& report, const std::string& what)
-{
-  std::int64_t count = 0;
-  for (const Defect& defect : report.Defects)
-  {
-    count += defect.What == what ? defect.Count : 0;
-  }
-  return count;
-}
-
-TEST(PieceConstraints, ConstraintsThatOtherRanksCrossAreNotInsertedAndSaySo)
-{
-  // Rank 1 has the lower middle of a lattice of 6 x 2 squares.
-  const OwnedMesh<double> mesh = MakeGridMesh(6, 2);
-  Owners owners;
-  for (std::int64_t t = 0; t < mesh.NumberOfTriangles(); ++t)
-  {
-    double x = 0, y = 0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      x += mesh.View().Points.Get(mesh.Triangles[3 * t + slot], 0) / 3;
-      y += mesh.View().Points.Get(mesh.Triangles[3 * t + slot], 1) / 3;
-    }
-    owners.push_back(x > 2 && x < 4 && y < 1 ? 1 : 0);
-  }
-  const std::vector<OwnedPiece> pieces = Divide(mesh.View(), owners, 2);
-  const auto find = [&](double x, double y)
-  {
-    std::int64_t id = 0;
-    while (mesh.Points[3 * pieces[0].PointOf[id]] != x ||
-      mesh.Points[3 * pieces[0].PointOf[id] + 1] != y)
-    {
-      ++id;
-    }
-    return id;
-  };
-  // Of rank 0: below rank 1 from one side to the other; between two corners of rank 1.
-  const std::vector<std::int64_t> edges{ find(1, 0), find(5, 0), find(2, 0), find(4, 0) };
-  const std::vector<unsigned char> toInsert{ 1, 1 };
-  PiecesReport report;
-  RunInThreads(2,
-    [&](PieceGroup& group)
-    {
-      MeshPiece piece = pieces[group.GetRank()].View(true);
-      if (group.GetRank() == 0)
-      {
-        piece.Mesh.ConstraintEdges = edges.data();
-        piece.Mesh.NumberOfConstraintEdges = 2;
-        piece.Mesh.ConstraintsToInsert = toInsert.data();
-      }
-      FlippedPiece flipped;
-      const PiecesReport own = FlipPiece(piece, MakeCanonical(), group, flipped);
-      if (group.GetRank() == 0)
-      {
-        report = own;
-      }
-    });
-  EXPECT_EQ(2, report.UnmatchedConstraints);
-  EXPECT_EQ(0, report.InsertedConstraints);
-  EXPECT_EQ(1,
-    CountDefects(report,
-      "constraint edges that cannot be inserted because they leave the mesh, or the piece of their "
-      "rank"));
-  EXPECT_EQ(1,
-    CountDefects(report,
-      "constraint edges that are not inserted because both of their points are shared by ranks"));
 }
 
 TEST_P(PieceConstraintsTest, ConstraintsAreInsertedAcrossThePiecesOfOneProcess)

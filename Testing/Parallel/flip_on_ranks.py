@@ -15,6 +15,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import delaunayflip
 import rank_blocks
+import rank_constraints
 import rank_meshes
 import rank_seams
 from rank_runs import (
@@ -139,7 +140,8 @@ def run_constraints(count, kind):
 def main():
     controller = start()
     name, arguments = sys.argv[1], json.loads(sys.argv[2])
-    facts, _ = {**vars(rank_blocks), **vars(rank_seams), **globals()}["run_" + name](**arguments)
+    cases = {**vars(rank_blocks), **vars(rank_constraints), **vars(rank_seams), **globals()}
+    facts, _ = cases["run_" + name](**arguments)
     if RANK == 0:  # not to stdout, where mpirun may put words of other ranks into the line
         with open(sys.argv[3], "w", encoding="utf-8") as file:
             json.dump(facts, file)

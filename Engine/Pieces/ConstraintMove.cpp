@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ConstraintMove.h"
+
+#include "Records.h"
+#include "SegmentTree.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+constexpr std::int32_t None = -1;
+
+/// Groups of constraints, each known by its first one.
+class ConstraintGroups
+{
+public:
+  explicit ConstraintGroups(std::size_t size)
+    : Parents(size)
+  {
+    std::iota(this->Parents.begin(), this->Parents.end(), 0);
+  }
+
+  std::int32_t GetFirst(std::int32_t constraint) const
+  {
+    while (this->Parents[constraint] != constraint)
+    {
+      constraint = this->Parents[constraint];
+    }
+    return constraint;
+  }
+
+  void Join(std::int32_t a, std::int32_t b)
+  {
+    const auto [first, second] = std::minmax({ this->GetFirst(a), this->GetFirst(b) });
+    this->Parents[second] = first;
+    this->Parents[a] = first; // so that chains stay short
+    this->Parents[b] = first;
+  }
+
+private:
+  std::vector<std::int32_t> Parents;
+};
+
+/// What a rank knows about a constraint.
+struct RankShare
+{
+  std::int32_t Constraint;
+  std::int32_t First; ///< Of its group, as far as the rank knows.
+  std::int64_t Triangles; ///< That are counted for this constraint.
+};
+
+/// A point of a triangle that touches a constraint.
+struct TouchedPoint
+{
+  std::int64_t Key;
+  std::int32_t Constraint;
+};
+
+class ConstraintMover
+{
+public:
+  ConstraintMover(const std::vector<FarConstraint>& constraints, const PieceSurvey& survey,
+    PieceMesh& mesh, std::vector<TriangleLabel>& labels, PieceGroup& group)
+    : Constraints(constraints),
+      Survey(survey),
+      Mesh(mesh),
+      Labels(labels),
+      Group(group),
+      Groups(constraints.size()),
+      TouchedBy(mesh.Triangles.size(), None)
+  {
+  }
+
+  InsertionTask Run()
+  {
+    this->FindTouched();
+    if (this->Survey.NeedsGuard())
+    {
+      this->AddNeighbours();
+    }
+    const std::vector<int> receivers = this->ChooseReceivers();
+    InsertionTask task;
+    for (std::size_t i = 0; i < this->Constraints.size(); ++i)
+    {
+      if (receivers[i] == this->Group.GetRank())
+      {
+        task.Constraints.push_back(this->Constraints[i]);
+      }
+    }
+    this->Move(receivers, task.Triangles);
+    return task;
+  }
+
+private:
+  PlanePoint Project(const double (&x)[3]) const
+  {
+    return this->Survey.Projection.Project(PointArray(x, 1), 0);
+  }
+
+  void FindTouched()
+  {
+    std::vector<SegmentTree::Segment> segments;
+    for (const FarConstraint& one : this->Constraints)
+    {
+      segments.push_back({ this->Project(one.Positions[0]), this->Project(one.Positions[1]) });
+    }
+    const SegmentTree tree(segments);
+    std::vector<std::int32_t> touched;
+    for (std::size_t t = 0; t < this->TouchedBy.size(); ++t)
+    {
+      SegmentTree::Triangle corners;
+      if (this->FindCorners(this->Mesh.Triangles[t], corners))
+      {
+        tree.FindTouched(corners, touched);
+        for (const std::int32_t constraint : touched)
+        {
+          this->Touch(t, constraint);
+        }
+      }
+    }
+  }
+
+  /// @returns whether they are finite; else no constraint goes through the triangle.
+  bool FindCorners(const PieceTriangle& triangle, SegmentTree::Triangle& corners) const
+  {
+    bool areFinite = true;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      double x[3];
+      this->Mesh.GetPosition(triangle.Points[slot], x);
+      corners[slot] = this->Project(x);
+      areFinite = areFinite && IsFinite(corners[slot]);
+    }
+    return areFinite;
+  }
+
+  void Touch(std::size_t triangle, std::int32_t constraint)
+  {
+    std::int32_t& first = this->TouchedBy[triangle];
+    if (first == None)
+    {
+      first = constraint;
+    }
+    this->Groups.Join(first, constraint);
+  }
+
+  /// Also those that share a point with a touched triangle, on any rank.
+  void AddNeighbours()
+  {
+    std::map<std::int64_t, std::int32_t> known; // keys of points
+    std::vector<TouchedPoint> points;
+    for (std::size_t t = 0; t < this->TouchedBy.size(); ++t)
+    {
+      for (int slot = 0; slot < 3 && this->TouchedBy[t] != None; ++slot)
+      {
+        const std::int64_t key = this->Mesh.GetKey(this->Mesh.Triangles[t].Points[slot]);
+        const auto [place, isNew] = known.emplace(key, this->TouchedBy[t]);
+        this->Groups.Join(place->second, this->TouchedBy[t]);
+        if (isNew)
+        {
+          points.push_back({ key, this->TouchedBy[t] });
+        }
+      }
+    }
+    for (const std::vector<TouchedPoint>& list : GatherRecords(this->Group, points))
+    {
+      for (const TouchedPoint& one : list)
+      {
+        const std::int64_t point = this->Mesh.FindPoint(one.Key);
+        if (point >= 0)
+        {
+          this->Mesh.ForEachAt(static_cast<std::int32_t>(point),
+            [&](std::int64_t t) { this->Touch(t, one.Constraint); });
+        }
+      }
+    }
+  }
+
+  std::vector<RankShare> ListShares() const
+  {
+    std::vector<RankShare> shares;
+    for (std::size_t i = 0; i < this->Constraints.size(); ++i)
+    {
+      const auto constraint = static_cast<std::int32_t>(i);
+      shares.push_back({ constraint, this->Groups.GetFirst(constraint), 0 });
+    }
+    for (const std::int32_t constraint : this->TouchedBy)
+    {
+      shares[constraint == None ? 0 : constraint].Triangles += constraint == None ? 0 : 1;
+    }
+    const auto saysNothing = [](const RankShare& share)
+    { return share.Triangles == 0 && share.First == share.Constraint; };
+    shares.erase(std::remove_if(shares.begin(), shares.end(), saysNothing), shares.end());
+    return shares;
+  }
+
+  /// The rank of every constraint: of its group, the one that has most of the triangles. Of equal
+  /// ones the lowest.
+  std::vector<int> ChooseReceivers()
+  {
+    const RecordLists<RankShare> shares = GatherRecords(this->Group, this->ListShares());
+    for (const std::vector<RankShare>& list : shares)
+    {
+      for (const RankShare& share : list)
+      {
+        this->Groups.Join(share.Constraint, share.First);
+      }
+    }
+    std::vector<int> best(this->Constraints.size(), 0);
+    std::vector<std::int64_t> most(this->Constraints.size(), 0);
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+    {
+      std::map<std::int32_t, std::int64_t> sums;
+      for (const RankShare& share : shares[rank])
+      {
+        sums[this->Groups.GetFirst(share.Constraint)] += share.Triangles;
+      }
+      for (const auto& [first, sum] : sums)
+      {
+        best[first] = sum > most[first] ? static_cast<int>(rank) : best[first];
+        most[first] = std::max(sum, most[first]);
+      }
+    }
+    for (std::size_t i = 0; i < best.size(); ++i)
+    {
+      best[i] = best[this->Groups.GetFirst(static_cast<std::int32_t>(i))];
+    }
+    return best;
+  }
+
+  /// @param here receives the touched triangles that this rank then has.
+  void Move(const std::vector<int>& receivers, std::vector<std::int64_t>& here)
+  {
+    RecordLists<std::int64_t> leaving(this->Group.GetSize());
+    for (std::size_t t = 0; t < this->TouchedBy.size(); ++t)
+    {
+      if (this->TouchedBy[t] != None)
+      {
+        const int receiver = receivers[this->TouchedBy[t]];
+        (receiver == this->Group.GetRank() ? here : leaving[receiver])
+          .push_back(static_cast<std::int64_t>(t));
+      }
+    }
+    RecordLists<TravellingTriangle> triangles;
+    RecordLists<TriangleLabel> labels(leaving.size());
+    for (std::size_t rank = 0; rank < leaving.size(); ++rank)
+    {
+      for (const std::int64_t t : leaving[rank])
+      {
+        labels[rank].push_back(this->Labels[t]);
+      }
+      triangles.push_back(this->Mesh.Release(leaving[rank]));
+    }
+    for (const std::vector<TravellingTriangle>& list : ExchangeRecords(this->Group, triangles))
+    {
+      for (const TravellingTriangle& triangle : list)
+      {
+        here.push_back(this->Mesh.Receive(triangle));
+      }
+    }
+    for (const std::vector<TriangleLabel>& list : ExchangeRecords(this->Group, labels))
+    {
+      this->Labels.insert(this->Labels.end(), list.begin(), list.end());
+    }
+  }
+
+  const std::vector<FarConstraint>& Constraints;
+  const PieceSurvey& Survey;
+  PieceMesh& Mesh;
+  std::vector<TriangleLabel>& Labels;
+  PieceGroup& Group;
+  ConstraintGroups Groups;
+  std::vector<std::int32_t> TouchedBy; ///< One constraint per triangle, or None.
+};
+}
+
+InsertionTask MoveToConstraints(const std::vector<FarConstraint>& constraints,
+  const PieceSurvey& survey, PieceMesh& mesh, std::vector<TriangleLabel>& labels, PieceGroup& group)
+{
+  return ConstraintMover(constraints, survey, mesh, labels, group).Run();
+}
+
+}

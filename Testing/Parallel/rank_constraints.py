@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cases of constraints that are inserted across ranks."""
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+import delaunayflip
+import rank_meshes
+from rank_runs import (
+    RANK, RANKS, WORLD, describe, gather_triangles, listen, require, set_options)
+
+
+def turn(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def cross(points, one, other):
+    a, b, c, d = points[[*one, *other]]
+    return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
+
+
+def draw_pairs(points, count):
+    """Pairs of points whose segments do not cross each other."""
+    random, pairs = np.random.default_rng(5), []
+    while len(pairs) < count:
+        pair = random.integers(0, len(points), 2)
+        if pair[0] != pair[1] and not any(cross(points, pair, other) for other in pairs):
+            pairs.append(pair)
+    return np.array(pairs)
+
+
+def make_lattice(side):
+    """Squares, all divided along the same diagonal."""
+    x, y = np.divmod(np.arange(side * side), side)
+    corners = np.argwhere((x < side - 1) & (y < side - 1)).ravel()[:, None]
+    triangles = np.r_[corners + [0, side, side + 1], corners + [0, side + 1, 1]]
+    return np.c_[x, y, np.zeros(side * side)].astype(float), triangles
+
+
+def describe_all(flip):
+    return {**describe(flip, []), "inserted": flip.GetNumberOfInsertedConstraintEdges()}
+
+
+def add_lines(piece, used, points, pairs):
+    """Gives the piece lines, with points that its triangles do not use where need be."""
+    ends = np.unique(pairs)
+    more = np.setdiff1d(ends, used)
+    used = np.r_[used, more]
+    whole = rank_meshes.make_poly_data(points[used], rank_meshes.read_triangles(piece))
+    place = {point: i for i, point in enumerate(used)}
+    lines = vtkCellArray()
+    for pair in pairs:
+        lines.InsertNextCell(2, [place[end] for end in pair])
+    whole.SetLines(lines)
+    slots = np.r_[np.full(len(pairs), -1),
+                  vtk_to_numpy(piece.GetCellData().GetArray("slot"))]
+    rank_meshes.add_array(whole.GetCellData(), "slot", slots.astype(np.int64))
+    return whole, used
+
+
+def make_case(points, triangles, pairs, kind, given, ids, regions):
+    """This rank's filter with its piece and its constraints."""
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    slots = np.flatnonzero(owners == RANK)
+    piece = rank_meshes.make_piece(points, triangles, slots, False)
+    used = np.unique(triangles[slots])
+    flip = delaunayflip.vtkPDelaunayFlip()
+    if given == "lines" and len(slots):
+        piece, used = add_lines(piece, used, points, pairs[RANK // 2 % 2::2])
+        set_options(flip, {"LinesAsConstraints": True, "InsertLines": True})
+    elif given == "lines":
+        set_options(flip, {"LinesAsConstraints": True, "InsertLines": True})
+    elif given == "parts":
+        flip.SetConstraintsData(rank_meshes.make_lines(points, pairs[RANK % 2:]))
+    else:
+        flip.SetConstraintsData(
+            rank_meshes.make_lines(points, pairs) if RANK == 0 else vtkPolyData())
+    if ids and len(slots):
+        numbers = rank_meshes.numpy_to_vtkIdTypeArray(used.astype(np.int64), deep=1)
+        piece.GetPointData().SetGlobalIds(numbers)
+    if regions and len(slots):
+        labels = regions_of(points, triangles)[slots]
+        if piece.GetNumberOfLines():
+            labels = np.r_[np.zeros(piece.GetNumberOfLines(), int), labels]
+        rank_meshes.add_array(piece.GetCellData(), "region", labels.astype(np.int32))
+    flip.SetInputData(piece)
+    return flip
+
+
+def regions_of(points, triangles):
+    middle = points[triangles].mean(1)[:, 1]
+    return (middle > np.median(middle)).astype(np.int32)
+
+
+def run_alone(points, triangles, pairs, options, regions):
+    mesh = rank_meshes.make_poly_data(points, triangles)
+    if regions:
+        rank_meshes.add_array(mesh.GetCellData(), "region", regions_of(points, triangles))
+    flip = set_options(delaunayflip.vtkDelaunayFlip(), options)
+    flip.SetInputData(mesh)
+    flip.SetConstraintsData(rank_meshes.make_lines(points, pairs))
+    flip.Update()
+    return flip
+
+
+def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, regions=False):
+    options = {"TieRule": 1, "NumberOfThreads": 1, "RegionArray": "region" if regions else ""}
+    flip = set_options(make_case(points, triangles, pairs, kind, given, ids, regions), options)
+    said = listen(flip)
+    flip.UpdatePiece(RANK, RANKS, 0)
+    facts = describe_all(flip)
+    for other in WORLD.allgather(facts):
+        require(other == facts, f"ranks differ: {other} {facts}")
+    output = vtkPolyData()
+    output.SetPoints(flip.GetOutput().GetPoints())
+    output.SetPolys(flip.GetOutput().GetPolys())
+    slots = flip.GetOutput().GetCellData().GetArray("slot")
+    if slots:
+        own = vtk_to_numpy(slots)
+        rank_meshes.add_array(output.GetCellData(), "slot", own[own >= 0])
+    after, slots = gather_triangles(points, output)
+    if RANK == 0:
+        require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
+        alone = run_alone(points, triangles, pairs, options, regions)
+        facts["alone"] = describe_all(alone)
+        facts["same"] = bool(np.array_equal(
+            rank_meshes.as_set(after),
+            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+        facts["crowded"] = rank_meshes.count_crowded_edges(after)
+        facts["said"] = " ".join(said)
+    return facts, said
+
+
+def run_inserted(count, pairs, **arguments):
+    """Random constraints that do not cross each other."""
+    points, triangles = rank_meshes.make_random(count)
+    return compare_inserted(points, triangles, draw_pairs(points, pairs), **arguments)
+
+
+def run_lattice(side, pairs, kind, given="rank 0"):
+    """Constraints of a lattice, as places in it: x, y, x, y."""
+    points, triangles = make_lattice(side)
+    ends = np.array([(side * x + y, side * u + v) for x, y, u, v in pairs])
+    return compare_inserted(points, triangles, ends, kind, given)
+
+
+def run_ring(side):
+    """Constraints of a lattice with a hole in its middle, and one to a point that no rank has."""
+    points, triangles = make_lattice(side)
+    middle = points[triangles].mean(1)
+    keep = np.abs(middle[:, :2] - (side - 1) / 2).max(1) > 1
+    last = len(points) - 1
+    pairs = np.array([(0, last), (side + 2, last - 1), (1, 2 * side + 2), (0, last + 1)])
+    points = np.r_[points, [[-5.0, 0.5, 0.0]]]
+    return compare_inserted(points, triangles[keep], pairs, "space")
