@@ -19,7 +19,10 @@
  * same global id (active global ids of the point data, on all processes that have points) or,
  * without global ids, equal coordinates. Points that coincide within a piece are then not matched;
  * a warning counts them. Duplicate ghost cells (vtkGhostType) are dropped first. Constraints
- * (second input) may be on any process, all or in part; they are matched by coordinates.
+ * (second input) may be on any process, all or in part; they are matched by coordinates. The ends
+ * of lines (LinesAsConstraints) are points of the process that has them, if need be without cells.
+ * In planar geometry both are inserted across the pieces of all processes. If two cross, those
+ * within one piece come first, the rest in the order of processes.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
@@ -32,9 +35,8 @@
  * process stops all of them. If one process fails, the update fails on all, with the same message.
  *
  * @warning
- * Constraints that are not edges of the mesh are inserted only within a piece. TrackQuality has no
- * effect: only the last iteration has a smallest angle. With several processes LiveUpdate is off,
- * with a warning. Every process must have an input, of the same kind.
+ * TrackQuality has no effect: only the last iteration has a smallest angle. With several processes
+ * LiveUpdate is off, with a warning. Every process must have an input, of the same kind.
  *
  * @sa
  * vtkDelaunayFlip
