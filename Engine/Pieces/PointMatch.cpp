@@ -2,49 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointMatch.h"
 
-#include "FlipError.h"
+#include "PlaceFinder.h"
 #include "Records.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <tuple>
-#include <unordered_set>
 
 namespace delaunayflip
 {
 
 namespace
 {
-/// What makes two points the same: a number, or the bits of three coordinates.
-using Place = std::array<std::uint64_t, 3>;
-
-struct PlaceHash
-{
-  std::size_t operator()(const Place& place) const
-  {
-    return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
-  }
-};
-using PlaceSet = std::unordered_set<Place, PlaceHash>; // never iterated over: its order varies
-
-struct Box
-{
-  double Lower[3], Upper[3];
-
-  bool Holds(const double (&x)[3]) const
-  {
-    bool holds = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
-    }
-    return holds;
-  }
-};
-
 /// A point that a rank and another one may have.
 struct Candidate
 {
@@ -72,166 +40,84 @@ struct MatchCounts
   }
 };
 
-/// Finds the candidates of one rank.
-class PlaceFinder
+/// Chooses the points of a rank that others may have, too.
+class CandidateFinder
 {
 public:
-  explicit PlaceFinder(const MeshPiece& piece)
+  CandidateFinder(const MeshPiece& piece, const PlaceFinder& finder, PieceGroup& group)
     : Piece(piece),
-      Fans(piece.Mesh.Points.Count, 0),
-      Used(piece.Mesh.Points.Count, 0),
-      Ends(piece.Mesh.Points.Count, 0)
+      Finder(finder),
+      Group(group),
+      Boxes(GatherRecords(group, std::vector<Box>{ finder.FindBox() }))
   {
-    for (std::int64_t t = 0; t < piece.Mesh.Triangles.Count; ++t)
-    {
-      this->NoteTriangle(t);
-    }
-    for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
-    {
-      this->Ends[piece.Mesh.ConstraintEdges[i]] = 1;
-    }
   }
 
-  bool IsUsed(std::int64_t point) const { return this->Used[point] != 0; }
-  /// Whether it matters that other ranks have the point, too.
-  bool IsWanted(std::int64_t point) const
+  /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
+  /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
+  /// one rank.
+  void AskForPlaces()
   {
-    return this->Used[point] != 0 || this->Ends[point] != 0;
-  }
-
-  /// Whether the triangles around a point do not close around it, so that it is at the border of
-  /// the piece. Also true where they are wound in different ways.
-  bool IsAtBorder(std::int64_t point) const
-  {
-    return this->Fans[point] != 0 || (!this->IsUsed(point) && this->IsWanted(point));
-  }
-
-  std::int64_t CountUsed() const
-  {
-    return std::count(this->Used.begin(), this->Used.end(), static_cast<unsigned char>(1));
-  }
-
-  /// One flag per point: whether it is used and not at the border.
-  std::vector<unsigned char> FindClosed() const
-  {
-    std::vector<unsigned char> closed(this->Used.size());
-    for (std::size_t i = 0; i < closed.size(); ++i)
-    {
-      closed[i] = this->Used[i] != 0 && this->Fans[i] == 0 ? 1 : 0;
-    }
-    return closed;
-  }
-
-  /// @returns whether the point has a place: no coordinate is NaN.
-  bool FindPlace(std::int64_t point, Place& place) const
-  {
-    if (this->Piece.PointNumbers)
-    {
-      place = { static_cast<std::uint64_t>(this->Piece.PointNumbers[point]), 0, 0 };
-      return true;
-    }
-    bool isPlace = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double x = this->Piece.Mesh.Points.Get(point, axis) + 0.0; // -0 becomes 0
-      isPlace = isPlace && !std::isnan(x);
-      std::memcpy(&place[axis], &x, sizeof(x));
-    }
-    return isPlace;
-  }
-
-  /// Of the used points; upside down if there are none.
-  Box FindBox() const
-  {
-    constexpr double Inf = std::numeric_limits<double>::infinity();
-    Box box{ { Inf, Inf, Inf }, { -Inf, -Inf, -Inf } };
+    RecordLists<Place> questions(this->Group.GetSize());
     for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
     {
-      for (int axis = 0; axis < 3 && this->IsUsed(i); ++axis)
+      Place place{};
+      if (!this->Finder.IsAtBorder(i) || !this->Finder.FindPlace(i, place))
       {
-        const double x = this->Piece.Mesh.Points.Get(i, axis);
-        box.Lower[axis] = std::min(box.Lower[axis], x);
-        box.Upper[axis] = std::max(box.Upper[axis], x);
+        continue;
+      }
+      for (int rank = 0; rank < this->Group.GetSize(); ++rank)
+      {
+        if (this->MayBeOn(rank, i))
+        {
+          questions[rank].push_back(place);
+        }
       }
     }
-    return box;
+    for (const std::vector<Place>& list : ExchangeRecords(this->Group, questions))
+    {
+      this->Asked.insert(list.begin(), list.end());
+    }
   }
 
-  /// Whether the point may be in the box: it is, or a coordinate is NaN.
-  bool MayBeIn(const Box& box, std::int64_t point) const
+  RecordLists<Candidate> List(std::int64_t firstKey) const
   {
-    const PointArray& points = this->Piece.Mesh.Points;
-    const double x[3] = { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
-    return box.Holds(x) || std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]);
+    RecordLists<Candidate> toHome(this->Group.GetSize());
+    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
+    {
+      Place place{};
+      if (this->Finder.IsWanted(i) && this->Finder.FindPlace(i, place) &&
+        this->MayBeShared(i, place))
+      {
+        toHome[GetHome(PlaceHash()(place), this->Group)].push_back(
+          { place, firstKey + i, this->Finder.IsUsed(i) ? 0 : 1 });
+      }
+    }
+    return toHome;
   }
 
 private:
-  void NoteTriangle(std::int64_t t)
+  bool MayBeOn(int rank, std::int64_t point) const
   {
-    const TriangleArray& triangles = this->Piece.Mesh.Triangles;
-    for (int slot = 0; slot < 3; ++slot)
+    return rank != this->Group.GetRank() && this->Finder.MayBeIn(this->Boxes[rank].front(), point);
+  }
+
+  bool MayBeShared(std::int64_t point, const Place& place) const
+  {
+    bool mayBe = this->Finder.IsAtBorder(point) || this->Asked.count(place) > 0;
+    // Sheets that lie on each other may have the same points, with a number that says so.
+    for (int rank = 0; rank < this->Group.GetSize() && this->Piece.PointNumbers; ++rank)
     {
-      const std::int64_t p = triangles.Get(t, slot);
-      this->Used[p] = 1;
-      // Around a closed fan every neighbour is the next one once, and once the previous one.
-      this->Fans[p] += ScatterBits(triangles.Get(t, (slot + 1) % 3));
-      this->Fans[p] -= ScatterBits(triangles.Get(t, (slot + 2) % 3));
+      mayBe = mayBe || this->MayBeOn(rank, point);
     }
+    return mayBe;
   }
 
   const MeshPiece& Piece;
-  std::vector<std::uint64_t> Fans;
-  std::vector<unsigned char> Used;
-  std::vector<unsigned char> Ends; ///< Of constraints.
+  const PlaceFinder& Finder;
+  PieceGroup& Group;
+  RecordLists<Box> Boxes; ///< One per rank.
+  PlaceSet Asked; ///< The places that others have asked for.
 };
-
-/// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
-/// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on one
-/// rank. @returns the places that were asked for by others.
-PlaceSet AskForPlaces(const MeshPiece& piece, const PlaceFinder& finder, PieceGroup& group)
-{
-  const RecordLists<Box> boxes = GatherRecords(group, std::vector<Box>{ finder.FindBox() });
-  RecordLists<Place> questions(group.GetSize());
-  for (std::int64_t i = 0; i < piece.Mesh.Points.Count; ++i)
-  {
-    Place place{};
-    if (!finder.IsAtBorder(i) || !finder.FindPlace(i, place))
-    {
-      continue;
-    }
-    for (int rank = 0; rank < group.GetSize(); ++rank)
-    {
-      if (rank != group.GetRank() && finder.MayBeIn(boxes[rank].front(), i))
-      {
-        questions[rank].push_back(place);
-      }
-    }
-  }
-  PlaceSet places;
-  for (const std::vector<Place>& list : ExchangeRecords(group, questions))
-  {
-    places.insert(list.begin(), list.end());
-  }
-  return places;
-}
-
-RecordLists<Candidate> ListCandidates(const MeshPiece& piece, const PlaceFinder& finder,
-  const PlaceSet& asked, std::int64_t firstKey, const PieceGroup& group)
-{
-  RecordLists<Candidate> toHome(group.GetSize());
-  for (std::int64_t i = 0; i < piece.Mesh.Points.Count; ++i)
-  {
-    Place place{};
-    const bool isCandidate = finder.IsWanted(i) && finder.FindPlace(i, place) &&
-      (finder.IsAtBorder(i) || asked.count(place) > 0);
-    if (isCandidate)
-    {
-      toHome[GetHome(PlaceHash()(place), group)].push_back(
-        { place, firstKey + i, finder.IsUsed(i) ? 0 : 1 });
-    }
-  }
-  return toHome;
-}
 
 struct RankedCandidate
 {
@@ -353,9 +239,9 @@ PointKeys MatchPoints(const MeshPiece& given, PieceGroup& group)
   piece.PointNumbers = HaveNumbers(given, group) ? given.PointNumbers : nullptr;
   const std::int64_t firstKey = keys.FirstKeys[group.GetRank()];
   const PlaceFinder finder(piece);
-  const PlaceSet asked = AskForPlaces(piece, finder, group);
-  const RecordLists<Candidate> candidates =
-    ExchangeRecords(group, ListCandidates(piece, finder, asked, firstKey, group));
+  CandidateFinder chosen(piece, finder, group);
+  chosen.AskForPlaces();
+  const RecordLists<Candidate> candidates = ExchangeRecords(group, chosen.List(firstKey));
   MatchCounts counts;
   counts.Used = finder.CountUsed();
   const RecordLists<SharedPoint> answers =

@@ -31,7 +31,8 @@ struct PointKeys
 
 /// Finds the points that several ranks have: those with the same number or, without numbers, with
 /// the same coordinates if at least one of them is at the border of a piece. A point without
-/// triangles counts as such if it is the end of a constraint.
+/// triangles counts as such if it is the end of a constraint. Points inside two pieces with the
+/// same number are found if each lies in the bounding box of the other's rank.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
 }

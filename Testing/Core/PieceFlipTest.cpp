@@ -118,6 +118,25 @@ TEST_P(RanksTest, RepeatedTrianglesInAPlane)
     mesh.View(), DivideAtRandom(mesh.View(), GetParam(), 18), GetParam(), options);
 }
 
+/// Each sheet on ranks of its own, so that points inside of it have triangles all around them
+/// there.
+TEST_P(RanksTest, TwoSheetsOverTheSamePoints)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(80, 5);
+  const std::int64_t first = mesh.NumberOfTriangles();
+  FlipOptions few = MakeCanonical();
+  few.MaximumIterations = 2;
+  const std::vector<std::int32_t> other = Flip(mesh.View(), few).Triangles;
+  mesh.Triangles.insert(mesh.Triangles.end(), other.begin(), other.end());
+  Owners owners = this->Cut(mesh.View());
+  for (std::int64_t t = 0; t < mesh.NumberOfTriangles(); ++t)
+  {
+    const int half = (GetParam() + 1) / 2;
+    owners[t] = t < first ? owners[t] % half : GetParam() - 1 - owners[t] % half;
+  }
+  ExpectGoodTriangles(mesh.View(), owners, GetParam(), MakeCanonical());
+}
+
 INSTANTIATE_TEST_SUITE_P(Pieces, RanksTest, testing::Values(1, 2, 3, 4, 7, 16), NameRanks);
 
 }

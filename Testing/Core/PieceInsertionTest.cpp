@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CgalReference.h"
 #include "ConstraintOracle.h"
 #include "FlipError.h"
 #include "GivenConstraints.h"
@@ -8,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 /// @file
@@ -19,6 +22,12 @@ namespace delaunayflip
 {
 namespace
 {
+
+/// Fewer under a sanitizer.
+constexpr std::uint32_t CountSeeds(std::uint32_t all)
+{
+  return std::max<std::uint32_t>(1, all / Reduction);
+}
 
 class PieceInsertionTest : public RanksTest
 {
@@ -44,7 +53,7 @@ protected:
 
 TEST_P(PieceInsertionTest, RandomConstraintsAmongManyPoints)
 {
-  for (std::uint32_t seed = 0; seed < 4; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(4); ++seed)
   {
     SCOPED_TRACE(seed);
     const ConstrainedMesh drawn = DropCrossing(DrawCase(150, 1000, 60, seed));
@@ -54,7 +63,7 @@ TEST_P(PieceInsertionTest, RandomConstraintsAmongManyPoints)
 
 TEST_P(PieceInsertionTest, RandomConstraintsAmongFewLatticePoints)
 {
-  for (std::uint32_t seed = 0; seed < 12; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(12); ++seed)
   {
     SCOPED_TRACE(seed);
     const ConstrainedMesh drawn = DropCrossing(DrawCase(20 + seed, 6, 12, seed));
@@ -64,7 +73,7 @@ TEST_P(PieceInsertionTest, RandomConstraintsAmongFewLatticePoints)
 
 TEST_P(PieceInsertionTest, ThatCrossEachOther)
 {
-  for (std::uint32_t seed = 0; seed < 6; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(6); ++seed)
   {
     SCOPED_TRACE(seed);
     const ConstrainedMesh drawn = DrawCase(100, 40, 40, seed);
@@ -129,6 +138,17 @@ TEST_P(PieceInsertionTest, OneThatLeavesTheMesh)
   ExpectAsAlone(mesh, GiveToAny(mesh, this->ScatterIt(mesh)));
 }
 
+TEST_P(PieceInsertionTest, BesidePointsThatAreNotFinite)
+{
+  ConstrainedMesh drawn = DropCrossing(DrawCase(100, 1000, 30, 6));
+  drawn.Mesh.Points[3 * 50] = -std::numeric_limits<double>::infinity();
+  drawn.Mesh.Points[3 * 60 + 1] = std::numeric_limits<double>::infinity();
+  FlipOptions options = MakeCanonical();
+  options.Geometry = GeometryKind::PlanarXY;
+  const TriangleMesh mesh = drawn.View();
+  ExpectAsAlone(mesh, GiveToAny(mesh, this->CutIt(mesh)), options);
+}
+
 TEST_P(PieceInsertionTest, ToAPointWithoutTriangles)
 {
   ConstrainedMesh grid;
@@ -144,7 +164,7 @@ TEST_P(PieceInsertionTest, ToAPointWithoutTriangles)
 
 TEST_P(PieceInsertionTest, WithRegionsAndFrozenTriangles)
 {
-  for (std::uint32_t seed = 0; seed < 6; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(6); ++seed)
   {
     SCOPED_TRACE(seed);
     const ConstrainedMesh drawn = DropCrossing(DrawCase(120, 30, 25, seed));
@@ -198,7 +218,7 @@ TEST_P(PieceInsertionTest, InTerrain)
 /// Where flips could make edges that other ranks have.
 TEST_P(PieceInsertionTest, BesideTrianglesWithoutArea)
 {
-  for (std::uint32_t seed = 0; seed < 4; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(4); ++seed)
   {
     SCOPED_TRACE(seed);
     ConstrainedMesh drawn = DropCrossing(DrawCase(60, 20, 20, seed));
@@ -212,7 +232,7 @@ TEST_P(PieceInsertionTest, BesideTrianglesWithoutArea)
 
 TEST_P(PieceInsertionTest, KeepsOverlapsWhatTheyAre)
 {
-  for (std::uint32_t seed = 0; seed < 10; ++seed)
+  for (std::uint32_t seed = 0; seed < CountSeeds(10); ++seed)
   {
     SCOPED_TRACE(seed);
     ConstrainedMesh drawn = DrawCase(40, 10, 30, seed);
@@ -239,6 +259,40 @@ TEST_P(PieceInsertionTest, KeepsOverlapsWhatTheyAre)
     EXPECT_EQ(alone.Edges.Boundary, report.Edges.Boundary);
     EXPECT_EQ(alone.Edges.NonManifold, report.Edges.NonManifold);
   }
+}
+
+/// A second sheet over some of the points, which has edges that flips in the first one could make.
+TEST_P(PieceInsertionTest, BetweenTwoSheets)
+{
+  std::int64_t inserted = 0;
+  for (std::uint32_t seed = 0; seed < CountSeeds(12); ++seed)
+  {
+    SCOPED_TRACE(seed);
+    ConstrainedMesh drawn = DrawCase(60, 12, 30, seed);
+    std::vector<std::array<double, 2>> places;
+    for (std::size_t i = 0; i < drawn.Mesh.Points.size(); i += 6)
+    {
+      places.push_back({ drawn.Mesh.Points[i], drawn.Mesh.Points[i + 1] });
+    }
+    Owners owners(drawn.Mesh.NumberOfTriangles(), 0);
+    for (const std::int32_t point : MakeSweptMesh(places).Triangles)
+    {
+      drawn.Mesh.Triangles.push_back(2 * point);
+    }
+    owners.resize(drawn.Mesh.NumberOfTriangles(), GetParam() - 1);
+    const TriangleMesh mesh = drawn.View();
+    for (const Owners& some : { owners, this->Cut(mesh) })
+    {
+      const GroupResult result =
+        FlipDivided(mesh, GiveFar(mesh, Divide(mesh, some, GetParam())), MakeCanonical());
+      ExpectSameOnAllRanks(result.Reports);
+      EXPECT_EQ(0, CountDuplicateEdgesGained(mesh.Triangles, result.View()));
+      const FlipReport& report = result.Reports.front();
+      EXPECT_EQ(Flip(mesh, MakeCanonical()).Report.EulerCharacteristic, report.EulerCharacteristic);
+      inserted += report.InsertedConstraints;
+    }
+  }
+  EXPECT_LT(0, inserted);
 }
 
 TEST_P(PieceInsertionTest, OnASurfaceNoneIs)

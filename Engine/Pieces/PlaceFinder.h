@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PLACEFINDER_H
+#define DELAUNAYFLIP_PLACEFINDER_H
+
+#include "PieceFlip.h"
+#include "Records.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <unordered_set>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// What makes two points the same: a number, or the bits of three coordinates.
+using Place = std::array<std::uint64_t, 3>;
+
+struct PlaceHash
+{
+  std::size_t operator()(const Place& place) const
+  {
+    return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
+  }
+};
+/// Never iterated over: its order varies.
+using PlaceSet = std::unordered_set<Place, PlaceHash>;
+
+struct Box
+{
+  double Lower[3], Upper[3];
+
+  bool Holds(const double (&x)[3]) const
+  {
+    bool holds = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
+    }
+    return holds;
+  }
+};
+
+/// The places of the points of one rank, and what its triangles say of them.
+class PlaceFinder
+{
+public:
+  explicit PlaceFinder(const MeshPiece& piece)
+    : Piece(piece),
+      Fans(piece.Mesh.Points.Count, 0),
+      Used(piece.Mesh.Points.Count, 0),
+      Ends(piece.Mesh.Points.Count, 0)
+  {
+    for (std::int64_t t = 0; t < piece.Mesh.Triangles.Count; ++t)
+    {
+      this->NoteTriangle(t);
+    }
+    for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
+    {
+      this->Ends[piece.Mesh.ConstraintEdges[i]] = 1;
+    }
+  }
+
+  bool IsUsed(std::int64_t point) const { return this->Used[point] != 0; }
+  /// Whether it matters that other ranks have the point, too.
+  bool IsWanted(std::int64_t point) const
+  {
+    return this->Used[point] != 0 || this->Ends[point] != 0;
+  }
+
+  /// Whether the triangles around a point do not close around it, so that it is at the border of
+  /// the piece. Also true where they are wound in different ways.
+  bool IsAtBorder(std::int64_t point) const
+  {
+    return this->Fans[point] != 0 || (!this->IsUsed(point) && this->IsWanted(point));
+  }
+
+  std::int64_t CountUsed() const
+  {
+    return std::count(this->Used.begin(), this->Used.end(), static_cast<unsigned char>(1));
+  }
+
+  /// One flag per point: whether it is used and not at the border.
+  std::vector<unsigned char> FindClosed() const
+  {
+    std::vector<unsigned char> closed(this->Used.size());
+    for (std::size_t i = 0; i < closed.size(); ++i)
+    {
+      closed[i] = this->Used[i] != 0 && this->Fans[i] == 0 ? 1 : 0;
+    }
+    return closed;
+  }
+
+  /// @returns whether the point has a place: no coordinate is NaN.
+  bool FindPlace(std::int64_t point, Place& place) const
+  {
+    if (this->Piece.PointNumbers)
+    {
+      place = { static_cast<std::uint64_t>(this->Piece.PointNumbers[point]), 0, 0 };
+      return true;
+    }
+    bool isPlace = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double x = this->Piece.Mesh.Points.Get(point, axis) + 0.0; // -0 becomes 0
+      isPlace = isPlace && !std::isnan(x);
+      std::memcpy(&place[axis], &x, sizeof(x));
+    }
+    return isPlace;
+  }
+
+  /// Of the used points; upside down if there are none.
+  Box FindBox() const
+  {
+    constexpr double Inf = std::numeric_limits<double>::infinity();
+    Box box{ { Inf, Inf, Inf }, { -Inf, -Inf, -Inf } };
+    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
+    {
+      for (int axis = 0; axis < 3 && this->IsUsed(i); ++axis)
+      {
+        const double x = this->Piece.Mesh.Points.Get(i, axis);
+        box.Lower[axis] = std::min(box.Lower[axis], x);
+        box.Upper[axis] = std::max(box.Upper[axis], x);
+      }
+    }
+    return box;
+  }
+
+  /// Whether the point may be in the box: it is, or a coordinate is NaN.
+  bool MayBeIn(const Box& box, std::int64_t point) const
+  {
+    const PointArray& points = this->Piece.Mesh.Points;
+    const double x[3] = { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
+    return box.Holds(x) || std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]);
+  }
+
+private:
+  void NoteTriangle(std::int64_t t)
+  {
+    const TriangleArray& triangles = this->Piece.Mesh.Triangles;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int64_t p = triangles.Get(t, slot);
+      this->Used[p] = 1;
+      // Around a closed fan every neighbour is the next one once, and once the previous one.
+      this->Fans[p] += ScatterBits(triangles.Get(t, (slot + 1) % 3));
+      this->Fans[p] -= ScatterBits(triangles.Get(t, (slot + 2) % 3));
+    }
+  }
+
+  const MeshPiece& Piece;
+  std::vector<std::uint64_t> Fans;
+  std::vector<unsigned char> Used;
+  std::vector<unsigned char> Ends; ///< Of constraints.
+};
+
+}
+
+#endif
