@@ -103,6 +103,29 @@ TEST(SegmentTree, FindsWhatATriangleTouches)
   }
 }
 
+/// Along the line of the segment, which rounding must not move away.
+TEST(SegmentTree, FindsSegmentsByTrianglesThatOnlyTouchThem)
+{
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i)
+  {
+    const double v = DrawIndex(random, 1000000) / 999983.0;
+    std::vector<SegmentTree::Segment> segments(20, { { { 5, 0, 0 }, { 5, 0, 0 } } });
+    segments[i % 20] = { { { 0.1, v, 0 }, { 0.9, v, 0 } } };
+    const SegmentTree tree(segments);
+    std::vector<std::int32_t> found;
+    for (double u = 0.1; u < 0.9; u += 0.04)
+    {
+      tree.FindTouched(
+        { { { u, v, 0 }, { u + 0.001, v - 1, 0 }, { u - 0.001, v - 1, 0 } } }, found);
+      EXPECT_EQ(std::vector<std::int32_t>(1, i % 20), found);
+      tree.FindTouched(
+        { { { u, v, 0 }, { u + 0.001, v + 1, 0 }, { u - 0.001, v + 1, 0 } } }, found);
+      EXPECT_EQ(std::vector<std::int32_t>(1, i % 20), found);
+    }
+  }
+}
+
 TEST(SegmentTree, FindsSegmentsByATriangleWithoutArea)
 {
   const std::vector<SegmentTree::Segment> segments(1, { { { 0, 0, 0 }, { 4, 4, 0 } } });
