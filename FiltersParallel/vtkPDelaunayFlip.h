@@ -35,8 +35,8 @@
  * process stops all of them. If one process fails, the update fails on all, with the same message.
  *
  * @warning
- * TrackQuality has no effect: only the last iteration has a smallest angle. With several processes
- * LiveUpdate is off, with a warning. Every process must have an input, of the same kind.
+ * With several processes LiveUpdate is off, with a warning. Every process must have an input, of
+ * the same kind.
  *
  * @sa
  * vtkDelaunayFlip

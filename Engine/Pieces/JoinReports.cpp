@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -160,22 +161,49 @@ void AddRow(const IterationRecord& row, IterationRecord& sum)
   sum.Seconds = std::max(sum.Seconds, row.Seconds);
 }
 
-std::vector<IterationRecord> JoinRows(const std::vector<RoundRow>& rows, PieceGroup& group)
+/// An iteration of all ranks that make one.
+struct JoinedRow
 {
-  std::map<std::pair<std::int64_t, std::int64_t>, IterationRecord> sums;
-  for (const std::vector<RoundRow>& list : GatherRecords(group, rows))
+  IterationRecord Sum;
+  std::vector<std::pair<std::size_t, double>> Angles; ///< The smallest of those ranks.
+};
+
+using RowPlace = std::pair<std::int64_t, std::int64_t>; // round and place
+
+std::map<RowPlace, JoinedRow> SumRows(const RecordLists<RoundRow>& lists)
+{
+  std::map<RowPlace, JoinedRow> sums;
+  for (std::size_t rank = 0; rank < lists.size(); ++rank)
   {
-    for (const RoundRow& row : list)
+    for (const RoundRow& row : lists[rank])
     {
-      AddRow(row.Record, sums[{ row.Round, row.Place }]);
+      JoinedRow& joined = sums[{ row.Round, row.Place }];
+      AddRow(row.Record, joined.Sum);
+      joined.Angles.emplace_back(rank, row.Record.MinimumAngle);
     }
   }
+  return sums;
+}
+
+/// The smallest angle after an iteration is that of all ranks; a rank that has made no further
+/// iteration still has its last one.
+std::vector<IterationRecord> JoinRows(const std::vector<RoundRow>& rows, PieceGroup& group)
+{
+  std::vector<double> angles(group.GetSize(), NaN);
   std::vector<IterationRecord> joined;
-  for (const auto& [place, sum] : sums)
+  for (const auto& [place, row] : SumRows(GatherRecords(group, rows)))
   {
-    joined.push_back(sum);
-    joined.back().Iteration = static_cast<std::int64_t>(joined.size());
-    joined.back().MinimumAngle = NaN; // of no rank it is known for the whole mesh
+    for (const auto& [rank, angle] : row.Angles)
+    {
+      angles[rank] = angle;
+    }
+    if (place.second >= 0)
+    {
+      joined.push_back(row.Sum);
+      joined.back().Iteration = static_cast<std::int64_t>(joined.size());
+      joined.back().MinimumAngle = std::accumulate(
+        angles.begin(), angles.end(), NaN, [](double a, double b) { return std::fmin(a, b); });
+    }
   }
   return joined;
 }

@@ -17,7 +17,7 @@ namespace delaunayflip
 struct RoundRow
 {
   std::int64_t Round;
-  std::int64_t Place; ///< Among the rank's own of that round.
+  std::int64_t Place; ///< Among the rank's own of that round; -1: before them, only an angle.
   IterationRecord Record;
 };
 

@@ -44,6 +44,8 @@ public:
     return static_cast<std::int64_t>(this->Triangles.size());
   }
 
+  /// Their places in the piece, ascending.
+  const std::vector<std::int64_t>& GetTriangles() const { return this->Triangles; }
   /// The rank's own id of a point.
   std::int32_t GetPoint(std::int64_t number) const { return this->PointOf[number]; }
   /// The region's number of a point, or -1.
@@ -66,7 +68,7 @@ private:
   void ListFixedEdges(const PieceMesh& mesh);
 
   WholeMesh Whole;
-  std::vector<std::int64_t> Triangles; ///< Their places in the piece, ascending.
+  std::vector<std::int64_t> Triangles;
   std::vector<std::int32_t> PointOf; ///< By the region's number.
   std::vector<unsigned char> Inner; ///< By that number: whether all triangles at it are here.
   std::vector<std::int32_t> Ids; ///< Three per triangle, the region's numbers.

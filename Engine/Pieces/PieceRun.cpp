@@ -10,6 +10,8 @@
 #include "QuadSoup.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace delaunayflip
@@ -19,6 +21,8 @@ namespace
 {
 /// The share of the time until the first test of edges between ranks, about.
 constexpr double FirstShare = 0.8;
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 /// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
 /// are made at most.
@@ -119,7 +123,6 @@ void PieceRun::FlipFirst()
   const TriangleMesh mesh = this->GetFirstMesh();
   FlipOptions options = this->Job.Options;
   options.Geometry = this->Job.Survey.Geometry;
-  options.TrackQuality = false;
   const double begin = this->Constraints.GetShare();
   const ProgressObserver progress = [=](double share)
   { return this->Tell(begin + (FirstShare - begin) * share); };
@@ -140,7 +143,7 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   session.StoreFlipCounts(flips.data());
   this->Own = session.GetReport();
   this->Constraints.AddTo(this->Own);
-  this->KeepRows(this->Own);
+  this->KeepRows(this->Own, NaN);
   this->StopReason = this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->StopReason;
   this->MarkEdges(mesh);
   for (std::int64_t t = 0; t < count; ++t)
@@ -150,6 +153,11 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   }
   this->Edges.Apply(this->Mesh.Triangles);
   this->Edges = MarkedEdges();
+  if (this->Job.Options.TrackQuality)
+  {
+    this->Quality.Measure(this->Mesh, this->Job.Survey);
+    this->KeepAngle();
+  }
   if (this->Job.Group.GetSize() > 1)
   {
     this->Mesh.BeginRounds();
@@ -234,6 +242,10 @@ bool PieceRun::MakeRound()
   points.insert(points.end(), waiting.Points.begin(), waiting.Points.end());
   this->Whole.MovedTriangles += moved;
   DoTogether(this->Job.Group, [&]() { this->FlipAround(points); });
+  if (this->Job.Options.TrackQuality)
+  {
+    this->KeepAngle();
+  }
   return true;
 }
 
@@ -258,6 +270,7 @@ std::vector<std::int32_t> PieceRun::FlipRegion(const PieceRegion& region)
 {
   FlipOptions options = GetPartOptions(this->Job.Survey, this->Job.Options);
   options.MaximumIterations = this->CountIterationsLeft();
+  options.TrackQuality = this->Job.Options.TrackQuality;
   FlipSession session(region.View(), options);
   session.Advance();
   std::vector<std::int32_t> ids(3 * region.GetNumberOfTriangles());
@@ -266,17 +279,25 @@ std::vector<std::int32_t> PieceRun::FlipRegion(const PieceRegion& region)
   session.StoreFlipCounts(flips.data());
   region.Store(ids, flips, this->Mesh);
   const FlipReport& report = session.GetReport();
-  this->KeepRows(report);
+  double rest = NaN;
+  if (options.TrackQuality)
+  {
+    rest = this->Quality.FindSmallest(this->Mesh, region.GetTriangles());
+    this->Quality.Update(region, ids, this->Job.Survey);
+  }
+  this->KeepRows(report, rest);
   this->Own.BuildSeconds += report.BuildSeconds;
   this->Own.FlipSeconds += report.FlipSeconds;
   return region.FindNext(ids, flips);
 }
 
 //------------------------------------------------------------------------------
-void PieceRun::KeepRows(const FlipReport& report)
+/// @param rest the smallest angle of the triangles that the report is not about.
+void PieceRun::KeepRows(const FlipReport& report, double rest)
 {
-  for (const IterationRecord& row : report.Iterations)
+  for (IterationRecord row : report.Iterations)
   {
+    row.MinimumAngle = this->Job.Options.TrackQuality ? std::fmin(row.MinimumAngle, rest) : NaN;
     this->KeepRow(row);
   }
   this->HasBlocked = this->HasBlocked || report.NonDelaunayAfter > 0;
@@ -296,7 +317,24 @@ void PieceRun::KeepFlips(std::int64_t flipped)
   {
     IterationRecord row;
     row.Tested = row.NonDelaunay = row.Flipped = flipped;
+    row.MinimumAngle = NaN;
+    if (this->Job.Options.TrackQuality)
+    {
+      this->Quality.Measure(this->Mesh, this->Job.Survey);
+      row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
+    }
     this->KeepRow(row);
+  }
+}
+
+/// For the other ranks' iterations, if this one had none in the round.
+void PieceRun::KeepAngle()
+{
+  if (this->Rows.empty() || this->Rows.back().Round != this->Whole.Rounds)
+  {
+    IterationRecord row;
+    row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
+    this->Angles.push_back({ this->Whole.Rounds, -1, row });
   }
 }
 
@@ -330,7 +368,9 @@ PiecesReport PieceRun::MakeReport()
 {
   const SeamCounts& seams = this->Seams.Counts;
   PiecesReport report = this->Whole;
-  static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
+  std::vector<RoundRow> rows = this->Rows;
+  rows.insert(rows.end(), this->Angles.begin(), this->Angles.end());
+  static_cast<FlipReport&>(report) = JoinReports(this->Own, rows, this->Job.Group);
   report.Points = this->NumberOfPoints;
   report.Edges = this->IsCounted ? seams.AddTo(report.Edges) : EdgeCounts();
   report.EulerCharacteristic =
@@ -344,7 +384,7 @@ PiecesReport PieceRun::MakeReport()
   report.GeometryUsed = this->Job.Survey.Geometry;
   report.GeometryReason = this->Job.Survey.GeometryReason;
   report.StopReason = this->WholeStopReason;
-  if (!report.Iterations.empty())
+  if (!report.Iterations.empty() && !this->Job.Options.TrackQuality)
   {
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
   }

@@ -9,6 +9,7 @@
 #include "PieceConstraints.h"
 #include "PieceJob.h"
 #include "PieceMesh.h"
+#include "PieceQuality.h"
 #include "PieceRegion.h"
 #include "SeamRound.h"
 #include "SeamSurvey.h"
@@ -47,9 +48,10 @@ private:
   bool MayGoOn();
   void FlipAround(std::vector<std::int32_t> points);
   std::vector<std::int32_t> FlipRegion(const PieceRegion& region);
-  void KeepRows(const FlipReport& report);
+  void KeepRows(const FlipReport& report, double rest);
   void KeepRow(const IterationRecord& row);
   void KeepFlips(std::int64_t flipped);
+  void KeepAngle();
   std::int64_t CountIterationsLeft() const;
   bool Tell(double share) const;
   void CountRest();
@@ -70,6 +72,8 @@ private:
   // Of this rank:
   FlipReport Own; ///< Begins as that of the first flips.
   std::vector<RoundRow> Rows;
+  PieceQuality Quality; ///< Only with FlipOptions::TrackQuality.
+  std::vector<RoundRow> Angles; ///< The smallest angle in rounds without iterations.
   MarkedEdges Edges; ///< While the first triangles are replaced.
   StopReasonKind StopReason = StopReasonKind::Converged;
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
