@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceRun.h"
+
+#include "ConstraintInsertion.h"
+#include "DelaunayFlip.h"
+#include "MeshAudit.h"
+
+#include <algorithm>
+
+/// @file
+/// What a run in pieces reports.
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Adds a defect that may be known already.
+void AddDefect(const Defect& defect, std::vector<Defect>& defects)
+{
+  const auto known = std::find_if(
+    defects.begin(), defects.end(), [&](const Defect& other) { return other.What == defect.What; });
+  if (known != defects.end())
+  {
+    known->Count += defect.Count;
+  }
+  else if (defect.Count > 0)
+  {
+    defects.push_back(defect);
+  }
+}
+}
+
+/// The edges that are left, and the smallest angle, on this rank.
+void PieceRun::CountRest()
+{
+  const PieceRegion all(this->Mesh, this->Job.Survey);
+  this->Own.MinimumAngleAfter = MinimumAngle(all.View(), this->Job.Survey.Geometry);
+  this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
+  if (this->HasBlocked)
+  {
+    FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
+    none.MaximumIterations = 0;
+    const FlipSession session(all.View(), none);
+    const FlipReport& report = session.GetReport();
+    this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
+    this->Own.BlockedByShape = report.BlockedByShape;
+    this->Own.BlockedByEdge = report.BlockedByEdge;
+  }
+}
+
+PiecesReport PieceRun::MakeReport()
+{
+  const SeamCounts& seams = this->Seams.Counts;
+  PiecesReport report = this->Whole;
+  std::vector<RoundRow> rows = this->Rows;
+  rows.insert(rows.end(), this->Angles.begin(), this->Angles.end());
+  static_cast<FlipReport&>(report) = JoinReports(this->Own, rows, this->Job.Group);
+  report.Points = this->NumberOfPoints;
+  report.Edges = this->IsCounted ? seams.AddTo(report.Edges) : EdgeCounts();
+  report.EulerCharacteristic =
+    this->IsCounted ? this->UsedPoints - report.Edges.Edges + report.Triangles : 0;
+  report.UnmatchedConstraints += seams.MissingConstraints;
+  report.NonDelaunayBefore += seams.NonDelaunay;
+  report.NonDelaunayAfter += this->BadSeams;
+  report.BlockedByShape += this->FoldedSeams;
+  const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
+  report.BlockedByEdge += areBlocked ? this->BadSeams - this->FoldedSeams : 0;
+  report.GeometryUsed = this->Job.Survey.Geometry;
+  report.GeometryReason = this->Job.Survey.GeometryReason;
+  report.StopReason = this->WholeStopReason;
+  if (!report.Iterations.empty() && !this->Job.Options.TrackQuality)
+  {
+    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+  }
+  this->AddDefects(report);
+  return report;
+}
+
+void PieceRun::AddDefects(FlipReport& report) const
+{
+  const SeamCounts& seams = this->Seams.Counts;
+  const Defect onSurface{ ConstraintInsertion::OnSurface, seams.MissingToInsert, {},
+    DefectIds::PointPairs };
+  const Defect missing{ "constraint edges that are not edges of the mesh",
+    seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };
+  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, onSurface, missing })
+  {
+    AddDefect(defect, report.Defects);
+  }
+}
+
+}
