@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CallerInput.h"
 
+#include "CudaDevice.h"
 #include "KeptReport.h"
 #include "Status.h"
 
@@ -170,6 +171,7 @@ FlipOptions ToOptions(const delaunayflip_options* given)
   options.MaximumIterations = c.maximum_iterations;
   options.NumberOfThreads = c.number_of_threads;
   options.Device = c.device;
+  options.Devices = ParseDevices(c.devices ? c.devices : "");
   options.TrackQuality = c.track_quality != 0;
   return options;
 }

@@ -85,6 +85,7 @@ extern "C"
     options->maximum_iterations = defaults.MaximumIterations;
     options->number_of_threads = defaults.NumberOfThreads;
     options->device = defaults.Device;
+    options->devices = nullptr;
   }
 
   void delaunayflip_report_init(delaunayflip_report* report)

@@ -21,6 +21,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -65,10 +67,10 @@ struct DeviceNumbering
 class CudaBackend
 {
 public:
-  /// @param device CUDA's number of the GPU; -1: the current one.
+  /// @param devices CUDA's numbers of the GPUs, which share the mesh; -1: the current one.
   /// @param threads the number of CPU threads, for conversions of copied data.
-  CudaBackend(int device, int threads)
-    : Context(ResolveDevice(device)),
+  CudaBackend(const std::vector<int>& devices, int threads)
+    : Context(ResolveDevices(devices)),
       Threads(threads)
   {
   }
@@ -80,6 +82,14 @@ public:
 
   static constexpr bool MemoryIsScarce = true;
 
+  /// With slices of vertices an edge table takes a quarter of the memory, and every triangle is
+  /// visited four times. Several GPUs have more memory, and a slice would be on one of them.
+  int CountTableSlices() const
+  {
+    constexpr int Slices = 4;
+    return this->CountDevices() == 1 ? Slices : 1;
+  }
+
   /// E.g. "CUDA: NVIDIA H200".
   std::string GetName() const { return "CUDA: " + this->Context->Name; }
 
@@ -89,32 +99,43 @@ public:
   template <typename T>
   Array<T> MakeArray(std::int64_t size) const
   {
+    return Array<T>(static_cast<std::size_t>(size), this->Context->GetMemory());
+  }
+
+  /// The same on the first GPU alone.
+  template <typename T>
+  Array<T> MakeArrayOnFirst(std::int64_t size) const
+  {
     return Array<T>(static_cast<std::size_t>(size), *this->Context->Pool);
   }
 
   template <typename Work>
   void ForEach(std::int64_t size, const Work& work) const
   {
-    if (size > 0)
-    {
-      this->Launch([&](cudaStream_t stream)
-        { ForEachKernel<<<this->GetBlocks(size), ThreadsPerBlock, 0, stream>>>(size, work); });
-    }
+    this->LaunchShared(size,
+      [&](cudaStream_t stream, const ItemRange& items, int)
+      { ForEachKernel<<<this->GetBlocks(items), ThreadsPerBlock, 0, stream>>>(items, work); });
   }
 
   template <typename Result, typename Work>
   Result Sum(std::int64_t size, const Work& work) const
   {
-    const int blocks = this->GetBlocks(size);
-    Array<Result> partials = this->MakeArray<Result>(blocks + 1);
+    const int most = this->GetBlocks({ 0, size });
+    Array<Result> partials = this->MakeArrayOnFirst<Result>(most * this->CountDevices() + 1);
+    int blocks = 0;
+    this->LaunchShared(size,
+      [&](cudaStream_t stream, const ItemRange& items, int)
+      {
+        const int own = this->GetBlocks(items);
+        SumKernel<<<own, ThreadsPerBlock, 0, stream>>>(items, work, partials.Data() + blocks);
+        blocks += own;
+      });
     Result* all = partials.Data() + blocks;
-    this->Launch([&](cudaStream_t stream)
-      { SumKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(size, work, partials.Data()); });
     this->Launch(
       [&](cudaStream_t stream)
       {
         SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(
-          blocks, AddPartial<Result>{ partials.Data() }, all);
+          ItemRange{ 0, blocks }, AddPartial<Result>{ partials.Data() }, all);
       });
     Result total;
     this->Download(all, 1, &total);
@@ -126,16 +147,16 @@ public:
   template <typename CountOf>
   Numbering Count(std::int64_t size, const CountOf& count) const
   {
-    const std::int64_t tiles = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
+    const std::int64_t tiles = ItemRange{ 0, size }.CountTiles();
     Numbering numbering;
     numbering.FirstOfTile = this->MakeArray<std::int64_t>(tiles + 1);
     std::int64_t* firsts = numbering.FirstOfTile.Data();
     this->Fill(firsts, 0, tiles + 1);
-    if (tiles > 0)
-    {
-      this->Launch([&](cudaStream_t stream)
-        { CountKernel<<<GridOf(tiles), ThreadsPerBlock, 0, stream>>>(size, count, firsts); });
-    }
+    this->LaunchShared(size,
+      [&](cudaStream_t stream, const ItemRange& items, int) {
+        CountKernel<<<GridOf(items.CountTiles()), ThreadsPerBlock, 0, stream>>>(
+          items, count, firsts);
+      });
     this->RunCub(
       [&](void* temporary, std::size_t& bytes)
       {
@@ -150,16 +171,12 @@ public:
   void ForEachNumbered(
     const Numbering& numbering, std::int64_t size, const CountOf& count, const Visit& visit) const
   {
-    const std::int64_t tiles = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
-    if (tiles > 0)
-    {
-      this->Launch(
-        [&](cudaStream_t stream)
-        {
-          ForEachNumberedKernel<<<GridOf(tiles), ThreadsPerBlock, 0, stream>>>(
-            size, count, visit, numbering.FirstOfTile.Data());
-        });
-    }
+    this->LaunchShared(size,
+      [&](cudaStream_t stream, const ItemRange& items, int)
+      {
+        ForEachNumberedKernel<<<GridOf(items.CountTiles()), ThreadsPerBlock, 0, stream>>>(
+          items, count, visit, numbering.FirstOfTile.Data());
+      });
   }
 
   template <int KeyBits, typename KeyOf>
@@ -257,7 +274,14 @@ public:
     std::int64_t size, const Target& target, const DeviceStream& stream, const Store& store) const
   {
     this->WaitFor(stream);
-    this->ForEach(size, [=] __device__(std::int64_t i) { store(i, target); });
+    const ItemRange items{ 0, size };
+    const auto work = [=] __device__(std::int64_t i) { store(i, target); };
+    if (size > 0)
+    {
+      // The other GPUs cannot access the caller's memory.
+      this->Launch([&](cudaStream_t own)
+        { ForEachKernel<<<this->GetBlocks(items), ThreadsPerBlock, 0, own>>>(items, work); });
+    }
     this->Synchronize();
   }
 
@@ -273,10 +297,70 @@ public:
       });
   }
 
+  int CountDevices() const { return 1 + static_cast<int>(this->Context->Others.size()); }
+
+  /// Calls launch(stream, part), which launches a kernel, on each of the first `parts` GPUs.
+  template <typename LaunchPart>
+  void LaunchOnEach(int parts, const LaunchPart& launch) const
+  {
+    if (parts == 1)
+    {
+      this->Launch([&](cudaStream_t stream) { launch(stream, 0); });
+      return;
+    }
+    this->Context->Fork();
+    this->Launch([&](cudaStream_t stream) { launch(stream, 0); });
+    for (int part = 1; part < parts; ++part)
+    {
+      const DeviceStreams& other = this->Context->Others[part - 1];
+      const CurrentDevice current(other.Device);
+      CallCuda("start a kernel",
+        [&]
+        {
+          launch(other.Stream, part);
+          return cudaGetLastError();
+        });
+    }
+    this->Context->Join();
+  }
+
+  /// Calls launch(stream, items, part), which launches a kernel, for the items of every GPU.
+  template <typename LaunchItems>
+  void LaunchShared(std::int64_t size, const LaunchItems& launch) const
+  {
+    // Fewer are done by one GPU before another would begin.
+    constexpr std::int64_t SmallestShared = std::int64_t(1) << 18;
+    const int parts = size < SmallestShared ? 1 : this->CountDevices();
+    if (size > 0)
+    {
+      this->LaunchOnEach(parts,
+        [&](cudaStream_t stream, int part) {
+          launch(stream, { FirstOf(part, parts, size), FirstOf(part + 1, parts, size) }, part);
+        });
+    }
+  }
+
+  /// The first item of a part; they are as large as the parts of an array (SharedMemory).
+  static std::int64_t FirstOf(int part, int parts, std::int64_t size)
+  {
+    return part == parts ? size : size * part / parts / ThreadsPerBlock * ThreadsPerBlock;
+  }
+
   /// The caller's points with three coordinates each: a view, or a copy in `wide`. Public because
   /// device lambdas require it.
   template <typename T>
   PointArray ViewPoints(const T* values, const DevicePointArray& points, Array<T>& wide) const;
+
+  /// A copy on all GPUs. Public because device lambdas require it.
+  Array<std::uint32_t> Share(const Array<std::uint32_t>& values) const
+  {
+    const auto size = static_cast<std::int64_t>(values.Size());
+    Array<std::uint32_t> shared = this->MakeArray<std::uint32_t>(size);
+    const std::uint32_t* from = values.Data();
+    std::uint32_t* to = shared.Data();
+    this->ForEach(size, [=] __device__(std::int64_t i) { to[i] = from[i]; });
+    return shared;
+  }
 
 private:
   /// @throws BackendUnavailable for more points than ids can name.
@@ -308,24 +392,23 @@ private:
 
   static constexpr std::int64_t SlicesOfOutput = 8;
 
-  static int ResolveDevice(int device)
+  static std::vector<int> ResolveDevices(std::vector<int> devices)
   {
-    if (device < 0)
+    if (devices.front() < 0)
     {
-      CallCuda("ask for the current device", [&] { return cudaGetDevice(&device); });
+      CallCuda("ask for the current device", [&] { return cudaGetDevice(&devices.front()); });
     }
-    return device;
+    return devices;
   }
 
   static unsigned GridOf(std::int64_t blocks) { return static_cast<unsigned>(blocks); }
 
   /// Enough blocks for every item, but at most several waves of blocks.
-  int GetBlocks(std::int64_t size) const
+  int GetBlocks(const ItemRange& items) const
   {
     constexpr std::int64_t BlocksPerMultiprocessor = 32;
-    const std::int64_t wanted = (size + ThreadsPerBlock - 1) / ThreadsPerBlock;
     return static_cast<int>(std::max<std::int64_t>(
-      1, std::min(wanted, BlocksPerMultiprocessor * this->Context->Multiprocessors)));
+      1, std::min(items.CountTiles(), BlocksPerMultiprocessor * this->Context->Multiprocessors)));
   }
 
   /// Calls a CUB algorithm twice, as it requires: for the size of its memory, then with the memory.
@@ -334,7 +417,7 @@ private:
   {
     std::size_t bytes = 0;
     CallCuda("plan a sort or scan", [&] { return algorithm(nullptr, bytes); });
-    Array<char> temporary = this->MakeArray<char>(static_cast<std::int64_t>(bytes));
+    Array<char> temporary = this->MakeArrayOnFirst<char>(static_cast<std::int64_t>(bytes));
     CallCuda("sort or scan", [&] { return algorithm(temporary.Data(), bytes); });
   }
 
@@ -345,10 +428,11 @@ private:
 template <int KeyBits, typename KeyOf>
 Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
 {
-  Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
-  Array<std::uint32_t> sortedKeys = this->MakeArray<std::uint32_t>(size);
-  Array<std::uint32_t> indices = this->MakeArray<std::uint32_t>(size);
-  Array<std::uint32_t> sorted = this->MakeArray<std::uint32_t>(size);
+  // One GPU sorts.
+  Array<std::uint32_t> keys = this->MakeArrayOnFirst<std::uint32_t>(size);
+  Array<std::uint32_t> sortedKeys = this->MakeArrayOnFirst<std::uint32_t>(size);
+  Array<std::uint32_t> indices = this->MakeArrayOnFirst<std::uint32_t>(size);
+  Array<std::uint32_t> sorted = this->MakeArrayOnFirst<std::uint32_t>(size);
   std::uint32_t* keyOfItem = keys.Data();
   std::uint32_t* indexOfItem = indices.Data();
   this->ForEach(size,
@@ -365,7 +449,9 @@ Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& ke
       return cub::DeviceRadixSort::SortPairs(
         temporary, bytes, keyBuffer, indexBuffer, size, 0, KeyBits, this->GetStream());
     });
-  return indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
+  Array<std::uint32_t> found =
+    indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
+  return this->CountDevices() == 1 ? std::move(found) : this->Share(found);
 }
 
 }

@@ -27,11 +27,12 @@ struct IdleContexts
     return *contexts;
   }
 
-  std::unique_ptr<CudaContext> Take(int device)
+  std::unique_ptr<CudaContext> Take(const std::vector<int>& devices)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto found = std::find_if(this->Contexts.begin(), this->Contexts.end(),
-      [device](const std::unique_ptr<CudaContext>& context) { return context->Device == device; });
+      [&](const std::unique_ptr<CudaContext>& context)
+      { return context->ListDevices() == devices; });
     if (found == this->Contexts.end())
     {
       return nullptr;
@@ -53,7 +54,7 @@ struct IdleContexts
     std::size_t peak = 0;
     for (const std::unique_ptr<CudaContext>& context : this->Contexts)
     {
-      peak = std::max(peak, context->Pool->TakePeak());
+      peak = std::max(peak, context->TakePeak());
     }
     return peak;
   }
@@ -64,68 +65,6 @@ struct IdleContexts
     return std::move(this->Contexts);
   }
 };
-}
-
-DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
-  : Stream(stream)
-{
-  int supported = 0;
-  CallCuda("ask for memory pools",
-    [&] { return cudaDeviceGetAttribute(&supported, cudaDevAttrMemoryPoolsSupported, device); });
-  if (supported == 0)
-  {
-    return;
-  }
-  cudaMemPoolProps properties = {};
-  properties.allocType = cudaMemAllocationTypePinned;
-  properties.location.type = cudaMemLocationTypeDevice;
-  properties.location.id = device;
-  CallCuda("make a memory pool", [&] { return cudaMemPoolCreate(&this->Pool, &properties); });
-  std::uint64_t keepAll = UINT64_MAX;
-  cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrReleaseThreshold, &keepAll);
-}
-
-DeviceMemory::~DeviceMemory()
-{
-  if (this->Pool)
-  {
-    cudaMemPoolDestroy(this->Pool);
-  }
-}
-
-void* DeviceMemory::Allocate(std::size_t bytes)
-{
-  constexpr std::size_t Least = 256;
-  const std::size_t size = std::max(bytes, Least);
-  void* memory = nullptr;
-  CallCuda("allocate memory",
-    [&]
-    {
-      return this->Pool ? cudaMallocFromPoolAsync(&memory, size, this->Pool, this->Stream)
-                        : cudaMalloc(&memory, size);
-    });
-  return memory;
-}
-
-void DeviceMemory::Free(void* memory, std::size_t) noexcept
-{
-  const cudaError_t error = this->Pool ? cudaFreeAsync(memory, this->Stream) : cudaFree(memory);
-  if (error != cudaSuccess)
-  {
-    cudaGetLastError(); // there is no caller to report to
-  }
-}
-
-std::size_t DeviceMemory::TakePeak()
-{
-  std::uint64_t peak = 0;
-  if (this->Pool)
-  {
-    cudaMemPoolGetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &peak);
-    std::uint64_t reset = 0;
-    cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &reset);
-  }
-  return peak;
 }
 
 namespace
@@ -139,12 +78,12 @@ cudaEvent_t MakeEvent()
 }
 }
 
-CudaContext::CudaContext(int device)
-  : Device(device)
+CudaContext::CudaContext(const std::vector<int>& devices)
+  : Device(devices.front())
 {
   try
   {
-    this->Open();
+    this->Open(devices);
   }
   catch (...)
   {
@@ -155,7 +94,7 @@ CudaContext::CudaContext(int device)
 
 CudaContext::~CudaContext() { this->Close(); }
 
-void CudaContext::Open()
+void CudaContext::Open(const std::vector<int>& devices)
 {
   cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
@@ -168,30 +107,126 @@ void CudaContext::Open()
   CallCuda("make a stream",
     [&] { return cudaStreamCreateWithFlags(&this->Stream, cudaStreamNonBlocking); });
   this->Pool.reset(new DeviceMemory(this->Device, this->Stream));
-  for (int slot = 0; slot < StagingSlots; ++slot)
-  {
-    CallCuda("allocate page-locked memory",
-      [&] { return cudaHostAlloc(&this->Staging[slot], StagingBytes, cudaHostAllocPortable); });
-    this->StagingDone[slot] = MakeEvent();
-  }
   this->CallerDone = MakeEvent();
+  this->StreamDone = MakeEvent();
+  this->OpenOthers(devices);
+  this->OpenStaging(devices);
+}
+
+void CudaContext::OpenStaging(const std::vector<int>& devices)
+{
+  for (std::size_t slot = 0; slot < StagingSlots * devices.size(); ++slot)
+  {
+    const std::size_t device = slot % devices.size();
+    const CurrentDevice current(devices[device]);
+    this->Staging.push_back({ device == 0 ? this->Stream : this->Others[device - 1].Stream });
+    StagingBuffer& buffer = this->Staging.back();
+    CallCuda("allocate page-locked memory",
+      [&] { return cudaHostAlloc(&buffer.Memory, StagingBytes, cudaHostAllocPortable); });
+    buffer.Done = MakeEvent();
+  }
+}
+
+void CudaContext::OpenOthers(const std::vector<int>& devices)
+{
+  if (devices.size() == 1)
+  {
+    return;
+  }
+  for (std::size_t i = 1; i < devices.size(); ++i)
+  {
+    const CurrentDevice current(devices[i]);
+    this->Others.push_back({ devices[i] });
+    CallCuda("make a stream",
+      [&]
+      { return cudaStreamCreateWithFlags(&this->Others.back().Stream, cudaStreamNonBlocking); });
+    this->Others.back().Done = MakeEvent();
+  }
+  this->Shared.reset(new SharedMemory(devices, *this->Pool));
+  this->Name = std::to_string(devices.size()) + " x " + this->Name;
+}
+
+Memory& CudaContext::GetMemory() const
+{
+  return this->Shared ? static_cast<Memory&>(*this->Shared) : *this->Pool;
+}
+
+std::vector<int> CudaContext::ListDevices() const
+{
+  std::vector<int> devices{ this->Device };
+  for (const DeviceStreams& other : this->Others)
+  {
+    devices.push_back(other.Device);
+  }
+  return devices;
+}
+
+std::size_t CudaContext::TakePeak()
+{
+  return this->Pool->TakePeak() + (this->Shared ? this->Shared->TakePeak() : 0);
+}
+
+void CudaContext::Fork() const
+{
+  if (this->Others.empty())
+  {
+    return;
+  }
+  CallCuda("record an event", [&] { return cudaEventRecord(this->StreamDone, this->Stream); });
+  for (const DeviceStreams& other : this->Others)
+  {
+    CallCuda(
+      "wait for an event", [&] { return cudaStreamWaitEvent(other.Stream, this->StreamDone, 0); });
+  }
+}
+
+void CudaContext::Join() const
+{
+  for (const DeviceStreams& other : this->Others)
+  {
+    CallCuda("record an event", [&] { return cudaEventRecord(other.Done, other.Stream); });
+    CallCuda("wait for an event", [&] { return cudaStreamWaitEvent(this->Stream, other.Done, 0); });
+  }
 }
 
 void CudaContext::Close() noexcept
 {
+  for (const DeviceStreams& other : this->Others)
+  {
+    if (other.Stream)
+    {
+      cudaStreamSynchronize(other.Stream); // it may still use the memory
+    }
+  }
+  this->Shared.reset();
+  for (const DeviceStreams& other : this->Others)
+  {
+    if (other.Done)
+    {
+      cudaEventDestroy(other.Done);
+    }
+    if (other.Stream)
+    {
+      cudaStreamDestroy(other.Stream);
+    }
+  }
+  if (this->StreamDone)
+  {
+    cudaEventDestroy(this->StreamDone);
+  }
   if (this->CallerDone)
   {
     cudaEventDestroy(this->CallerDone);
   }
-  for (int slot = 0; slot < StagingSlots; ++slot)
+  for (const StagingBuffer& buffer : this->Staging)
   {
-    if (this->StagingDone[slot])
+    if (buffer.Done)
     {
-      cudaEventDestroy(this->StagingDone[slot]);
+      cudaEventDestroy(buffer.Done);
     }
-    if (this->Staging[slot])
+    if (buffer.Memory)
     {
-      cudaFreeHost(this->Staging[slot]);
+      cudaFreeHost(buffer.Memory);
     }
   }
   this->Pool.reset();
@@ -216,12 +251,12 @@ CurrentDevice::~CurrentDevice()
   }
 }
 
-ContextLease::ContextLease(int device)
-  : Context(IdleContexts::Get().Take(device))
+ContextLease::ContextLease(const std::vector<int>& devices)
+  : Context(IdleContexts::Get().Take(devices))
 {
   if (!this->Context)
   {
-    this->Context.reset(new CudaContext(device));
+    this->Context.reset(new CudaContext(devices));
   }
 }
 
@@ -243,6 +278,14 @@ bool HasCudaDevice()
   const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
   cudaGetLastError();
   return error != cudaErrorNoDevice;
+}
+
+int CountCudaDevices()
+{
+  int devices = 0;
+  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
+  cudaGetLastError();
+  return error == cudaSuccess ? devices : 0;
 }
 
 void ReleaseCudaMemory() { IdleContexts::Get().TakeAll().clear(); }

@@ -5,65 +5,84 @@
 
 #include "Array.h"
 #include "CudaError.h"
+#include "DeviceMemory.h"
 #include "FlipEngine.h"
+#include "SharedMemory.h"
 
 #include <cuda_runtime_api.h>
 
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace delaunayflip
 {
 
-/// Memory of a device, allocated and freed in the order of a stream. Freed memory stays in a pool,
-/// so that the next run of the same size needs no call of the driver.
-class DeviceMemory : public Memory
+/// A GPU of a context, and its stream.
+struct DeviceStreams
 {
-public:
-  DeviceMemory(int device, cudaStream_t stream);
-  ~DeviceMemory() override;
-  DeviceMemory(const DeviceMemory&) = delete;
-  DeviceMemory& operator=(const DeviceMemory&) = delete;
+  int Device = -1;
+  cudaStream_t Stream = nullptr;
+  cudaEvent_t Done = nullptr; ///< What is in the stream so far.
+};
 
-  /// @throws BackendUnavailable.
-  void* Allocate(std::size_t bytes) override;
-  void Free(void* memory, std::size_t bytes) noexcept override;
-
-  /// The most bytes that were in use at any time since the last call.
-  std::size_t TakePeak();
-
-private:
-  cudaStream_t Stream;
-  cudaMemPool_t Pool = nullptr; ///< Null if the device has none; cudaMalloc is used then.
+/// Page-locked memory of the host, and the stream of a GPU that copies to it and from it.
+struct StagingBuffer
+{
+  cudaStream_t Stream = nullptr;
+  void* Memory = nullptr;
+  cudaEvent_t Done = nullptr; ///< The last copy.
 };
 
 /// What a run needs besides its mesh: a stream, memory, and page-locked buffers for copies between
 /// host and device. One run at a time uses a context; then it is kept for the next run.
+///
+/// With several GPUs the first has the stream in whose order all work is done. The others take part
+/// in single launches: they wait for what is in that stream, and it waits for them.
 class CudaContext
 {
 public:
-  static constexpr int StagingSlots = 4;
-  static constexpr std::size_t StagingBytes = std::size_t(8) << 20; ///< The size of one slot.
+  static constexpr int StagingSlots = 4; ///< The number of buffers per GPU.
+  static constexpr std::size_t StagingBytes = std::size_t(8) << 20; ///< The size of one.
 
+  /// @param devices one GPU, or several that share the memory of arrays.
   /// @throws BackendUnavailable.
-  explicit CudaContext(int device);
+  explicit CudaContext(const std::vector<int>& devices);
   ~CudaContext();
   CudaContext(const CudaContext&) = delete;
   CudaContext& operator=(const CudaContext&) = delete;
 
-  int Device;
-  std::string Name; ///< E.g. "NVIDIA H200".
+  /// Where arrays are.
+  Memory& GetMemory() const;
+
+  /// The GPUs, in order.
+  std::vector<int> ListDevices() const;
+
+  /// The most bytes that were in use on the devices at any time since the last call.
+  std::size_t TakePeak();
+
+  /// Lets the other GPUs wait for the stream.
+  void Fork() const;
+  /// Lets the stream wait for the other GPUs.
+  void Join() const;
+
+  int Device; ///< The first one.
+  std::string Name; ///< E.g. "NVIDIA H200" or "2 x NVIDIA H200".
   int Multiprocessors = 0;
   std::size_t CacheBytes = 0; ///< Of the second-level cache.
   cudaStream_t Stream = nullptr;
+  cudaEvent_t StreamDone = nullptr; ///< What is in the stream so far.
+  std::vector<DeviceStreams> Others; ///< The other GPUs; empty if there is one.
   std::unique_ptr<DeviceMemory> Pool;
+  std::unique_ptr<SharedMemory> Shared; ///< Null if there is one GPU.
   cudaEvent_t CallerDone = nullptr; ///< What was in a stream of the caller's.
-  void* Staging[StagingSlots] = {};
-  cudaEvent_t StagingDone[StagingSlots] = {};
+  std::vector<StagingBuffer> Staging; ///< The GPUs have them in turn.
 
 private:
-  void Open();
+  void Open(const std::vector<int>& devices);
+  void OpenOthers(const std::vector<int>& devices);
+  void OpenStaging(const std::vector<int>& devices);
   void Close() noexcept;
 };
 
@@ -84,7 +103,7 @@ private:
 class ContextLease
 {
 public:
-  explicit ContextLease(int device);
+  explicit ContextLease(const std::vector<int>& devices);
   ~ContextLease();
   ContextLease(ContextLease&&) noexcept;
   ContextLease& operator=(ContextLease&&) = delete;

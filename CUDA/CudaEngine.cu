@@ -7,6 +7,10 @@
 #include "FlipError.h"
 #include "LocalDeviceMesh.cuh"
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 namespace delaunayflip
 {
 
@@ -75,13 +79,30 @@ TriangleMesh View(const DeviceMesh& mesh)
   return view;
 }
 
+std::vector<int> ChooseDevices(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  if (options.Devices.empty())
+  {
+    return { options.Device };
+  }
+  const auto most = static_cast<std::size_t>(mesh.Triangles.Count / GetSmallestShare());
+  std::vector<int> devices = options.Devices;
+  devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
+  return devices;
+}
+/// A mesh that is on a GPU stays there.
+std::vector<int> ChooseDevices(const DeviceMesh&, const FlipOptions& options)
+{
+  return { options.Device };
+}
+
 template <typename Mesh>
 std::unique_ptr<FlipEngine> MakeEngine(
   const Mesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   try
   {
-    CudaBackend backend(options.Device, options.NumberOfThreads);
+    CudaBackend backend(ChooseDevices(mesh, options), options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
     LocalDeviceMesh local = backend.Localize(mesh);
     return std::unique_ptr<FlipEngine>(

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -91,9 +92,7 @@ public:
 protected:
   StepCounts DetectAll() override
   {
-    this->Prepare();
-    this->LaunchTogether(this->GridBlocks, DetectAllKernel<Rule>, this->View());
-    const Results& results = this->FetchResults();
+    const Results& results = this->LaunchOnMesh(DetectAllKernel<Rule>);
     const IterationSums& all = results.Sums[1];
     this->Edges = { GetSum(results.Sums[0], IterationSum::Tested),
       GetSum(all, IterationSum::AllBad), GetSum(all, IterationSum::AllBlockedByShape),
@@ -110,9 +109,8 @@ protected:
       this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
     const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
       static_cast<unsigned long long>(freshSlots) };
-    this->Prepare();
-    this->LaunchTogether(this->GridBlocks, IterateKernel<Rule>, this->View(), limits);
-    std::vector<IterationCounts> iterations = this->ReadIterations(freshSlots);
+    std::vector<IterationCounts> iterations =
+      this->ReadIterations(this->LaunchOnMesh(IterateKernel<Rule>, limits), freshSlots);
     if (measure)
     {
       iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
@@ -150,25 +148,42 @@ private:
     IterationSums Sums[MostIterations + 1];
   };
 
-  /// The number of blocks that can run at the same time, as their barriers need.
+  /// With fewer edges one GPU makes iterations on the whole mesh: waits of several take longer.
+  static constexpr std::int64_t SmallestShared = std::int64_t(1) << 20;
+
+  /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
+  /// loads the kernel there: that must not happen while blocks wait for those of another GPU.
   template <typename Kernel>
   int CountResidentBlocks(Kernel kernel) const
   {
-    int perMultiprocessor = 0;
-    CallCuda("plan a launch",
-      [&]
-      {
-        return cudaOccupancyMaxActiveBlocksPerMultiprocessor(
-          &perMultiprocessor, kernel, LoopThreads, 0);
-      });
-    return perMultiprocessor * this->Backend.GetContext().Multiprocessors;
+    int fewest = std::numeric_limits<int>::max();
+    for (const int device : this->Backend.GetContext().ListDevices())
+    {
+      const CurrentDevice current(device);
+      int perMultiprocessor = 0;
+      int multiprocessors = 0;
+      CallCuda("plan a launch",
+        [&]
+        {
+          return cudaOccupancyMaxActiveBlocksPerMultiprocessor(
+            &perMultiprocessor, kernel, LoopThreads, 0);
+        });
+      CallCuda("plan a launch",
+        [&] {
+          return cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device);
+        });
+      fewest = std::min(fewest, perMultiprocessor * multiprocessors);
+    }
+    return fewest;
   }
 
   /// Only as many blocks as have work: with fewer blocks, waits are shorter.
   void PlanGrid()
   {
+    this->Parts = this->Mesh.NumberOfEdges < SmallestShared ? 1 : this->Backend.CountDevices();
     const std::int64_t blocks =
-      std::min(MostIterateBlocks, this->CountResidentBlocks(IterateKernel<Rule>));
+      std::min({ MostIterateBlocks / this->Parts, this->CountResidentBlocks(IterateKernel<Rule>),
+        this->CountResidentBlocks(DetectAllKernel<Rule>) });
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
     {
@@ -183,31 +198,52 @@ private:
   {
     const int blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
     const auto teams = static_cast<int>(this->Backend.GetContext().CacheBytes / ChunkBytes);
-    const auto chunks = static_cast<int>(this->NumberOfChunks);
+    const int devices = this->Backend.CountDevices();
+    const auto chunks = static_cast<int>((this->NumberOfChunks + devices - 1) / devices);
     this->Teams = std::max(1, std::min({ teams, chunks, blocks }));
     this->BlocksOfTeam = blocks / this->Teams;
-    this->TeamStates = this->Backend.template MakeArray<TeamState>(this->Teams);
+    this->TeamStates = this->Backend.template MakeArray<TeamState>(
+      this->Backend.CountDevices() * this->CountTeamStates());
   }
 
-  LoopView<Rule> View()
+  /// The number of team states per GPU. With several GPUs so many that those of each are in its
+  /// memory.
+  std::int64_t CountTeamStates() const
+  {
+    constexpr std::int64_t LargePart = (std::int64_t(4) << 20) / sizeof(TeamState);
+    return this->Backend.CountDevices() > 1 ? std::max<std::int64_t>(this->Teams, LargePart)
+                                            : this->Teams;
+  }
+
+  /// What a GPU does of a launch.
+  /// @param parts the number of GPUs.
+  /// @param teams the first of its team states.
+  LoopView<Rule> View(int part, int parts, std::int64_t teams)
   {
     Results* results = this->DeviceResults.Data();
+    const auto edges = [&](int of)
+    {
+      const std::int64_t units = this->Bits.CountUnits() * of / parts;
+      return static_cast<EdgeId>(std::min(units << EdgeUnits::UnitBits, this->Mesh.NumberOfEdges));
+    };
+    const auto chunks = [&](int of) { return static_cast<int>(this->NumberOfChunks * of / parts); };
     return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
-      static_cast<EdgeId>(this->Mesh.NumberOfEdges), this->Chunks.Data(),
-      static_cast<int>(this->NumberOfChunks), this->TeamStates.Data(), results->Sums,
-      &results->IterationsDone };
+      this->Parts, edges(part), edges(part + 1), this->Chunks.Data(), chunks(part),
+      chunks(part + 1), this->TeamStates.Data() + teams, results->Sums, &results->IterationsDone };
   }
 
   /// Clears the counters of the kernels.
   void Prepare()
   {
     this->Backend.Fill(this->DeviceResults.Data(), 0, 1);
-    this->Backend.Fill(this->TeamStates.Data(), 0, this->Teams);
+    this->Backend.Fill(
+      this->TeamStates.Data(), 0, static_cast<std::int64_t>(this->TeamStates.Size()));
   }
 
   /// Launches a kernel whose blocks wait for each other.
   template <typename... Parameters, typename... Arguments>
-  void LaunchTogether(int blocks, void (*kernel)(Parameters...), Arguments... arguments)
+  static void LaunchTogether(
+    cudaStream_t stream, int blocks, void (*kernel)(Parameters...), const Arguments&... arguments)
   {
     std::tuple<Parameters...> values(arguments...);
     std::apply(
@@ -217,17 +253,38 @@ private:
         CallCuda("start a cooperative kernel",
           [&]
           {
-            return cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(kernel), blocks,
-              LoopThreads, addresses, 0, this->Backend.GetStream());
+            return cudaLaunchCooperativeKernel(
+              reinterpret_cast<const void*>(kernel), blocks, LoopThreads, addresses, 0, stream);
           });
       },
       values);
   }
 
+  /// Launches a kernel on the whole mesh, and waits for it. The GPUs' blocks wait for each other;
+  /// if they cannot, one GPU does it, from now on.
+  template <typename... Parameters, typename... Arguments>
+  const Results& LaunchOnMesh(void (*kernel)(Parameters...), const Arguments&... arguments)
+  {
+    this->Prepare();
+    this->Backend.LaunchOnEach(this->Parts,
+      [&](cudaStream_t stream, int part)
+      {
+        LaunchTogether(
+          stream, this->GridBlocks, kernel, this->View(part, this->Parts, 0), arguments...);
+      });
+    const Results& results = this->FetchResults();
+    if (results.IterationsDone == 0 && this->Parts > 1)
+    {
+      this->Parts = 1;
+      return this->LaunchOnMesh(kernel, arguments...);
+    }
+    return results;
+  }
+
   /// Waits for the kernel. @throws BeyondDevice.
   const Results& FetchResults()
   {
-    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0]);
+    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0].Memory);
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
     for (const IterationSums& iteration : results->Sums)
     {
@@ -239,9 +296,8 @@ private:
     return *results;
   }
 
-  std::vector<IterationCounts> ReadIterations(std::int64_t freshSlots)
+  std::vector<IterationCounts> ReadIterations(const Results& results, std::int64_t freshSlots)
   {
-    const Results& results = this->FetchResults();
     std::vector<IterationCounts> iterations;
     StepCounts flips;
     for (int i = 0; i < results.IterationsDone; ++i)
@@ -268,8 +324,13 @@ private:
   void LaunchChunks(int iterations, std::vector<IterationCounts>& total)
   {
     this->Prepare();
-    this->LaunchTogether(this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>, this->View(),
-      this->BlocksOfTeam, iterations);
+    const int parts = this->Backend.CountDevices();
+    this->Backend.LaunchOnEach(parts,
+      [&](cudaStream_t stream, int part)
+      {
+        LaunchTogether(stream, this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>,
+          this->View(part, parts, part * this->CountTeamStates()), this->BlocksOfTeam, iterations);
+      });
     const Results& results = this->FetchResults();
     const IterationSums& sums = results.Sums[iterations];
     BadEdgeCounts edges{ this->TestedInChunks, GetSum(sums, IterationSum::AllBad),
@@ -287,7 +348,8 @@ private:
   CoordinateRange Range;
   EdgeGuard Guard;
   const CudaBackend& Backend;
-  int GridBlocks = 1;
+  int Parts = 1; ///< GPUs that make iterations on the whole mesh.
+  int GridBlocks = 1; ///< Of each of them.
   int Teams = 1;
   int BlocksOfTeam = 1;
   std::int64_t TestedInChunks = 0; ///< The edges tested by the last iteration within chunks.

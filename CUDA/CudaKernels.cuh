@@ -15,14 +15,32 @@ namespace delaunayflip
 
 constexpr int ThreadsPerBlock = 256;
 
+/// The items [First, Last) of a launch. First is a multiple of ThreadsPerBlock.
+struct ItemRange
+{
+  std::int64_t First, Last;
+
+  /// How many blocks are enough for them.
+  __host__ __device__ std::int64_t CountTiles() const
+  {
+    return (this->Last - this->First + ThreadsPerBlock - 1) / ThreadsPerBlock;
+  }
+  /// The item of this thread where a block handles a tile of ThreadsPerBlock.
+  __device__ std::int64_t GetFirst() const
+  {
+    return this->First + std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
+  }
+  /// The tile of this block among all items.
+  __device__ std::int64_t GetTile() const { return this->First / ThreadsPerBlock + blockIdx.x; }
+};
+
 /// One thread calls work(i) for every i of its stride. The caller makes sure that what different i
 /// write does not conflict.
 template <typename Work>
-__global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(std::int64_t size, Work work)
+__global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items, Work work)
 {
   const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
-  for (std::int64_t i = std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x; i < size;
-       i += stride)
+  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
   {
     work(i);
   }
@@ -41,14 +59,13 @@ struct Plus
 /// The same as ForEachKernel, with a sum: every block writes its partial sum.
 template <typename Result, typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock)
-  SumKernel(std::int64_t size, Work work, Result* partials)
+  SumKernel(ItemRange items, Work work, Result* partials)
 {
   using Reduce = cub::BlockReduce<Result, ThreadsPerBlock>;
   __shared__ typename Reduce::TempStorage storage;
   Result sum{};
   const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
-  for (std::int64_t i = std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x; i < size;
-       i += stride)
+  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
   {
     work(i, sum);
   }
@@ -68,40 +85,34 @@ struct AddPartial
   __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
 };
 
-/// The item of this thread where a block handles a tile of ThreadsPerBlock.
-__device__ inline std::int64_t GetTileItem()
-{
-  return std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
-}
-
 /// One block counts one tile, one item per thread, because counting may wait for memory.
 template <typename CountOf>
 __global__ void __launch_bounds__(ThreadsPerBlock)
-  CountKernel(std::int64_t size, CountOf count, std::int64_t* countOfTile)
+  CountKernel(ItemRange items, CountOf count, std::int64_t* countOfTile)
 {
   using Reduce = cub::BlockReduce<int, ThreadsPerBlock>;
   __shared__ typename Reduce::TempStorage storage;
-  const std::int64_t i = GetTileItem();
-  const int total = Reduce(storage).Sum(i < size ? static_cast<int>(count(i)) : 0);
+  const std::int64_t i = items.GetFirst();
+  const int total = Reduce(storage).Sum(i < items.Last ? static_cast<int>(count(i)) : 0);
   if (threadIdx.x == 0)
   {
-    countOfTile[blockIdx.x] = total;
+    countOfTile[items.GetTile()] = total;
   }
 }
 
 /// One block visits one tile, counting on from the tile's first number.
 template <typename CountOf, typename Visit>
 __global__ void __launch_bounds__(ThreadsPerBlock) ForEachNumberedKernel(
-  std::int64_t size, CountOf count, Visit visit, const std::int64_t* firstOfTile)
+  ItemRange items, CountOf count, Visit visit, const std::int64_t* firstOfTile)
 {
   using Scan = cub::BlockScan<int, ThreadsPerBlock>;
   __shared__ typename Scan::TempStorage storage;
-  const std::int64_t i = GetTileItem();
+  const std::int64_t i = items.GetFirst();
   int before = 0;
-  Scan(storage).ExclusiveSum(i < size ? static_cast<int>(count(i)) : 0, before);
-  if (i < size)
+  Scan(storage).ExclusiveSum(i < items.Last ? static_cast<int>(count(i)) : 0, before);
+  if (i < items.Last)
   {
-    visit(i, firstOfTile[blockIdx.x] + before);
+    visit(i, firstOfTile[items.GetTile()] + before);
   }
 }
 

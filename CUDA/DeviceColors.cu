@@ -44,7 +44,7 @@ class BackendOf
 {
 public:
   explicit BackendOf(const void* memory)
-    : Backend(RequireDevice(memory), 1),
+    : Backend({ RequireDevice(memory) }, 1),
       Current(this->Backend.MakeCurrent())
   {
   }

@@ -24,14 +24,13 @@ public:
     const std::int64_t units =
       (mesh.NumberOfEdges + EdgeUnits::UnitSize - 1) >> EdgeUnits::UnitBits;
     this->NumberOfWords = units * EdgeUnits::UnitSize / 32;
-    this->Words = backend.MakeArray<std::uint32_t>(EdgeBits::Kinds * this->NumberOfWords);
-    std::uint32_t* words = this->Words.Data();
-    for (std::uint32_t** bits :
-      { &this->Bits.Fixed, &this->Bits.FixedOrDeferred, &this->Bits.Candidates, &this->Bits.Bad,
-        &this->Bits.Winners, &this->Bits.BlockedByShape, &this->Bits.BlockedByEdge })
+    std::uint32_t** const kinds[EdgeBits::Kinds] = { &this->Bits.Fixed, &this->Bits.FixedOrDeferred,
+      &this->Bits.Candidates, &this->Bits.Bad, &this->Bits.Winners, &this->Bits.BlockedByShape,
+      &this->Bits.BlockedByEdge };
+    for (int kind = 0; kind < EdgeBits::Kinds; ++kind)
     {
-      *bits = words;
-      words += this->NumberOfWords;
+      this->Words[kind] = backend.MakeArray<std::uint32_t>(this->NumberOfWords);
+      *kinds[kind] = this->Words[kind].Data();
     }
     this->LoadStates(mesh);
   }
@@ -104,7 +103,7 @@ public:
 private:
   const CudaBackend& Backend;
   std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
-  Array<std::uint32_t> Words;
+  Array<std::uint32_t> Words[EdgeBits::Kinds];
   EdgeBits Bits{};
 };
 

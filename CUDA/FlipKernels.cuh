@@ -71,11 +71,19 @@ template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
 {
-  Team team(loop.Teams, gridDim.x);
+  Team team(loop.Teams, gridDim.x, loop.Parts);
+  if (!team.Meet())
+  {
+    return;
+  }
   const WarpWorklist worklist = loop.GetWorklist();
   RunDetection(loop, worklist, team, &loop.Sums[0]);
   CountAll(loop, worklist, team);
   team.Wait(&loop.Sums[1]);
+  if (team.IsFirstThread())
+  {
+    *loop.IterationsDone = 1;
+  }
 }
 
 /// A launch of IterateKernel ends
@@ -99,7 +107,7 @@ public:
   __device__ Iterations(const LoopView<Rule>& loop, const IterationLimits& limits)
     : Loop(loop),
       Limits(limits),
-      Members(loop.Teams, gridDim.x, loop.Splits > 0),
+      Members(loop.Teams, gridDim.x, loop.Parts, loop.Splits > 0),
       Bad(limits.Bad),
       // A quarter of the room, because bad edges are not spread evenly. No lists with a guard.
       MostListed(
@@ -107,11 +115,11 @@ public:
   {
   }
 
-  /// @returns how many.
+  /// @returns how many; 0 if several GPUs were to make them and do not run at the same time.
   __device__ int Run()
   {
     int done = 0;
-    for (bool isRunning = true; isRunning;)
+    for (bool isRunning = this->Members.Meet(); isRunning;)
     {
       IterationSums* iteration = &this->Loop.Sums[done++];
       this->Flip(iteration);
@@ -212,7 +220,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
 {
   Team team(loop.Teams, blocksOfTeam);
   const int teams = gridDim.x / blocksOfTeam;
-  for (int c = team.GetIndex(); c < loop.NumberOfChunks; c += teams)
+  for (int c = loop.FirstChunk + team.GetIndex(); c < loop.LastChunk; c += teams)
   {
     const BlockWorklist worklist = loop.GetWorklist(loop.Chunks[c]);
     CountAll(loop, worklist, team);

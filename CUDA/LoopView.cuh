@@ -28,14 +28,18 @@ struct LoopView
   EdgeGuardView Guard;
   EdgeBits Bits;
   int Splits; ///< 2^Splits warps share a unit.
-  EdgeId NumberOfEdges;
+  int Parts; ///< How many GPUs iterate on the whole mesh together.
+  EdgeId FirstEdge, LastEdge; ///< Of this GPU.
   DeviceChunk* Chunks;
-  int NumberOfChunks;
+  int FirstChunk, LastChunk; ///< Of this GPU.
   TeamState* Teams; ///< Zero before a launch.
   IterationSums* Sums; ///< One per iteration and one more; zero before a launch.
   int* IterationsDone; ///< Iterations of this launch.
 
-  __device__ WarpWorklist GetWorklist() const { return { 0, this->NumberOfEdges, this->Splits }; }
+  __device__ WarpWorklist GetWorklist() const
+  {
+    return { this->FirstEdge, this->LastEdge, this->Splits };
+  }
   __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const
   {
     return { chunk.FirstEdge, chunk.LastEdge };

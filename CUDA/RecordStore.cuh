@@ -33,14 +33,14 @@ __device__ inline void StoreHalf(uint4* address, const uint4& value)
   asm volatile("{\n\t"
                ".reg .b128 half;\n\t"
                "mov.b128 half, {%1, %2};\n\t"
-               "st.relaxed.gpu.global.b128 [%0], half;\n\t"
+               "st.relaxed.sys.global.b128 [%0], half;\n\t"
                "}"
                :
                : "l"(__cvta_generic_to_global(address)), "l"(low), "l"(high)
                : "memory");
 #else
   asm volatile(
-    "st.relaxed.gpu.global.v4.b32 [%0], {%1, %2, %3, %4};"
+    "st.relaxed.sys.global.v4.b32 [%0], {%1, %2, %3, %4};"
     :
     : "l"(__cvta_generic_to_global(address)), "r"(value.x), "r"(value.y), "r"(value.z), "r"(value.w)
     : "memory");
@@ -54,7 +54,7 @@ __device__ inline uint4 LoadHalf(const uint4* address)
   std::uint64_t low, high;
   asm volatile("{\n\t"
                ".reg .b128 half;\n\t"
-               "ld.relaxed.gpu.global.b128 half, [%2];\n\t"
+               "ld.relaxed.sys.global.b128 half, [%2];\n\t"
                "mov.b128 {%0, %1}, half;\n\t"
                "}"
                : "=l"(low), "=l"(high)
@@ -63,7 +63,7 @@ __device__ inline uint4 LoadHalf(const uint4* address)
   value = { static_cast<unsigned>(low), static_cast<unsigned>(low >> 32),
     static_cast<unsigned>(high), static_cast<unsigned>(high >> 32) };
 #else
-  asm volatile("ld.relaxed.gpu.global.v4.b32 {%0, %1, %2, %3}, [%4];"
+  asm volatile("ld.relaxed.sys.global.v4.b32 {%0, %1, %2, %3}, [%4];"
                : "=r"(value.x), "=r"(value.y), "=r"(value.z), "=r"(value.w)
                : "l"(__cvta_generic_to_global(address))
                : "memory");

@@ -24,6 +24,8 @@ constexpr int LoopBlocks = 2;
 struct alignas(128) TeamState
 {
   unsigned long long Arrivals; ///< TeamNews of all blocks so far.
+  unsigned int Present; ///< Blocks that have called Team::Meet,
+  unsigned int Verdict; ///< and how that ended: 1: all are present; 2: they are not.
 };
 
 /// What thread blocks tell each other when they arrive at a wait. Every block adds its own number
@@ -106,34 +108,56 @@ __device__ inline TeamMemory& GetTeamMemory()
 
 /// Threads that acquire after this see what the calling thread, and those it waited for, wrote
 /// before.
-__device__ inline void AddRelease(unsigned long long* address, unsigned long long value)
+/// @param isShared whether they may be on other GPUs.
+__device__ inline void AddRelease(
+  unsigned long long* address, unsigned long long value, bool isShared)
 {
-  asm volatile("red.release.gpu.global.add.u64 [%0], %1;"
-               :
-               : "l"(__cvta_generic_to_global(address)), "l"(value)
-               : "memory");
+  const std::size_t global = __cvta_generic_to_global(address);
+  if (isShared)
+  {
+    asm volatile("red.release.sys.global.add.u64 [%0], %1;" : : "l"(global), "l"(value) : "memory");
+  }
+  else
+  {
+    asm volatile("red.release.gpu.global.add.u64 [%0], %1;" : : "l"(global), "l"(value) : "memory");
+  }
 }
 
-__device__ inline unsigned long long LoadAcquire(const unsigned long long* address)
+__device__ inline unsigned long long LoadAcquire(const unsigned long long* address, bool isShared)
 {
+  const std::size_t global = __cvta_generic_to_global(address);
   unsigned long long value = 0;
-  asm volatile("ld.acquire.gpu.global.u64 %0, [%1];"
-               : "=l"(value)
-               : "l"(__cvta_generic_to_global(address))
-               : "memory");
+  if (isShared)
+  {
+    asm volatile("ld.acquire.sys.global.u64 %0, [%1];" : "=l"(value) : "l"(global) : "memory");
+  }
+  else
+  {
+    asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(value) : "l"(global) : "memory");
+  }
   return value;
 }
 
-/// Blocks of a cooperative launch that work together and wait for each other: the whole grid, or
-/// the blocks on a chunk. All threads of a team make the same calls in the same order.
+__device__ inline unsigned long long GetNanoseconds()
+{
+  unsigned long long time = 0;
+  asm volatile("mov.u64 %0, %%globaltimer;" : "=l"(time));
+  return time;
+}
+
+/// Blocks of a cooperative launch that work together and wait for each other: the whole grid, the
+/// grids of several GPUs, or the blocks on a chunk. All threads of a team make the same calls in
+/// the same order.
 class Team
 {
 public:
   /// Blocks [team * size, (team + 1) * size) of the grid are a team.
+  /// @param parts how many GPUs have launched such a grid for the team, each with its own edges.
   /// @param hasFewEdges whether there is too little work for the first-level caches to matter.
-  __device__ Team(TeamState* states, unsigned size, bool hasFewEdges = false)
+  __device__ Team(TeamState* states, unsigned size, unsigned parts = 1, bool hasFewEdges = false)
     : State(&states[blockIdx.x / size]),
       Size(size),
+      Parts(parts),
       HasFewEdges(hasFewEdges)
   {
     TeamMemory& memory = GetTeamMemory();
@@ -159,7 +183,38 @@ public:
   __device__ EdgeId* GetListOfBlock() const { return GetTeamMemory().Lists[0]; }
   __device__ int* GetSizeOfList() const { return &GetTeamMemory().SizeOfList; }
 
-  /// This thread among those of the team, and their number.
+  /// Waits until the grids of all GPUs run. All blocks call it first.
+  /// @returns false in all of them if these do not run at the same time, as where launches are made
+  /// one after the other for a debugger or a profiler; then they must not wait for each other.
+  __device__ bool Meet() const
+  {
+    constexpr unsigned long long Patience = 2000000000; // nanoseconds
+    constexpr unsigned Unknown = 0, Together = 1, Apart = 2;
+    if (this->Parts == 1)
+    {
+      return true;
+    }
+    bool isTogether = false;
+    if (threadIdx.x == 0)
+    {
+      const unsigned long long start = GetNanoseconds();
+      AtomicAdd(&this->State->Present, 1);
+      unsigned verdict = Unknown;
+      while (verdict == Unknown)
+      {
+        const bool areAll = AtomicLoad(&this->State->Present) == this->Size * this->Parts;
+        const bool isLate = GetNanoseconds() - start > Patience;
+        verdict = areAll || isLate
+          ? AtomicCompareExchange(&this->State->Verdict, Unknown, areAll ? Together : Apart)
+          : AtomicLoad(&this->State->Verdict);
+        verdict = verdict == Unknown && (areAll || isLate) ? (areAll ? Together : Apart) : verdict;
+      }
+      isTogether = verdict == Together;
+    }
+    return __syncthreads_or(isTogether) != 0;
+  }
+
+  /// This thread among those of the team on this GPU, and their number.
   __device__ unsigned GetThread() const
   {
     return (blockIdx.x % this->Size) * LoopThreads + threadIdx.x;
@@ -229,7 +284,7 @@ private:
       TeamMemory& memory = GetTeamMemory();
       const TeamNews own = TeamNews::Make(memory.Warns != 0, memory.BadChange);
       const TeamNews all =
-        this->Size > 1 ? this->Arrive(own) : TeamNews{ memory.News.Value + own.Value };
+        this->CountBlocks() > 1 ? this->Arrive(own) : TeamNews{ memory.News.Value + own.Value };
       memory.IsWarned = all.GetWarnings() != memory.News.GetWarnings();
       memory.News = all;
       memory.Warns = 0;
@@ -241,9 +296,10 @@ private:
   /// @returns the sum of all blocks' news.
   __device__ TeamNews Arrive(TeamNews own)
   {
-    const unsigned expected = GetTeamMemory().Expected += this->Size;
+    const unsigned expected = GetTeamMemory().Expected += this->CountBlocks();
     unsigned long long* arrivals = &this->State->Arrivals;
-    AddRelease(arrivals, own.Value);
+    const bool isShared = this->Parts > 1;
+    AddRelease(arrivals, own.Value, isShared);
     TeamNews news{};
     // An acquire flushes the first-level cache, which another block may be using. So this waits
     // until all blocks have arrived.
@@ -253,7 +309,7 @@ private:
     }
     do
     {
-      news.Value = LoadAcquire(arrivals);
+      news.Value = LoadAcquire(arrivals, isShared);
     } while (!news.HasArrived(expected));
     return news;
   }
@@ -269,10 +325,13 @@ private:
     __syncwarp();
     if (i < NumberOfIterationSums && GetTeamMemory().Sums[i] != 0)
     {
-      atomicAdd(&iteration->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
+      atomicAdd_system(
+        &iteration->Values[i], static_cast<unsigned long long>(GetTeamMemory().Sums[i]));
       GetTeamMemory().Sums[i] = 0;
     }
   }
+
+  __device__ unsigned CountBlocks() const { return this->Size * this->Parts; }
 
   __device__ static unsigned GetSum(IterationSum sum)
   {
@@ -280,7 +339,8 @@ private:
   }
 
   TeamState* State;
-  unsigned Size;
+  unsigned Size; ///< Blocks on this GPU.
+  unsigned Parts; ///< GPUs.
   bool HasFewEdges;
 };
 

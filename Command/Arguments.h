@@ -28,6 +28,7 @@ struct Arguments
   MeshFormat ConstraintsFormat = MeshFormat::VTK;
   bool InsertConstraints = true;
   std::string RegionArray; ///< Empty: none.
+  std::string Devices; ///< GPUs that share the mesh; empty: Flip.Device.
   bool Quality = false; ///< Cell arrays of angles.
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.

@@ -72,6 +72,7 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetMaximumIterations(flip.MaximumIterations);
   filter->SetNumberOfThreads(flip.NumberOfThreads);
   filter->SetDeviceId(flip.Device);
+  filter->SetDevices(arguments.Devices.c_str());
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
   filter->SetInsertLines(arguments.InsertLines);
   filter->SetInsertConstraints(arguments.InsertConstraints);

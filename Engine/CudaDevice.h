@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 /// @file
 /// Whether there is a GPU, and its memory. Part of every build; without the CUDA backend there is
@@ -24,6 +26,15 @@ constexpr std::int64_t SmallestMeshForCuda = 20000;
 
 /// Whether there is a GPU that this build can use. Never throws.
 DELAUNAYFLIP_EXPORT bool HasCudaDevice();
+
+/// How many GPUs there are that this build can use. Never throws.
+DELAUNAYFLIP_EXPORT int CountCudaDevices();
+
+/// GPUs for FlipOptions::Devices.
+/// @param list CUDA's numbers, separated by commas, e.g. "0,1"; "all": every GPU, none of which
+/// gives an empty list, as an empty text does.
+/// @throws InvalidOptions for anything else.
+DELAUNAYFLIP_EXPORT std::vector<int> ParseDevices(const std::string& list);
 
 /// Frees the memory, on the device and the host, that the CUDA backend keeps between runs. Sessions
 /// that exist keep theirs.

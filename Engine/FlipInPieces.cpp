@@ -46,6 +46,7 @@ FlipOptions GetRankOptions(const FlipOptions& options, const PieceDivision& divi
   if (!division.Devices.empty())
   {
     own.Device = division.Devices[rank % division.Devices.size()];
+    own.Devices.clear();
   }
   return own;
 }

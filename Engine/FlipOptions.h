@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <tuple>
+#include <vector>
 
 /// @file
 /// The options of a run. The defaults suit any triangle mesh.
@@ -85,6 +86,11 @@ struct FlipOptions
   /// thread.
   int Device = -1;
 
+  /// CUDA's numbers of GPUs that share one mesh, which is larger or flips faster then; empty
+  /// (default): Device alone. They must be connected by NVLink. The result does not depend on it.
+  /// A mesh that is given in a GPU's memory stays on that GPU.
+  std::vector<int> Devices;
+
   /// Compute the smallest angle after every iteration, by one pass over the mesh each. Default off:
   /// only after the first and the last iteration.
   bool TrackQuality = false;
@@ -95,7 +101,7 @@ inline bool operator==(const FlipOptions& a, const FlipOptions& b)
   const auto tie = [](const FlipOptions& o)
   {
     return std::tie(o.Geometry, o.Criterion, o.TieRule, o.Backend, o.Tolerance, o.FeatureAngle,
-      o.MaximumIterations, o.NumberOfThreads, o.Device, o.TrackQuality);
+      o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices, o.TrackQuality);
   };
   return tie(a) == tie(b);
 }

@@ -65,6 +65,8 @@ void ColorValues(
 
 bool HasCudaDevice() { return false; }
 
+int CountCudaDevices() { return HasCudaDevice() ? 1 : 0; }
+
 void ReleaseCudaMemory() {}
 
 std::size_t TakePeakCudaMemory() { return 0; }

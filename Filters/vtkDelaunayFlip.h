@@ -294,6 +294,17 @@ public:
 
   ///@{
   /**
+   * GPUs that share the mesh, instead of DeviceId: CUDA's numbers separated by commas, such as
+   * "0,1", or "all"; empty (default): DeviceId alone. Large meshes flip faster then, and may be
+   * larger; the result is the same. The GPUs must be connected by NVLink. What is wrong with them
+   * is treated as with DeviceId; a list that cannot be read is an error.
+   */
+  vtkSetStdStringFromCharMacro(Devices);
+  vtkGetCharFromStdStringMacro(Devices);
+  ///@}
+
+  ///@{
+  /**
    * The number of CPU threads; 0 (default): as many as the machine has. At most twice as many are
    * used, or 16 if that is more, and fewer if the system cannot start so many; GetBackendUsed()
    * tells how many there were. The result does not depend on it.
@@ -637,6 +648,7 @@ protected:
   bool Triangulate = true;
   int Backend = BACKEND_AUTO;
   int DeviceId = -1;
+  std::string Devices;
   int NumberOfThreads = 0;
   vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;

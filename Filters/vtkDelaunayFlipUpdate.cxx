@@ -5,6 +5,7 @@
 #include "vtkDelaunayFlip.h"
 
 #include "CompositeBlocks.h"
+#include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipRun.h"
@@ -354,6 +355,7 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
   options.MaximumIterations = this->MaximumIterations;
   options.NumberOfThreads = this->NumberOfThreads;
   options.Device = this->DeviceId;
+  options.Devices = delaunayflip::ParseDevices(this->Devices);
   options.TrackQuality = this->TrackQuality;
   return options;
 }

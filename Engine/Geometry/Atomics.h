@@ -59,7 +59,7 @@ DELAUNAYFLIP_HOST_DEVICE inline T AtomicCompareExchange(T* address, T expected, 
 {
 #if DELAUNAYFLIP_ON_DEVICE
   using Word = DeviceWordOf<T>;
-  return atomicCAS(
+  return atomicCAS_system(
     reinterpret_cast<Word*>(address), static_cast<Word>(expected), static_cast<Word>(desired));
 #else
   __atomic_compare_exchange(
@@ -74,7 +74,7 @@ DELAUNAYFLIP_HOST_DEVICE inline T AtomicExchange(T* address, T value)
 {
 #if DELAUNAYFLIP_ON_DEVICE
   using Word = DeviceWordOf<T>;
-  return atomicExch(reinterpret_cast<Word*>(address), static_cast<Word>(value));
+  return atomicExch_system(reinterpret_cast<Word*>(address), static_cast<Word>(value));
 #else
   return __atomic_exchange_n(address, value, __ATOMIC_RELAXED);
 #endif
@@ -84,7 +84,7 @@ DELAUNAYFLIP_HOST_DEVICE inline T AtomicExchange(T* address, T value)
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicAdd(std::uint32_t* address, std::uint32_t value)
 {
 #if DELAUNAYFLIP_ON_DEVICE
-  return atomicAdd(address, value);
+  return atomicAdd_system(address, value);
 #else
   return __atomic_fetch_add(address, value, __ATOMIC_RELAXED);
 #endif
@@ -95,7 +95,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint
 {
 #if DELAUNAYFLIP_ON_DEVICE
   // In large kernels the compiler would keep an atomicOr that waits for the old value.
-  asm volatile("red.relaxed.gpu.global.or.b32 [%0], %1;"
+  asm volatile("red.relaxed.sys.global.or.b32 [%0], %1;"
                :
                : "l"(__cvta_generic_to_global(address)), "r"(bits)
                : "memory");
@@ -108,7 +108,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicSet(std::uint32_t* address, std::uint
 DELAUNAYFLIP_HOST_DEVICE inline void AtomicAnd(std::uint32_t* address, std::uint32_t bits)
 {
 #if DELAUNAYFLIP_ON_DEVICE
-  asm volatile("red.relaxed.gpu.global.and.b32 [%0], %1;"
+  asm volatile("red.relaxed.sys.global.and.b32 [%0], %1;"
                :
                : "l"(__cvta_generic_to_global(address)), "r"(bits)
                : "memory");
@@ -122,7 +122,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
 {
 #if DELAUNAYFLIP_ON_DEVICE
   using Word = DeviceWordOf<T>;
-  atomicMin(reinterpret_cast<Word*>(address), static_cast<Word>(value));
+  atomicMin_system(reinterpret_cast<Word*>(address), static_cast<Word>(value));
 #else
   T seen = AtomicLoad(address);
   while (value < seen)

@@ -295,11 +295,9 @@ typename Backend::Numbering PairCorners(
     result.Counts.NonManifold = sums.NonManifold;
     return numbering;
   }
-  // With slices the table takes a quarter of the memory, and every triangle is visited four times.
-  constexpr std::int64_t Slices = 4;
   constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
-  const bool inSlices = Backend::MemoryIsScarce && result.Edges.NumberOfTriangles >= SmallestSliced;
-  numbering = PairByTable(input, result, inSlices ? Slices : 1, backend);
+  const bool inSlices = result.Edges.NumberOfTriangles >= SmallestSliced;
+  numbering = PairByTable(input, result, inSlices ? backend.CountTableSlices() : 1, backend);
   if (Backend::MemoryIsScarce)
   {
     result.Table = EdgeTable(); // frees its memory for the rest of the mesh

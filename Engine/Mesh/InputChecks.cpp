@@ -4,8 +4,10 @@
 
 #include "FlipError.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -16,6 +18,20 @@ namespace
 /// triangle, stay below 2^32.
 constexpr std::int64_t LargestMesh = ((std::int64_t(1) << 32) - 2) / 6;
 constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
+
+void CheckDevices(std::vector<int> devices)
+{
+  std::sort(devices.begin(), devices.end());
+  if (!devices.empty() && devices.front() < 0)
+  {
+    throw InvalidOptions("the numbers of GPUs that share a mesh must be 0 or more");
+  }
+  const auto twice = std::adjacent_find(devices.begin(), devices.end());
+  if (twice != devices.end())
+  {
+    throw InvalidOptions("GPU " + std::to_string(*twice) + " is named twice");
+  }
+}
 }
 
 void CheckOptions(const FlipOptions& options)
@@ -41,6 +57,7 @@ void CheckOptions(const FlipOptions& options)
   {
     throw InvalidOptions("the number of the GPU must be -1 (CUDA's current one), 0 or more");
   }
+  CheckDevices(options.Devices);
 }
 
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry)

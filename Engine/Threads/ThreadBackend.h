@@ -56,6 +56,7 @@ public:
 
   /// Whether to save memory at the cost of time.
   static constexpr bool MemoryIsScarce = false;
+  int CountTableSlices() const { return 1; }
 
   /// E.g. "Threads: 8".
   std::string GetName() const;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole run in one call."""
 import dataclasses
-from typing import Optional, Union
+from typing import Optional, Sequence, Union
 
 import numpy
 
@@ -28,8 +28,9 @@ def flip(
     feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
     insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
     frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
-    threads: int = 0, device: int = -1, track_quality: bool = False,
-    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None) -> Result:
+    threads: int = 0, device: int = -1, devices: Union[str, Sequence[int]] = (),
+    track_quality: bool = False, progress: Optional[Progress] = None,
+    on_iteration: Optional[OnIteration] = None) -> Result:
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
@@ -54,6 +55,8 @@ def flip(
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
+        devices: GPUs that share a mesh of the host's memory: their numbers, or "all"; none: device.
+            They must be connected by NVLink.
         track_quality: Compute the smallest angle after every iteration.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.
@@ -77,7 +80,7 @@ def flip(
         regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion,
         tie_rule=tie_rule, tolerance=tolerance, feature_angle=feature_angle,
         maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
-        track_quality=track_quality,
+        devices=devices, track_quality=track_quality,
     ) as session:
         if session.report.stop_reason != "aborted":
             session.advance(progress=progress, on_iteration=on_iteration)

@@ -66,6 +66,7 @@ class Options(ctypes.Structure):
         ("device", c_int32),
         ("track_quality", c_int32),
         ("reserved", c_int32),
+        ("devices", c_char_p),
     ]
 
 

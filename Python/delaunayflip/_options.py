@@ -26,8 +26,15 @@ def make_options(**keywords):
         name = _NAMES.get(keyword, keyword)
         if name not in known:
             raise TypeError(f"{keyword!r} is not an option")
-        setattr(options, name, _choose(keyword, value))
+        value = list_devices(value) if keyword == "devices" else _choose(keyword, value)
+        setattr(options, name, value)
     return options
+
+
+def list_devices(devices):
+    """Numbers of GPUs, or a text of them, as the engine reads it."""
+    text = devices if isinstance(devices, str) else ",".join(str(int(one)) for one in devices)
+    return text.encode()
 
 
 def _choose(keyword, value):

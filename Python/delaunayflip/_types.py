@@ -46,4 +46,5 @@ class Options(typing.TypedDict, total=False):
     backend: Backend
     threads: int
     device: int
+    devices: typing.Union[str, typing.Sequence[int]]
     track_quality: bool

@@ -51,6 +51,7 @@ PROPERTIES = (
     Property("Triangulate", True),
     Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
     Property("DeviceId", -1, -1, VTK_INT_MAX),
+    Property("Devices", ""),
     Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
     Property("MaximumIterations", -1, -1, VTK_ID_MAX),
     Property("TrackQuality", False),

@@ -196,6 +196,7 @@ class Update:
             "maximum_iterations": filter_.GetMaximumIterations(),
             "threads": filter_.GetNumberOfThreads(),
             "device": filter_.GetDeviceId(),
+            "devices": filter_.GetDevices(),
             "track_quality": filter_.GetTrackQuality(),
         }
 

@@ -46,6 +46,7 @@ class Options(typing.TypedDict, total=False):
     backend: str
     threads: int
     device: int
+    devices: str
 
 
 if typing.TYPE_CHECKING:
@@ -66,9 +67,9 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads and device as for delaunayflip.flip; region_array: a cell array, edges
-            between its values stay; lines_as_constraints, insert_lines, insert_constraints and
-            triangulate as in vtkDelaunayFlip.
+            backend, threads, device and devices (a text) as for delaunayflip.flip; region_array: a
+            cell array, edges between its values stay; lines_as_constraints, insert_lines,
+            insert_constraints and triangulate as in vtkDelaunayFlip.
 
     Returns:
         The mesh. Its field data tells what was done, e.g. "DelaunayFlip:TotalFlips".

@@ -5,13 +5,14 @@
 
     scaling.py [--quick] [--gpus 0,1] [--turns N] [--output scaling.json] PROGRAM
 
-Strong scaling: one mesh (20 million points) undivided and in 1, 2, 4, 8 and 16 pieces, a rank with
-one thread each. Weak scaling: 1.25 million points for every piece. With --gpus the same for pieces
-on these GPUs: all pieces on one, on two, and more pieces than GPUs. All cases are run once in turn,
+Strong scaling: one mesh (20 million points) in 1, 2, 4, 8 and 16 pieces, a rank with one thread
+each, and undivided, with as many threads. Weak scaling: 1.25 million points for every piece. With
+--gpus the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. All cases are run once in turn,
 then again (--turns, 3), and a case counts with its median; so what slows the machine down for a
 while slows all of them. Prints a table and what the cost model says of 64 nodes; the JSON has every
 run.
 
+of threads: the time of as many threads on the undivided mesh, divided by that of the pieces.
 efficiency: the undivided time, or the weak time of one piece, divided by what ranks x time would be
 if every rank had a core of its own; with fewer cores than ranks, the same of CPU times, which does
 not count waiting.
@@ -39,7 +40,12 @@ def plan(sizes, gpus):
     devices = [f"devices={gpus}"] if gpus else []
     first = [f"devices={gpus.split(',')[0]}"] if gpus else []
     cases["undivided"] = [f"points={sizes['strong']}", "pieces=0", *first]
+    if gpus:
+        cases["undivided, all GPUs"] = [f"points={sizes['strong']}", "pieces=0", *devices]
     for pieces in PIECES:
+        if not gpus and pieces > 1:
+            cases[f"threads {pieces}"] = [
+                f"points={sizes['strong']}", "pieces=0", f"threads={pieces}"]
         cases[f"strong {pieces}"] = [f"points={sizes['strong']}", f"pieces={pieces}", *devices]
         cases[f"weak {pieces}"] = [f"points={sizes['weak'] * pieces}", f"pieces={pieces}", *devices]
     if gpus:
@@ -71,10 +77,10 @@ def take_median(runs):
 
 
 def print_table(cases, cores):
-    print("case | wall s | CPU s | in communication s | efficiency | rounds | seam edges | moved | MB sent by a rank")
-    print("---|---|---|---|---|---|---|---|---")
+    print("case | wall s | CPU s | in communication s | of threads | efficiency | rounds | seam edges | moved | MB sent by a rank")
+    print("---|---|---|---|---|---|---|---|---|---")
     for name, case in cases.items():
-        pieces = max(1, int(case["pieces"]))
+        pieces = int(case["pieces"]) or int(case["threads"])
         base = cases["weak 1" if name.startswith("weak") else "undivided"]
         ideal = base["cpu_seconds"] * (pieces if name.startswith("weak") else 1)
         if cores >= pieces and not case["devices"]:
@@ -82,8 +88,10 @@ def print_table(cases, cores):
             share = ideal / (pieces * case["seconds"])
         else:
             share = ideal / case["cpu_seconds"]
+        threads = cases.get("undivided" if name == "strong 1" else name.replace("strong", "threads"))
+        rival = f"{threads['seconds'] / case['seconds']:.2f}" if "strong" in name and threads else ""
         print(
-            f"{name} | {case['seconds']:.3f} | {case['cpu_seconds']:.3f} | {case['communication_seconds']:.3f} | "
+            f"{name} | {case['seconds']:.3f} | {case['cpu_seconds']:.3f} | {case['communication_seconds']:.3f} | {rival} | "
             f"{share:.2f} | {case['rounds']} | {case['seam_edges']} | {case['moved']} | {case['bytes_sent'] / 1e6:.1f}"
         )
 

@@ -57,6 +57,7 @@ class WrongUsage(CommandTest):
             "--tolerance": ["-1e-9", "-2", "1", "nan", "inf"],
             "--threads": ["-1", "1.5", "99999999"],
             "--device": ["-2", "0.5", "x", "nan", "9999999999", "gpu0"],
+            "--devices": ["x", "0,", "-1", "0.5", "0;1", "all,0"],
             "--max-iterations": ["-2", "1e30", "x"],
         }.items():
             for value in values:

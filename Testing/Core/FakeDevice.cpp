@@ -121,6 +121,8 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
 }
 
 bool HasCudaDevice() { return true; }
+
+int CountCudaDevices() { return HasCudaDevice() ? 1 : 0; }
 void ReleaseCudaMemory() {}
 std::size_t TakePeakCudaMemory() { return 0; }
 

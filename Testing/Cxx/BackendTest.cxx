@@ -59,6 +59,33 @@ TEST(VtkDelaunayFlip, DeviceIdIsAProperty)
   EXPECT_EQ(filter->GetDeviceId(), -1);
 }
 
+TEST(VtkDelaunayFlip, DevicesIsAProperty)
+{
+  vtkNew<vtkDelaunayFlip> filter;
+  EXPECT_STREQ(filter->GetDevices(), "");
+  const vtkMTimeType before = filter->GetMTime();
+  filter->SetDevices("0,1");
+  EXPECT_STREQ(filter->GetDevices(), "0,1");
+  EXPECT_GT(filter->GetMTime(), before);
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("Devices: 0,1"), std::string::npos);
+}
+
+TEST(VtkDelaunayFlip, DevicesThatCannotBeReadAreAnError)
+{
+  WatchedFilter filter(MakeRhombus());
+  filter->SetDevices("0;1");
+  filter->Update();
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_NE(filter.GetErrors()[0].find("0;1"), std::string::npos);
+  filter->SetDevices("3,5"); // nothing to the CPU
+  filter->SetBackendToThreads();
+  filter->Update();
+  EXPECT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+}
+
 TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)
 {
   auto large = MakeLargeMesh();

@@ -163,7 +163,7 @@ void TimeFilling(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& 
   const DrawnBuffers buffers{ MakeBuffer(12 * count), MakeBuffer(4 * count), count };
   filler->Register(buffers);
   const FilledMesh filled{ *scene.Filter->GetSession(),
-    PointArray(mesh.Floats.data(), mesh.CountPoints()), false, [](double) {
+    PointArray(mesh.Floats.data(), mesh.CountPoints()), 0, false, [](double) {
       return ColorBands{ std::vector<std::uint32_t>(12, 7), 0.0, 60.0, 0 };
     } };
   filler->Fill(filled);

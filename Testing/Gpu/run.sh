@@ -73,7 +73,8 @@ output=$(cd "$output" && pwd)
 (
   cd "$output"
   rm -f results.txt results.json machine.json steps.tsv benchmarks.* gpu-tests.* sanitizer-*.log \
-    engine-tests-on-cuda.* filter-tests-on-cuda.* program-*.log
+    engine-tests-on-cuda.* filter-tests-on-cuda.* program-*.log \
+    gpus-in-turn.*
 )
 "$programs/delaunay-flip-gpu-benchmark" --describe >"$output/machine.json"
 has_gpu=yes
@@ -136,6 +137,10 @@ run_tests()
     note filter-tests-on-cuda skipped "built without VTK"
   fi
   if [ -z "$filter" ]; then
+    # Several GPUs whose launches run one after the other.
+    run_step gpus-in-turn env CUDA_LAUNCH_BLOCKING=1 "$programs/DelaunayFlipGpuTests" \
+      --gtest_brief=1 '--gtest_filter=SharedMeshTest.Plane:SharedMeshTest.Surface*' \
+      "--gtest_output=json:$output/gpus-in-turn.json"
     run_program c-device-arrays "$programs/delaunayflip-c-device-test"
     run_program python-device-arrays env "PYTHONPATH=$package${PYTHONPATH:+:$PYTHONPATH}" \
       python3 "$here/test_device_arrays.py"
