@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The whole run in one call."""
 import dataclasses
-from typing import Optional, Sequence, Union
+from typing import Optional, Union
 
 import numpy
 
 from . import _arrays, _device, _library
 from ._report import Report
 from ._session import Session
-from ._types import Array, Backend, Criterion, Geometry, Numbers, OnIteration, Progress, TieRule
+from ._types import (
+    Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Progress, TieRule)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,22 +29,22 @@ def flip(
     feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
     insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
     frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
-    threads: int = 0, device: int = -1, devices: Union[str, Sequence[int]] = (),
-    track_quality: bool = False, progress: Optional[Progress] = None,
-    on_iteration: Optional[OnIteration] = None) -> Result:
+    threads: int = 0, device: int = -1, devices: Devices = (), track_quality: bool = False,
+    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
+) -> Result:
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
-    safely stay and are counted. The same input gives the same bits, on any threads and GPU.
+    safely stay and are counted. The same input gives the same bits, on any threads and GPUs.
 
     Args:
         points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
         triangles: (m, 3) int32 or int64, used without a copy if contiguous; never written.
-        geometry: Where edges are judged: "planar" in the plane of the points, "planar-xy" by x and
-            y (terrain), "surface" in space, "auto" whichever fits.
+        geometry: "planar": edges are judged in the plane of the points; "planar-xy": by x and y
+            (terrain); "surface": in space; "auto": whichever fits.
         criterion: "in-circle" (exact; surfaces ignore it) or "opposite-angles".
-        tie_rule: "keep" edges of four points on one circle, or "canonical": the result does not
-            depend on the input's triangles (planar only).
+        tie_rule: "keep" edges of four points on one circle, or, in the plane, "canonical": the
+            result does not depend on the input's triangles.
         tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
@@ -55,8 +56,7 @@ def flip(
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
-        devices: GPUs that share a mesh of the host's memory: their numbers, or "all"; none: device.
-            They must be connected by NVLink.
+        devices: GPUs connected by NVLink that share the mesh: numbers or "all"; none: device.
         track_quality: Compute the smallest angle after every iteration.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.

@@ -29,6 +29,8 @@ Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]
 TieRule = typing.Literal["keep", "canonical"]
 Backend = typing.Literal["auto", "cuda", "threads"]
+#: CUDA's numbers of GPUs, or as a text, such as "0,1" or "all".
+Devices = typing.Union[str, typing.Sequence[int]]
 #: Returning False aborts; any other value continues.
 Progress = typing.Callable[[float], typing.Optional[bool]]
 OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bool]]
@@ -46,5 +48,5 @@ class Options(typing.TypedDict, total=False):
     backend: Backend
     threads: int
     device: int
-    devices: typing.Union[str, typing.Sequence[int]]
+    devices: Devices
     track_quality: bool

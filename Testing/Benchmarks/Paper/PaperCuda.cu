@@ -43,7 +43,7 @@ static void WaitFor(const CudaBackend& backend) { backend.Synchronize(); }
 template <typename Point, typename Test>
 PaperResult RunPaperLoopOnGpu(const PaperMesh<Point>& mesh, const PaperPlan<Test>& plan)
 {
-  const CudaBackend backend(-1, static_cast<int>(std::thread::hardware_concurrency()));
+  const CudaBackend backend({ -1 }, static_cast<int>(std::thread::hardware_concurrency()));
   const auto scope = backend.MakeCurrent();
   return RunPaperLoop(mesh, plan, backend);
 }
