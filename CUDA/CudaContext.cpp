@@ -262,10 +262,25 @@ ContextLease::ContextLease(const std::vector<int>& devices)
 
 ContextLease::ContextLease(ContextLease&&) noexcept = default;
 
+namespace
+{
+/// Waits for all GPUs, also after an exception between Fork and Join. @returns whether nothing
+/// failed.
+bool Finish(const CudaContext& context)
+{
+  bool isGood = cudaStreamSynchronize(context.Stream) == cudaSuccess;
+  for (const DeviceStreams& other : context.Others)
+  {
+    isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
+  }
+  return isGood;
+}
+}
+
 ContextLease::~ContextLease()
 {
   // A context in which something failed is not kept for the next run.
-  if (this->Context && cudaStreamSynchronize(this->Context->Stream) == cudaSuccess)
+  if (this->Context && Finish(*this->Context))
   {
     IdleContexts::Get().Give(std::move(this->Context));
   }
