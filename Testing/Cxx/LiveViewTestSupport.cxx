@@ -94,22 +94,32 @@ void WatchedView::RunToTheEnd()
   const int ends = this->Ends;
   OnEvent(this->View, vtkCommand::EndEvent, [this]() { this->Interactor->TerminateApp(); });
   this->View->Run();
-  this->RunFor(60000);
+  this->RunUntilItStops();
   EXPECT_EQ(this->Ends, ends + 1);
 }
 
-void WatchedView::RunFor(unsigned long milliseconds)
+int WatchedView::RunUntilItStops()
 {
-  const int timer = this->Interactor->CreateOneShotTimer(milliseconds);
-  Observe(this->Interactor, vtkCommand::TimerEvent,
-    [this, timer](void* id)
+  const int timer = this->Interactor->CreateRepeatingTimer(300);
+  int looks = 0;
+  bool wasRunning = true;
+  vtkNew<FunctionCommand> look;
+  look->Action = [&](void* id)
+  {
+    if (*static_cast<int*>(id) == timer)
     {
-      if (*static_cast<int*>(id) == timer)
+      if (++looks == 200 || !wasRunning)
       {
         this->Interactor->TerminateApp();
       }
-    });
+      wasRunning = this->View->IsRunning();
+    }
+  };
+  const unsigned long observer = this->Interactor->AddObserver(vtkCommand::TimerEvent, look);
   this->Interactor->Start();
+  this->Interactor->RemoveObserver(observer);
+  this->Interactor->DestroyTimer(timer);
+  return looks;
 }
 
 bool WatchedView::Press(const char* key)

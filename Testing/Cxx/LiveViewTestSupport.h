@@ -31,11 +31,13 @@ public:
   vtkDelaunayFlipLiveView* operator->() { return this->View; }
 
   /// Runs the event loop until the end of the run; reports a failure after a minute. This and
-  /// RunFor() can be used once per process: event loops visit all X interactors, even deleted ones.
+  /// RunUntilItStops() can be used once per process: event loops visit all X interactors, even
+  /// deleted ones.
   void RunToTheEnd();
 
-  /// Runs the event loop for this time.
-  void RunFor(unsigned long milliseconds);
+  /// Runs the event loop while the view runs, a minute at most, and then for 300 to 600 ms, in
+  /// which nothing should follow. @returns how many TimerEvents it caused itself.
+  int RunUntilItStops();
 
   /// Simulates a key press in the window. @returns whether other observers received it.
   bool Press(const char* key);

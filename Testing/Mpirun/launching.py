@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""How tests start programs on several ranks, more than there are cores if need be.
+"""How tests start programs on several ranks, more than there are free cores if need be.
 
 As a program: launching.py RANKS PROGRAM [ARGUMENT...] runs one; the exit status is that of mpirun, or
 125, skipped, without mpirun.
@@ -17,7 +17,8 @@ def launch(ranks):
     """The command that starts the program which follows it."""
     command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     library = os.environ.get("DELAUNAYFLIP_SLEEPING_YIELD")
-    if library and ranks > (os.cpu_count() or 1):
+    # With a rank on every core, all that else is running, e.g. other tests, makes ranks wait.
+    if library and ranks >= (os.cpu_count() or 1):
         command += ["-x", "LD_PRELOAD=" + library]
     return [*command, "-n", str(ranks)]
 
