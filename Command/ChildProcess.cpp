@@ -14,7 +14,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <iostream>
 #include <new>
 
@@ -24,6 +26,7 @@ namespace delaunayflip
 struct ChildProcess::SharedPhase
 {
   std::atomic<Phase> Value{ Phase::Reading };
+  std::atomic<bool> LacksMemory{ false };
 };
 
 namespace
@@ -48,6 +51,29 @@ sigset_t EndingSignals()
     }
   }
   return signals;
+}
+
+/// In the child; null in the parent.
+std::atomic<bool>* lacksMemory = nullptr;
+
+/// Instead of std::terminate: oneTBB may throw in its own threads, where nobody can catch it.
+[[noreturn]] void EndChild()
+{
+  try
+  {
+    if (const std::exception_ptr error = std::current_exception())
+    {
+      std::rethrow_exception(error);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    *lacksMemory = IsLackOfMemory(error);
+  }
+  catch (...)
+  {
+  }
+  std::abort();
 }
 
 }
@@ -101,6 +127,8 @@ void ChildProcess::Work(const ChildWork& work)
     signal(ending, SIG_IGN);
   }
   sigprocmask(SIG_SETMASK, &this->Before, nullptr);
+  lacksMemory = &this->Shared->LacksMemory;
+  std::set_terminate(EndChild);
   // A reader that crashes on a corrupt file must not leave a core file in the user's folder.
   const rlimit none = {};
   setrlimit(RLIMIT_CORE, &none);
@@ -135,6 +163,7 @@ ChildOutcome ChildProcess::Wait(int child)
   outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   outcome.KilledBy = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   outcome.LastPhase = this->Shared->Value;
+  outcome.LacksMemory = this->Shared->LacksMemory;
   return outcome;
 }
 

@@ -31,6 +31,7 @@ struct ChildOutcome
   int ExitCode = 0; ///< What the work returned, if it was not killed.
   int KilledBy = 0; ///< The signal that killed the child, or 0.
   int InterruptedBy = 0; ///< The signal that made this process kill the child, or 0.
+  bool LacksMemory = false; ///< That is why it was killed.
   Phase LastPhase = Phase::Reading;
 };
 

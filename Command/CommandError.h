@@ -3,6 +3,9 @@
 #ifndef DELAUNAYFLIP_COMMANDERROR_H
 #define DELAUNAYFLIP_COMMANDERROR_H
 
+#include <cstring>
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +38,15 @@ public:
 
   ExitCode Code;
 };
+
+/// Whether there was no memory, be it for an array larger than any memory, or for a thread's stack,
+/// of which oneTBB tells by a message only.
+inline bool IsLackOfMemory(const std::exception& error)
+{
+  return dynamic_cast<const std::bad_alloc*>(&error) ||
+    dynamic_cast<const std::length_error*>(&error) ||
+    std::strstr(error.what(), "pthread_create") != nullptr;
+}
 
 }
 

@@ -62,9 +62,7 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
 /// The rest of the message for an exception that names no file.
 std::string Explain(const std::exception& error)
 {
-  const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) ||
-    dynamic_cast<const std::length_error*>(&error); // a container larger than any memory
-  return isMemory ? "not enough memory" : error.what();
+  return IsLackOfMemory(error) ? "not enough memory" : error.what();
 }
 
 /// The work of the child. Its errors name a file.
@@ -97,6 +95,10 @@ std::string ExplainDeath(
 {
   const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
   const std::string work = DescribeWork(arguments, outcome.LastPhase);
+  if (outcome.LacksMemory)
+  {
+    return work + "not enough memory; nothing was written";
+  }
   switch (outcome.LastPhase)
   {
     case Phase::Reading:

@@ -189,7 +189,8 @@ class ManyThreads(CommandTest):
                     self.assertEqual(file.read(), expected)
             else:
                 self.assertEqual(result.returncode, 3)
-                self.assertIn("not enough memory", result.stderr)
+                # The second is said where VTK itself ends the process.
+                self.assertRegex(result.stderr, "not enough memory|was there enough memory")
         self.assertEqual(result.returncode, 0)  # 800 MiB are enough
 
 
