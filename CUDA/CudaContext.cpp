@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <vector>
 
 namespace delaunayflip
@@ -42,10 +43,17 @@ struct IdleContexts
     return context;
   }
 
-  void Give(std::unique_ptr<CudaContext> context)
+  /// Keeps a context; destroys it if there is no memory for the list, as a destructor calls this.
+  void Give(std::unique_ptr<CudaContext> context) noexcept
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Contexts.push_back(std::move(context));
+    try
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Contexts.push_back(std::move(context));
+    }
+    catch (const std::bad_alloc&)
+    {
+    }
   }
 
   std::size_t TakePeak()
@@ -65,10 +73,7 @@ struct IdleContexts
     return std::move(this->Contexts);
   }
 };
-}
 
-namespace
-{
 cudaEvent_t MakeEvent()
 {
   cudaEvent_t event = nullptr;
