@@ -18,15 +18,15 @@ namespace delaunayflip
 
 namespace
 {
-/// The shares of a run that are over when each rank has inserted its own constraints, and the rest.
+/// How much of a run is done when each rank has inserted its own constraints, and when all are in.
 constexpr double OwnShare = 0.2;
 constexpr double FarShare = 0.25;
 
 /// What the ranks' own insertions have found.
 struct InsertionSums
 {
-  std::int64_t Missing = 0; ///< Constraints that were no edges.
-  std::int64_t Left = 0; ///< Of these, those that were left over.
+  std::int64_t Missing = 0; ///< Constraints that were not edges.
+  std::int64_t Left = 0; ///< Of these, those that no rank could insert alone.
   std::int64_t Aborted = 0; ///< Ranks.
 
   InsertionSums& operator+=(const InsertionSums& part)
@@ -43,7 +43,7 @@ bool Holds(const std::vector<PointPair>& ascending, const PointPair& pair)
   return std::binary_search(ascending.begin(), ascending.end(), pair);
 }
 
-/// Those of all ranks in their order, each once.
+/// The constraints of all ranks in the ranks' order, each once.
 std::vector<FarConstraint> JoinLeft(const RecordLists<FarConstraint>& lists)
 {
   std::vector<FarConstraint> all;
@@ -70,7 +70,7 @@ void AddCounts(const FlipReport& part, FlipReport& sum)
 }
 }
 
-/// What InsertOwn leaves to be kept, unless the run is stopped.
+/// What InsertOwn has made; dropped if the run is stopped.
 struct PieceConstraints::OwnWork
 {
   ConstraintList List;
@@ -109,6 +109,7 @@ void PieceConstraints::Run()
   this->IsAborted = sums.Aborted > 0;
   if (sums.Missing == 0 || this->IsAborted)
   {
+    this->Found = FlipReport(); // what ranks have inserted before another one stopped is dropped
     std::fill(this->Seams.ToInsert.begin(), this->Seams.ToInsert.end(), 0);
     return;
   }
@@ -222,7 +223,7 @@ std::vector<FarConstraint> PieceConstraints::ListLeft() const
   return left;
 }
 
-/// Takes the triangles and the constraints, without those that are left over.
+/// Takes the triangles, and the constraints except those that this rank cannot insert alone.
 void PieceConstraints::Keep(const OwnWork& own)
 {
   for (const MarkedCorner& mark : this->Seams.Marks)
@@ -268,7 +269,7 @@ void PieceConstraints::AddEdge(std::int64_t from, std::int64_t to)
 }
 
 //------------------------------------------------------------------------------
-/// Inserts constraints of all ranks, each on one of them.
+/// Inserts constraints of all ranks, each of them on one rank.
 void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
 {
   this->Fixed.Apply(this->Mesh.Triangles);
@@ -307,7 +308,7 @@ void PieceConstraints::InsertFar(
   const ConstraintInsertion insertion = this->Insert(mesh, FarShare);
   FlipReport part;
   insertion.AddTo(part);
-  // Some may have become edges by others that go along them.
+  // Some may have become edges when others along them were inserted.
   part.InsertedConstraints = this->IsAborted ? 0 : list.CountToInsert() - part.UnmatchedConstraints;
   AddCounts(part, this->Found);
   list.ForEachMade(insertion.GetMesh(mesh),
@@ -317,8 +318,7 @@ void PieceConstraints::InsertFar(
   region.Store(made.Ids, made.Flips, this->Mesh);
 }
 
-/// The constraints in the numbers of a region. Refuses those that begin or end where no triangle
-/// is.
+/// The constraints in the numbers of a region. Refuses those with an end at no triangle.
 ConstraintList PieceConstraints::ListFar(
   const std::vector<FarConstraint>& constraints, const PieceRegion& region)
 {

@@ -337,6 +337,7 @@ TEST_P(PieceInsertionTest, AnyRankCanStopAll)
   {
     std::vector<PiecesReport> reports(GetParam());
     std::atomic<std::int64_t> triangles{ 0 };
+    double stopped = 1.0; // the share at which the last rank stops all
     RunInThreads(GetParam(),
       [&](PieceGroup& group)
       {
@@ -347,7 +348,12 @@ TEST_P(PieceInsertionTest, AnyRankCanStopAll)
         {
           EXPECT_LE(last, share);
           last = share;
-          return rank != GetParam() - 1 || share <= limit;
+          const bool stops = rank == GetParam() - 1 && share > limit;
+          if (stops)
+          {
+            stopped = std::min(stopped, share);
+          }
+          return !stops;
         };
         reports[rank] =
           FlipPiece(pieces[rank].View(true), MakeCanonical(), group, flipped, progress);
@@ -356,6 +362,11 @@ TEST_P(PieceInsertionTest, AnyRankCanStopAll)
     ExpectSameOnAllRanks(reports);
     EXPECT_EQ(StopReasonKind::Aborted, reports.front().StopReason) << limit;
     EXPECT_EQ(mesh.Triangles.Count, triangles);
+    if (stopped < 0.19) // before ranks keep what they have inserted
+    {
+      EXPECT_EQ(0, reports.front().InsertedConstraints) << limit;
+      EXPECT_EQ(0, reports.front().ConstraintFlips) << limit;
+    }
   }
 }
 
