@@ -27,11 +27,13 @@ public:
     std::iota(this->Parents.begin(), this->Parents.end(), 0);
   }
 
-  std::int32_t GetFirst(std::int32_t constraint) const
+  std::int32_t GetFirst(std::int32_t constraint)
   {
     while (this->Parents[constraint] != constraint)
     {
-      constraint = this->Parents[constraint];
+      std::int32_t& parent = this->Parents[constraint];
+      parent = this->Parents[parent]; // halves the chain
+      constraint = parent;
     }
     return constraint;
   }
@@ -40,8 +42,6 @@ public:
   {
     const auto [first, second] = std::minmax({ this->GetFirst(a), this->GetFirst(b) });
     this->Parents[second] = first;
-    this->Parents[a] = first; // so that chains stay short
-    this->Parents[b] = first;
   }
 
 private:
@@ -151,7 +151,7 @@ private:
     this->Groups.Join(first, constraint);
   }
 
-  /// Also those that share a point with a touched triangle, on any rank.
+  /// Also touches the triangles, on any rank, that share a point with a touched one.
   void AddNeighbours()
   {
     std::map<std::int64_t, std::int32_t> known; // keys of points
@@ -183,7 +183,7 @@ private:
     }
   }
 
-  std::vector<RankShare> ListShares() const
+  std::vector<RankShare> ListShares()
   {
     std::vector<RankShare> shares;
     for (std::size_t i = 0; i < this->Constraints.size(); ++i)
@@ -193,7 +193,10 @@ private:
     }
     for (const std::int32_t constraint : this->TouchedBy)
     {
-      shares[constraint == None ? 0 : constraint].Triangles += constraint == None ? 0 : 1;
+      if (constraint != None)
+      {
+        ++shares[constraint].Triangles;
+      }
     }
     const auto saysNothing = [](const RankShare& share)
     { return share.Triangles == 0 && share.First == share.Constraint; };
@@ -201,8 +204,8 @@ private:
     return shares;
   }
 
-  /// The rank of every constraint: of its group, the one that has most of the triangles. Of equal
-  /// ones the lowest.
+  /// The rank that receives each constraint: the one that has most of its group's triangles; if
+  /// several have as many, the lowest.
   std::vector<int> ChooseReceivers()
   {
     const RecordLists<RankShare> shares = GatherRecords(this->Group, this->ListShares());
