@@ -46,17 +46,13 @@ private:
       {
         void* found = nullptr;
         cudaDriverEntryPointQueryResult status = cudaDriverEntryPointSymbolNotFound;
-        constexpr unsigned Version = 11000; // has them all
 #if CUDART_VERSION >= 12050
+        constexpr unsigned Version = 11000; // has them all
         const cudaError_t error =
           cudaGetDriverEntryPointByVersion(name, &found, Version, cudaEnableDefault, &status);
-#elif CUDART_VERSION >= 12000
-        const cudaError_t error = cudaGetDriverEntryPoint(name, &found, cudaEnableDefault, &status);
 #else
-        const cudaError_t error = cudaGetDriverEntryPoint(name, &found, cudaEnableDefault);
-        status = cudaDriverEntryPointSuccess;
+        const cudaError_t error = cudaGetDriverEntryPoint(name, &found, cudaEnableDefault, &status);
 #endif
-        static_cast<void>(Version);
         function = reinterpret_cast<Function>(found);
         const bool isFound = status == cudaDriverEntryPointSuccess && found;
         return error != cudaSuccess || isFound ? error : cudaErrorNotSupported;
@@ -154,8 +150,8 @@ SharedMemory::~SharedMemory() { this->ReleaseIdle(); }
 
 namespace
 {
-// With fewer, bits of edges, the smallest arrays of which there is a value per edge, would be on
-// one GPU, and another would wait for it.
+// With fewer triangles per GPU, the smallest arrays with a value per edge, the bits, would be on
+// one GPU, and the others would wait for it.
 std::int64_t smallestShare = 12000000;
 }
 
@@ -267,7 +263,8 @@ void* SharedMemory::Map(std::size_t part) const
   return reinterpret_cast<void*>(base);
 }
 
-/// Waits for all GPUs, because the driver does not know which of them still use the memory.
+/// Waits for the stream, in whose order all GPUs work: the driver does not know whether one of them
+/// still uses the memory.
 void SharedMemory::Unmap(void* memory, std::size_t part) const noexcept
 {
   const Driver& driver = Driver::Get();

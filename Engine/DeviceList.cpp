@@ -11,7 +11,7 @@ namespace delaunayflip
 
 namespace
 {
-/// @returns -1 if the word is no number of a GPU.
+/// @returns -1 if the word is not the number of a GPU.
 int ParseDevice(const std::string& word)
 {
   std::istringstream stream(word);
@@ -37,7 +37,7 @@ std::vector<int> ParseDevices(const std::string& list)
     if (devices.back() < 0)
     {
       throw InvalidOptions("'" + list +
-        "' is no list of GPUs; give CUDA's numbers separated by commas, such as 0,1, or all");
+        "' is not a list of GPUs; give CUDA's numbers separated by commas, such as 0,1; or all");
     }
   }
   return devices;

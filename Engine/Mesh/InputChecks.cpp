@@ -29,7 +29,8 @@ void CheckDevices(std::vector<int> devices)
   const auto twice = std::adjacent_find(devices.begin(), devices.end());
   if (twice != devices.end())
   {
-    throw InvalidOptions("GPU " + std::to_string(*twice) + " is named twice");
+    throw InvalidOptions(
+      "GPU " + std::to_string(*twice) + " is named twice; name each GPU that shares the mesh once");
   }
 }
 }

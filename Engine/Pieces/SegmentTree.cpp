@@ -26,7 +26,7 @@ bool IsFinite(const SegmentTree::Segment& segment)
     std::isfinite(segment[1].U) && std::isfinite(segment[1].V);
 }
 
-/// A point of a segment at a share of its length, about.
+/// Approximately the point at a share of a segment's length.
 PlanePoint GetPointAt(const SegmentTree::Segment& segment, double share)
 {
   return { segment[0].U * (1 - share) + segment[1].U * share,
@@ -45,7 +45,7 @@ double GetMargin(const SegmentTree::Segment& segment)
     8 * std::numeric_limits<double>::denorm_min();
 }
 
-/// Whether a line that separates both runs along the segment or a side of the triangle.
+/// Whether the line through the segment, or through a side of the triangle, separates the two.
 bool AreSeparate(const SegmentTree::Segment& segment, const SegmentTree::Triangle& triangle)
 {
   int sides[3];

@@ -35,7 +35,7 @@ def flip(
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
-    safely stay and are counted. The same input gives the same bits, on any threads and GPUs.
+    safely stay and are counted. The same input gives the same bits, on any threads or GPUs.
 
     Args:
         points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
@@ -56,7 +56,7 @@ def flip(
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
-        devices: GPUs connected by NVLink that share the mesh: numbers or "all"; none: device.
+        devices: GPUs, connected by NVLink, that share the mesh: [0, 1] or "all"; (): device.
         track_quality: Compute the smallest angle after every iteration.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.

@@ -29,7 +29,7 @@ Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]
 TieRule = typing.Literal["keep", "canonical"]
 Backend = typing.Literal["auto", "cuda", "threads"]
-#: CUDA's numbers of GPUs, or as a text, such as "0,1" or "all".
+#: CUDA's numbers of GPUs, as a sequence or as a text such as "0,1"; or "all".
 Devices = typing.Union[str, typing.Sequence[int]]
 #: Returning False aborts; any other value continues.
 Progress = typing.Callable[[float], typing.Optional[bool]]

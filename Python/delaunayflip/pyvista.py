@@ -67,7 +67,7 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads, device and devices (a text) as for delaunayflip.flip; region_array: a
+            backend, threads, device and devices ("0,1") as for delaunayflip.flip; region_array: a
             cell array, edges between its values stay; lines_as_constraints, insert_lines,
             insert_constraints and triangulate as in vtkDelaunayFlip.
 
