@@ -4,10 +4,9 @@
 
 #include "SessionWork.h"
 
-#include "SurfaceAngles.h"
+#include "CotangentAngle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -40,17 +39,6 @@ private:
   Value& Variable;
   Value Before;
 };
-
-double ToDegrees(double squaredCotangent)
-{
-  if (squaredCotangent == -INFINITY)
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  return squaredCotangent == INFINITY
-    ? 0.0
-    : std::atan2(1.0, std::sqrt(squaredCotangent)) / DegreesToRadians;
-}
 }
 
 bool FlipSession::Implementation::Advance(

@@ -2,66 +2,89 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceQuality.h"
 
-#include "TriangleAngles.h"
+#include "AngleSurvey.h"
+#include "CotangentAngle.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace delaunayflip
 {
 
 namespace
 {
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+/// The squared cotangent of the smallest angle, as AngleSurvey.h has it; -infinity for an empty
+/// place.
+double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
+{
+  const PieceTriangle& triangle = mesh.Triangles[t];
+  double x[3][3];
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    mesh.GetPosition(triangle.Points[slot], x[slot]);
+    x[slot][2] = survey.Geometry == GeometryKind::PlanarXY ? 0.0 : x[slot][2];
+  }
+  const Vector3 a{ x[0][0], x[0][1], x[0][2] };
+  const Vector3 b{ x[1][0], x[1][1], x[1][2] };
+  const Vector3 c{ x[2][0], x[2][1], x[2][2] };
+  const double usual = LargestSquaredCotangent(a, b, c);
+  if (triangle.HasLeft)
+  {
+    return -INFINITY;
+  }
+  return usual == INFINITY || IsWide(survey.Range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
+                                                            : usual;
+}
 }
 
-void PieceQuality::Measure(const PieceMesh& mesh, const PieceSurvey& survey)
+double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads)
 {
-  const PieceRegion all(mesh, survey);
-  const TriangleMesh view = all.View();
-  std::vector<double> angles(view.Triangles.Count);
-  FindSmallestAngles(view, survey.Geometry, 1, angles.data());
-  this->Angles.assign(mesh.Triangles.size(), NaN);
-  for (std::size_t i = 0; i < angles.size(); ++i)
+  const LargestValue largest =
+    ThreadBackend(threads).Sum<LargestValue>(static_cast<std::int64_t>(mesh.Triangles.size()),
+      [&](std::int64_t t, LargestValue& sum)
+      {
+        LargestValue one;
+        one.Value = Measure(mesh, survey, t);
+        sum += one;
+      });
+  return ToDegrees(largest.Value);
+}
+
+void PieceQuality::Update(const PieceMesh& mesh, const PieceSurvey& survey)
+{
+  this->Cotangents.resize(mesh.Triangles.size());
+  for (std::size_t t = 0; t < this->Cotangents.size(); ++t)
   {
-    this->Angles[all.GetTriangles()[i]] = angles[i];
+    this->Cotangents[t] = Measure(mesh, survey, static_cast<std::int64_t>(t));
   }
 }
 
 void PieceQuality::Update(
-  const PieceRegion& region, const std::vector<std::int32_t>& ids, const PieceSurvey& survey)
+  const PieceMesh& mesh, const PieceSurvey& survey, const std::vector<std::int64_t>& triangles)
 {
-  TriangleMesh view = region.View();
-  view.Triangles = TriangleArray(ids.data(), region.GetNumberOfTriangles());
-  std::vector<double> angles(view.Triangles.Count);
-  FindSmallestAngles(view, survey.Geometry, 1, angles.data());
-  const std::vector<std::int64_t>& triangles = region.GetTriangles();
-  if (!triangles.empty() && triangles.back() >= static_cast<std::int64_t>(this->Angles.size()))
+  this->Cotangents.resize(mesh.Triangles.size(), -INFINITY);
+  for (const std::int64_t t : triangles)
   {
-    this->Angles.resize(triangles.back() + 1, NaN);
-  }
-  for (std::size_t i = 0; i < angles.size(); ++i)
-  {
-    this->Angles[triangles[i]] = angles[i];
+    this->Cotangents[t] = Measure(mesh, survey, t);
   }
 }
 
 double PieceQuality::FindSmallest(
   const PieceMesh& mesh, const std::vector<std::int64_t>& omitted) const
 {
-  double smallest = NaN;
+  double largest = -INFINITY;
   auto next = omitted.begin();
-  for (std::size_t t = 0; t < this->Angles.size(); ++t)
+  for (std::size_t t = 0; t < this->Cotangents.size(); ++t)
   {
     const bool isOmitted = next != omitted.end() && *next == static_cast<std::int64_t>(t);
     next += isOmitted ? 1 : 0;
     if (!isOmitted && !mesh.Triangles[t].HasLeft)
     {
-      smallest = std::fmin(smallest, this->Angles[t]);
+      largest = std::max(largest, this->Cotangents[t]);
     }
   }
-  return smallest;
+  return ToDegrees(largest);
 }
 
 }

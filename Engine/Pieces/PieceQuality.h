@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_PIECEQUALITY_H
 
 #include "PieceMesh.h"
-#include "PieceRegion.h"
+#include "PieceSurvey.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,25 +12,27 @@
 namespace delaunayflip
 {
 
+/// The smallest angle of all triangles of a rank, in degrees; NaN if there is none.
+double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads);
+
 /// The smallest angle of every triangle of a rank, for FlipOptions::TrackQuality: a session sees
 /// only a region, but its iterations tell the angle of all triangles.
 class PieceQuality
 {
 public:
   /// Measures all triangles.
-  void Measure(const PieceMesh& mesh, const PieceSurvey& survey);
+  void Update(const PieceMesh& mesh, const PieceSurvey& survey);
 
-  /// Measures the triangles of a region after flips.
-  /// @param ids of all of them, the region's numbers.
+  /// Measures triangles that have changed or come.
   void Update(
-    const PieceRegion& region, const std::vector<std::int32_t>& ids, const PieceSurvey& survey);
+    const PieceMesh& mesh, const PieceSurvey& survey, const std::vector<std::int64_t>& triangles);
 
   /// The smallest angle in degrees; NaN if there is none.
   /// @param omitted triangles, ascending.
   double FindSmallest(const PieceMesh& mesh, const std::vector<std::int64_t>& omitted = {}) const;
 
 private:
-  std::vector<double> Angles; ///< One per place; some may be missing at the end.
+  std::vector<double> Cotangents; ///< Squared, one per place; some may be missing at the end.
 };
 
 }

@@ -4,7 +4,6 @@
 
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "MeshAudit.h"
 
 #include <algorithm>
 
@@ -35,11 +34,17 @@ void AddDefect(const Defect& defect, std::vector<Defect>& defects)
 /// The edges that are left, and the smallest angle, on this rank.
 void PieceRun::CountRest()
 {
-  const PieceRegion all(this->Mesh, this->Job.Survey);
-  this->Own.MinimumAngleAfter = MinimumAngle(all.View(), this->Job.Survey.Geometry);
+  const bool isKnown = this->Whole.Rounds == 1 && this->Own.Edges.Edges > 0;
+  if (isKnown)
+  {
+    return; // the first flips were the last
+  }
+  this->Own.MinimumAngleAfter =
+    FindSmallestAngle(this->Mesh, this->Job.Survey, this->Job.Options.NumberOfThreads);
   this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
   if (this->HasBlocked)
   {
+    const PieceRegion all(this->Mesh, this->Job.Survey);
     FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
     none.MaximumIterations = 0;
     const FlipSession session(all.View(), none);

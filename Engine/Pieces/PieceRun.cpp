@@ -139,7 +139,7 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   this->Edges = MarkedEdges();
   if (this->Job.Options.TrackQuality)
   {
-    this->Quality.Measure(this->Mesh, this->Job.Survey);
+    this->Quality.Update(this->Mesh, this->Job.Survey);
     this->KeepAngle();
   }
   if (this->Job.Group.GetSize() > 1)
@@ -267,7 +267,7 @@ std::vector<std::int32_t> PieceRun::FlipRegion(const PieceRegion& region)
   if (options.TrackQuality)
   {
     rest = this->Quality.FindSmallest(this->Mesh, region.GetTriangles());
-    this->Quality.Update(region, ids, this->Job.Survey);
+    this->Quality.Update(this->Mesh, this->Job.Survey, region.GetTriangles());
   }
   this->KeepRows(report, rest);
   this->Own.BuildSeconds += report.BuildSeconds;
@@ -304,7 +304,7 @@ void PieceRun::KeepFlips(std::int64_t flipped)
     row.MinimumAngle = NaN;
     if (this->Job.Options.TrackQuality)
     {
-      this->Quality.Measure(this->Mesh, this->Job.Survey);
+      this->Quality.Update(this->Mesh, this->Job.Survey);
       row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
     }
     this->KeepRow(row);

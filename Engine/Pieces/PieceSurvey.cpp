@@ -194,6 +194,7 @@ PieceSurvey SurveyPieces(
   survey.Geometry = found.Geometry;
   survey.GeometryReason = found.GeometryReason;
   survey.Projection = found.Projection;
+  survey.Range = found.Range;
   survey.NearlyHeightField = found.NearlyHeightField;
   survey.NearlyHeightField.FirstIds.clear(); // of other ranks
   if (found.Geometry == GeometryKind::Planar)
