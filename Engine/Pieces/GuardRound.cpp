@@ -154,18 +154,6 @@ bool IsGranted(const PairMap<PointPair>& granted, const PointPair& ends, const P
   return found != granted.end() && found->second == ends;
 }
 
-unsigned char GetMarks(const PieceTriangle& triangle, int slot)
-{
-  return static_cast<unsigned char>((triangle.Marks >> (slot % 3)) & (FixedMark | SeamMark));
-}
-
-void SetMarks(PieceTriangle& triangle, int slot, unsigned char marks)
-{
-  triangle.Clear(FixedMark, slot % 3);
-  triangle.Clear(SeamMark, slot % 3);
-  triangle.Marks |= static_cast<unsigned char>(marks << (slot % 3));
-}
-
 /// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
 /// (b, q, a).
 void FlipQuad(PieceMesh& mesh, const InnerQuad& quad)
@@ -174,14 +162,14 @@ void FlipQuad(PieceMesh& mesh, const InnerQuad& quad)
   PieceTriangle& s = mesh.Triangles[quad.Other.Triangle];
   const int a = quad.One.Slot;
   const int b = quad.Other.Slot;
-  const unsigned char pb = GetMarks(s, b + 1);
-  const unsigned char qa = GetMarks(t, a + 1);
+  const unsigned char pb = s.GetMarks((b + 1) % 3);
+  const unsigned char qa = t.GetMarks((a + 1) % 3);
   t.Points[(a + 2) % 3] = s.Points[b];
   s.Points[(b + 2) % 3] = t.Points[a];
-  SetMarks(t, a, pb);
-  SetMarks(t, a + 1, 0);
-  SetMarks(s, b, qa);
-  SetMarks(s, b + 1, 0);
+  t.SetMarks(a, pb);
+  t.SetMarks((a + 1) % 3, 0);
+  s.SetMarks(b, qa);
+  s.SetMarks((b + 1) % 3, 0);
   ++t.Flips;
   ++s.Flips;
 }

@@ -143,14 +143,18 @@ std::vector<PieceCorner> PieceMesh::TakeNewSeams()
 PieceCorner PieceMesh::FindMate(const PieceCorner& corner) const
 {
   const PieceTriangle& triangle = this->Triangles[corner.Triangle];
-  const PointPair edge = triangle.GetEdge(corner.Slot);
+  const std::int32_t start = triangle.GetStart(corner.Slot);
+  const std::int32_t end = triangle.GetEnd(corner.Slot);
   PieceCorner mate{ -1, 0 };
-  this->Stars.ForEach(triangle.GetStart(corner.Slot),
+  this->Stars.ForEach(start,
     [&](std::int64_t t)
     {
-      for (int slot = 0; slot < 3 && t != corner.Triangle; ++slot)
+      const PieceTriangle& other = this->Triangles[t];
+      const bool hasEnd =
+        other.Points[0] == end || other.Points[1] == end || other.Points[2] == end;
+      for (int slot = 0; slot < 3 && hasEnd && t != corner.Triangle; ++slot)
       {
-        mate = this->Triangles[t].GetEdge(slot) == edge ? PieceCorner{ t, slot } : mate;
+        mate = other.HasEdge(slot, start, end) ? PieceCorner{ t, slot } : mate;
       }
     });
   return mate;
@@ -215,8 +219,8 @@ std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_
 
 std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
 {
-  // Corners are numbered by 32 bits.
-  constexpr std::size_t Most = std::numeric_limits<std::uint32_t>::max() / 3;
+  // Corners are numbered by 32 bits, and two numbers mean something else.
+  constexpr std::size_t Most = (std::numeric_limits<std::uint32_t>::max() - 1) / 3;
   if (this->Triangles.size() == Most)
   {
     throw MeshTooLarge("a piece has too many triangles: divide the mesh among more ranks");

@@ -9,79 +9,15 @@
 namespace delaunayflip
 {
 
-namespace
-{
-/// Collects different things of a rank, each once.
-template <typename Id, typename Flag>
-class UniqueList
-{
-public:
-  /// @param flags all 0 now, and again in the end.
-  explicit UniqueList(std::vector<Flag>& flags)
-    : Flags(flags)
-  {
-  }
-
-  void Add(Id id)
-  {
-    if (this->Flags[id] == 0)
-    {
-      this->Flags[id] = 1;
-      this->Ids.push_back(id);
-    }
-  }
-
-  /// Ends the list. @returns it, ascending.
-  std::vector<Id> Take()
-  {
-    std::sort(this->Ids.begin(), this->Ids.end());
-    for (const Id id : this->Ids)
-    {
-      this->Flags[id] = 0;
-    }
-    return std::move(this->Ids);
-  }
-
-private:
-  std::vector<Flag>& Flags;
-  std::vector<Id> Ids;
-};
-
-std::vector<std::int32_t> FindPointsOf(
-  const PieceMesh& mesh, const std::vector<std::int64_t>& triangles, RegionScratch& scratch)
-{
-  UniqueList<std::int32_t, std::int32_t> points(scratch.Points);
-  for (const std::int64_t t : triangles)
-  {
-    for (const std::int32_t point : mesh.Triangles[t].Points)
-    {
-      points.Add(point);
-    }
-  }
-  return points.Take();
-}
-
-std::vector<std::int64_t> FindTrianglesAt(
-  const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
-{
-  UniqueList<std::int64_t, unsigned char> triangles(scratch.Triangles);
-  for (const std::int32_t point : points)
-  {
-    mesh.ForEachAt(point, [&](std::int64_t t) { triangles.Add(t); });
-  }
-  return triangles.Take();
-}
-}
-
 PieceRegion::PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points,
   const PieceSurvey& survey, RegionScratch& scratch)
   : Whole(survey.Whole),
     Points(survey.IsFloat)
 {
-  scratch.Points.resize(mesh.GetNumberOfPoints());
-  scratch.Triangles.resize(mesh.Triangles.size());
+  scratch.Triangles.Resize(mesh.Triangles.size());
+  scratch.Inner.Resize(mesh.GetNumberOfPoints());
   this->Collect(mesh, points, scratch);
-  this->NumberPoints(mesh, scratch);
+  this->CollectPoints(mesh, scratch);
   this->Describe(mesh, survey);
 }
 
@@ -91,10 +27,7 @@ PieceRegion::PieceRegion(const PieceMesh& mesh, std::vector<std::int64_t> triang
     Triangles(std::move(triangles)),
     Points(survey.IsFloat)
 {
-  scratch.Points.resize(mesh.GetNumberOfPoints());
-  this->PointOf = FindPointsOf(mesh, this->Triangles, scratch);
-  this->Inner.resize(this->PointOf.size());
-  this->NumberPoints(mesh, scratch);
+  this->CollectPoints(mesh, scratch);
   this->Describe(mesh, survey);
 }
 
@@ -138,36 +71,58 @@ void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
   }
 }
 
+/// Finds the triangles, and the points all of whose triangles they are.
 void PieceRegion::Collect(
   const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
 {
-  const std::vector<std::int32_t> inner =
-    FindPointsOf(mesh, FindTrianglesAt(mesh, points, scratch), scratch);
-  this->Triangles = FindTrianglesAt(mesh, inner, scratch);
-  this->PointOf = FindPointsOf(mesh, this->Triangles, scratch);
-  for (const std::int32_t point : this->PointOf)
+  std::vector<std::int32_t> inner;
+  const auto addPoints = [&](std::int64_t t)
   {
-    this->Inner.push_back(std::binary_search(inner.begin(), inner.end(), point) ? 1 : 0);
+    for (const std::int32_t point : mesh.Triangles[t].Points)
+    {
+      if (scratch.Inner.Add(point))
+      {
+        inner.push_back(point);
+      }
+    }
+  };
+  for (const std::int32_t point : points)
+  {
+    mesh.ForEachAt(point, addPoints);
   }
+  for (const std::int32_t point : inner)
+  {
+    mesh.ForEachAt(point, [&](std::int64_t t) { scratch.Triangles.Add(t); });
+  }
+  this->Triangles = scratch.Triangles.Take<std::int64_t>();
 }
 
-void PieceRegion::NumberPoints(const PieceMesh& mesh, RegionScratch& scratch)
+/// Finds and numbers the points of the triangles.
+void PieceRegion::CollectPoints(const PieceMesh& mesh, RegionScratch& scratch)
 {
-  for (std::size_t i = 0; i < this->PointOf.size(); ++i)
-  {
-    scratch.Points[this->PointOf[i]] = static_cast<std::int32_t>(i);
-  }
+  scratch.Points.Resize(mesh.GetNumberOfPoints());
+  scratch.Inner.Resize(mesh.GetNumberOfPoints());
+  scratch.Numbers.resize(mesh.GetNumberOfPoints());
   this->Ids.reserve(3 * this->Triangles.size());
   for (const std::int64_t t : this->Triangles)
   {
     for (const std::int32_t point : mesh.Triangles[t].Points)
     {
-      this->Ids.push_back(scratch.Points[point]);
+      scratch.Points.Add(point);
+      this->Ids.push_back(point);
     }
   }
-  for (const std::int32_t point : this->PointOf)
+  this->PointOf = scratch.Points.Take<std::int32_t>();
+  this->Inner.reserve(this->PointOf.size());
+  for (std::size_t i = 0; i < this->PointOf.size(); ++i)
   {
-    scratch.Points[point] = 0;
+    scratch.Numbers[this->PointOf[i]] = static_cast<std::int32_t>(i);
+    this->Inner.push_back(scratch.Inner.Has(this->PointOf[i]) ? 1 : 0);
+  }
+  scratch.Inner.Take<std::int32_t>();
+  for (std::int32_t& id : this->Ids)
+  {
+    id = scratch.Numbers[id];
   }
 }
 
@@ -206,22 +161,41 @@ TriangleMesh PieceRegion::View() const
 
 namespace
 {
-/// The marks of the edges of some triangles.
-PairMap<unsigned char> ListMarks(const PieceMesh& mesh, const std::vector<std::int64_t>& triangles)
+/// The marks of edges of a region, by its numbers of points.
+class EdgeMarks
 {
-  PairMap<unsigned char> marks;
-  for (const std::int64_t t : triangles)
+public:
+  /// @param points how many the region has.
+  explicit EdgeMarks(std::size_t points)
+    : IsEnd(points)
   {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const unsigned char mark = (mesh.Triangles[t].Marks >> slot) & (FixedMark | SeamMark);
-      if (mark != 0)
-      {
-        marks[mesh.Triangles[t].GetEdge(slot)] |= mark;
-      }
-    }
   }
-  return marks;
+
+  void Add(const PointPair& edge, unsigned char mark)
+  {
+    this->Marks[edge] |= mark;
+    this->IsEnd[edge[0]] = this->IsEnd[edge[1]] = 1;
+  }
+
+  unsigned char Get(const PointPair& edge) const
+  {
+    if (!this->IsEnd[edge[0]] || !this->IsEnd[edge[1]])
+    {
+      return 0; // as at most edges
+    }
+    const auto found = this->Marks.find(edge);
+    return found != this->Marks.end() ? found->second : 0;
+  }
+
+private:
+  PairMap<unsigned char> Marks;
+  std::vector<unsigned char> IsEnd; ///< By point: whether it has a marked edge.
+};
+
+/// The edge opposite to a corner of a triangle.
+PointPair GetEdge(const std::int32_t* ids, int slot)
+{
+  return MakePair(ids[(slot + 1) % 3], ids[(slot + 2) % 3]);
 }
 }
 
@@ -230,15 +204,24 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
 {
   std::vector<std::int64_t> changed;
   std::vector<std::size_t> places;
+  EdgeMarks marks(this->PointOf.size());
   for (std::size_t i = 0; i < this->Triangles.size(); ++i)
   {
-    if (flips[i] > 0)
+    if (flips[i] == 0)
     {
-      changed.push_back(this->Triangles[i]);
-      places.push_back(i);
+      continue;
+    }
+    changed.push_back(this->Triangles[i]);
+    places.push_back(i);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const unsigned char mark = mesh.Triangles[changed.back()].GetMarks(slot);
+      if (mark != 0)
+      {
+        marks.Add(GetEdge(&this->Ids[3 * i], slot), mark);
+      }
     }
   }
-  const PairMap<unsigned char> marks = ListMarks(mesh, changed);
   const auto change = [&](std::size_t i)
   {
     PieceTriangle& triangle = mesh.Triangles[this->Triangles[i]];
@@ -247,12 +230,7 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
     for (int slot = 0; slot < 3; ++slot)
     {
       triangle.Points[slot] = this->PointOf[ids[3 * i + slot]];
-    }
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const auto found = marks.find(triangle.GetEdge(slot));
-      triangle.Marks |=
-        static_cast<unsigned char>(found != marks.end() ? found->second << slot : 0);
+      triangle.SetMarks(slot, marks.Get(GetEdge(&ids[3 * i], slot)));
     }
   };
   mesh.ChangeTriangles(changed, [&]() { std::for_each(places.begin(), places.end(), change); });

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECEREGION_H
 #define DELAUNAYFLIP_PIECEREGION_H
 
+#include "IdSet.h"
 #include "PieceMesh.h"
 #include "PieceSurvey.h"
 #include "QuadSoup.h"
@@ -13,12 +14,12 @@
 namespace delaunayflip
 {
 
-/// Room for one value per point and per triangle of a rank. All are 0 between two regions, which
-/// clear what they have set, so that a region takes no time for the rest of the piece.
+/// Room that regions use one after the other. The sets are empty between two regions, so that a
+/// region takes no time for the rest of the piece.
 struct RegionScratch
 {
-  std::vector<std::int32_t> Points;
-  std::vector<unsigned char> Triangles;
+  std::vector<std::int32_t> Numbers; ///< By point: that of the region, if it has one.
+  IdSet Triangles, Points, Inner;
 };
 
 /// Some triangles of a rank as a mesh of their own, with its own numbers of points.
@@ -63,7 +64,7 @@ public:
 private:
   void Collect(
     const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch);
-  void NumberPoints(const PieceMesh& mesh, RegionScratch& scratch);
+  void CollectPoints(const PieceMesh& mesh, RegionScratch& scratch);
   void Describe(const PieceMesh& mesh, const PieceSurvey& survey);
   void ListFixedEdges(const PieceMesh& mesh);
 

@@ -56,12 +56,30 @@ struct PieceTriangle
   {
     this->Marks &= static_cast<unsigned char>(~(mark << slot));
   }
+  /// The marks of one edge, and back.
+  unsigned char GetMarks(int slot) const
+  {
+    return static_cast<unsigned char>((this->Marks >> slot) & (FixedMark | SeamMark));
+  }
+  void SetMarks(int slot, unsigned char marks)
+  {
+    this->Clear(FixedMark, slot);
+    this->Clear(SeamMark, slot);
+    this->Marks |= static_cast<unsigned char>(marks << slot);
+  }
   bool HasSeam() const { return this->Marks >= SeamMark; }
 
   /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
   std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
   std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
   PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
+  /// Whether it has these ends, in any direction.
+  bool HasEdge(int slot, std::int32_t a, std::int32_t b) const
+  {
+    const std::int32_t start = this->GetStart(slot);
+    const std::int32_t end = this->GetEnd(slot);
+    return (start == a && end == b) || (start == b && end == a);
+  }
 };
 
 /// A triangle of a rank and one of its corners.

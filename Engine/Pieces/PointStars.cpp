@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointStars.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -42,27 +42,36 @@ void PointStars::Add(std::vector<PieceTriangle>& triangles, std::int64_t triangl
 void PointStars::Remove(
   std::vector<PieceTriangle>& triangles, const std::vector<std::int64_t>& removed)
 {
-  std::vector<std::int32_t> points;
   for (const std::int64_t t : removed)
   {
     triangles[t].IsInStars = false;
-    points.insert(points.end(), triangles[t].Points, triangles[t].Points + 3);
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (const std::int32_t point : points)
+  for (const std::int64_t t : removed)
   {
-    std::uint32_t* link = &this->First[point];
-    while (*link != None)
+    for (int slot = 0; slot < 3; ++slot)
     {
-      if (triangles[*link / 3].IsInStars)
+      if (this->Next[3 * t + slot] != Unlisted)
       {
-        link = &this->Next[*link];
+        this->Clean(triangles, triangles[t].Points[slot]);
       }
-      else
-      {
-        *link = this->Next[*link];
-      }
+    }
+  }
+}
+
+/// Removes the triangles that are marked so from the list of a point.
+void PointStars::Clean(const std::vector<PieceTriangle>& triangles, std::int32_t point)
+{
+  std::uint32_t* link = &this->First[point];
+  while (*link != None)
+  {
+    std::uint32_t& next = this->Next[*link];
+    if (triangles[*link / 3].IsInStars)
+    {
+      link = &next;
+    }
+    else
+    {
+      *link = std::exchange(next, Unlisted);
     }
   }
 }

@@ -38,6 +38,9 @@ public:
 
 private:
   static constexpr std::uint32_t None = 0xFFFFFFFFu;
+  static constexpr std::uint32_t Unlisted = None - 1; ///< Instead of the next one.
+
+  void Clean(const std::vector<PieceTriangle>& triangles, std::int32_t point);
 
   std::uint32_t GetFirst(std::int32_t point) const
   {

@@ -24,12 +24,8 @@ template <typename Record>
 Message Pack(const std::vector<Record>& records)
 {
   static_assert(std::is_trivially_copyable<Record>::value, "records are copied byte by byte");
-  Message message(records.size() * sizeof(Record));
-  if (!records.empty())
-  {
-    std::memcpy(message.data(), static_cast<const void*>(records.data()), message.size());
-  }
-  return message;
+  const auto* bytes = reinterpret_cast<const char*>(records.data());
+  return Message(bytes, bytes + records.size() * sizeof(Record));
 }
 
 template <typename Record>

@@ -26,7 +26,7 @@ struct SeamEdge
   bool IsQuad() const
   {
     return this->GetSize() == 2 && !this->IsOnOneRank() &&
-      this->Begin[0].Seam.Opposite != this->Begin[1].Seam.Opposite;
+      this->Begin[0].Seam->Opposite != this->Begin[1].Seam->Opposite;
   }
   std::int64_t CountOn(int rank) const
   {
@@ -70,7 +70,7 @@ public:
     {
       if (edge.IsQuad())
       {
-        soup.Add(edge.Begin[0].Seam.Side, edge.Begin[1].Seam.Side);
+        soup.Add(edge.Begin[0].Seam->Side, edge.Begin[1].Seam->Side);
         quads.push_back(&edge);
       }
     }
@@ -139,9 +139,9 @@ private:
     }
     for (std::size_t begin = 0; begin < this->Seams.size();)
     {
-      const PointPair& ends = this->Seams[begin].Seam.Ends;
+      const PointPair& ends = this->Seams[begin].Ends;
       std::size_t end = begin + 1;
-      while (end < this->Seams.size() && this->Seams[end].Seam.Ends == ends)
+      while (end < this->Seams.size() && this->Seams[end].Ends == ends)
       {
         ++end;
       }
@@ -203,8 +203,8 @@ private:
     if (edge.GetSize() == 2) // two triangles on the same three points
     {
       all.WronglyWound =
-        edge.Begin[0].Seam.Side.RunsForward == edge.Begin[1].Seam.Side.RunsForward ? 1 : 0;
-      all.Region = edge.Begin[0].Seam.Side.Region != edge.Begin[1].Seam.Side.Region ? 1 : 0;
+        edge.Begin[0].Seam->Side.RunsForward == edge.Begin[1].Seam->Side.RunsForward ? 1 : 0;
+      all.Region = edge.Begin[0].Seam->Side.Region != edge.Begin[1].Seam->Side.Region ? 1 : 0;
     }
     AddCounts(this->Counts.Edges, all, 1);
     for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
@@ -225,7 +225,7 @@ private:
     {
       counts = EdgeCounts();
       QuadSoup soup(this->Survey, this->Options);
-      soup.Add(first[0].Seam.Side, first[1].Seam.Side);
+      soup.Add(first[0].Seam->Side, first[1].Seam->Side);
       soup.FindFixed(counts);
       counts.Fixed = 1; // on this rank
       counts.Constraint = 1;
@@ -250,7 +250,7 @@ private:
   void Answer(const RankedTriangle& seam, bool isFixed, bool isToFix)
   {
     this->Answers[seam.Rank].push_back(
-      { seam.Seam.GetTriangle(), seam.Seam.GetSlot(), isFixed, isToFix });
+      { seam.Seam->GetTriangle(), seam.Seam->GetSlot(), isFixed, isToFix });
   }
 
   void CountBad()
@@ -258,7 +258,7 @@ private:
     QuadSoup soup(this->Survey, this->Options);
     for (const SeamEdge* edge : this->Open)
     {
-      soup.Add(edge->Begin[0].Seam.Side, edge->Begin[1].Seam.Side);
+      soup.Add(edge->Begin[0].Seam->Side, edge->Begin[1].Seam->Side);
     }
     std::int64_t blocked = 0;
     const std::vector<unsigned char> bad = soup.FindBad(blocked);

@@ -5,7 +5,6 @@
 #include "Records.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace delaunayflip
@@ -14,21 +13,31 @@ namespace delaunayflip
 namespace
 {
 /// A triangle of this rank and the rank that shall have it.
-using Receivers = std::map<std::int64_t, int>;
-
-/// A triangle that several ranks shall have goes to the lowest of them, or to the highest.
-Receivers ChooseReceivers(const std::vector<BadSeam>& bad, bool toLower, int rank)
+struct Move
 {
-  Receivers receivers;
+  std::int64_t Triangle;
+  int Receiver;
+};
+
+/// Each triangle once, ascending. One that several ranks shall have goes to the lowest of them, or
+/// to the highest.
+std::vector<Move> ChooseReceivers(const std::vector<BadSeam>& bad, bool toLower, int rank)
+{
+  std::vector<Move> moves;
+  moves.reserve(bad.size());
   for (const BadSeam& seam : bad)
   {
-    const int receiver = toLower ? std::min(rank, seam.OtherRank) : std::max(rank, seam.OtherRank);
-    const auto [place, isNew] = receivers.emplace(seam.Triangle, receiver);
-    place->second = isNew
-      ? receiver
-      : (toLower ? std::min(place->second, receiver) : std::max(place->second, receiver));
+    moves.push_back(
+      { seam.Triangle, toLower ? std::min(rank, seam.OtherRank) : std::max(rank, seam.OtherRank) });
   }
-  return receivers;
+  const auto place = [=](const Move& move)
+  { return std::make_pair(move.Triangle, toLower ? move.Receiver : -move.Receiver); };
+  std::sort(
+    moves.begin(), moves.end(), [&](const Move& a, const Move& b) { return place(a) < place(b); });
+  moves.erase(std::unique(moves.begin(), moves.end(),
+                [](const Move& a, const Move& b) { return a.Triangle == b.Triangle; }),
+    moves.end());
+  return moves;
 }
 
 /// Marks the inner edges of triangles that will move as edges between ranks, on both sides.
@@ -64,19 +73,21 @@ void ClearSeams(PieceMesh& mesh, std::int64_t t)
 }
 
 /// Removes the triangles that leave. @returns them, by their receivers.
-RecordLists<TravellingTriangle> TakeAway(PieceMesh& mesh, const Receivers& leaving, int ranks)
+RecordLists<TravellingTriangle> TakeAway(
+  PieceMesh& mesh, const std::vector<Move>& leaving, int ranks)
 {
   std::vector<std::int64_t> triangles;
-  for (const auto& [t, receiver] : leaving)
+  triangles.reserve(leaving.size());
+  for (const Move& move : leaving)
   {
-    triangles.push_back(t);
+    triangles.push_back(move.Triangle);
   }
   MarkSeams(mesh, triangles);
   RecordLists<TravellingTriangle> toRank(ranks);
   auto next = leaving.begin();
   for (const TravellingTriangle& triangle : mesh.Release(triangles))
   {
-    toRank[next->second].push_back(triangle);
+    toRank[next->Receiver].push_back(triangle);
     ++next;
   }
   return toRank;
@@ -106,16 +117,18 @@ void TakeIn(PieceMesh& mesh, const RecordLists<TravellingTriangle>& arriving,
 std::vector<std::int32_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
   bool toLower, PieceGroup& group, std::int64_t& moved)
 {
-  Receivers leaving = ChooseReceivers(bad, toLower, group.GetRank());
   std::vector<std::int32_t> points;
-  for (auto one = leaving.begin(); one != leaving.end();)
+  std::vector<Move> leaving;
+  for (const Move& move : ChooseReceivers(bad, toLower, group.GetRank()))
   {
-    const bool stays = one->second == group.GetRank();
-    if (stays)
+    if (move.Receiver == group.GetRank())
     {
-      AddPoints(mesh.Triangles[one->first], points);
+      AddPoints(mesh.Triangles[move.Triangle], points);
     }
-    one = stays ? leaving.erase(one) : std::next(one);
+    else
+    {
+      leaving.push_back(move);
+    }
   }
   moved = SumOverRanks(group, static_cast<std::int64_t>(leaving.size()));
   TakeIn(mesh, ExchangeRecords(group, TakeAway(mesh, leaving, group.GetSize())), points);

@@ -4,8 +4,8 @@
 
 #include "QuadSoup.h"
 
-#include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -14,9 +14,10 @@ namespace
 {
 constexpr std::int64_t NoCorner = -1; // of a side that the rank has no longer
 
-bool IsBefore(const RankedTriangle& a, const RankedTriangle& b)
+template <typename First, typename Second>
+bool IsBefore(const First& a, const Second& b)
 {
-  return std::tie(a.Seam.Ends, a.Rank) < std::tie(b.Seam.Ends, b.Rank);
+  return std::tie(a.Ends, a.Rank) < std::tie(b.Ends, b.Rank);
 }
 
 RecordLists<SeamTriangle> ListNews(PieceMesh& mesh, const PieceGroup& group)
@@ -37,34 +38,45 @@ RecordLists<SeamTriangle> ListNews(PieceMesh& mesh, const PieceGroup& group)
   }
   return toHome;
 }
-
-void TellBad(const RankedTriangle& one, const RankedTriangle& other, RecordLists<BadSeam>& toRank)
-{
-  toRank[one.Rank].push_back({ one.Seam.GetTriangle(), one.Seam.Ends,
-    MakePair(one.Seam.Opposite, other.Seam.Opposite), other.Rank });
-}
 }
 
 /// @param news by edge and rank. One with a corner follows one without.
 void SeamTester::Update(const std::vector<RankedTriangle>& news)
 {
-  const auto isReplaced = [&](const Side& side)
-  { return std::binary_search(news.begin(), news.end(), side.Triangle, IsBefore); };
-  if (!news.empty())
-  {
-    this->Sides.erase(
-      std::remove_if(this->Sides.begin(), this->Sides.end(), isReplaced), this->Sides.end());
-  }
-  const auto kept = static_cast<std::ptrdiff_t>(this->Sides.size());
+  std::vector<Side> sides;
+  sides.reserve(this->Sides.size() + news.size());
+  auto side = this->Sides.begin();
   for (const RankedTriangle& one : news)
   {
-    if (one.Seam.Corner != NoCorner)
+    for (; side != this->Sides.end() && IsBefore(*side, one); ++side)
     {
-      this->Sides.push_back({ one, true });
+      sides.push_back(*side);
+    }
+    for (; side != this->Sides.end() && !IsBefore(one, *side); ++side)
+    {
+      this->Free.push_back(side->Place); // what the rank has said before
+    }
+    if (one.Seam->Corner != NoCorner)
+    {
+      sides.push_back({ one.Ends, one.Rank, this->Keep(*one.Seam), true });
     }
   }
-  std::inplace_merge(this->Sides.begin(), this->Sides.begin() + kept, this->Sides.end(),
-    [](const Side& a, const Side& b) { return IsBefore(a.Triangle, b.Triangle); });
+  sides.insert(sides.end(), side, this->Sides.end());
+  this->Sides = std::move(sides);
+}
+
+/// @returns its place.
+std::uint32_t SeamTester::Keep(const SeamTriangle& seam)
+{
+  if (this->Free.empty())
+  {
+    this->Seams.push_back(seam);
+    return static_cast<std::uint32_t>(this->Seams.size() - 1);
+  }
+  const std::uint32_t place = this->Free.back();
+  this->Free.pop_back();
+  this->Seams[place] = seam;
+  return place;
 }
 
 /// The first sides of the edges to be tested, which have two triangles.
@@ -73,15 +85,21 @@ std::vector<std::size_t> SeamTester::ListToTest() const
   std::vector<std::size_t> firsts;
   for (std::size_t i = 1; i < this->Sides.size(); ++i)
   {
-    const SeamTriangle& one = this->Sides[i - 1].Triangle.Seam;
-    const SeamTriangle& other = this->Sides[i].Triangle.Seam;
     const bool isToTest = this->Sides[i - 1].IsToTest || this->Sides[i].IsToTest;
-    if (isToTest && one.Ends == other.Ends && one.Opposite != other.Opposite)
+    if (isToTest && this->Sides[i - 1].Ends == this->Sides[i].Ends &&
+      this->GetSeam(i - 1).Opposite != this->GetSeam(i).Opposite)
     {
       firsts.push_back(i - 1);
     }
   }
   return firsts;
+}
+
+void SeamTester::TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const
+{
+  const SeamTriangle& seam = this->GetSeam(one);
+  toRank[this->Sides[one].Rank].push_back({ seam.GetTriangle(), seam.Ends,
+    MakePair(seam.Opposite, this->GetSeam(other).Opposite), this->Sides[other].Rank });
 }
 
 SeamTester::Found SeamTester::Judge(
@@ -93,19 +111,18 @@ SeamTester::Found SeamTester::Judge(
   QuadSoup soup(survey, options);
   for (const std::size_t i : firsts)
   {
-    soup.Add(this->Sides[i].Triangle.Seam.Side, this->Sides[i + 1].Triangle.Seam.Side);
+    soup.Add(this->GetSeam(i).Side, this->GetSeam(i + 1).Side);
   }
   const std::vector<unsigned char> bad = soup.FindBad(found.Blocked);
   for (std::size_t k = 0; k < firsts.size(); ++k)
   {
-    Side& one = this->Sides[firsts[k]];
-    Side& other = this->Sides[firsts[k] + 1];
+    const std::size_t i = firsts[k];
     // Which edges are blocked is not known. So that they are counted again, none is left out.
-    one.IsToTest = other.IsToTest = bad[k] != 0 || found.Blocked > 0;
+    this->Sides[i].IsToTest = this->Sides[i + 1].IsToTest = bad[k] != 0 || found.Blocked > 0;
     if (bad[k] != 0)
     {
-      TellBad(one.Triangle, other.Triangle, found.ToRank);
-      TellBad(other.Triangle, one.Triangle, found.ToRank);
+      this->TellBad(i, i + 1, found.ToRank);
+      this->TellBad(i + 1, i, found.ToRank);
       ++found.Bad;
     }
   }
@@ -115,7 +132,8 @@ SeamTester::Found SeamTester::Judge(
 SeamTest SeamTester::Run(
   PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
 {
-  this->Update(SortByEdge(ExchangeRecords(group, ListNews(mesh, group))));
+  const RecordLists<SeamTriangle> news = ExchangeRecords(group, ListNews(mesh, group));
+  this->Update(SortByEdge(news));
   Found found;
   DoTogether(group, [&]() { found = this->Judge(survey, options, group.GetSize()); });
   SeamTest test;

@@ -45,7 +45,9 @@ private:
   /// A triangle at an edge.
   struct Side
   {
-    RankedTriangle Triangle;
+    PointPair Ends; ///< Of the edge: keys.
+    std::int32_t Rank;
+    std::uint32_t Place; ///< In Seams.
     bool IsToTest; ///< Unless neither side is, the edge is tested.
   };
 
@@ -57,10 +59,15 @@ private:
   };
 
   void Update(const std::vector<RankedTriangle>& news);
+  std::uint32_t Keep(const SeamTriangle& seam);
   std::vector<std::size_t> ListToTest() const;
+  void TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const;
   Found Judge(const PieceSurvey& survey, const FlipOptions& options, int ranks);
+  const SeamTriangle& GetSeam(std::size_t side) const { return this->Seams[Sides[side].Place]; }
 
   std::vector<Side> Sides; ///< Those of an edge next to each other, by rank.
+  std::vector<SeamTriangle> Seams; ///< So that Sides are small.
+  std::vector<std::uint32_t> Free; ///< Places of Seams that may be used again.
 };
 
 }

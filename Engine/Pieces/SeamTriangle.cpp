@@ -36,14 +36,12 @@ std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
   {
     for (const SeamTriangle& seam : lists[rank])
     {
-      all.push_back({ seam, static_cast<int>(rank) });
+      all.push_back({ seam.Ends, static_cast<int>(rank), &seam });
     }
   }
   std::sort(all.begin(), all.end(),
-    [](const RankedTriangle& a, const RankedTriangle& b)
-    {
-      return std::tie(a.Seam.Ends, a.Rank, a.Seam.Corner) <
-        std::tie(b.Seam.Ends, b.Rank, b.Seam.Corner);
+    [](const RankedTriangle& a, const RankedTriangle& b) {
+      return std::tie(a.Ends, a.Rank, a.Seam->Corner) < std::tie(b.Ends, b.Rank, b.Seam->Corner);
     });
   return all;
 }

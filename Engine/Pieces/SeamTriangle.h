@@ -28,13 +28,16 @@ struct SeamTriangle
 /// The triangle at the edge opposite to a slot; it is not frozen and in no region.
 SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t triangle, int slot);
 
+/// One that a rank has sent.
 struct RankedTriangle
 {
-  SeamTriangle Seam;
+  PointPair Ends; ///< Those of the seam.
   int Rank;
+  const SeamTriangle* Seam;
 };
 
 /// The triangles that all ranks have sent, those of an edge next to each other, by rank.
+/// @param lists must live as long as the result.
 std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
 
 }
