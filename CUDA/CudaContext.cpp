@@ -250,9 +250,10 @@ CurrentDevice::CurrentDevice(int device)
 
 CurrentDevice::~CurrentDevice()
 {
-  if (this->Previous >= 0)
+  // The previous device need not be usable, e.g. if another process has it alone.
+  if (cudaSetDevice(this->Previous) != cudaSuccess)
   {
-    cudaSetDevice(this->Previous);
+    cudaGetLastError(); // else the next launch would seem to have failed
   }
 }
 

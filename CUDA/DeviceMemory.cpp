@@ -29,7 +29,10 @@ DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
   properties.location.id = device;
   CallCuda("make a memory pool", [&] { return cudaMemPoolCreate(&this->Pool, &properties); });
   std::uint64_t keepAll = UINT64_MAX;
-  cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrReleaseThreshold, &keepAll);
+  if (cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrReleaseThreshold, &keepAll) != cudaSuccess)
+  {
+    cudaGetLastError(); // it works without, but slower
+  }
 }
 
 DeviceMemory::~DeviceMemory()
