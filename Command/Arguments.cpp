@@ -104,7 +104,7 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
   app.add_flag(
     "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
   app.add_flag(
-    "--ignore-lines", arguments.IgnoreLines, "Lines of the input do not hold edges in place");
+    "--ignore-lines", arguments.IgnoreLines, "Do not fix edges along lines of the input");
   app.add_option("--region-array", arguments.RegionArray,
     "A cell array of the input: edges between cells of different values stay");
 }

@@ -132,7 +132,7 @@ TEST_P(PieceInsertionTest, OneThatLeavesTheMesh)
   ring.Add(4, 11);
   ring.Add(9, 6);
   ring.Add(0, 7);
-  ring.Add(3, 13, false); // is no edge and is not to be inserted
+  ring.Add(3, 13, false); // is not an edge and is not to be inserted
   const TriangleMesh mesh = ring.View();
   ExpectAsAlone(mesh, GiveToAny(mesh, this->CutIt(mesh)));
   ExpectAsAlone(mesh, GiveToAny(mesh, this->ScatterIt(mesh)));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Constraints that are no edges of the mesh become edges: InsertConstraints, InsertLines.
+/// Constraints that are not edges of the mesh become edges: InsertConstraints, InsertLines.
 
 #include "LiveTestSupport.h"
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constraints under mpirun that are no edges and cross triangles of several ranks."""
+"""Constraints under mpirun that are not edges and cross triangles of several ranks."""
 import unittest
 
 from RanksTesting import RanksTest, flip_on
