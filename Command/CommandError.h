@@ -39,8 +39,8 @@ public:
   ExitCode Code;
 };
 
-/// Whether there was no memory, be it for an array larger than any memory, or for a thread's stack,
-/// of which oneTBB tells by a message only.
+/// Whether memory was lacking: for an array, even one larger than any memory, or for the stack of a
+/// thread, which oneTBB reports only in the text of its message.
 inline bool IsLackOfMemory(const std::exception& error)
 {
   return dynamic_cast<const std::bad_alloc*>(&error) ||

@@ -6,11 +6,11 @@
     scaling.py [--quick] [--gpus 0,1] [--turns N] [--output scaling.json] PROGRAM
 
 Strong scaling: one mesh (20 million points) in 1, 2, 4, 8 and 16 pieces, a rank with one thread
-each, and undivided, with as many threads. Weak scaling: 1.25 million points for every piece. With
---gpus the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. All cases are run once in turn,
-then again (--turns, 3), and a case counts with its median; so what slows the machine down for a
-while slows all of them. Prints a table and what the cost model says of 64 nodes; the JSON has every
-run.
+each, and undivided, with as many threads. Weak scaling: 1.25 million points per piece. With --gpus
+the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. All cases
+run once in turn, then again (--turns, 3), so what slows the machine down for a while slows all of
+them; the median of a case counts. Prints a table and what the cost model says of 64 nodes; the JSON
+has every run.
 
 of threads: the time of as many threads on the undivided mesh, divided by that of the pieces.
 efficiency: the undivided time, or the weak time of one piece, divided by what ranks x time would be

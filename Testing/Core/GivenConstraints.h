@@ -17,7 +17,7 @@ namespace delaunayflip
 /// Gives every constraint to one rank only, which need not have triangles at its points.
 std::vector<OwnedPiece> GiveToAny(const TriangleMesh& mesh, std::vector<OwnedPiece> pieces);
 
-/// Gives those constraints whose points no rank has together, as what they are; one of them twice.
+/// Gives the constraints whose two points no rank has together as far ones, one of them twice.
 std::vector<OwnedPiece> GiveFar(const TriangleMesh& mesh, std::vector<OwnedPiece> pieces);
 
 /// A report's defects with their counts, sorted, without ids.

@@ -138,8 +138,8 @@ TEST_P(RanksTest, TwoSheetsOverTheSamePoints)
   ExpectGoodTriangles(mesh.View(), owners, GetParam(), MakeCanonical());
 }
 
-/// Those of the first flips are what remains when all ranks stop there; the last one is that of the
-/// result.
+/// After an iteration of the first flips it is the angle of the mesh that is left if all ranks stop
+/// there; after the last iteration it is that of the result.
 TEST_P(RanksTest, SmallestAngleAfterEveryIteration)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 17);

@@ -103,7 +103,7 @@ TEST(SegmentTree, FindsWhatATriangleTouches)
   }
 }
 
-/// Along the line of the segment, which rounding must not move away.
+/// Triangles with a corner on a segment, which rounding must not take away from it.
 TEST(SegmentTree, FindsSegmentsByTrianglesThatOnlyTouchThem)
 {
   std::mt19937 random(3);

@@ -17,7 +17,7 @@ def launch(ranks):
     """The command that starts the program which follows it."""
     command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
     library = os.environ.get("DELAUNAYFLIP_SLEEPING_YIELD")
-    # With a rank on every core, all that else is running, e.g. other tests, makes ranks wait.
+    # With a rank on every core, whatever else runs, such as other tests, makes ranks wait.
     if library and ranks >= (os.cpu_count() or 1):
         command += ["-x", "LD_PRELOAD=" + library]
     return [*command, "-n", str(ranks)]

@@ -43,7 +43,7 @@ def describe_all(flip):
 
 
 def add_lines(piece, used, points, pairs):
-    """Gives the piece lines, with points that its triangles do not use where need be."""
+    """Gives the piece lines, and the points that these need but its triangles do not use."""
     ends = np.unique(pairs)
     more = np.setdiff1d(ends, used)
     used = np.r_[used, more]

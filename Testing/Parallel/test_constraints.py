@@ -37,8 +37,8 @@ class Insertion(RanksTest):
                 self.assertGreater(facts["unmatched"], 5)
 
     def test_through_points_of_other_ranks(self):
-        """On three ranks that have columns of a lattice: through points of the middle one; between
-        points that two ranks share; from a seam to the same seam."""
+        """Three ranks have columns of a lattice. Constraints go through points of the middle rank,
+        between points that two ranks share, and from a seam to the same seam."""
         facts = self.expect_same_as_alone(
             3, "lattice", side=10, kind="space",
             pairs=[(0, 9, 9, 0), (3, 0, 6, 1), (3, 5, 3, 9), (0, 0, 9, 0), (4, 9, 6, 8)])
