@@ -144,7 +144,7 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
       WholeNumber(-1, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
   app
     .add_option("--devices", arguments.Devices,
-      "GPUs that share the mesh: CUDA's numbers separated by commas, such as 0,1; or all. Meshes "
+      "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
       "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
     ->check(FindFaultOfDevices);
   app

@@ -37,7 +37,7 @@ std::vector<int> ParseDevices(const std::string& list)
     if (devices.back() < 0)
     {
       throw InvalidOptions("'" + list +
-        "' is not a list of GPUs; give CUDA's numbers separated by commas, such as 0,1; or all");
+        "' is not a list of GPUs; give CUDA's numbers separated by commas (0,1), or all");
     }
   }
   return devices;
