@@ -38,16 +38,15 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
   const TriangleArray& triangles = piece.Mesh.Triangles;
   constexpr std::int64_t PartToReceive = 16; // so that the first arrival does not copy all
   this->Triangles.reserve(triangles.Count + triangles.Count / PartToReceive);
-  this->Triangles.resize(triangles.Count);
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
-    PieceTriangle& triangle = this->Triangles[t];
-    triangle = PieceTriangle{};
+    PieceTriangle triangle{};
     triangle.Origin = firstOrigin + t;
     for (int slot = 0; slot < 3; ++slot)
     {
       triangle.Points[slot] = static_cast<std::int32_t>(triangles.Get(t, slot));
     }
+    this->Triangles.push_back(triangle);
   }
 }
 

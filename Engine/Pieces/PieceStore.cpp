@@ -31,20 +31,25 @@ public:
 
   void Run()
   {
-    const std::vector<std::int64_t> order = this->SortTriangles();
-    this->Flipped.Triangles.reserve(3 * order.size());
-    this->Flipped.Origins.reserve(order.size());
-    this->Flipped.FlipCounts.reserve(order.size());
-    for (const std::int64_t t : order)
+    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    this->Flipped.Triangles.reserve(3 * triangles.size());
+    this->Flipped.Origins.reserve(triangles.size());
+    this->Flipped.FlipCounts.reserve(triangles.size());
+    const std::int64_t inOrder = this->CountInOrder();
+    const std::vector<std::int64_t> others = this->SortOthers(inOrder);
+    auto next = others.begin();
+    for (std::int64_t t = 0; t < inOrder; ++t)
     {
-      const PieceTriangle& triangle = this->Mesh.Triangles[t];
-      this->Flipped.Origins.push_back(FindOrigin(this->FirstOrigins, triangle.Origin));
-      this->Flipped.FlipCounts.push_back(triangle.Flips);
-      for (const std::int32_t point : triangle.Points)
+      for (; next != others.end() && this->IsBefore(*next, t); ++next)
       {
-        this->Flipped.Triangles.push_back(this->StorePoint(point));
+        this->StoreTriangle(triangles[*next]);
+      }
+      if (!triangles[t].HasLeft)
+      {
+        this->StoreTriangle(triangles[t]);
       }
     }
+    std::for_each(next, others.end(), [&](std::int64_t t) { this->StoreTriangle(triangles[t]); });
   }
 
 private:
@@ -54,29 +59,52 @@ private:
       triangle.Origin < this->FirstOrigins[this->Rank + 1];
   }
 
-  /// The triangles in the order in which a caller gets them.
-  std::vector<std::int64_t> SortTriangles() const
+  /// The order in which a caller gets triangles.
+  bool IsBefore(std::int64_t a, std::int64_t b) const
   {
     const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
-    const auto isBefore = [&](std::int64_t a, std::int64_t b)
+    const bool isOwn = this->IsOwn(triangles[a]);
+    return isOwn == this->IsOwn(triangles[b]) ? triangles[a].Origin < triangles[b].Origin : isOwn;
+  }
+
+  /// Triangles before this one are in order, as those that have never left are.
+  std::int64_t CountInOrder() const
+  {
+    const auto size = static_cast<std::int64_t>(this->Mesh.Triangles.size());
+    std::int64_t t = std::min<std::int64_t>(1, size);
+    while (t < size && this->IsBefore(t - 1, t))
     {
-      const bool isOwn = this->IsOwn(triangles[a]);
-      return isOwn == this->IsOwn(triangles[b]) ? triangles[a].Origin < triangles[b].Origin : isOwn;
-    };
-    std::vector<std::int64_t> order;
-    order.reserve(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+      ++t;
+    }
+    return t;
+  }
+
+  std::vector<std::int64_t> SortOthers(std::int64_t inOrder) const
+  {
+    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    std::vector<std::int64_t> others;
+    for (auto t = inOrder; t < static_cast<std::int64_t>(triangles.size()); ++t)
     {
       if (!triangles[t].HasLeft)
       {
-        order.push_back(static_cast<std::int64_t>(t));
+        others.push_back(t);
       }
     }
-    // Those that have never left are in order.
-    const auto received = std::is_sorted_until(order.begin(), order.end(), isBefore);
-    std::sort(received, order.end(), isBefore);
-    std::inplace_merge(order.begin(), received, order.end(), isBefore);
-    return order;
+    std::sort(others.begin(), others.end(),
+      [this](std::int64_t a, std::int64_t b) { return this->IsBefore(a, b); });
+    return others;
+  }
+
+  void StoreTriangle(const PieceTriangle& triangle)
+  {
+    this->Flipped.Origins.push_back(this->IsOwn(triangle)
+        ? PieceOrigin{ this->Rank, triangle.Origin - this->FirstOrigins[this->Rank] }
+        : FindOrigin(this->FirstOrigins, triangle.Origin));
+    this->Flipped.FlipCounts.push_back(triangle.Flips);
+    for (const std::int32_t point : triangle.Points)
+    {
+      this->Flipped.Triangles.push_back(this->StorePoint(point));
+    }
   }
 
   /// @returns the id that a point has in the result.

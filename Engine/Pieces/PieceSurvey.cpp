@@ -6,10 +6,10 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
-#include "PlanarSurvey.h"
 #include "Records.h"
 #include "StarCheck.h"
 #include "ThreadBackend.h"
+#include "TriangleAngles.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -114,41 +114,45 @@ void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
   }
 }
 
-/// The side to which all triangles of all ranks strictly turn in the plane: 1 or -1; else 0.
-int FindUniformSide(
-  const TriangleMesh& mesh, const PlaneProjection& plane, const GroupBackend& backend)
+/// BuildMeshSurvey without what is known: ids are valid, and which points are used.
+MeshSurvey SurveyAll(const TriangleMesh& mesh, GeometryKind requested, const GroupBackend& backend)
 {
-  const OrientationSums turns = backend.Sum<OrientationSums>(mesh.Triangles.Count,
-    [&](std::int64_t t, OrientationSums& sums)
-    {
-      PlanePoint corners[3];
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        corners[slot] = plane.Project(mesh.Points, mesh.Triangles.Get(t, slot));
-        corners[slot].W = 0.0;
-      }
-      const bool isFinite = IsFinite(corners[0]) && IsFinite(corners[1]) && IsFinite(corners[2]);
-      sums.Note(isFinite ? FindOrientation(corners[0], corners[1], corners[2]) : 0,
-        static_cast<TriangleId>(t));
-    });
-  if (turns.None.Count > 0 || (turns.Left.Count > 0 && turns.Right.Count > 0))
+  const MeshInput input{ mesh, mesh };
+  MeshSurvey survey;
+  survey.Uses = backend.MakeArray<PointUse>(mesh.Points.Count);
+  std::transform(backend.Keys.Used.begin(), backend.Keys.Used.end(), survey.Uses.Data(),
+    [](unsigned char isUsed) { return isUsed != 0 ? PointUse::Used : PointUse::Unused; });
+  SurveyPoints(survey, input, requested, backend);
+  GeometryChoice<GroupBackend>(input, survey, backend).Choose(requested);
+  if (survey.Geometry != requested && survey.NonFinitePoints.Count > 0)
   {
-    return 0;
+    SurveyPoints(survey, input, survey.Geometry, backend); // z may no longer matter
   }
-  return turns.Left.Count > 0 ? 1 : -1;
-}
-
-/// Whether no flip in a plane can make an edge that exists.
-bool NeedsNoGuard(
-  const TriangleMesh& mesh, const PlaneProjection& plane, const GroupBackend& backend)
-{
-  const int side = FindUniformSide(mesh, plane, backend);
-  return side != 0 && AreStarsSimple(mesh, plane, side, backend.Keys, backend.Group);
+  ResolveRange(survey);
+  return survey;
 }
 }
 
 namespace
 {
+/// @throws InvalidMesh.
+void CheckIds(const TriangleMesh& mesh, const ThreadBackend& backend)
+{
+  const auto points = static_cast<std::uint64_t>(mesh.Points.Count);
+  const auto invalid = backend.Sum<std::int64_t>(mesh.Triangles.Count,
+    [&](std::int64_t t, std::int64_t& sum)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        sum += static_cast<std::uint64_t>(mesh.Triangles.Get(t, slot)) >= points ? 1 : 0;
+      }
+    });
+  if (invalid > 0)
+  {
+    RequireValidIds(mesh); // throws
+  }
+}
+
 /// Ids are checked by the ranks that have the points.
 void CheckFarConstraints(const MeshPiece& piece, const PieceGroup& group)
 {
@@ -178,8 +182,7 @@ void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup&
         CheckConstraint(piece.Mesh, i / 2, static_cast<int>(i % 2));
       }
       CheckFarConstraints(piece, group);
-      // The geometry does not matter here; this one takes the least time.
-      BuildMeshSurvey(MeshInput{ piece.Mesh, piece.Mesh }, GeometryKind::PlanarXY, backend);
+      CheckIds(piece.Mesh, backend);
     });
 }
 
@@ -188,7 +191,7 @@ PieceSurvey SurveyPieces(
 {
   const GroupBackend backend(options.NumberOfThreads, keys, group);
   const TriangleMesh& mesh = piece.Mesh;
-  const MeshSurvey found = BuildMeshSurvey(MeshInput{ mesh, mesh }, options.Geometry, backend);
+  const MeshSurvey found = SurveyAll(mesh, options.Geometry, backend);
   CheckTieRule(options, found.Geometry);
   PieceSurvey survey;
   survey.Geometry = found.Geometry;
@@ -204,8 +207,8 @@ PieceSurvey SurveyPieces(
   }
   const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
   survey.IsFloat = SumOverRanks(group, doubles) == 0;
-  survey.Whole.StarsAreSimple =
-    found.Geometry != GeometryKind::Surface && NeedsNoGuard(mesh, found.Projection, backend);
+  survey.Whole.StarsAreSimple = found.Geometry != GeometryKind::Surface &&
+    AreStarsSimple(mesh, found.Projection, keys, backend, group);
   return survey;
 }
 

@@ -29,8 +29,51 @@ struct PlaceHash
     return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
   }
 };
-/// Never iterated over: its order varies.
-using PlaceSet = std::unordered_set<Place, PlaceHash>;
+
+/// Some places.
+class PlaceSet
+{
+public:
+  explicit PlaceSet(const RecordLists<Place>& lists)
+  {
+    std::size_t size = 0;
+    for (const std::vector<Place>& list : lists)
+    {
+      size += list.size();
+    }
+    this->Places.reserve(size);
+    while (size > 0 && Filter.size() < 16 * size)
+    {
+      this->Filter.resize(std::max<std::size_t>(64, 2 * this->Filter.size()));
+    }
+    for (const std::vector<Place>& list : lists)
+    {
+      for (const Place& place : list)
+      {
+        this->Places.insert(place);
+        this->Filter[this->GetCell(place)] = 1;
+      }
+    }
+  }
+
+  bool Has(const Place& place) const
+  {
+    return !this->Filter.empty() && this->Filter[this->GetCell(place)] != 0 &&
+      this->Places.count(place) > 0;
+  }
+
+private:
+  /// A quick hash.
+  std::size_t GetCell(const Place& place) const
+  {
+    constexpr std::uint64_t Factor = 0x9e3779b97f4a7c15u;
+    const std::uint64_t sum = (place[0] * Factor + place[1]) * Factor + place[2];
+    return (sum * Factor >> 32) & (this->Filter.size() - 1);
+  }
+
+  std::unordered_set<Place, PlaceHash> Places; ///< Never iterated over: its order varies.
+  std::vector<unsigned char> Filter; ///< One flag per cell; most places are in cells without one.
+};
 
 struct Box
 {
@@ -44,6 +87,16 @@ struct Box
       holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
     }
     return holds;
+  }
+  bool Overlaps(const Box& other) const
+  {
+    bool overlaps = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      overlaps = overlaps && this->Lower[axis] <= other.Upper[axis] &&
+        other.Lower[axis] <= this->Upper[axis];
+    }
+    return overlaps;
   }
 };
 
@@ -67,6 +120,8 @@ public:
     }
   }
 
+  /// One flag per point.
+  const std::vector<unsigned char>& GetUsed() const { return this->Used; }
   bool IsUsed(std::int64_t point) const { return this->Used[point] != 0; }
   /// Whether it matters that other ranks have the point, too.
   bool IsWanted(std::int64_t point) const
@@ -132,25 +187,32 @@ public:
     return box;
   }
 
-  /// Whether the point may be in the box: it is, or a coordinate is NaN.
+  /// Whether a coordinate is NaN, so that the point may be in any box.
+  bool HasNaN(std::int64_t point) const
+  {
+    const PointArray& points = this->Piece.Mesh.Points;
+    return std::isnan(points.Get(point, 0)) || std::isnan(points.Get(point, 1)) ||
+      std::isnan(points.Get(point, 2));
+  }
+
   bool MayBeIn(const Box& box, std::int64_t point) const
   {
     const PointArray& points = this->Piece.Mesh.Points;
     const double x[3] = { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
-    return box.Holds(x) || std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]);
+    return box.Holds(x) || this->HasNaN(point);
   }
 
 private:
   void NoteTriangle(std::int64_t t)
   {
     const TriangleArray& triangles = this->Piece.Mesh.Triangles;
+    const std::int64_t ids[3] = { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) };
+    const std::uint64_t bits[3] = { ScatterBits(ids[0]), ScatterBits(ids[1]), ScatterBits(ids[2]) };
     for (int slot = 0; slot < 3; ++slot)
     {
-      const std::int64_t p = triangles.Get(t, slot);
-      this->Used[p] = 1;
+      this->Used[ids[slot]] = 1;
       // Around a closed fan every neighbour is the next one once, and once the previous one.
-      this->Fans[p] += ScatterBits(triangles.Get(t, (slot + 1) % 3));
-      this->Fans[p] -= ScatterBits(triangles.Get(t, (slot + 2) % 3));
+      this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
     }
   }
 

@@ -48,34 +48,15 @@ public:
     : Piece(piece),
       Finder(finder),
       Group(group),
-      Boxes(GatherRecords(group, std::vector<Box>{ finder.FindBox() }))
+      Boxes(GatherRecords(group, std::vector<Box>{ finder.FindBox() })),
+      Asked(ExchangeRecords(group, this->AskForPlaces()))
   {
-  }
-
-  /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
-  /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
-  /// one rank.
-  void AskForPlaces()
-  {
-    RecordLists<Place> questions(this->Group.GetSize());
-    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
+    for (int rank = 0; rank < group.GetSize(); ++rank)
     {
-      Place place{};
-      if (!this->Finder.IsAtBorder(i) || !this->Finder.FindPlace(i, place))
+      if (rank != group.GetRank() && this->GetBox(rank).Overlaps(this->GetBox(group.GetRank())))
       {
-        continue;
+        this->Near.push_back(rank);
       }
-      for (int rank = 0; rank < this->Group.GetSize(); ++rank)
-      {
-        if (this->MayBeOn(rank, i))
-        {
-          questions[rank].push_back(place);
-        }
-      }
-    }
-    for (const std::vector<Place>& list : ExchangeRecords(this->Group, questions))
-    {
-      this->Asked.insert(list.begin(), list.end());
     }
   }
 
@@ -96,20 +77,49 @@ public:
   }
 
 private:
+  /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
+  /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
+  /// one rank.
+  RecordLists<Place> AskForPlaces() const
+  {
+    RecordLists<Place> questions(this->Group.GetSize());
+    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
+    {
+      Place place{};
+      if (!this->Finder.IsAtBorder(i) || !this->Finder.FindPlace(i, place))
+      {
+        continue;
+      }
+      for (int rank = 0; rank < this->Group.GetSize(); ++rank)
+      {
+        if (this->MayBeOn(rank, i))
+        {
+          questions[rank].push_back(place);
+        }
+      }
+    }
+    return questions;
+  }
+
+  const Box& GetBox(int rank) const { return this->Boxes[rank].front(); }
+
   bool MayBeOn(int rank, std::int64_t point) const
   {
-    return rank != this->Group.GetRank() && this->Finder.MayBeIn(this->Boxes[rank].front(), point);
+    return rank != this->Group.GetRank() && this->Finder.MayBeIn(this->GetBox(rank), point);
   }
 
   bool MayBeShared(std::int64_t point, const Place& place) const
   {
-    bool mayBe = this->Finder.IsAtBorder(point) || this->Asked.count(place) > 0;
-    // Sheets that lie on each other may have the same points, with a number that says so.
-    for (int rank = 0; rank < this->Group.GetSize() && this->Piece.PointNumbers; ++rank)
-    {
-      mayBe = mayBe || this->MayBeOn(rank, point);
-    }
-    return mayBe;
+    return this->Finder.IsAtBorder(point) || this->Asked.Has(place) ||
+      (this->Piece.PointNumbers && this->MayBeOnNear(point));
+  }
+
+  /// Sheets that lie on each other may have the same points, with a number that says so.
+  bool MayBeOnNear(std::int64_t point) const
+  {
+    return this->Finder.HasNaN(point) ||
+      std::any_of(
+        this->Near.begin(), this->Near.end(), [=](int rank) { return this->MayBeOn(rank, point); });
   }
 
   const MeshPiece& Piece;
@@ -117,6 +127,7 @@ private:
   PieceGroup& Group;
   RecordLists<Box> Boxes; ///< One per rank.
   PlaceSet Asked; ///< The places that others have asked for.
+  std::vector<int> Near; ///< Ranks whose boxes overlap that of this one.
 };
 
 struct RankedCandidate
@@ -239,14 +250,14 @@ PointKeys MatchPoints(const MeshPiece& given, PieceGroup& group)
   piece.PointNumbers = HaveNumbers(given, group) ? given.PointNumbers : nullptr;
   const std::int64_t firstKey = keys.FirstKeys[group.GetRank()];
   const PlaceFinder finder(piece);
-  CandidateFinder chosen(piece, finder, group);
-  chosen.AskForPlaces();
+  const CandidateFinder chosen(piece, finder, group);
   const RecordLists<Candidate> candidates = ExchangeRecords(group, chosen.List(firstKey));
   MatchCounts counts;
   counts.Used = finder.CountUsed();
   const RecordLists<SharedPoint> answers =
     ExchangeRecords(group, JoinCandidates(candidates, counts));
   keys.Closed = finder.FindClosed();
+  keys.Used = finder.GetUsed();
   for (const std::vector<SharedPoint>& list : answers)
   {
     for (const SharedPoint& point : list)

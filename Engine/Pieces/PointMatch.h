@@ -18,6 +18,7 @@ struct PointKeys
   std::vector<std::int64_t> FirstKeys; ///< Of every rank, and at the end the number of all keys.
   std::vector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
+  std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
   /// One flag per point: whether it is not shared and its triangles close around it.
   std::vector<unsigned char> Closed;
 

@@ -6,17 +6,18 @@
 #include "MeshSurvey.h"
 #include "PieceGroup.h"
 #include "PointMatch.h"
+#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 namespace delaunayflip
 {
 
-/// Whether the triangles around every point of the whole mesh, which strictly turn to one side,
-/// cover no direction twice. Then no guard is needed (PlanarSurvey::StarsAreSimple); nor is it for
-/// a piece, around whose points there are fewer triangles. All ranks call it together.
-/// @param side to which all triangles turn in the plane: 1 or -1.
-bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, int side,
-  const PointKeys& keys, PieceGroup& group);
+/// Whether all triangles of the whole mesh strictly turn to one side in the plane and those around
+/// every point cover no direction twice. Then no guard is needed (PlanarSurvey::StarsAreSimple);
+/// nor is it for a piece, around whose points there are fewer triangles. All ranks call it
+/// together.
+bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
+  const ThreadBackend& threads, PieceGroup& group);
 
 }
 
