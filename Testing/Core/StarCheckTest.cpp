@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 
 /// @file
@@ -116,11 +118,20 @@ TEST(StarCheck, FlatAndTurnedTrianglesNeedAGuard)
 
 TEST(StarCheck, RandomMeshesNeedNoGuard)
 {
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(400, 3);
-  for (const int ranks : { 1, 2, 5 })
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(400, 3);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
   {
-    EXPECT_TRUE(AreSimple(mesh, DivideBySpace(mesh.View(), ranks), ranks));
-    EXPECT_TRUE(AreSimple(mesh, DivideAtRandom(mesh.View(), ranks, 4), ranks));
+    const auto first = mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(t);
+    std::rotate(first, first + t % 5 % 3, first + 3); // triangles may begin with any corner
+  }
+  for (const bool clockwise : { false, true })
+  {
+    for (const int ranks : { 1, 2, 5 })
+    {
+      EXPECT_TRUE(AreSimple(mesh, DivideBySpace(mesh.View(), ranks), ranks)) << clockwise;
+      EXPECT_TRUE(AreSimple(mesh, DivideAtRandom(mesh.View(), ranks, 4), ranks)) << clockwise;
+    }
+    std::reverse(mesh.Triangles.begin(), mesh.Triangles.end());
   }
 }
 
