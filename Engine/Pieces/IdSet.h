@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_IDSET_H
 #define DELAUNAYFLIP_IDSET_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,50 +25,50 @@ public:
 
   bool Has(std::int64_t id) const { return (this->Words[id / 64] >> (id % 64) & 1) != 0; }
 
-  /// @returns whether it is new.
-  bool Add(std::int64_t id)
+  void Add(std::int64_t id)
   {
-    const std::uint64_t bit = std::uint64_t(1) << (id % 64);
-    std::uint64_t& word = this->Words[id / 64];
-    const bool isNew = (word & bit) == 0;
-    word |= bit;
+    this->Words[id / 64] |= std::uint64_t(1) << (id % 64);
     this->Used[id / 4096] |= std::uint64_t(1) << (id / 64 % 64);
-    return isNew;
   }
 
-  /// Removes all. @returns them, ascending.
+  /// All, ascending.
   template <typename Id>
-  std::vector<Id> Take()
+  std::vector<Id> List() const
   {
     std::vector<Id> ids;
-    TakeBits(this->Used, 0, this->Used.size(),
+    this->ForEachWord(
       [&](std::size_t word)
       {
-        TakeBits(
-          this->Words, word, word + 1, [&](std::size_t id) { ids.push_back(static_cast<Id>(id)); });
+        ForEachBit(this->Words[word],
+          [&](std::size_t bit) { ids.push_back(static_cast<Id>(64 * word + bit)); });
       });
     return ids;
   }
 
-private:
-  /// Calls take(i) for every bit i of some words, and clears it.
-  template <typename TakeBit>
-  static void TakeBits(
-    std::vector<std::uint64_t>& words, std::size_t begin, std::size_t end, const TakeBit& take)
+  void Clear()
   {
-    for (std::size_t i = begin; i < end; ++i)
+    this->ForEachWord([this](std::size_t word) { this->Words[word] = 0; });
+    std::fill(this->Used.begin(), this->Used.end(), 0);
+  }
+
+private:
+  /// Calls visit(i) for the words that are not 0.
+  template <typename Visit>
+  void ForEachWord(const Visit& visit) const
+  {
+    for (std::size_t i = 0; i < this->Used.size(); ++i)
     {
-      for (std::uint64_t bits = words[i]; bits != 0; bits &= bits - 1)
-      {
-        take(64 * i + FindLowestBit(bits));
-      }
-      words[i] = 0;
+      ForEachBit(this->Used[i], [&](std::size_t bit) { visit(64 * i + bit); });
     }
   }
 
-  static std::size_t FindLowestBit(std::uint64_t bits)
+  template <typename Visit>
+  static void ForEachBit(std::uint64_t bits, const Visit& visit)
   {
-    return static_cast<std::size_t>(__builtin_ctzll(bits));
+    for (; bits != 0; bits &= bits - 1)
+    {
+      visit(static_cast<std::size_t>(__builtin_ctzll(bits)));
+    }
   }
 
   std::vector<std::uint64_t> Words;

@@ -88,7 +88,7 @@ void PieceMesh::EndRounds()
   for (PieceTriangle& triangle : this->Triangles)
   {
     triangle.Marks = 0;
-    triangle.IsInStars = triangle.IsNoted = false;
+    triangle.IsNoted = false;
   }
   this->Stars = PointStars();
   this->Changed.clear();

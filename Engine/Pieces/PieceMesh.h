@@ -72,6 +72,12 @@ public:
   {
     this->Stars.ForEach(point, visit);
   }
+  /// The same for several points, in no order.
+  template <typename Visit>
+  void ForEachAt(const std::vector<std::int32_t>& points, const Visit& visit) const
+  {
+    this->Stars.ForEachOf(points, visit);
+  }
   /// Another triangle here at the edge opposite to a corner.
   PieceCorner FindMate(const PieceCorner& corner) const;
   /// The same, but none if the edge is fixed or between ranks.

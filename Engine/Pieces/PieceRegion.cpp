@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRegion.h"
 
+#include "HostDevice.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -75,51 +77,47 @@ void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
 void PieceRegion::Collect(
   const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
 {
-  std::vector<std::int32_t> inner;
   const auto addPoints = [&](std::int64_t t)
   {
     for (const std::int32_t point : mesh.Triangles[t].Points)
     {
-      if (scratch.Inner.Add(point))
-      {
-        inner.push_back(point);
-      }
+      scratch.Inner.Add(point);
     }
   };
-  for (const std::int32_t point : points)
-  {
-    mesh.ForEachAt(point, addPoints);
-  }
-  for (const std::int32_t point : inner)
-  {
-    mesh.ForEachAt(point, [&](std::int64_t t) { scratch.Triangles.Add(t); });
-  }
-  this->Triangles = scratch.Triangles.Take<std::int64_t>();
+  mesh.ForEachAt(points, addPoints);
+  mesh.ForEachAt(
+    scratch.Inner.List<std::int32_t>(), [&](std::int64_t t) { scratch.Triangles.Add(t); });
+  this->Triangles = scratch.Triangles.List<std::int64_t>();
+  scratch.Triangles.Clear();
 }
 
 /// Finds and numbers the points of the triangles.
 void PieceRegion::CollectPoints(const PieceMesh& mesh, RegionScratch& scratch)
 {
+  constexpr std::size_t PrefetchDistance = 16;
   scratch.Points.Resize(mesh.GetNumberOfPoints());
   scratch.Inner.Resize(mesh.GetNumberOfPoints());
   scratch.Numbers.resize(mesh.GetNumberOfPoints());
   this->Ids.reserve(3 * this->Triangles.size());
-  for (const std::int64_t t : this->Triangles)
+  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
   {
-    for (const std::int32_t point : mesh.Triangles[t].Points)
+    const std::size_t later = std::min(i + PrefetchDistance, this->Triangles.size() - 1);
+    Prefetch(&mesh.Triangles[this->Triangles[later]]);
+    for (const std::int32_t point : mesh.Triangles[this->Triangles[i]].Points)
     {
       scratch.Points.Add(point);
       this->Ids.push_back(point);
     }
   }
-  this->PointOf = scratch.Points.Take<std::int32_t>();
+  this->PointOf = scratch.Points.List<std::int32_t>();
+  scratch.Points.Clear();
   this->Inner.reserve(this->PointOf.size());
   for (std::size_t i = 0; i < this->PointOf.size(); ++i)
   {
     scratch.Numbers[this->PointOf[i]] = static_cast<std::int32_t>(i);
     this->Inner.push_back(scratch.Inner.Has(this->PointOf[i]) ? 1 : 0);
   }
-  scratch.Inner.Take<std::int32_t>();
+  scratch.Inner.Clear();
   for (std::int32_t& id : this->Ids)
   {
     id = scratch.Numbers[id];

@@ -47,7 +47,6 @@ struct PieceTriangle
   std::int64_t Origin; ///< The number of its slot among those of all ranks.
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
-  bool IsInStars; ///< In the lists of PointStars.
   bool IsNoted; ///< In the list of triangles that may have new seam edges.
 
   bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }

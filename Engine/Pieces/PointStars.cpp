@@ -8,7 +8,7 @@
 namespace delaunayflip
 {
 
-void PointStars::AddAll(std::vector<PieceTriangle>& triangles, std::int64_t points)
+void PointStars::AddAll(const std::vector<PieceTriangle>& triangles, std::int64_t points)
 {
   this->First.assign(points, None);
   this->Next.reserve(3 * triangles.capacity());
@@ -19,14 +19,13 @@ void PointStars::AddAll(std::vector<PieceTriangle>& triangles, std::int64_t poin
   }
 }
 
-void PointStars::Add(std::vector<PieceTriangle>& triangles, std::int64_t triangle)
+void PointStars::Add(const std::vector<PieceTriangle>& triangles, std::int64_t triangle)
 {
   const auto corner = static_cast<std::uint32_t>(3 * triangle);
   if (corner + std::size_t(3) > this->Next.size())
   {
     this->Next.resize(corner + std::size_t(3), None);
   }
-  triangles[triangle].IsInStars = true;
   for (std::uint32_t slot = 0; slot < 3; ++slot)
   {
     const auto point = static_cast<std::size_t>(triangles[triangle].Points[slot]);
@@ -40,11 +39,12 @@ void PointStars::Add(std::vector<PieceTriangle>& triangles, std::int64_t triangl
 }
 
 void PointStars::Remove(
-  std::vector<PieceTriangle>& triangles, const std::vector<std::int64_t>& removed)
+  const std::vector<PieceTriangle>& triangles, const std::vector<std::int64_t>& removed)
 {
+  this->Removed.Resize(triangles.size());
   for (const std::int64_t t : removed)
   {
-    triangles[t].IsInStars = false;
+    this->Removed.Add(t);
   }
   for (const std::int64_t t : removed)
   {
@@ -52,26 +52,27 @@ void PointStars::Remove(
     {
       if (this->Next[3 * t + slot] != Unlisted)
       {
-        this->Clean(triangles, triangles[t].Points[slot]);
+        this->Clean(triangles[t].Points[slot]);
       }
     }
   }
+  this->Removed.Clear();
 }
 
-/// Removes the triangles that are marked so from the list of a point.
-void PointStars::Clean(const std::vector<PieceTriangle>& triangles, std::int32_t point)
+/// Takes those of Removed from the list of a point.
+void PointStars::Clean(std::int32_t point)
 {
   std::uint32_t* link = &this->First[point];
   while (*link != None)
   {
     std::uint32_t& next = this->Next[*link];
-    if (triangles[*link / 3].IsInStars)
+    if (this->Removed.Has(*link / 3))
     {
-      link = &next;
+      *link = std::exchange(next, Unlisted);
     }
     else
     {
-      *link = std::exchange(next, Unlisted);
+      link = &next;
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace delaunayflip
@@ -13,7 +14,7 @@ namespace delaunayflip
 namespace
 {
 
-constexpr int Points = 12;
+constexpr int Points = 50;
 
 PieceTriangle Draw(std::mt19937& random)
 {
@@ -25,22 +26,32 @@ PieceTriangle Draw(std::mt19937& random)
   return triangle;
 }
 
-/// Expects that the lists have the triangles that are in them by their flag, and no others.
-void ExpectLists(const PointStars& stars, const std::vector<PieceTriangle>& triangles)
+/// Expects that the lists have these triangles.
+/// @param isListed one flag per triangle.
+void ExpectLists(const PointStars& stars, const std::vector<PieceTriangle>& triangles,
+  const std::vector<bool>& isListed)
 {
+  std::vector<std::int64_t> fromAll, together;
+  std::vector<std::int32_t> all(Points);
+  std::iota(all.begin(), all.end(), 0);
+  stars.ForEachOf(all, [&](std::int64_t t) { together.push_back(t); });
   for (std::int32_t point = 0; point < Points; ++point)
   {
     std::vector<std::int64_t> expected, found;
     for (std::size_t t = 0; t < triangles.size(); ++t)
     {
       const std::int32_t(&points)[3] = triangles[t].Points;
-      const auto corners = triangles[t].IsInStars ? std::count(points, points + 3, point) : 0;
+      const auto corners = isListed[t] ? std::count(points, points + 3, point) : 0;
       expected.insert(expected.end(), corners, static_cast<std::int64_t>(t));
     }
     stars.ForEach(point, [&](std::int64_t t) { found.push_back(t); });
     std::sort(found.begin(), found.end());
     EXPECT_EQ(expected, found) << "point " << point;
+    fromAll.insert(fromAll.end(), expected.begin(), expected.end());
   }
+  std::sort(fromAll.begin(), fromAll.end());
+  std::sort(together.begin(), together.end());
+  EXPECT_EQ(fromAll, together);
 }
 
 TEST(PointStars, FollowTrianglesThatChange)
@@ -52,28 +63,31 @@ TEST(PointStars, FollowTrianglesThatChange)
     triangles.push_back(Draw(random));
   }
   PointStars stars;
+  std::vector<bool> isListed(triangles.size(), true);
   stars.AddAll(triangles, Points / 2); // the other points come later
-  ExpectLists(stars, triangles);
+  ExpectLists(stars, triangles, isListed);
   for (int step = 0; step < 40; ++step)
   {
     const std::vector<std::int64_t> changed{ step % 30, (7 * step + 1) % 30, (11 * step + 2) % 30 };
     stars.Remove(triangles, changed);
     for (const std::int64_t t : changed)
     {
-      EXPECT_FALSE(triangles[t].IsInStars);
+      isListed[t] = false;
     }
-    ExpectLists(stars, triangles);
+    ExpectLists(stars, triangles, isListed);
     for (const std::int64_t t : changed)
     {
-      if (!triangles[t].IsInStars && t != step % 5) // some stay away
+      if (!isListed[t] && t != step % 5) // some stay away
       {
+        isListed[t] = true;
         triangles[t] = Draw(random);
         stars.Add(triangles, t);
       }
     }
     triangles.push_back(Draw(random));
+    isListed.push_back(true);
     stars.Add(triangles, static_cast<std::int64_t>(triangles.size()) - 1);
-    ExpectLists(stars, triangles);
+    ExpectLists(stars, triangles, isListed);
   }
 }
 
