@@ -7,7 +7,7 @@
 namespace delaunayflip
 {
 
-void MarkedEdges::Add(const PointPair& edge, EdgeMark mark)
+void MarkedEdges::Add(const PointPair& edge, unsigned char marks)
 {
   const auto last = static_cast<std::size_t>(edge[1]);
   if (last >= this->Ends.size())
@@ -16,25 +16,22 @@ void MarkedEdges::Add(const PointPair& edge, EdgeMark mark)
   }
   this->Ends[edge[0]] = 1;
   this->Ends[edge[1]] = 1;
-  this->Marks[edge] |= mark;
+  this->Marks[edge] |= marks;
+}
+
+unsigned char MarkedEdges::Find(const PointPair& edge) const
+{
+  const auto found = this->Marks.find(edge);
+  return found != this->Marks.end() ? found->second : 0;
 }
 
 void MarkedEdges::Apply(std::vector<PieceTriangle>& triangles) const
 {
-  const auto isEnd = [this](std::int32_t point)
-  { return static_cast<std::size_t>(point) < this->Ends.size() && this->Ends[point] != 0; };
   for (PieceTriangle& triangle : triangles)
   {
-    triangle.Marks = 0;
     for (int slot = 0; slot < 3; ++slot)
     {
-      if (!isEnd(triangle.GetStart(slot)) || !isEnd(triangle.GetEnd(slot)))
-      {
-        continue;
-      }
-      const auto found = this->Marks.find(triangle.GetEdge(slot));
-      triangle.Marks |=
-        static_cast<unsigned char>(found != this->Marks.end() ? found->second << slot : 0);
+      triangle.SetMarks(slot, this->Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
     }
   }
 }

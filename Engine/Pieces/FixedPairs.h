@@ -6,6 +6,7 @@
 #include "PieceMesh.h"
 #include "TriangleMesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,12 +17,23 @@ namespace delaunayflip
 class MarkedEdges
 {
 public:
-  void Add(const PointPair& edge, EdgeMark mark);
+  void Add(const PointPair& edge, unsigned char marks);
+  /// The marks of the edge between two points; 0 if it has none.
+  unsigned char Get(std::int32_t a, std::int32_t b) const
+  {
+    return this->IsEnd(a) && this->IsEnd(b) ? this->Find(MakePair(a, b)) : 0;
+  }
 
   /// Marks the edges of all triangles; those that had other marks lose them.
   void Apply(std::vector<PieceTriangle>& triangles) const;
 
 private:
+  bool IsEnd(std::int32_t point) const
+  {
+    return static_cast<std::size_t>(point) < this->Ends.size() && this->Ends[point] != 0;
+  }
+  unsigned char Find(const PointPair& edge) const;
+
   PairMap<unsigned char> Marks;
   std::vector<unsigned char> Ends; ///< One flag per point: whether it is the end of such an edge.
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRegion.h"
 
+#include "FixedPairs.h"
 #include "HostDevice.h"
 
 #include <algorithm>
@@ -157,52 +158,12 @@ TriangleMesh PieceRegion::View() const
   return mesh;
 }
 
-namespace
-{
-/// The marks of edges of a region, by its numbers of points.
-class EdgeMarks
-{
-public:
-  /// @param points how many the region has.
-  explicit EdgeMarks(std::size_t points)
-    : IsEnd(points)
-  {
-  }
-
-  void Add(const PointPair& edge, unsigned char mark)
-  {
-    this->Marks[edge] |= mark;
-    this->IsEnd[edge[0]] = this->IsEnd[edge[1]] = 1;
-  }
-
-  unsigned char Get(const PointPair& edge) const
-  {
-    if (!this->IsEnd[edge[0]] || !this->IsEnd[edge[1]])
-    {
-      return 0; // as at most edges
-    }
-    const auto found = this->Marks.find(edge);
-    return found != this->Marks.end() ? found->second : 0;
-  }
-
-private:
-  PairMap<unsigned char> Marks;
-  std::vector<unsigned char> IsEnd; ///< By point: whether it has a marked edge.
-};
-
-/// The edge opposite to a corner of a triangle.
-PointPair GetEdge(const std::int32_t* ids, int slot)
-{
-  return MakePair(ids[(slot + 1) % 3], ids[(slot + 2) % 3]);
-}
-}
-
 void PieceRegion::Store(const std::vector<std::int32_t>& ids,
   const std::vector<std::int32_t>& flips, PieceMesh& mesh) const
 {
   std::vector<std::int64_t> changed;
   std::vector<std::size_t> places;
-  EdgeMarks marks(this->PointOf.size());
+  MarkedEdges marks; // by the region's numbers
   for (std::size_t i = 0; i < this->Triangles.size(); ++i)
   {
     if (flips[i] == 0)
@@ -216,19 +177,19 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
       const unsigned char mark = mesh.Triangles[changed.back()].GetMarks(slot);
       if (mark != 0)
       {
-        marks.Add(GetEdge(&this->Ids[3 * i], slot), mark);
+        marks.Add(
+          MakePair(this->Ids[3 * i + (slot + 1) % 3], this->Ids[3 * i + (slot + 2) % 3]), mark);
       }
     }
   }
   const auto change = [&](std::size_t i)
   {
     PieceTriangle& triangle = mesh.Triangles[this->Triangles[i]];
-    triangle.Marks = 0;
     triangle.Flips += flips[i];
     for (int slot = 0; slot < 3; ++slot)
     {
       triangle.Points[slot] = this->PointOf[ids[3 * i + slot]];
-      triangle.SetMarks(slot, marks.Get(GetEdge(&ids[3 * i], slot)));
+      triangle.SetMarks(slot, marks.Get(ids[3 * i + (slot + 1) % 3], ids[3 * i + (slot + 2) % 3]));
     }
   };
   mesh.ChangeTriangles(changed, [&]() { std::for_each(places.begin(), places.end(), change); });

@@ -14,16 +14,15 @@ void PointList::Reserve(std::int64_t size)
 
 void PointList::Add(const double (&x)[3])
 {
-  for (const double coordinate : x)
+  if (this->IsFloat)
   {
-    if (this->IsFloat)
-    {
-      this->Floats.push_back(static_cast<float>(coordinate));
-    }
-    else
-    {
-      this->Doubles.push_back(coordinate);
-    }
+    const float point[3] = { static_cast<float>(x[0]), static_cast<float>(x[1]),
+      static_cast<float>(x[2]) };
+    this->Floats.insert(this->Floats.end(), point, point + 3);
+  }
+  else
+  {
+    this->Doubles.insert(this->Doubles.end(), x, x + 3);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include "QuadSoup.h"
 
-#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -13,12 +12,6 @@ namespace delaunayflip
 namespace
 {
 constexpr std::int64_t NoCorner = -1; // of a side that the rank has no longer
-
-template <typename First, typename Second>
-bool IsBefore(const First& a, const Second& b)
-{
-  return std::tie(a.Ends, a.Rank) < std::tie(b.Ends, b.Rank);
-}
 
 RecordLists<SeamTriangle> ListNews(PieceMesh& mesh, const PieceGroup& group)
 {

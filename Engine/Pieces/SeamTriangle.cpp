@@ -3,7 +3,6 @@
 #include "SeamTriangle.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -40,9 +39,8 @@ std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
     }
   }
   std::sort(all.begin(), all.end(),
-    [](const RankedTriangle& a, const RankedTriangle& b) {
-      return std::tie(a.Ends, a.Rank, a.Seam->Corner) < std::tie(b.Ends, b.Rank, b.Seam->Corner);
-    });
+    [](const RankedTriangle& a, const RankedTriangle& b)
+    { return IsBefore(a, b) || (!IsBefore(b, a) && a.Seam->Corner < b.Seam->Corner); });
   return all;
 }
 

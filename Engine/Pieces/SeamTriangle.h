@@ -36,6 +36,17 @@ struct RankedTriangle
   const SeamTriangle* Seam;
 };
 
+/// The order by edge and rank.
+template <typename First, typename Second>
+bool IsBefore(const First& a, const Second& b)
+{
+  if (a.Ends[0] != b.Ends[0])
+  {
+    return a.Ends[0] < b.Ends[0];
+  }
+  return a.Ends[1] != b.Ends[1] ? a.Ends[1] < b.Ends[1] : a.Rank < b.Rank;
+}
+
 /// The triangles that all ranks have sent, those of an edge next to each other, by rank.
 /// @param lists must live as long as the result.
 std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
