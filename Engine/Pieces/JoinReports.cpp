@@ -104,14 +104,23 @@ private:
 
 Message PackText(const std::string& text) { return Message(text.begin(), text.end()); }
 
-/// The texts of all ranks, without repetitions, separated by commas.
-std::string JoinTexts(const std::string& text, PieceGroup& group)
+std::vector<std::string> GatherTexts(const std::string& text, PieceGroup& group)
+{
+  std::vector<std::string> texts;
+  for (const Message& message : group.Gather(PackText(text)))
+  {
+    texts.emplace_back(message.begin(), message.end());
+  }
+  return texts;
+}
+
+/// The texts without repetitions, separated by commas.
+std::string JoinTexts(const std::vector<std::string>& texts)
 {
   std::string list;
   std::vector<std::string> known;
-  for (const Message& message : group.Gather(PackText(text)))
+  for (const std::string& one : texts)
   {
-    const std::string one(message.begin(), message.end());
     if (!one.empty() && std::find(known.begin(), known.end(), one) == known.end())
     {
       known.push_back(one);
@@ -122,6 +131,14 @@ std::string JoinTexts(const std::string& text, PieceGroup& group)
 }
 
 /// Counts of the same defect are summed. Ids mean nothing outside their rank.
+void AddDefect(const std::string& what, std::int64_t count, std::vector<Defect>& sum)
+{
+  const auto same =
+    std::find_if(sum.begin(), sum.end(), [&](const Defect& one) { return one.What == what; });
+  Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ what, 0, {} });
+  target.Count += count;
+}
+
 std::vector<Defect> JoinDefects(const std::vector<Defect>& defects, PieceGroup& group)
 {
   std::vector<std::int64_t> counts;
@@ -132,7 +149,7 @@ std::vector<Defect> JoinDefects(const std::vector<Defect>& defects, PieceGroup& 
     texts += defect.What + "\n";
   }
   const RecordLists<std::int64_t> allCounts = GatherRecords(group, counts);
-  const std::vector<Message> allTexts = group.Gather(PackText(texts));
+  const std::vector<std::string> allTexts = GatherTexts(texts, group);
   std::vector<Defect> sum;
   for (std::size_t rank = 0; rank < allTexts.size(); ++rank)
   {
@@ -140,11 +157,7 @@ std::vector<Defect> JoinDefects(const std::vector<Defect>& defects, PieceGroup& 
     for (const std::int64_t count : allCounts[rank])
     {
       const auto end = std::find(begin, allTexts[rank].end(), '\n');
-      const std::string what(begin, end);
-      const auto same =
-        std::find_if(sum.begin(), sum.end(), [&](const Defect& one) { return one.What == what; });
-      Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ what, 0, {} });
-      target.Count += count;
+      AddDefect(std::string(begin, end), count, sum);
       begin = end + 1;
     }
   }
@@ -187,11 +200,11 @@ std::map<RowPlace, JoinedRow> SumRows(const RecordLists<RoundRow>& lists)
 
 /// The smallest angle after an iteration is that of all ranks; a rank that has made no further
 /// iteration still has its last one.
-std::vector<IterationRecord> JoinRows(const std::vector<RoundRow>& rows, PieceGroup& group)
+std::vector<IterationRecord> JoinRows(const RecordLists<RoundRow>& lists)
 {
-  std::vector<double> angles(group.GetSize(), NaN);
+  std::vector<double> angles(lists.size(), NaN);
   std::vector<IterationRecord> joined;
-  for (const auto& [place, row] : SumRows(GatherRecords(group, rows)))
+  for (const auto& [place, row] : SumRows(lists))
   {
     for (const auto& [rank, angle] : row.Angles)
     {
@@ -209,23 +222,61 @@ std::vector<IterationRecord> JoinRows(const std::vector<RoundRow>& rows, PieceGr
 }
 }
 
+void CountIterations(FlipReport& report)
+{
+  report.TotalFlips = report.TotalExcluded = report.TotalBlocked = 0;
+  for (const IterationRecord& row : report.Iterations)
+  {
+    report.TotalFlips += row.Flipped;
+    report.TotalExcluded += row.Excluded;
+    report.TotalBlocked += row.Blocked;
+  }
+}
+
 FlipReport JoinReports(
   const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group)
 {
   FlipReport joined = report;
   SumOverRanks(group, ReportNumbers(report)).Store(joined);
-  joined.Tolerance = JoinTexts(report.Tolerance, group);
-  joined.Backend = JoinTexts(report.Backend, group);
-  joined.Fallback = JoinTexts(report.Fallback, group);
+  joined.Tolerance = JoinTexts(GatherTexts(report.Tolerance, group));
+  joined.Backend = JoinTexts(GatherTexts(report.Backend, group));
+  joined.Fallback = JoinTexts(GatherTexts(report.Fallback, group));
   joined.Defects = JoinDefects(report.Defects, group);
-  joined.Iterations = JoinRows(rows, group);
-  joined.TotalFlips = joined.TotalExcluded = joined.TotalBlocked = 0;
-  for (const IterationRecord& row : joined.Iterations)
+  joined.Iterations = JoinRows(GatherRecords(group, rows));
+  CountIterations(joined);
+  return joined;
+}
+
+FlipReport JoinReports(const std::vector<FlipReport>& reports)
+{
+  FlipReport joined;
+  ReportNumbers sum;
+  RecordLists<RoundRow> rows(reports.size());
+  std::vector<std::string> tolerances, backends, fallbacks;
+  for (std::size_t i = 0; i < reports.size(); ++i)
   {
-    joined.TotalFlips += row.Flipped;
-    joined.TotalExcluded += row.Excluded;
-    joined.TotalBlocked += row.Blocked;
+    const FlipReport& report = reports[i];
+    sum += ReportNumbers(report);
+    tolerances.push_back(report.Tolerance);
+    backends.push_back(report.Backend);
+    fallbacks.push_back(report.Fallback);
+    for (const Defect& defect : report.Defects)
+    {
+      AddDefect(defect.What, defect.Count, joined.Defects);
+    }
+    IterationRecord before;
+    before.MinimumAngle = report.MinimumAngleBefore;
+    rows[i].push_back({ 1, -1, before });
+    for (const IterationRecord& row : report.Iterations)
+    {
+      rows[i].push_back({ 1, row.Iteration, row });
+    }
   }
+  sum.Store(joined);
+  joined.Tolerance = JoinTexts(tolerances);
+  joined.Backend = JoinTexts(backends);
+  joined.Fallback = JoinTexts(fallbacks);
+  joined.Iterations = JoinRows(rows);
   return joined;
 }
 

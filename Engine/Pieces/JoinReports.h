@@ -26,6 +26,13 @@ struct RoundRow
 FlipReport JoinReports(
   const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group);
 
+/// The same for the reports of all pieces of a mesh, whose iterations are made side by side.
+/// Seconds are the largest. The totals of iterations are left to CountIterations.
+FlipReport JoinReports(const std::vector<FlipReport>& reports);
+
+/// Sums the iterations of a report.
+void CountIterations(FlipReport& report);
+
 }
 
 #endif

@@ -157,24 +157,6 @@ bool AreAllApart(std::vector<Wedge> wedges)
   return areApart;
 }
 
-/// How the triangles of a rank turn.
-struct TurnSums
-{
-  std::int64_t Left = 0, Right = 0, None = 0;
-  /// How often corners at closed points cover the direction +u, around which their triangles turn a
-  /// whole number of times, less the number of these points: 0, if their stars are simple.
-  std::int64_t Surplus = 0;
-
-  TurnSums& operator+=(const TurnSums& part)
-  {
-    this->Left += part.Left;
-    this->Right += part.Right;
-    this->None += part.None;
-    this->Surplus += part.Surplus;
-    return *this;
-  }
-};
-
 struct TurnStep
 {
   const TriangleMesh& Mesh;
@@ -189,7 +171,7 @@ struct TurnStep
     }
   }
 
-  void operator()(std::int64_t t, TurnSums& sums) const
+  void operator()(std::int64_t t, StarTurns& sums) const
   {
     const PlanePoint p[3] = { this->Project(t, 0), this->Project(t, 1), this->Project(t, 2) };
     const bool isFinite = IsFinite(p[0]) && IsFinite(p[1]) && IsFinite(p[2]);
@@ -204,7 +186,7 @@ struct TurnStep
     constexpr int Corner[8] = { 0, 2, 0, 1, 1, 0, 2, 0 };
     constexpr int IsOneUp = 0b00010110, IsTwoUp = 0b01101000;
     const int covers = ((side > 0 ? IsOneUp : IsTwoUp) >> up) & 1;
-    sums.Surplus += covers & this->Closed[this->Mesh.Triangles.Get(t, Corner[up])];
+    sums.Covers += covers & this->Closed[this->Mesh.Triangles.Get(t, Corner[up])];
   }
 
 private:
@@ -217,14 +199,19 @@ private:
 };
 }
 
+StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const unsigned char* closed, const ThreadBackend& threads)
+{
+  return threads.Sum<StarTurns>(mesh.Triangles.Count, TurnStep{ mesh, plane, closed });
+}
+
 bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
   const ThreadBackend& threads, PieceGroup& group)
 {
-  TurnSums own =
-    threads.Sum<TurnSums>(mesh.Triangles.Count, TurnStep{ mesh, plane, keys.Closed.data() });
-  own.Surplus -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
-  const TurnSums all = SumOverRanks(group, own);
-  if (all.None > 0 || (all.Left > 0 && all.Right > 0) || all.Surplus != 0)
+  StarTurns own = SumStarTurns(mesh, plane, keys.Closed.data(), threads);
+  own.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
+  const StarTurns all = SumOverRanks(group, own);
+  if (!all.AreUniform() || all.Covers != 0)
   {
     return false;
   }

@@ -6,6 +6,7 @@
 #include "MeshDivision.h"
 #include "MeteredGroup.h"
 #include "PieceFlip.h"
+#include "Records.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +26,7 @@
 ///
 ///     points=500000   of the mesh
 ///     pieces=2        0: undivided
+///     ranks=1         0: no ranks, but FlipInPieces, which divides the mesh and flips it in place
 ///     threads=1       of each rank
 ///     surface=0       1: hills, flipped by opposite angles
 ///     feature=180     the feature angle
@@ -32,8 +34,9 @@
 ///                     the undivided mesh is on all of them
 ///     runs=1          the fastest is printed
 ///
-/// Not measured is how the mesh is made and divided. `hash` is one of all triangles in their order:
-/// two programs that print the same have made the same result.
+/// Not measured is how the mesh is made, and how it is divided among ranks. `hash` is one of all
+/// triangles in their order: two programs that print the same have made the same result. `set` is
+/// one of the triangles of the whole mesh, whatever their order and their first point.
 
 using namespace delaunayflip;
 
@@ -45,7 +48,7 @@ using Settings = std::map<std::string, std::string>;
 
 Settings ReadSettings(int argc, char** argv)
 {
-  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "threads", "1" },
+  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "ranks", "1" }, { "threads", "1" },
     { "surface", "0" }, { "feature", "180" }, { "devices", "" }, { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
@@ -95,7 +98,30 @@ struct Measure
   double CpuSeconds = 0.0; ///< Of all threads.
   PiecesReport Report;
   GroupMeter Meter; ///< Of the rank that sent most.
-  std::vector<FlippedPiece> Pieces;
+  std::uint64_t Hash = 14695981039346656037u; ///< FNV-1a.
+  std::uint64_t Set = 0;
+
+  /// Hashes some triangles.
+  template <typename Id>
+  void AddToHash(const std::vector<Id>& ids)
+  {
+    for (const Id id : ids)
+    {
+      this->Hash = (this->Hash ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
+    }
+  }
+
+  void AddToSet(const std::vector<std::int32_t>& ids)
+  {
+    for (std::size_t i = 0; i < ids.size(); i += 3)
+    {
+      const std::int32_t* t = ids.data() + i;
+      const auto first = std::min_element(t, t + 3) - t;
+      const auto get = [=](std::ptrdiff_t slot)
+      { return static_cast<std::uint64_t>(t[(first + slot) % 3]); };
+      this->Set += ScatterBits(get(0) + ScatterBits(get(1) + ScatterBits(get(2))));
+    }
+  }
 };
 
 /// @param work makes a measure but its times.
@@ -111,15 +137,27 @@ Measure TakeTime(const Work& work)
   return measure;
 }
 
-Measure FlipUndivided(const OwnedMesh<float>& mesh, const FlipOptions& options)
+/// Undivided, or in pieces without ranks.
+Measure FlipInOneProcess(
+  OwnedMesh<float>& mesh, const FlipOptions& options, const PieceDivision& division, bool isLast)
 {
-  FlippedPiece flipped;
-  std::vector<std::int32_t> ids(mesh.Triangles.size());
+  std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
+  std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
   const MutableTriangleArray triangles(ids.data(), mesh.NumberOfTriangles());
-  Measure measure = TakeTime([&](Measure& own)
-    { static_cast<FlipReport&>(own.Report) = FlipToDelaunay(mesh.View(), options, triangles); });
-  flipped.Triangles.assign(ids.begin(), ids.end());
-  measure.Pieces.push_back(std::move(flipped));
+  Measure measure = TakeTime(
+    [&](Measure& own)
+    {
+      if (division.Pieces > 0)
+      {
+        own.Report = FlipInPieces(mesh.View(), options, division, triangles);
+      }
+      else
+      {
+        static_cast<FlipReport&>(own.Report) = FlipToDelaunay(mesh.View(), options, triangles);
+      }
+    });
+  measure.AddToHash(ids);
+  measure.AddToSet(ids);
   return measure;
 }
 
@@ -155,22 +193,11 @@ Measure FlipPieces(
     });
   measure.Meter = *std::max_element(meters.begin(), meters.end(),
     [](const GroupMeter& a, const GroupMeter& b) { return a.BytesSent < b.BytesSent; });
-  measure.Pieces = std::move(flipped);
-  return measure;
-}
-
-/// FNV-1a of all triangles.
-std::uint64_t Hash(const std::vector<FlippedPiece>& pieces)
-{
-  std::uint64_t hash = 14695981039346656037u;
-  for (const FlippedPiece& piece : pieces)
+  for (const FlippedPiece& piece : flipped)
   {
-    for (const std::int64_t id : piece.Triangles)
-    {
-      hash = (hash ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
-    }
+    measure.AddToHash(piece.Triangles);
   }
-  return hash;
+  return measure;
 }
 
 std::string DescribeCounts(const Measure& measure)
@@ -184,7 +211,8 @@ std::string DescribeCounts(const Measure& measure)
        << ", \"bytes_sent\": " << measure.Meter.BytesSent
        << ", \"exchanges\": " << measure.Meter.Exchanges
        << ", \"gathers\": " << measure.Meter.Gathers << ", \"backend\": \"" << report.Backend
-       << "\", \"hash\": \"" << std::hex << Hash(measure.Pieces) << "\"";
+       << "\", \"hash\": \"" << std::hex << measure.Hash << "\", \"set\": \"" << measure.Set
+       << "\"";
   return text.str();
 }
 
@@ -204,7 +232,7 @@ void Print(const Settings& settings, const Measure& measure)
 void Run(const Settings& settings)
 {
   const bool isSurface = settings.at("surface") == "1";
-  const OwnedMesh<float> mesh = MakeMesh(std::atoll(settings.at("points").c_str()), isSurface);
+  OwnedMesh<float> mesh = MakeMesh(std::atoll(settings.at("points").c_str()), isSurface);
   const int count = std::atoi(settings.at("pieces").c_str());
   const std::vector<int> devices = ReadDevices(settings.at("devices"));
   FlipOptions options;
@@ -215,13 +243,16 @@ void Run(const Settings& settings)
   options.NumberOfThreads = std::atoi(settings.at("threads").c_str());
   options.Device = devices.empty() ? -1 : devices.front();
   options.Devices = count > 0 ? std::vector<int>() : devices;
+  const bool hasRanks = count > 0 && settings.at("ranks") != "0";
   const std::vector<OwnPiece> pieces =
-    count > 0 ? DivideMesh(mesh.View(), count) : std::vector<OwnPiece>();
+    hasRanks ? DivideMesh(mesh.View(), count) : std::vector<OwnPiece>();
   Measure best;
-  for (int run = 0; run < std::atoi(settings.at("runs").c_str()); ++run)
+  const int runs = std::atoi(settings.at("runs").c_str());
+  for (int run = 0; run < runs; ++run)
   {
-    Measure measure =
-      count > 0 ? FlipPieces(pieces, options, devices) : FlipUndivided(mesh, options);
+    Measure measure = hasRanks
+      ? FlipPieces(pieces, options, devices)
+      : FlipInOneProcess(mesh, options, { count, devices }, run + 1 == runs);
     if (run == 0 || measure.Seconds < best.Seconds)
     {
       best = std::move(measure);

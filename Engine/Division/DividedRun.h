@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_DIVIDEDRUN_H
+#define DELAUNAYFLIP_DIVIDEDRUN_H
+
+#include "MeshInPieces.h"
+#include "EdgeTotals.h"
+#include "PieceFlip.h"
+#include "PointSet.h"
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Flips a mesh of this process in pieces.
+///
+/// First each piece is flipped, in which the edges between pieces, the seam edges, are boundary
+/// edges. Then the triangles around the points of seam edges are flipped as one mesh, a region; and
+/// again those around the points that flips have reached at its border, until there are none. So
+/// every edge is judged after the last flip beside it.
+class DividedRun
+{
+public:
+  /// All must live as long as the run.
+  DividedRun(MeshInPieces& mesh, const FlipOptions& options, const PieceDivision& division,
+    const ProgressObserver& progress);
+
+  PiecesReport Run();
+
+private:
+  /// The share of the time until the first region, about.
+  static constexpr double PiecesShare = 0.9;
+
+  // Before the first flip:
+  void ExamineSeams();
+  std::int64_t CountUnmatched() const;
+  FlipOptions GetCountingOptions() const;
+
+  // The pieces:
+  void FlipPieces();
+  void FlipPiece(int piece, PieceGroup& group);
+  void FlipSubMesh(SubMesh& part, int piece, const ProgressObserver& progress);
+  void KeepFixedEdges(const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges);
+  FlipOptions GetPieceOptions(int piece) const;
+  bool Tell(int piece, double share, bool isCaller);
+
+  void JoinPieces();
+
+  // The regions:
+  void FlipRegions();
+  PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress);
+  void KeepRegion(const FlipReport& report, const PointSet& inner);
+  std::int64_t CountIterationsLeft() const;
+
+  // The report:
+  void CountRest();
+  void CountBadEdges();
+  void AddDefects();
+
+  MeshInPieces& Mesh;
+  const FlipOptions& Options;
+  const PieceDivision& Division;
+  const ProgressObserver& Progress;
+
+  std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.
+  PointSet Seam; ///< The points of seam edges before the first flip.
+  std::int64_t Unmatched = 0; ///< Constraints that are no edges.
+  EdgeTotals Seams; ///< What the pieces' reports do not count of the edges between them.
+  std::vector<std::int64_t> FixedAtSeams; ///< The same for all edges there that stay.
+
+  std::vector<std::atomic<double>> Shares; ///< Of the work for each piece that is done.
+  std::atomic<bool> GoesOn{ true };
+  std::atomic<bool> AreCounted{ true }; ///< Whether no piece was stopped before its edges were.
+  std::mutex Mutex; ///< Of what follows, while pieces are flipped.
+  std::vector<std::int64_t> Fixed; ///< All edges that stay, but boundary edges: two ids for each.
+  std::vector<FlipReport> Reports; ///< Of the pieces.
+
+  PiecesReport Report; ///< Of the whole mesh.
+  bool HasBadEdges = false; ///< Whether a session has left some.
+};
+
+}
+
+#endif

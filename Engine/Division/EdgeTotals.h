@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_EDGETOTALS_H
+#define DELAUNAYFLIP_EDGETOTALS_H
+
+#include "FlipReport.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// Counts of the edges of a mesh. The counts of pieces, added up, become those of the whole mesh if
+/// one adds the counts of all triangles at seams, and subtracts those of the same triangles piece
+/// by piece: an edge inside a piece cancels out, and a seam edge is counted once.
+struct EdgeTotals
+{
+  EdgeCounts Edges;
+  std::int64_t NonDelaunay = 0;
+  std::int64_t BlockedByShape = 0;
+  std::int64_t BlockedByEdge = 0;
+
+  /// @param report of a run without iterations.
+  /// @param factor 1 to add, -1 to subtract.
+  void Add(const FlipReport& report, std::int64_t factor)
+  {
+    this->Add(report.Edges, factor);
+    this->NonDelaunay += factor * report.NonDelaunayAfter;
+    this->BlockedByShape += factor * report.BlockedByShape;
+    this->BlockedByEdge += factor * report.BlockedByEdge;
+  }
+
+  void Add(const EdgeCounts& part, std::int64_t factor)
+  {
+    for (std::int64_t EdgeCounts::*kind :
+      { &EdgeCounts::Edges, &EdgeCounts::Boundary, &EdgeCounts::NonManifold,
+        &EdgeCounts::WronglyWound, &EdgeCounts::Feature, &EdgeCounts::Constraint,
+        &EdgeCounts::Region, &EdgeCounts::Fixed })
+    {
+      this->Edges.*kind += factor * part.*kind;
+    }
+  }
+};
+
+}
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_WHOLESTARS_H
+#define DELAUNAYFLIP_WHOLESTARS_H
+
+#include "MeshSurvey.h"
+#include "ThreadBackend.h"
+#include "TriangleMesh.h"
+
+namespace delaunayflip
+{
+
+/// WholeMesh::StarsAreSimple of a mesh that may be too large for a session.
+bool AreStarsSimple(
+  const TriangleMesh& mesh, const PlaneProjection& plane, const ThreadBackend& threads);
+
+}
+
+#endif
