@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DividedRun.h"
 
+#include "AngleSurvey.h"
+#include "CotangentAngle.h"
 #include "DelaunayFlip.h"
 #include "JoinReports.h"
+#include "PieceQuality.h"
 #include "QuadSoup.h"
-#include "TriangleAngles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,28 +27,24 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// On surfaces, where nothing proves that flips end, so many regions are flipped at most.
 constexpr std::int64_t MostRegions = 1000;
 
-/// The smallest angle of the triangles for which counts(slot); NaN without any.
+/// The smallest angle in degrees of the triangles for which counts(slot); NaN without any.
 template <typename Counts>
-double FindSmallestAngle(
-  const TriangleMesh& mesh, GeometryKind geometry, int threads, const Counts& counts)
+double FindSmallestAngle(const MeshInPieces& mesh, const Counts& counts)
 {
-  constexpr std::int64_t Block = std::int64_t(1) << 24; // to save memory
-  double smallest = NaN;
-  std::vector<double> angles;
-  for (std::int64_t begin = 0; begin < mesh.Triangles.Count; begin += Block)
-  {
-    const std::int64_t count = std::min(Block, mesh.Triangles.Count - begin);
-    TriangleMesh block = mesh;
-    block.Triangles = mesh.Triangles.Ids32 ? TriangleArray(mesh.Triangles.Ids32 + 3 * begin, count)
-                                           : TriangleArray(mesh.Triangles.Ids64 + 3 * begin, count);
-    angles.resize(count);
-    FindSmallestAngles(block, geometry, threads, angles.data());
-    for (std::int64_t i = 0; i < count; ++i)
+  const TriangleArray& triangles = mesh.View().Triangles;
+  const LargestValue largest = mesh.GetThreads().Sum<LargestValue>(triangles.Count,
+    [&](std::int64_t t, LargestValue& sum)
     {
-      smallest = counts(begin + i) ? std::fmin(smallest, angles[i]) : smallest;
-    }
-  }
-  return smallest;
+      double x[3][3];
+      for (int i = 0; i < 9; ++i)
+      {
+        x[i / 3][i % 3] = mesh.View().Points.Get(triangles.Get(t, i / 3), i % 3);
+      }
+      LargestValue one;
+      one.Value = counts(t) ? MeasureCotangent(x, mesh.GetSurvey()) : -INFINITY;
+      sum += one;
+    });
+  return ToDegrees(largest.Value);
 }
 
 /// Adds the points at the border of a region that flips have reached.
@@ -150,11 +148,11 @@ PointSet DividedRun::FlipRegion(const PointSet& active, const ProgressObserver& 
 void DividedRun::KeepRegion(const FlipReport& report, const PointSet& inner)
 {
   const bool tracks = this->Options.TrackQuality && !report.Iterations.empty();
-  const TriangleMesh& mesh = this->Mesh.View();
+  const TriangleArray& triangles = this->Mesh.View().Triangles;
   const double rest = !tracks
     ? NaN
-    : FindSmallestAngle(mesh, this->Report.GeometryUsed, this->Options.NumberOfThreads,
-        [&](std::int64_t t) { return !inner.Touches(mesh.Triangles, t); });
+    : FindSmallestAngle(
+        this->Mesh, [&](std::int64_t t) { return !inner.Touches(triangles, t); });
   for (IterationRecord row : report.Iterations)
   {
     row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
@@ -180,8 +178,7 @@ void DividedRun::CountRest()
   if (report.Rounds > 1)
   {
     report.MinimumAngleAfter =
-      FindSmallestAngle(this->Mesh.View(), report.GeometryUsed, this->Options.NumberOfThreads,
-        [](std::int64_t) { return true; });
+      FindSmallestAngle(this->Mesh, [](std::int64_t) { return true; });
   }
   if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
   {

@@ -56,6 +56,7 @@ void MeshInPieces::Examine(const FlipOptions& options)
   this->Survey.GeometryReason = found.GeometryReason;
   this->Survey.Projection = found.Projection;
   this->Survey.NearlyHeightField = found.NearlyHeightField;
+  this->Survey.Range = found.Range;
   this->Survey.IsFloat = this->Mesh.Points.Floats != nullptr;
   if (found.Geometry == GeometryKind::Planar)
   {

@@ -12,10 +12,20 @@
 namespace delaunayflip
 {
 
+double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
+{
+  const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
+  const Vector3 a{ x[0][0], x[0][1], isFlat ? 0.0 : x[0][2] };
+  const Vector3 b{ x[1][0], x[1][1], isFlat ? 0.0 : x[1][2] };
+  const Vector3 c{ x[2][0], x[2][1], isFlat ? 0.0 : x[2][2] };
+  const double usual = LargestSquaredCotangent(a, b, c);
+  return usual == INFINITY || IsWide(survey.Range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
+                                                            : usual;
+}
+
 namespace
 {
-/// The squared cotangent of the smallest angle, as AngleSurvey.h has it; -infinity for an empty
-/// place.
+/// -infinity for an empty place.
 double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
 {
   const PieceTriangle& triangle = mesh.Triangles[t];
@@ -23,18 +33,9 @@ double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
   for (int slot = 0; slot < 3; ++slot)
   {
     mesh.GetPosition(triangle.Points[slot], x[slot]);
-    x[slot][2] = survey.Geometry == GeometryKind::PlanarXY ? 0.0 : x[slot][2];
   }
-  const Vector3 a{ x[0][0], x[0][1], x[0][2] };
-  const Vector3 b{ x[1][0], x[1][1], x[1][2] };
-  const Vector3 c{ x[2][0], x[2][1], x[2][2] };
-  const double usual = LargestSquaredCotangent(a, b, c);
-  if (triangle.HasLeft)
-  {
-    return -INFINITY;
-  }
-  return usual == INFINITY || IsWide(survey.Range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
-                                                            : usual;
+  const double cotangent = MeasureCotangent(x, survey);
+  return triangle.HasLeft ? -INFINITY : cotangent;
 }
 }
 

@@ -12,6 +12,10 @@
 namespace delaunayflip
 {
 
+/// The squared cotangent of the smallest angle of a triangle, as AngleSurvey.h has it.
+/// @param x its corners.
+double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey);
+
 /// The smallest angle of all triangles of a rank, in degrees; NaN if there is none.
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads);
 
