@@ -36,6 +36,7 @@ bool InsertConstraints(const TriangleMesh& mesh, const FlipOptions& options,
   {
     if (CallerMesh(mesh).HasConstraintsToInsert())
     {
+      CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count);
       insertion = ConstraintInsertion(mesh, options,
         [&](double share)
         { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });

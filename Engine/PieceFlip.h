@@ -85,19 +85,29 @@ DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOpt
 /// How a mesh of one process is divided.
 struct PieceDivision
 {
-  int Pieces = 2; ///< 1 or more. A thread each.
+  /// 1 to 255. Each may have as many triangles as a session (715 million), and must fit into the
+  /// memory of a GPU.
+  int Pieces = 2;
 
-  /// CUDA's numbers of the GPUs that the pieces use, one after the other: piece 0 the first, and so
-  /// on. Pieces with the same GPU take turns, so that a mesh larger than its memory can pass
-  /// through it in pieces. Empty: FlipOptions::Device, at once.
+  /// CUDA's numbers of the GPUs that flip the pieces in turn: piece 0 on the first, and so on. While
+  /// a piece is on a GPU, the next one is prepared. Empty: FlipOptions::Device.
   std::vector<int> Devices;
 };
 
-/// Divides a mesh into pieces next to each other, flips it by FlipPiece in threads, and writes the
-/// result to `triangles`, which may be the array that mesh.Triangles views. The report is that of
-/// the whole mesh, without points that no triangle uses. Constraints are inserted before the mesh
-/// is divided; after an abort then, the triangles are the input's.
-/// @throws as FlipPiece; InvalidOptions for no pieces.
+/// Flips a mesh in pieces, one after the other on each GPU, so that it may be larger than the
+/// memory of a GPU and have more than 715 million triangles. Constraints are inserted before, if it
+/// has no more triangles than that.
+///
+/// The pieces are next to each other. Afterwards the triangles around the edges between them are
+/// flipped, as far as flips reach. In planar geometry with TieRuleKind::Canonical the triangles with
+/// an area are those of FlipToDelaunay. Otherwise the result depends on the number of pieces, and
+/// on nothing else.
+/// @param triangles receives the result: the array that mesh.Triangles views, or another one. It
+/// has valid triangles of the same surface at any time after InvalidMesh and InvalidOptions have
+/// been ruled out, so also if another exception ends the run or `progress` stops it.
+/// @returns the report of the whole mesh. Rounds are 1 and the number of times that triangles
+/// between pieces were flipped; MovedTriangles is 0. The seconds are those of a GPU's pieces.
+/// @throws as FlipSession's constructor; InvalidOptions for other numbers of pieces.
 DELAUNAYFLIP_EXPORT PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   const PieceDivision& division, const MutableTriangleArray& triangles,
   const ProgressObserver& progress = {});

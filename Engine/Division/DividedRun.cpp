@@ -229,6 +229,7 @@ void DividedRun::JoinPieces()
   report.GeometryReason = this->Mesh.GetSurvey().GeometryReason;
   this->Report.Rounds = 1;
   report.StopReason = StopReasonKind::Converged;
+  this->SumSeconds();
   for (const FlipReport& piece : this->Reports)
   {
     const bool isWorse = piece.StopReason == StopReasonKind::Aborted ||
@@ -236,6 +237,20 @@ void DividedRun::JoinPieces()
     report.StopReason = isWorse ? piece.StopReason : report.StopReason;
     this->HasBadEdges = this->HasBadEdges || piece.NonDelaunayAfter > 0;
   }
+}
+
+/// Those of all pieces that have the same GPU; of several GPUs the largest.
+void DividedRun::SumSeconds()
+{
+  const std::size_t devices = std::max<std::size_t>(1, this->Division.Devices.size());
+  std::vector<double> build(devices), flip(devices);
+  for (std::size_t piece = 0; piece < this->Reports.size(); ++piece)
+  {
+    build[piece % devices] += this->Reports[piece].BuildSeconds;
+    flip[piece % devices] += this->Reports[piece].FlipSeconds;
+  }
+  this->Report.BuildSeconds = *std::max_element(build.begin(), build.end());
+  this->Report.FlipSeconds = *std::max_element(flip.begin(), flip.end());
 }
 
 }

@@ -49,6 +49,7 @@ private:
   bool Tell(int piece, double share, bool isCaller);
 
   void JoinPieces();
+  void SumSeconds();
 
   // The regions:
   void FlipRegions();

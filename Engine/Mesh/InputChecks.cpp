@@ -79,7 +79,7 @@ void CheckMeshSize(std::int64_t triangles, std::int64_t points)
     throw MeshTooLarge("the mesh has " + std::to_string(triangles) + " triangles and " +
       std::to_string(points) + " points; at most " + std::to_string(LargestMesh) +
       " triangles and " + std::to_string(MostPoints) +
-      " points are supported: split the mesh into parts");
+      " points are supported at once: use FlipInPieces, or split the mesh into parts");
   }
 }
 
