@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CallerMesh.h"
 #include "ConstraintInsertion.h"
-#include "MeshInPieces.h"
 #include "DividedRun.h"
 #include "FlipError.h"
 #include "InputChecks.h"
+#include "MeshInPieces.h"
 #include "PieceFlip.h"
 #include "ThreadBackend.h"
 

@@ -89,8 +89,8 @@ struct PieceDivision
   /// memory of a GPU.
   int Pieces = 2;
 
-  /// CUDA's numbers of the GPUs that flip the pieces in turn: piece 0 on the first, and so on. While
-  /// a piece is on a GPU, the next one is prepared. Empty: FlipOptions::Device.
+  /// CUDA's numbers of the GPUs that flip the pieces in turn: piece 0 on the first, and so on.
+  /// While a piece is on a GPU, the next one is prepared. Empty: FlipOptions::Device.
   std::vector<int> Devices;
 };
 
@@ -99,9 +99,9 @@ struct PieceDivision
 /// has no more triangles than that.
 ///
 /// The pieces are next to each other. Afterwards the triangles around the edges between them are
-/// flipped, as far as flips reach. In planar geometry with TieRuleKind::Canonical the triangles with
-/// an area are those of FlipToDelaunay. Otherwise the result depends on the number of pieces, and
-/// on nothing else.
+/// flipped, as far as flips reach. In planar geometry with TieRuleKind::Canonical the triangles
+/// with an area are those of FlipToDelaunay. Otherwise the result depends on the number of pieces,
+/// and on nothing else.
 /// @param triangles receives the result: the array that mesh.Triangles views, or another one. It
 /// has valid triangles of the same surface at any time after InvalidMesh and InvalidOptions have
 /// been ruled out, so also if another exception ends the run or `progress` stops it.

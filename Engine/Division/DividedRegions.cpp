@@ -151,8 +151,7 @@ void DividedRun::KeepRegion(const FlipReport& report, const PointSet& inner)
   const TriangleArray& triangles = this->Mesh.View().Triangles;
   const double rest = !tracks
     ? NaN
-    : FindSmallestAngle(
-        this->Mesh, [&](std::int64_t t) { return !inner.Touches(triangles, t); });
+    : FindSmallestAngle(this->Mesh, [&](std::int64_t t) { return !inner.Touches(triangles, t); });
   for (IterationRecord row : report.Iterations)
   {
     row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
@@ -177,8 +176,7 @@ void DividedRun::CountRest()
   report.NonDelaunayBefore += this->AreCounted ? this->Seams.NonDelaunay : 0;
   if (report.Rounds > 1)
   {
-    report.MinimumAngleAfter =
-      FindSmallestAngle(this->Mesh, [](std::int64_t) { return true; });
+    report.MinimumAngleAfter = FindSmallestAngle(this->Mesh, [](std::int64_t) { return true; });
   }
   if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
   {

@@ -3,8 +3,8 @@
 #ifndef DELAUNAYFLIP_DIVIDEDRUN_H
 #define DELAUNAYFLIP_DIVIDEDRUN_H
 
-#include "MeshInPieces.h"
 #include "EdgeTotals.h"
+#include "MeshInPieces.h"
 #include "PieceFlip.h"
 #include "PointSet.h"
 

@@ -32,10 +32,9 @@ struct EdgeTotals
 
   void Add(const EdgeCounts& part, std::int64_t factor)
   {
-    for (std::int64_t EdgeCounts::*kind :
-      { &EdgeCounts::Edges, &EdgeCounts::Boundary, &EdgeCounts::NonManifold,
-        &EdgeCounts::WronglyWound, &EdgeCounts::Feature, &EdgeCounts::Constraint,
-        &EdgeCounts::Region, &EdgeCounts::Fixed })
+    for (std::int64_t EdgeCounts::*kind : { &EdgeCounts::Edges, &EdgeCounts::Boundary,
+           &EdgeCounts::NonManifold, &EdgeCounts::WronglyWound, &EdgeCounts::Feature,
+           &EdgeCounts::Constraint, &EdgeCounts::Region, &EdgeCounts::Fixed })
     {
       this->Edges.*kind += factor * part.*kind;
     }

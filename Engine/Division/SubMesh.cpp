@@ -10,8 +10,7 @@
 namespace delaunayflip
 {
 
-SubMesh::SubMesh(
-  const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend)
+SubMesh::SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend)
   : Whole(mesh),
     Engine(backend),
     PointIds(mesh.Points.Count, backend),

@@ -52,8 +52,7 @@ Array<unsigned char> FindClosed(
 }
 
 /// Whether the triangles at some points, and so those around each, cover no direction twice.
-bool AreApart(
-  const TriangleMesh& mesh, const PlaneProjection& plane, const ThreadBackend& threads)
+bool AreApart(const TriangleMesh& mesh, const PlaneProjection& plane, const ThreadBackend& threads)
 {
   PointKeys keys; // with no point known to be closed
   keys.Keys.resize(mesh.Points.Count);

@@ -48,8 +48,9 @@ using Settings = std::map<std::string, std::string>;
 
 Settings ReadSettings(int argc, char** argv)
 {
-  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "ranks", "1" }, { "threads", "1" },
-    { "surface", "0" }, { "feature", "180" }, { "devices", "" }, { "runs", "1" } };
+  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "ranks", "1" },
+    { "threads", "1" }, { "surface", "0" }, { "feature", "180" }, { "devices", "" },
+    { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string word = argv[i];

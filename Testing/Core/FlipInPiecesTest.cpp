@@ -182,8 +182,7 @@ TEST_P(FlipInPiecesTest, ThreeSheets)
   {
     for (std::size_t i = 0; i < sheet.Points.size(); i += 3)
     {
-      mesh.Points.insert(
-        mesh.Points.end(), { sheet.Points[i], sheet.Points[i + 1], 0.001 * copy });
+      mesh.Points.insert(mesh.Points.end(), { sheet.Points[i], sheet.Points[i + 1], 0.001 * copy });
     }
     for (const std::int32_t id : sheet.Triangles)
     {
@@ -341,7 +340,7 @@ TEST_P(FlipInPiecesTest, TheCallerCanStopAtAnyTime)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  Pieces, FlipInPiecesTest, testing::Values(1, 2, 3, 7, 40), NameRanks);
+  Pieces, FlipInPiecesTest, testing::Values(1, 2, 3, 7, 40), testing::PrintToStringParamName());
 
 TEST(NumberOfPiecesTest, IsFrom1To255)
 {

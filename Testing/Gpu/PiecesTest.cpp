@@ -35,8 +35,8 @@ protected:
     const std::vector<int>& devices, PiecesReport& report)
   {
     std::vector<std::int32_t> triangles(3 * mesh.Triangles.Count);
-    report = FlipInPieces(mesh, options, { 5, devices },
-      MutableTriangleArray(triangles.data(), mesh.Triangles.Count));
+    report = FlipInPieces(
+      mesh, options, { 5, devices }, MutableTriangleArray(triangles.data(), mesh.Triangles.Count));
     return triangles;
   }
 
