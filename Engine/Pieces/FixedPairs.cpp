@@ -25,7 +25,7 @@ unsigned char MarkedEdges::Find(const PointPair& edge) const
   return found != this->Marks.end() ? found->second : 0;
 }
 
-void MarkedEdges::Apply(std::vector<PieceTriangle>& triangles) const
+void MarkedEdges::Apply(PieceTriangles& triangles) const
 {
   for (PieceTriangle& triangle : triangles)
   {

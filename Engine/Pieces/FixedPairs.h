@@ -25,7 +25,7 @@ public:
   }
 
   /// Marks the edges of all triangles; those that had other marks lose them.
-  void Apply(std::vector<PieceTriangle>& triangles) const;
+  void Apply(PieceTriangles& triangles) const;
 
 private:
   bool IsEnd(std::int32_t point) const

@@ -34,7 +34,7 @@ public:
   /// @param firstOrigin the number of the first of them among those of all ranks.
   PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
 
-  std::vector<PieceTriangle> Triangles; ///< Some may be empty places (PieceTriangle::HasLeft).
+  PieceTriangles Triangles; ///< Some may be empty places (PieceTriangle::HasLeft).
 
   /// Lists what rounds need, so that they take no time for other triangles. From now on triangles
   /// change by the functions below only.
@@ -128,7 +128,7 @@ private:
   PointArray Given;
   std::vector<double> Received; ///< Coordinates of the points behind those.
   PointKeys Numbers; ///< Without what has one value per point.
-  std::vector<std::int64_t> Keys;
+  HostVector<std::int64_t> Keys;
   std::int64_t FirstOwnKey;
   std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.
 };

@@ -121,8 +121,8 @@ void PieceRun::FlipFirst()
 void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
 {
   const std::int64_t count = mesh.Triangles.Count;
-  std::vector<std::int32_t> ids(3 * count);
-  std::vector<std::int32_t> flips(count);
+  HostVector<std::int32_t> ids(3 * count);
+  HostVector<std::int32_t> flips(count);
   session.StoreTriangles(MutableTriangleArray(ids.data(), count));
   session.StoreFlipCounts(flips.data());
   this->Own = session.GetReport();

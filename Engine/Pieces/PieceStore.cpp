@@ -31,7 +31,7 @@ public:
 
   void Run()
   {
-    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    const PieceTriangles& triangles = this->Mesh.Triangles;
     this->Flipped.Triangles.reserve(3 * triangles.size());
     this->Flipped.Origins.reserve(triangles.size());
     this->Flipped.FlipCounts.reserve(triangles.size());
@@ -62,7 +62,7 @@ private:
   /// The order in which a caller gets triangles.
   bool IsBefore(std::int64_t a, std::int64_t b) const
   {
-    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    const PieceTriangles& triangles = this->Mesh.Triangles;
     const bool isOwn = this->IsOwn(triangles[a]);
     return isOwn == this->IsOwn(triangles[b]) ? triangles[a].Origin < triangles[b].Origin : isOwn;
   }
@@ -81,7 +81,7 @@ private:
 
   std::vector<std::int64_t> SortOthers(std::int64_t inOrder) const
   {
-    const std::vector<PieceTriangle>& triangles = this->Mesh.Triangles;
+    const PieceTriangles& triangles = this->Mesh.Triangles;
     std::vector<std::int64_t> others;
     for (auto t = inOrder; t < static_cast<std::int64_t>(triangles.size()); ++t)
     {

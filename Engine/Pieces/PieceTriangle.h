@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECETRIANGLE_H
 #define DELAUNAYFLIP_PIECETRIANGLE_H
 
+#include "HostVector.h"
 #include "Records.h"
 
 #include <array>
@@ -80,6 +81,8 @@ struct PieceTriangle
     return (start == a && end == b) || (start == b && end == a);
   }
 };
+
+using PieceTriangles = HostVector<PieceTriangle>;
 
 /// A triangle of a rank and one of its corners.
 struct PieceCorner

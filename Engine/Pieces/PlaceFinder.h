@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PLACEFINDER_H
 #define DELAUNAYFLIP_PLACEFINDER_H
 
+#include "HostVector.h"
 #include "PieceFlip.h"
 #include "Records.h"
 
@@ -217,7 +218,7 @@ private:
   }
 
   const MeshPiece& Piece;
-  std::vector<std::uint64_t> Fans;
+  HostVector<std::uint64_t> Fans;
   std::vector<unsigned char> Used;
   std::vector<unsigned char> Ends; ///< Of constraints.
 };

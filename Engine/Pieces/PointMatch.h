@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_POINTMATCH_H
 #define DELAUNAYFLIP_POINTMATCH_H
 
+#include "HostVector.h"
 #include "PieceFlip.h"
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace delaunayflip
 struct PointKeys
 {
   std::vector<std::int64_t> FirstKeys; ///< Of every rank, and at the end the number of all keys.
-  std::vector<std::int64_t> Keys; ///< One per point of this rank.
+  HostVector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
   /// One flag per point: whether it is not shared and its triangles close around it.

@@ -8,7 +8,7 @@
 namespace delaunayflip
 {
 
-void PointStars::AddAll(const std::vector<PieceTriangle>& triangles, std::int64_t points)
+void PointStars::AddAll(const PieceTriangles& triangles, std::int64_t points)
 {
   this->First.assign(points, None);
   this->Next.reserve(3 * triangles.capacity());
@@ -19,7 +19,7 @@ void PointStars::AddAll(const std::vector<PieceTriangle>& triangles, std::int64_
   }
 }
 
-void PointStars::Add(const std::vector<PieceTriangle>& triangles, std::int64_t triangle)
+void PointStars::Add(const PieceTriangles& triangles, std::int64_t triangle)
 {
   const auto corner = static_cast<std::uint32_t>(3 * triangle);
   if (corner + std::size_t(3) > this->Next.size())
@@ -38,8 +38,7 @@ void PointStars::Add(const std::vector<PieceTriangle>& triangles, std::int64_t t
   }
 }
 
-void PointStars::Remove(
-  const std::vector<PieceTriangle>& triangles, const std::vector<std::int64_t>& removed)
+void PointStars::Remove(const PieceTriangles& triangles, const std::vector<std::int64_t>& removed)
 {
   this->Removed.Resize(triangles.size());
   for (const std::int64_t t : removed)

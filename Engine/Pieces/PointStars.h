@@ -22,14 +22,13 @@ class PointStars
 public:
   /// Adds all triangles.
   /// @param points how many there are; others may come later.
-  void AddAll(const std::vector<PieceTriangle>& triangles, std::int64_t points);
+  void AddAll(const PieceTriangles& triangles, std::int64_t points);
 
   /// Adds a triangle that is not in the lists.
-  void Add(const std::vector<PieceTriangle>& triangles, std::int64_t triangle);
+  void Add(const PieceTriangles& triangles, std::int64_t triangle);
 
   /// Takes triangles away that are about to change their points or to leave.
-  void Remove(
-    const std::vector<PieceTriangle>& triangles, const std::vector<std::int64_t>& removed);
+  void Remove(const PieceTriangles& triangles, const std::vector<std::int64_t>& removed);
 
   /// Calls visit(triangle) for every corner at a point.
   template <typename Visit>
@@ -83,9 +82,9 @@ private:
     return static_cast<std::size_t>(point) < this->First.size() ? this->First[point] : None;
   }
 
-  std::vector<std::uint32_t> First; ///< By point: a corner, 3 * triangle + slot.
+  HostVector<std::uint32_t> First; ///< By point: a corner, 3 * triangle + slot.
   IdSet Removed; ///< Triangles; empty but within Remove.
-  std::vector<std::uint32_t> Next; ///< By corner: the next one at the same point.
+  HostVector<std::uint32_t> Next; ///< By corner: the next one at the same point.
 };
 
 }

@@ -28,8 +28,8 @@ PieceTriangle Draw(std::mt19937& random)
 
 /// Expects that the lists have these triangles.
 /// @param isListed one flag per triangle.
-void ExpectLists(const PointStars& stars, const std::vector<PieceTriangle>& triangles,
-  const std::vector<bool>& isListed)
+void ExpectLists(
+  const PointStars& stars, const PieceTriangles& triangles, const std::vector<bool>& isListed)
 {
   std::vector<std::int64_t> fromAll, together;
   std::vector<std::int32_t> all(Points);
@@ -57,7 +57,7 @@ void ExpectLists(const PointStars& stars, const std::vector<PieceTriangle>& tria
 TEST(PointStars, FollowTrianglesThatChange)
 {
   std::mt19937 random(4);
-  std::vector<PieceTriangle> triangles;
+  PieceTriangles triangles;
   for (int i = 0; i < 30; ++i)
   {
     triangles.push_back(Draw(random));

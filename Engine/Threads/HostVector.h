@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_HOSTVECTOR_H
+#define DELAUNAYFLIP_HOSTVECTOR_H
+
+#include "HostMemory.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace delaunayflip
+{
+
+template <typename T>
+struct HostAllocator
+{
+  using value_type = T;
+
+  HostAllocator() = default;
+  template <typename Other>
+  explicit HostAllocator(const HostAllocator<Other>&)
+  {
+  }
+
+  T* allocate(std::size_t count)
+  {
+    return static_cast<T*>(HostMemory().Allocate(count * sizeof(T)));
+  }
+  void deallocate(T* values, std::size_t count) noexcept
+  {
+    HostMemory().Free(values, count * sizeof(T));
+  }
+
+  bool operator==(const HostAllocator&) const { return true; }
+  bool operator!=(const HostAllocator&) const { return false; }
+};
+
+/// A vector in HostMemory, which takes huge pages if it is large.
+template <typename T>
+using HostVector = std::vector<T, HostAllocator<T>>;
+
+}
+
+#endif
