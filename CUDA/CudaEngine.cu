@@ -8,7 +8,9 @@
 #include "LocalDeviceMesh.cuh"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace delaunayflip
@@ -59,11 +61,27 @@ public:
     return true;
   }
 
+  EngineTriangles ViewTriangles() const override
+  {
+    const StoreStep store = this->GetStoreStep();
+    const CudaContext& context = this->GetBackend().GetContext();
+    return { store.Triangles, store.Order, this->GetInputReport().Triangles, context.Device,
+      { context.Stream }, this->Number };
+  }
+
 private:
+  static std::uint64_t CountEngines()
+  {
+    static std::atomic<std::uint64_t> engines{ 0 };
+    return ++engines;
+  }
+
   bool IsHere(const void* memory) const
   {
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
+
+  const std::uint64_t Number = CountEngines();
 };
 
 /// The caller's arrays, wherever they are.

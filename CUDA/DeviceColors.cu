@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviceColors.h"
 
+#include "ColorTable.cuh"
 #include "CudaBackend.cuh"
 #include "DeviceCopies.h"
 #include "FlipError.h"
@@ -49,6 +50,7 @@ public:
   {
   }
   const CudaBackend* operator->() const { return &this->Backend; }
+  const CudaBackend& operator*() const { return this->Backend; }
 
 private:
   static int RequireDevice(const void* memory)
@@ -69,8 +71,7 @@ template <typename T>
 void Color(const T* values, std::int64_t count, const ColorBands& bands, std::uint32_t* colors,
   const DeviceStream& stream)
 {
-  const auto size = static_cast<std::int64_t>(bands.Colors.size());
-  if (size == 0)
+  if (bands.Colors.empty())
   {
     throw InvalidOptions("there must be at least one band of colours");
   }
@@ -79,21 +80,11 @@ void Color(const T* values, std::int64_t count, const ColorBands& bands, std::ui
     return;
   }
   const BackendOf backend(colors);
-  Array<std::uint32_t> table = backend->MakeArray<std::uint32_t>(size);
-  backend->Upload(bands.Colors.data(), size, table.Data());
-  const std::uint32_t* colorOfBand = table.Data();
-  const std::uint32_t ofNaN = bands.OfNaN;
-  const double first = bands.First;
-  const double scale = static_cast<double>(size) / (bands.Last - bands.First);
+  const ColorTable table(bands, *backend);
+  const ColorTableView view = table.View();
   backend->WaitFor(stream);
   backend->ForEach(count,
-    [=] __device__(std::int64_t i)
-    {
-      const double band = (static_cast<double>(values[i]) - first) * scale;
-      const double last = static_cast<double>(size - 1);
-      const double kept = band < 0.0 ? 0.0 : band > last ? last : band;
-      colors[i] = band == band ? colorOfBand[static_cast<int>(kept)] : ofNaN;
-    });
+    [=] __device__(std::int64_t i) { colors[i] = view.Find(static_cast<double>(values[i])); });
   backend->Synchronize();
 }
 }

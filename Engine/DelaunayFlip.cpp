@@ -52,4 +52,6 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
   this->Impl->StoreFlipCounts(counts, stream);
 }
 
+EngineTriangles FlipSession::ViewTriangles() const { return this->Impl->ViewTriangles(); }
+
 }

@@ -20,6 +20,8 @@
 namespace delaunayflip
 {
 
+struct EngineTriangles;
+
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
 /// iterations, and can be read at any time between them. With BackendKind::Auto, and if a progress
 /// observer stopped the constructor, the caller's arrays must stay unchanged as long as the session
@@ -78,6 +80,9 @@ public:
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const;
 
 private:
+  friend class DrawnTriangles; // of DeviceColors.h
+  EngineTriangles ViewTriangles() const;
+
   class Implementation;
   std::unique_ptr<Implementation> Impl;
 };

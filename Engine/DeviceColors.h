@@ -8,6 +8,8 @@
 #include "FlipOptions.h"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 /// @file
@@ -17,6 +19,8 @@
 
 namespace delaunayflip
 {
+
+class FlipSession;
 
 /// The extreme ones of some numbers, NaN left out; both are NaN if there is no number.
 struct ValueRange
@@ -54,6 +58,52 @@ DELAUNAYFLIP_EXPORT void ColorValues(const float* values, std::int64_t count,
   const ColorBands& bands, std::uint32_t* colors, const DeviceStream& stream);
 DELAUNAYFLIP_EXPORT void ColorValues(const std::int32_t* values, std::int64_t count,
   const ColorBands& bands, std::uint32_t* colors, const DeviceStream& stream);
+
+/// What a program draws a session's mesh from, in the memory of a GPU.
+struct DrawnArrays
+{
+  DevicePointArray Points; ///< Where the points of the mesh are, which angles depend on.
+  MutableTriangleArray Triangles; ///< As many as the session has.
+  std::uint32_t* Colors = nullptr; ///< One per triangle.
+  DeviceStream Stream;
+};
+
+/// What the colours of triangles show.
+struct DrawnColors
+{
+  bool ByFlipCount = false; ///< Else by smallest angle on the surface.
+  /// The colours, given the largest flip count of a triangle (0 for angles).
+  std::function<ColorBands(double largestCount)> Choose;
+};
+
+/// Keeps arrays from which a mesh is drawn up to date with a session that is advanced. It writes
+/// only the triangles that have changed since its last update, those of which the flip count is
+/// another, and their colours. It writes all triangles of another session, and all colours if
+/// other ones are chosen. For that it keeps the flip counts and smallest angles of the last update
+/// in the memory of the GPU, 8 bytes per triangle.
+class DELAUNAYFLIP_EXPORT DrawnTriangles
+{
+public:
+  DrawnTriangles();
+  ~DrawnTriangles();
+  DrawnTriangles(const DrawnTriangles&) = delete;
+  DrawnTriangles& operator=(const DrawnTriangles&) = delete;
+
+  /// Says that points have moved, or that the arrays of the next update are others or have been
+  /// changed: that update writes everything.
+  void Forget();
+
+  /// For any session: one on another GPU or on the CPU, or with constraints that were inserted,
+  /// writes everything each time.
+  /// @returns the smallest angle of the mesh in degrees; NaN if there is none.
+  /// @throws InvalidOptions if the arrays are not in the memory of a GPU or there is no colour;
+  /// BackendUnavailable. Then the next update writes everything.
+  double Update(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors);
+
+private:
+  class OnDevice;
+  std::unique_ptr<OnDevice> Shown; ///< None if the last update has written everything.
+};
 
 }
 

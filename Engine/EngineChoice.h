@@ -48,6 +48,7 @@ public:
   void StoreFlipCounts(std::int32_t* counts);
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream);
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream);
+  EngineTriangles ViewTriangles() const { return this->Engine->ViewTriangles(); }
   Defect FindTurnedTriangles();
   void Audit();
 

@@ -71,4 +71,11 @@ void FlipSession::Implementation::StoreFlipCounts(std::int32_t* counts, const De
     counts, size, stream, [this](std::int32_t* host) { this->StoreFlipCounts(host); });
 }
 
+/// None if the engine's flips are not all.
+EngineTriangles FlipSession::Implementation::ViewTriangles() const
+{
+  return this->Engine && !this->Insertion.HasFlips() ? this->Engine->ViewTriangles()
+                                                     : EngineTriangles();
+}
+
 }

@@ -46,6 +46,7 @@ public:
   void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream);
   void StoreFlipCounts(std::int32_t* counts);
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream);
+  EngineTriangles ViewTriangles() const;
 
 private:
   static FlipOptions Check(const CallerMesh& mesh, const FlipOptions& options);

@@ -9,7 +9,6 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -34,9 +33,7 @@ struct FilledMesh
   const FlipSession& Session; ///< Of Count triangles.
   PointArray Points; ///< In the host's memory.
   std::uint64_t PointsTime = 0; ///< Another one than in the last call if points have moved.
-  bool ByFlipCount = false; ///< Colours show flip counts, else smallest angles.
-  /// The colours, given the largest flip count of a triangle (0 for angles).
-  std::function<ColorBands(double largestCount)> ChooseColors;
+  DrawnColors Colors;
 };
 
 /// Writes the mesh of a session into the buffers that OpenGL draws. All calls but the destructor

@@ -106,9 +106,10 @@ public:
   }
 
 private:
+  /// The buffer keeps what is not written.
   static void Add(unsigned int buffer, cudaGraphicsResource_t& resource)
   {
-    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsWriteDiscard),
+    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
       "register a buffer of OpenGL");
   }
 
@@ -225,6 +226,7 @@ public:
     this->Buffers.reset();
     this->Buffers = std::make_unique<SharedBuffers>(buffers);
     this->Count = buffers.Count;
+    this->Drawn.Forget();
   }
 
   void Release() noexcept override { this->Buffers.reset(); }
@@ -240,7 +242,11 @@ public:
     double smallest = 0.0;
     this->Buffers->Map(this->Count,
       [&](std::int32_t* triangles, std::uint32_t* colors)
-      { smallest = this->Write(mesh, triangles, colors); });
+      {
+        const DrawnArrays arrays{ this->Points->View(),
+          MutableTriangleArray(triangles, this->Count), colors, this->Buffers->GetStream() };
+        smallest = this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
+      });
     return smallest;
   }
 
@@ -258,31 +264,7 @@ private:
     }
     this->Points->Write(mesh.Points);
     this->PointsTime = mesh.PointsTime;
-  }
-
-  /// The values that colours show are written where the colours go.
-  double Write(const FilledMesh& mesh, std::int32_t* triangles, std::uint32_t* colors) const
-  {
-    const DeviceStream stream = this->Buffers->GetStream();
-    mesh.Session.StoreTriangles(MutableTriangleArray(triangles, this->Count), stream);
-    DeviceMesh drawn;
-    drawn.Points = this->Points->View();
-    drawn.Triangles = TriangleArray(triangles, this->Count);
-    drawn.Stream = stream;
-    auto* degrees = reinterpret_cast<float*>(colors);
-    const double smallest = FindSmallestAngles(drawn, GeometryKind::Surface, degrees).Smallest;
-    if (mesh.ByFlipCount)
-    {
-      auto* counts = reinterpret_cast<std::int32_t*>(colors);
-      mesh.Session.StoreFlipCounts(counts, stream);
-      const double largest = FindRange(counts, this->Count, stream).Largest;
-      ColorValues(counts, this->Count, mesh.ChooseColors(largest), colors, stream);
-    }
-    else
-    {
-      ColorValues(degrees, this->Count, mesh.ChooseColors(0.0), colors, stream);
-    }
-    return smallest;
+    this->Drawn.Forget();
   }
 
   int Device = 0;
@@ -290,6 +272,7 @@ private:
   std::unique_ptr<SharedBuffers> Buffers;
   std::unique_ptr<PointCopy> Points;
   std::uint64_t PointsTime = 0; ///< When they were copied.
+  DrawnTriangles Drawn;
 };
 
 }

@@ -157,8 +157,8 @@ void DeviceDrawing::Parts::FillBuffers()
   if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
   {
     vtkPolyData* mesh = this->Mapper->GetInput();
-    this->SmallestAngle = this->Filler->Fill({ *session, ViewPoints(mesh),
-      mesh->GetPoints()->GetMTime(), this->Colors.ByFlipCount, this->Colors.Choose });
+    this->SmallestAngle = this->Filler->Fill(
+      { *session, ViewPoints(mesh), mesh->GetPoints()->GetMTime(), this->Colors.Shown });
   }
 }
 

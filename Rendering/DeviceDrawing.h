@@ -5,7 +5,6 @@
 
 #include "DeviceColors.h"
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,8 +29,7 @@ public:
   struct Coloring
   {
     int Kind = -1; ///< Two with the same number are the same.
-    bool ByFlipCount = false; ///< Else by smallest angle.
-    std::function<ColorBands(double largestCount)> Choose;
+    DrawnColors Shown;
   };
 
   /// Begins to draw the mesh of a filter's last update, which has been put out, with an actor in a

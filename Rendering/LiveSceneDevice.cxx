@@ -63,8 +63,9 @@ bool LiveScene::ColorOnDevice(int what)
     this->Run = this->DrawsRun() ? filter : nullptr;
   }
   const bool isDone = this->DrawsRun() &&
-    this->Device.Fill({ what, what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT,
-      [this, what](double largestCount) { return this->ChooseColors(what, largestCount); } });
+    this->Device.Fill({ what,
+      { what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT,
+        [this, what](double largestCount) { return this->ChooseColors(what, largestCount); } } });
   if (this->DrawsRun() && !isDone)
   {
     this->LeaveDevice();

@@ -5,6 +5,7 @@
 
 #include "BuildProgress.h"
 #include "DeviceMesh.h"
+#include "EngineTriangles.h"
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
@@ -49,6 +50,9 @@ public:
     return false;
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
+
+  /// The triangles as they are in device memory, if they are.
+  virtual EngineTriangles ViewTriangles() const { return {}; }
 
   /// The triangles that flips have turned over in x and y, on a surface that was a height field or
   /// nearly one; else none.

@@ -80,10 +80,10 @@ public:
     FindSmallestAngles(drawn, GeometryKind::Surface, 1, degrees.data());
     std::vector<std::int32_t> flips(count);
     mesh.Session.StoreFlipCounts(flips.data());
-    const ColorBands bands =
-      mesh.ChooseColors(mesh.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
+    const ColorBands bands = mesh.Colors.Choose(
+      mesh.Colors.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
     Write(this->Buffers.Colors,
-      mesh.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees));
+      mesh.Colors.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees));
     return *std::min_element(degrees.begin(), degrees.end());
   }
 

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace
@@ -43,6 +44,15 @@ protected:
     }
   }
 
+  std::vector<unsigned char> ReadBuffer() const
+  {
+    std::vector<unsigned char> bytes(Bytes);
+    glBindBuffer(GL_ARRAY_BUFFER, this->Buffer);
+    glGetBufferSubData(GL_ARRAY_BUFFER, 0, Bytes, bytes.data());
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    return bytes;
+  }
+
   static constexpr int Bytes = 1 << 20;
   vtkSmartPointer<vtkRenderWindow> Window;
   unsigned int Buffer = 0;
@@ -64,7 +74,7 @@ TEST_F(Interop, MappedBuffersAreMemoryOfTheDevice)
 {
   cudaGraphicsResource_t resource = nullptr;
   cudaError_t error =
-    cudaGraphicsGLRegisterBuffer(&resource, this->Buffer, cudaGraphicsRegisterFlagsWriteDiscard);
+    cudaGraphicsGLRegisterBuffer(&resource, this->Buffer, cudaGraphicsRegisterFlagsNone);
   ASSERT_EQ(cudaSuccess, error) << cudaGetErrorString(error);
   ASSERT_EQ(cudaSuccess, cudaGraphicsMapResources(1, &resource, nullptr));
   void* memory = nullptr;
@@ -79,11 +89,29 @@ TEST_F(Interop, MappedBuffersAreMemoryOfTheDevice)
   EXPECT_EQ(cudaSuccess, cudaMemset(memory, 7, Bytes));
   EXPECT_EQ(cudaSuccess, cudaGraphicsUnmapResources(1, &resource, nullptr));
   EXPECT_EQ(cudaSuccess, cudaGraphicsUnregisterResource(resource));
-  std::vector<unsigned char> bytes(Bytes);
-  glBindBuffer(GL_ARRAY_BUFFER, this->Buffer);
-  glGetBufferSubData(GL_ARRAY_BUFFER, 0, Bytes, bytes.data());
-  glBindBuffer(GL_ARRAY_BUFFER, 0);
-  EXPECT_EQ(std::vector<unsigned char>(Bytes, 7), bytes);
+  EXPECT_EQ(std::vector<unsigned char>(Bytes, 7), this->ReadBuffer());
+}
+
+TEST_F(Interop, MappedBuffersKeepWhatIsNotWritten)
+{
+  cudaGraphicsResource_t resource = nullptr;
+  ASSERT_EQ(cudaSuccess,
+    cudaGraphicsGLRegisterBuffer(&resource, this->Buffer, cudaGraphicsRegisterFlagsNone));
+  for (const int size : { Bytes, Bytes / 2, Bytes / 4 })
+  {
+    ASSERT_EQ(cudaSuccess, cudaGraphicsMapResources(1, &resource, nullptr));
+    void* memory = nullptr;
+    std::size_t all = 0;
+    ASSERT_EQ(cudaSuccess, cudaGraphicsResourceGetMappedPointer(&memory, &all, resource));
+    EXPECT_EQ(cudaSuccess, cudaMemset(memory, Bytes / size, size));
+    EXPECT_EQ(cudaSuccess, cudaGraphicsUnmapResources(1, &resource, nullptr));
+    this->Window->Render();
+  }
+  EXPECT_EQ(cudaSuccess, cudaGraphicsUnregisterResource(resource));
+  std::vector<unsigned char> expected(Bytes, 1);
+  std::fill_n(expected.begin(), Bytes / 2, 2);
+  std::fill_n(expected.begin(), Bytes / 4, 4);
+  EXPECT_EQ(expected, this->ReadBuffer());
 }
 
 TEST_F(Interop, ABufferThatIsNotThereCannotBeRegistered)

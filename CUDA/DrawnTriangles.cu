@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ColorTable.cuh"
+#include "CudaBackend.cuh"
+#include "DelaunayFlip.h"
+#include "DeviceColors.h"
+#include "DeviceCopies.h"
+#include "EngineTriangles.h"
+#include "LocalDeviceMesh.cuh"
+#include "SmallestAngle.h"
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// A block looks for changed triangles in this many, and then works on those alone, without idle
+/// threads between them.
+constexpr int TrianglesPerThread = 4;
+constexpr int TrianglesPerBlock = ThreadsPerBlock * TrianglesPerThread;
+
+/// What is known of some triangles. None if all bytes are 255.
+struct DrawnExtremes
+{
+  /// The bits of the smallest angle, a float. Numbers that are not negative have the order of their
+  /// bits, and those of NaN are greater.
+  std::uint32_t AngleBits = 0xFFFFFFFFu;
+  std::int32_t LargestCount = -1;
+
+  __device__ void Add(float degrees, std::uint32_t flips)
+  {
+    *this += DrawnExtremes{ degrees == degrees ? __float_as_uint(degrees) : 0xFFFFFFFFu,
+      static_cast<std::int32_t>(flips) };
+  }
+  __device__ DrawnExtremes& operator+=(const DrawnExtremes& other)
+  {
+    this->AngleBits = min(this->AngleBits, other.AngleBits);
+    this->LargestCount = max(this->LargestCount, other.LargestCount);
+    return *this;
+  }
+  __device__ void AddTo(DrawnExtremes* all) const
+  {
+    atomicMin(&all->AngleBits, this->AngleBits);
+    atomicMax(&all->LargestCount, this->LargestCount);
+  }
+  double GetSmallestAngle() const
+  {
+    float degrees = 0.0f;
+    std::memcpy(&degrees, &this->AngleBits, sizeof(degrees));
+    return degrees;
+  }
+};
+
+/// The triangles of an engine, what they were at the last update, and where to write them.
+struct DrawnView
+{
+  const TriangleRecord* Records;
+  SpatialOrderView Order;
+  std::int64_t Count;
+  std::uint32_t* Flips; ///< At the last update, in the engine's order, as are the angles.
+  float* Degrees;
+  PointArray Points;
+  MutableTriangleArray Triangles;
+  std::uint32_t* Colors;
+  ColorTableView Table;
+  bool ByFlipCount;
+
+  __device__ std::uint32_t CountFlips(std::int64_t t) const
+  {
+    return this->Records[t].Flips / OneFlip;
+  }
+  __device__ std::int64_t GetVertex(std::int64_t t, int slot) const
+  {
+    return this->Order.GetVertex(this->Records[t].Vertices[slot]);
+  }
+  __device__ void StoreId(std::int64_t t, int slot) const
+  {
+    this->Triangles.Set(this->Records[t].InputTriangle, slot, this->GetVertex(t, slot));
+  }
+  /// Needs the flips and the angle.
+  __device__ void StoreColor(std::int64_t t) const
+  {
+    const auto value = this->ByFlipCount ? static_cast<double>(this->Flips[t])
+                                         : static_cast<double>(this->Degrees[t]);
+    this->Colors[this->Records[t].InputTriangle] = this->Table.Find(value);
+  }
+  /// Stores what StoreId does not.
+  __device__ void Measure(std::int64_t t) const
+  {
+    const std::int64_t ids[3] = { this->GetVertex(t, 0), this->GetVertex(t, 1),
+      this->GetVertex(t, 2) };
+    TriangleMesh triangle;
+    triangle.Points = this->Points;
+    triangle.Triangles.Ids64 = ids;
+    triangle.Triangles.Count = 1;
+    this->Degrees[t] = static_cast<float>(FindSmallestAngle(triangle, GeometryKind::Surface, 0));
+    this->Flips[t] = this->CountFlips(t);
+    if (this->Table.Size > 0) // else all colours follow
+    {
+      this->StoreColor(t);
+    }
+  }
+};
+
+/// Updates what has changed of the triangles of a block, and finds the extremes of all.
+__global__ void __launch_bounds__(ThreadsPerBlock)
+  UpdateDrawnKernel(DrawnView view, DrawnExtremes* extremes)
+{
+  using Reduce = cub::BlockReduce<DrawnExtremes, ThreadsPerBlock>;
+  __shared__ typename Reduce::TempStorage storage;
+  __shared__ TriangleId changed[TrianglesPerBlock];
+  __shared__ int size;
+  if (threadIdx.x == 0)
+  {
+    size = 0;
+  }
+  __syncthreads();
+  DrawnExtremes found;
+  const std::int64_t first = std::int64_t(blockIdx.x) * TrianglesPerBlock;
+  const std::int64_t last = min(first + TrianglesPerBlock, view.Count);
+#pragma unroll
+  for (int i = 0; i < TrianglesPerThread; ++i)
+  {
+    const std::int64_t t = first + i * ThreadsPerBlock + threadIdx.x;
+    if (t < last && view.CountFlips(t) != view.Flips[t])
+    {
+      changed[atomicAdd(&size, 1)] = static_cast<TriangleId>(t);
+    }
+    else if (t < last)
+    {
+      found.Add(view.Degrees[t], view.Flips[t]);
+    }
+  }
+  __syncthreads();
+  // Neighbouring threads have the ids of one triangle, so that these go to memory together.
+  for (int i = threadIdx.x; i < 3 * size; i += ThreadsPerBlock)
+  {
+    view.StoreId(changed[i / 3], i % 3);
+  }
+  for (int i = threadIdx.x; i < size; i += ThreadsPerBlock)
+  {
+    const std::int64_t t = changed[i];
+    view.Measure(t);
+    found.Add(view.Degrees[t], view.Flips[t]);
+  }
+  const DrawnExtremes all = Reduce(storage).Reduce(found, Plus<DrawnExtremes>());
+  if (threadIdx.x == 0)
+  {
+    all.AddTo(extremes);
+  }
+}
+
+struct StoreColorStep
+{
+  DrawnView View;
+
+  __device__ void operator()(std::int64_t t) const { this->View.StoreColor(t); }
+};
+
+bool AreSame(const ColorBands& a, const ColorBands& b)
+{
+  return a.Colors == b.Colors && a.First == b.First && a.Last == b.Last && a.OfNaN == b.OfNaN;
+}
+
+/// Writes everything, with the values that colours show where the colours go.
+double StoreAll(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors)
+{
+  const std::int64_t count = arrays.Triangles.Count;
+  session.StoreTriangles(arrays.Triangles, arrays.Stream);
+  DeviceMesh drawn;
+  drawn.Points = arrays.Points;
+  drawn.Triangles.Ids32 = arrays.Triangles.Ids32;
+  drawn.Triangles.Ids64 = arrays.Triangles.Ids64;
+  drawn.Triangles.Count = count;
+  drawn.Stream = arrays.Stream;
+  auto* degrees = reinterpret_cast<float*>(arrays.Colors);
+  const double smallest = FindSmallestAngles(drawn, GeometryKind::Surface, degrees).Smallest;
+  if (colors.ByFlipCount)
+  {
+    auto* counts = reinterpret_cast<std::int32_t*>(arrays.Colors);
+    session.StoreFlipCounts(counts, arrays.Stream);
+    const double largest = FindRange(counts, count, arrays.Stream).Largest;
+    ColorValues(counts, count, colors.Choose(largest), arrays.Colors, arrays.Stream);
+  }
+  else
+  {
+    ColorValues(degrees, count, colors.Choose(0.0), arrays.Colors, arrays.Stream);
+  }
+  return smallest;
+}
+}
+
+/// What was written last, on a GPU.
+class DrawnTriangles::OnDevice
+{
+public:
+  explicit OnDevice(int device)
+    : Backend({ device }, 1)
+  {
+  }
+
+  int GetDevice() const { return this->Backend.GetContext().Device; }
+
+  void Forget() { this->Engine = 0; }
+
+  double Update(
+    const EngineTriangles& triangles, const DrawnArrays& arrays, const DrawnColors& colors)
+  {
+    const std::unique_ptr<DeviceScope> current = this->Backend.MakeCurrent();
+    if (std::exchange(this->Engine, 0) != triangles.Engine)
+    {
+      this->Begin(triangles.Count);
+    }
+    DeviceMesh mesh;
+    mesh.Points = arrays.Points;
+    mesh.Stream = arrays.Stream;
+    const LocalDeviceMesh local = this->Backend.Localize(mesh); // waits for the caller's stream
+    this->Backend.WaitFor(triangles.Stream);
+    DrawnView view{ triangles.Records, triangles.Order, triangles.Count, this->Flips.Data(),
+      this->Degrees.Data(), local.View().Points, arrays.Triangles, arrays.Colors,
+      this->Table.View(), colors.ByFlipCount };
+    const DrawnExtremes found = this->UpdateChanged(view);
+    if (this->TakeColors(colors, found.LargestCount))
+    {
+      view.Table = this->Table.View();
+      this->Backend.ForEach(view.Count, StoreColorStep{ view });
+      this->Backend.Synchronize();
+    }
+    this->Engine = triangles.Engine;
+    return found.GetSmallestAngle();
+  }
+
+private:
+  /// Lets all triangles seem changed.
+  void Begin(std::int64_t count)
+  {
+    if (count != static_cast<std::int64_t>(this->Flips.Size()))
+    {
+      this->Flips = Array<std::uint32_t>();
+      this->Degrees = Array<float>();
+      this->Degrees = this->Backend.MakeArray<float>(count);
+      this->Flips = this->Backend.MakeArray<std::uint32_t>(count);
+    }
+    this->Backend.Fill(this->Flips.Data(), 255, count);
+  }
+
+  DrawnExtremes UpdateChanged(const DrawnView& view)
+  {
+    if (this->Found.Size() == 0)
+    {
+      this->Found = this->Backend.MakeArray<DrawnExtremes>(1);
+    }
+    this->Backend.Fill(this->Found.Data(), 255, 1);
+    const auto blocks =
+      static_cast<unsigned>((view.Count + TrianglesPerBlock - 1) / TrianglesPerBlock);
+    this->Backend.Launch([&](cudaStream_t stream)
+      { UpdateDrawnKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(view, this->Found.Data()); });
+    DrawnExtremes found;
+    this->Backend.Download(this->Found.Data(), 1, &found);
+    return found;
+  }
+
+  /// @returns whether all triangles need other colours.
+  bool TakeColors(const DrawnColors& colors, std::int32_t largestCount)
+  {
+    const ColorBands bands = colors.Choose(colors.ByFlipCount ? largestCount : 0.0);
+    const bool isOther = !AreSame(this->Bands, bands);
+    if (isOther || this->Table.View().Size == 0)
+    {
+      this->Table = ColorTable(bands, this->Backend);
+      this->Bands = bands;
+    }
+    return std::exchange(this->ByFlipCount, colors.ByFlipCount) != colors.ByFlipCount || isOther;
+  }
+
+  CudaBackend Backend;
+  std::uint64_t Engine = 0; ///< Whose triangles were written; 0: nobody's.
+  Array<std::uint32_t> Flips;
+  Array<float> Degrees;
+  Array<DrawnExtremes> Found;
+  ColorBands Bands; ///< What Table was made from.
+  ColorTable Table;
+  bool ByFlipCount = false; ///< At the last update.
+};
+
+//------------------------------------------------------------------------------
+DrawnTriangles::DrawnTriangles() = default;
+
+DrawnTriangles::~DrawnTriangles() = default;
+
+void DrawnTriangles::Forget()
+{
+  if (this->Shown)
+  {
+    this->Shown->Forget();
+  }
+}
+
+double DrawnTriangles::Update(
+  const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors)
+{
+  if (arrays.Triangles.Count == 0)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const EngineTriangles triangles = session.ViewTriangles();
+  if (!triangles.Records || FindDeviceOf(arrays.Colors) != triangles.Device)
+  {
+    this->Shown.reset();
+    return StoreAll(session, arrays, colors);
+  }
+  if (!this->Shown || this->Shown->GetDevice() != triangles.Device)
+  {
+    this->Shown = std::make_unique<OnDevice>(triangles.Device);
+  }
+  return this->Shown->Update(triangles, arrays, colors);
+}
+
+}

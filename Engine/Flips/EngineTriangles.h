@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_ENGINETRIANGLES_H
+#define DELAUNAYFLIP_ENGINETRIANGLES_H
+
+#include "DeviceMesh.h"
+#include "EdgeMesh.h"
+#include "SpatialOrder.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// The triangles of an engine where they are in the memory of a GPU, to be read until the engine
+/// works again.
+struct EngineTriangles
+{
+  const TriangleRecord* Records = nullptr; ///< Null if they are in no GPU's memory.
+  SpatialOrderView Order{};
+  std::int64_t Count = 0;
+  int Device = -1; ///< CUDA's number of the GPU.
+  DeviceStream Stream; ///< The engine's. What is in it may still write the records.
+  std::uint64_t Engine = 0; ///< Another number for every engine of the process.
+};
+
+}
+
+#endif

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaError.h"
+#include "DeviceColors.h"
+#include "FlipError.h"
+#include "GpuTestSupport.h"
+#include "TestDevice.h"
+
+#include <cmath>
+#include <optional>
+
+/// @file
+/// Arrays that are drawn while a session goes on: bit for bit what is written all at once.
+
+namespace delaunayflip
+{
+namespace
+{
+
+const std::vector<std::uint32_t> Colors = { 11, 12, 13, 14, 15, 16, 17 };
+
+DrawnColors ByAngle(double last)
+{
+  return { false, [last](double) { return ColorBands{ Colors, 0.0, last, 9 }; } };
+}
+
+/// The scale follows the largest count.
+DrawnColors ByFlipCount()
+{
+  return { true, [](double largest) { return ColorBands{ Colors, 0.0, largest + 1.0, 9 }; } };
+}
+
+struct Picture
+{
+  std::vector<std::int32_t> Triangles;
+  std::vector<std::uint32_t> Colors;
+  double SmallestAngle = 0.0;
+
+  bool operator==(const Picture& other) const
+  {
+    return this->Triangles == other.Triangles && this->Colors == other.Colors &&
+      this->SmallestAngle == other.SmallestAngle;
+  }
+};
+
+class DrawnTrianglesTest : public GpuTest
+{
+protected:
+  void SetUp() override
+  {
+    GpuTest::SetUp();
+    if (!this->IsSkipped())
+    {
+      this->UseMesh(MakeRandomBadMeshDouble(20000, 5));
+    }
+  }
+  void TearDown() override { InjectCudaError(0, cudaSuccess); }
+
+  void UseMesh(OwnedMesh<double> mesh)
+  {
+    this->Mesh = std::move(mesh);
+    const std::int64_t count = this->Mesh.NumberOfTriangles();
+    this->Memory.emplace(this->Mesh.View(), 3);
+    this->ColorMemory.emplace(std::vector<std::uint32_t>(count, 77));
+  }
+
+  FlipSession Begin(BackendKind backend = BackendKind::CUDA) const
+  {
+    FlipOptions options;
+    options.Backend = backend;
+    return FlipSession(this->Mesh.View(), options);
+  }
+
+  DrawnArrays View() const
+  {
+    return { DevicePointArray(this->Memory->Points.Data(), this->Mesh.NumberOfPoints()),
+      this->Memory->ViewResult(), this->ColorMemory->Data(), {} };
+  }
+
+  /// What an update leaves in the arrays.
+  Picture Update(const FlipSession& session, const DrawnColors& colors)
+  {
+    const double smallest = this->Drawn.Update(session, this->View(), colors);
+    return { this->Memory->Result.Get(), this->ColorMemory->Get(), smallest };
+  }
+
+  /// The same by the functions that write everything, in other arrays.
+  Picture WriteAll(const FlipSession& session, const DrawnColors& colors) const
+  {
+    const std::int64_t count = this->Mesh.NumberOfTriangles();
+    const DeviceValues<std::int32_t> ids(std::vector<std::int32_t>(3 * count, 55));
+    const DeviceValues<std::uint32_t> painted(std::vector<std::uint32_t>(count, 55));
+    const DeviceValues<float> degrees(std::vector<float>(count, 55.0f));
+    const DeviceValues<std::int32_t> flips(std::vector<std::int32_t>(count, 55));
+    session.StoreTriangles(MutableTriangleArray(ids.Data(), count), {});
+    session.StoreFlipCounts(flips.Data(), {});
+    DeviceMesh mesh;
+    mesh.Points = this->View().Points;
+    mesh.Triangles = TriangleArray(ids.Data(), count);
+    const double smallest =
+      FindSmallestAngles(mesh, GeometryKind::Surface, degrees.Data()).Smallest;
+    const double largest = FindRange(flips.Data(), count, {}).Largest;
+    const ColorBands bands = colors.Choose(colors.ByFlipCount ? largest : 0.0);
+    colors.ByFlipCount ? ColorValues(flips.Data(), count, bands, painted.Data(), {})
+                       : ColorValues(degrees.Data(), count, bands, painted.Data(), {});
+    return { ids.Get(), painted.Get(), smallest };
+  }
+
+  /// Updates the arrays and compares them.
+  void ExpectSame(const FlipSession& session, const DrawnColors& colors)
+  {
+    EXPECT_TRUE(this->Update(session, colors) == this->WriteAll(session, colors));
+  }
+
+  /// Compares the arrays after every iteration.
+  void ExpectSameIterations(FlipSession session, const DrawnColors& colors)
+  {
+    this->ExpectSame(session, colors);
+    int iterations = 0;
+    for (bool goesOn = true; goesOn; ++iterations)
+    {
+      goesOn = session.Advance(1);
+      this->ExpectSame(session, colors);
+    }
+    EXPECT_LT(5, iterations);
+  }
+
+  void MovePoints()
+  {
+    std::vector<double> points = this->Memory->Points.Get();
+    for (double& coordinate : points)
+    {
+      coordinate = 0.8 * coordinate * coordinate;
+    }
+    this->Memory->Points.Set(points);
+  }
+
+  OwnedMesh<double> Mesh;
+  std::optional<DeviceArrays<double, std::int32_t>> Memory;
+  std::optional<DeviceValues<std::uint32_t>> ColorMemory;
+  DrawnTriangles Drawn;
+};
+
+TEST_F(DrawnTrianglesTest, FollowsASessionByAngle)
+{
+  this->ExpectSameIterations(this->Begin(), ByAngle(60.0));
+}
+
+TEST_F(DrawnTrianglesTest, FollowsASessionByFlipCount)
+{
+  this->ExpectSameIterations(this->Begin(), ByFlipCount());
+}
+
+TEST_F(DrawnTrianglesTest, WritesOnlyWhatHasChanged)
+{
+  FlipSession session = this->Begin();
+  session.Advance(6);
+  this->Update(session, ByAngle(60.0));
+  const std::int64_t count = this->Mesh.NumberOfTriangles();
+  std::vector<std::int32_t> before(count), after(count);
+  session.StoreFlipCounts(before.data());
+  session.Advance(1);
+  session.StoreFlipCounts(after.data());
+  this->Memory->Result.Set(std::vector<std::int32_t>(3 * count, 77));
+  this->ColorMemory->Set(std::vector<std::uint32_t>(count, 77));
+  const Picture partial = this->Update(session, ByAngle(60.0));
+  const Picture whole = this->WriteAll(session, ByAngle(60.0));
+  std::int64_t written = 0;
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    const bool hasChanged = before[t] != after[t];
+    written += hasChanged ? 1 : 0;
+    ASSERT_EQ(hasChanged ? whole.Colors[t] : 77, partial.Colors[t]) << "triangle " << t;
+    for (std::int64_t i = 3 * t; i < 3 * t + 3; ++i)
+    {
+      ASSERT_EQ(hasChanged ? whole.Triangles[i] : 77, partial.Triangles[i]) << "triangle " << t;
+    }
+  }
+  EXPECT_LT(0, written);
+  EXPECT_LT(written, count);
+  EXPECT_EQ(whole.SmallestAngle, partial.SmallestAngle);
+}
+
+TEST_F(DrawnTrianglesTest, OtherColors)
+{
+  FlipSession session = this->Begin();
+  for (const DrawnColors& colors :
+    { ByAngle(60.0), ByAngle(30.0), ByFlipCount(), ByFlipCount(), ByAngle(30.0), ByAngle(60.0) })
+  {
+    this->ExpectSame(session, colors);
+    session.Advance(1);
+  }
+}
+
+/// A new one may be where another was before.
+TEST_F(DrawnTrianglesTest, OtherSessions)
+{
+  std::optional<FlipSession> session;
+  for (const int iterations : { 4, 0, 9, 3 })
+  {
+    session.reset();
+    session.emplace(this->Begin());
+    session->Advance(iterations);
+    this->ExpectSame(*session, ByAngle(60.0));
+    session->Advance(1);
+    this->ExpectSame(*session, ByAngle(60.0));
+  }
+  this->UseMesh(MakeRandomBadMeshDouble(700, 6));
+  this->ExpectSameIterations(this->Begin(), ByFlipCount());
+}
+
+TEST_F(DrawnTrianglesTest, MovedPointsAndOtherArrays)
+{
+  FlipSession session = this->Begin();
+  session.Advance(3);
+  this->ExpectSame(session, ByAngle(60.0));
+  this->MovePoints();
+  this->Drawn.Forget();
+  this->ExpectSame(session, ByAngle(60.0));
+  this->Memory->Result.Set(std::vector<std::int32_t>(this->Mesh.Triangles.size(), 77));
+  this->Drawn.Forget();
+  session.Advance(1);
+  this->ExpectSame(session, ByAngle(60.0));
+}
+
+TEST_F(DrawnTrianglesTest, SessionsWhoseTrianglesAreElsewhere)
+{
+  FlipSession session = this->Begin();
+  session.Advance(3);
+  this->ExpectSame(session, ByAngle(60.0));
+  this->ExpectSameIterations(this->Begin(BackendKind::Threads), ByFlipCount());
+  this->ExpectSame(session, ByFlipCount());
+}
+
+TEST_F(DrawnTrianglesTest, FlipsOfInsertedConstraintsCount)
+{
+  const std::int64_t edge[] = { 100, 900, 1000, 150 };
+  const unsigned char inserts[] = { 1, 1 };
+  TriangleMesh mesh = this->Mesh.View();
+  mesh.ConstraintEdges = edge;
+  mesh.NumberOfConstraintEdges = 2;
+  mesh.ConstraintsToInsert = inserts;
+  FlipOptions options;
+  options.Backend = BackendKind::CUDA;
+  FlipSession session(mesh, options);
+  std::vector<std::int32_t> counts(this->Mesh.NumberOfTriangles());
+  session.StoreFlipCounts(counts.data());
+  EXPECT_LT(0, *std::max_element(counts.begin(), counts.end()));
+  this->ExpectSameIterations(std::move(session), ByFlipCount());
+}
+
+/// Each call of an update fails once, and the next update makes up for it.
+TEST_F(DrawnTrianglesTest, AnyCallMayFail)
+{
+  this->UseMesh(MakeRandomBadMeshDouble(2000, 7));
+  bool hasFailed = true;
+  std::int64_t call = 1;
+  for (; hasFailed; ++call)
+  {
+    FlipSession session = this->Begin();
+    this->ExpectSame(session, ByAngle(60.0));
+    session.Advance(2);
+    hasFailed = false;
+    InjectCudaError(call, cudaErrorMemoryAllocation);
+    try
+    {
+      this->Drawn.Update(session, this->View(), ByFlipCount());
+    }
+    catch (const BackendUnavailable&)
+    {
+      hasFailed = true;
+    }
+    InjectCudaError(0, cudaSuccess);
+    this->ExpectSame(session, ByFlipCount());
+  }
+  EXPECT_LT(10, call);
+}
+
+TEST_F(DrawnTrianglesTest, NothingToDraw)
+{
+  const FlipSession session = this->Begin();
+  EXPECT_TRUE(std::isnan(this->Drawn.Update(session, {}, ByAngle(60.0))));
+  const DrawnColors none{ false, [](double) { return ColorBands(); } };
+  EXPECT_THROW(this->Drawn.Update(session, this->View(), none), InvalidOptions);
+  this->ExpectSame(session, ByAngle(60.0));
+}
+
+}
+}
