@@ -65,7 +65,7 @@ struct DrawnView
   std::int64_t Count;
   std::uint32_t* Flips; ///< At the last update, in the engine's order, as are the angles.
   float* Degrees;
-  PointArray Points;
+  PointArray Points; ///< In the engine's order.
   MutableTriangleArray Triangles;
   std::uint32_t* Colors;
   ColorTableView Table;
@@ -75,13 +75,11 @@ struct DrawnView
   {
     return this->Records[t].Flips / OneFlip;
   }
-  __device__ std::int64_t GetVertex(std::int64_t t, int slot) const
-  {
-    return this->Order.GetVertex(this->Records[t].Vertices[slot]);
-  }
   __device__ void StoreId(std::int64_t t, int slot) const
   {
-    this->Triangles.Set(this->Records[t].InputTriangle, slot, this->GetVertex(t, slot));
+    const TriangleRecord& triangle = this->Records[t];
+    this->Triangles.Set(
+      triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
   }
   /// Needs the flips and the angle.
   __device__ void StoreColor(std::int64_t t) const
@@ -93,8 +91,8 @@ struct DrawnView
   /// Stores what StoreId does not.
   __device__ void Measure(std::int64_t t) const
   {
-    const std::int64_t ids[3] = { this->GetVertex(t, 0), this->GetVertex(t, 1),
-      this->GetVertex(t, 2) };
+    const VertexId(&vertices)[3] = this->Records[t].Vertices;
+    const std::int64_t ids[3] = { vertices[0], vertices[1], vertices[2] };
     TriangleMesh triangle;
     triangle.Points = this->Points;
     triangle.Triangles.Ids64 = ids;
@@ -156,6 +154,21 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   }
 }
 
+/// Copies coordinate i of the points in an order of neighbours, so that those of a triangle are in
+/// few sectors of memory.
+template <typename T>
+struct SortPointsStep
+{
+  const T* Caller;
+  SpatialOrderView Order;
+  T* Sorted;
+
+  __device__ void operator()(std::int64_t i) const
+  {
+    this->Sorted[i] = this->Caller[3 * std::int64_t(this->Order.GetVertex(i / 3)) + i % 3];
+  }
+};
+
 struct StoreColorStep
 {
   DrawnView View;
@@ -213,18 +226,16 @@ public:
     const EngineTriangles& triangles, const DrawnArrays& arrays, const DrawnColors& colors)
   {
     const std::unique_ptr<DeviceScope> current = this->Backend.MakeCurrent();
+    this->Backend.WaitFor(arrays.Stream);
+    this->Backend.WaitFor(triangles.Stream);
     if (std::exchange(this->Engine, 0) != triangles.Engine)
     {
       this->Begin(triangles.Count);
+      this->SortPoints(arrays, triangles.Order);
     }
-    DeviceMesh mesh;
-    mesh.Points = arrays.Points;
-    mesh.Stream = arrays.Stream;
-    const LocalDeviceMesh local = this->Backend.Localize(mesh); // waits for the caller's stream
-    this->Backend.WaitFor(triangles.Stream);
     DrawnView view{ triangles.Records, triangles.Order, triangles.Count, this->Flips.Data(),
-      this->Degrees.Data(), local.View().Points, arrays.Triangles, arrays.Colors,
-      this->Table.View(), colors.ByFlipCount };
+      this->Degrees.Data(), this->Points, arrays.Triangles, arrays.Colors, this->Table.View(),
+      colors.ByFlipCount };
     const DrawnExtremes found = this->UpdateChanged(view);
     if (this->TakeColors(colors, found.LargestCount))
     {
@@ -248,6 +259,30 @@ private:
       this->Flips = this->Backend.MakeArray<std::uint32_t>(count);
     }
     this->Backend.Fill(this->Flips.Data(), 255, count);
+  }
+
+  void SortPoints(const DrawnArrays& arrays, const SpatialOrderView& order)
+  {
+    DeviceMesh mesh;
+    mesh.Points = arrays.Points;
+    mesh.Stream = arrays.Stream;
+    const LocalDeviceMesh local = this->Backend.Localize(mesh);
+    const PointArray& points = local.View().Points;
+    this->Points = points.Floats ? this->Sort(points.Floats, points.Count, order, this->Floats)
+                                 : this->Sort(points.Doubles, points.Count, order, this->Doubles);
+  }
+
+  template <typename T>
+  PointArray Sort(
+    const T* caller, std::int64_t count, const SpatialOrderView& order, Array<T>& sorted) const
+  {
+    if (static_cast<std::int64_t>(sorted.Size()) != 3 * count)
+    {
+      sorted = Array<T>();
+      sorted = this->Backend.MakeArray<T>(3 * count);
+    }
+    this->Backend.ForEach(3 * count, SortPointsStep<T>{ caller, order, sorted.Data() });
+    return PointArray(sorted.Data(), count);
   }
 
   DrawnExtremes UpdateChanged(const DrawnView& view)
@@ -283,6 +318,9 @@ private:
   std::uint64_t Engine = 0; ///< Whose triangles were written; 0: nobody's.
   Array<std::uint32_t> Flips;
   Array<float> Degrees;
+  Array<float> Floats;
+  Array<double> Doubles;
+  PointArray Points; ///< One of these two, in the engine's order.
   Array<DrawnExtremes> Found;
   ColorBands Bands; ///< What Table was made from.
   ColorTable Table;

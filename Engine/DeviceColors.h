@@ -62,7 +62,8 @@ DELAUNAYFLIP_EXPORT void ColorValues(const std::int32_t* values, std::int64_t co
 /// What a program draws a session's mesh from, in the memory of a GPU.
 struct DrawnArrays
 {
-  DevicePointArray Points; ///< Where the points of the mesh are, which angles depend on.
+  /// Where the points of the mesh are, which angles depend on. Read if everything is written.
+  DevicePointArray Points;
   MutableTriangleArray Triangles; ///< As many as the session has.
   std::uint32_t* Colors = nullptr; ///< One per triangle.
   DeviceStream Stream;
@@ -79,8 +80,8 @@ struct DrawnColors
 /// Keeps arrays from which a mesh is drawn up to date with a session that is advanced. It writes
 /// only the triangles that have changed since its last update, those of which the flip count is
 /// another, and their colours. It writes all triangles of another session, and all colours if
-/// other ones are chosen. For that it keeps the flip counts and smallest angles of the last update
-/// in the memory of the GPU, 8 bytes per triangle.
+/// other ones are chosen. For that it keeps, in the memory of the GPU, the flip counts and smallest
+/// angles of the last update, 8 bytes per triangle, and the points.
 class DELAUNAYFLIP_EXPORT DrawnTriangles
 {
 public:
