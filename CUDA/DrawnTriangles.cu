@@ -222,7 +222,8 @@ public:
 
   void Forget() { this->Engine = 0; }
 
-  double Update(
+  /// Does not wait for the GPU if colours show angles.
+  void Update(
     const EngineTriangles& triangles, const DrawnArrays& arrays, const DrawnColors& colors)
   {
     const std::unique_ptr<DeviceScope> current = this->Backend.MakeCurrent();
@@ -233,18 +234,29 @@ public:
       this->Begin(triangles.Count);
       this->SortPoints(arrays, triangles.Order);
     }
+    bool areOther = !colors.ByFlipCount && this->TakeColors(colors, 0.0);
     DrawnView view{ triangles.Records, triangles.Order, triangles.Count, this->Flips.Data(),
       this->Degrees.Data(), this->Points, arrays.Triangles, arrays.Colors, this->Table.View(),
       colors.ByFlipCount };
-    const DrawnExtremes found = this->UpdateChanged(view);
-    if (this->TakeColors(colors, found.LargestCount))
+    this->UpdateChanged(view);
+    if (colors.ByFlipCount)
+    {
+      areOther = this->TakeColors(colors, this->WaitForExtremes().LargestCount);
+    }
+    if (areOther)
     {
       view.Table = this->Table.View();
       this->Backend.ForEach(view.Count, StoreColorStep{ view });
-      this->Backend.Synchronize();
     }
+    this->LetWait(arrays.Stream);
+    this->LetWait(triangles.Stream); // the engine must not change what is being read
     this->Engine = triangles.Engine;
-    return found.GetSmallestAngle();
+  }
+
+  double GetSmallestAngle() const
+  {
+    const std::unique_ptr<DeviceScope> current = this->Backend.MakeCurrent();
+    return this->WaitForExtremes().GetSmallestAngle();
   }
 
 private:
@@ -285,7 +297,7 @@ private:
     return PointArray(sorted.Data(), count);
   }
 
-  DrawnExtremes UpdateChanged(const DrawnView& view)
+  void UpdateChanged(const DrawnView& view)
   {
     if (this->Found.Size() == 0)
     {
@@ -296,7 +308,27 @@ private:
       static_cast<unsigned>((view.Count + TrianglesPerBlock - 1) / TrianglesPerBlock);
     this->Backend.Launch([&](cudaStream_t stream)
       { UpdateDrawnKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(view, this->Found.Data()); });
+  }
+
+  /// Lets later work in a stream wait for the update.
+  void LetWait(const DeviceStream& stream) const
+  {
+    const CudaContext& context = this->Backend.GetContext();
+    CallCuda(
+      "record an event", [&] { return cudaEventRecord(context.CallerDone, context.Stream); });
+    CallCuda("wait for an event",
+      [&] {
+        return cudaStreamWaitEvent(static_cast<cudaStream_t>(stream.Handle), context.CallerDone, 0);
+      });
+  }
+
+  DrawnExtremes WaitForExtremes() const
+  {
     DrawnExtremes found;
+    if (this->Found.Size() == 0)
+    {
+      return found;
+    }
     this->Backend.Download(this->Found.Data(), 1, &found);
     return found;
   }
@@ -340,24 +372,32 @@ void DrawnTriangles::Forget()
   }
 }
 
-double DrawnTriangles::Update(
+double DrawnTriangles::GetSmallestAngle() const
+{
+  return this->Shown ? this->Shown->GetSmallestAngle() : this->Smallest;
+}
+
+void DrawnTriangles::Update(
   const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors)
 {
   if (arrays.Triangles.Count == 0)
   {
-    return std::numeric_limits<double>::quiet_NaN();
+    this->Shown.reset();
+    this->Smallest = std::numeric_limits<double>::quiet_NaN();
+    return;
   }
   const EngineTriangles triangles = session.ViewTriangles();
   if (!triangles.Records || FindDeviceOf(arrays.Colors) != triangles.Device)
   {
     this->Shown.reset();
-    return StoreAll(session, arrays, colors);
+    this->Smallest = StoreAll(session, arrays, colors);
+    return;
   }
   if (!this->Shown || this->Shown->GetDevice() != triangles.Device)
   {
     this->Shown = std::make_unique<OnDevice>(triangles.Device);
   }
-  return this->Shown->Update(triangles, arrays, colors);
+  this->Shown->Update(triangles, arrays, colors);
 }
 
 }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -95,15 +96,21 @@ public:
   void Forget();
 
   /// For any session: one on another GPU or on the CPU, or with constraints that were inserted,
-  /// writes everything each time.
-  /// @returns the smallest angle of the mesh in degrees; NaN if there is none.
+  /// writes everything each time. Work that follows in the stream of the arrays finds them updated;
+  /// the call itself may return before.
   /// @throws InvalidOptions if the arrays are not in the memory of a GPU or there is no colour;
   /// BackendUnavailable. Then the next update writes everything.
-  double Update(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors);
+  void Update(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors);
+
+  /// Waits for the last update.
+  /// @returns the smallest angle of the mesh in degrees; NaN if there is none, or no update.
+  /// @throws BackendUnavailable.
+  double GetSmallestAngle() const;
 
 private:
   class OnDevice;
   std::unique_ptr<OnDevice> Shown; ///< None if the last update has written everything.
+  double Smallest = std::numeric_limits<double>::quiet_NaN(); ///< If so: the smallest angle.
 };
 
 }

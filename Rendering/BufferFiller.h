@@ -52,9 +52,13 @@ public:
   virtual void Register(const DrawnBuffers& buffers) = 0;
   virtual void Release() noexcept = 0;
 
-  /// @returns the smallest angle of the mesh in degrees; NaN if there is none.
+  /// May return before the buffers are written, as long as OpenGL waits for that.
   /// @throws std::exception; then what the buffers hold is undefined.
-  virtual double Fill(const FilledMesh& mesh) = 0;
+  virtual void Fill(const FilledMesh& mesh) = 0;
+
+  /// The smallest angle of the mesh in the buffers in degrees; NaN if there is none, or if it
+  /// cannot be found out.
+  virtual double GetSmallestAngle() noexcept = 0;
 };
 
 /// The one that fills buffers by CUDA. Calls nothing of CUDA before it must.

@@ -231,7 +231,7 @@ public:
 
   void Release() noexcept override { this->Buffers.reset(); }
 
-  double Fill(const FilledMesh& mesh) override
+  void Fill(const FilledMesh& mesh) override
   {
     if (!this->Buffers || !IsOnGpu(mesh.Session.GetReport().Backend))
     {
@@ -239,15 +239,25 @@ public:
     }
     const CurrentGpu current(this->Device);
     this->CopyPoints(mesh);
-    double smallest = 0.0;
     this->Buffers->Map(this->Count,
       [&](std::int32_t* triangles, std::uint32_t* colors)
       {
         const DrawnArrays arrays{ this->Points->View(),
           MutableTriangleArray(triangles, this->Count), colors, this->Buffers->GetStream() };
-        smallest = this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
+        this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
       });
-    return smallest;
+  }
+
+  double GetSmallestAngle() noexcept override
+  {
+    try
+    {
+      return this->Drawn.GetSmallestAngle();
+    }
+    catch (const std::exception&) // the next call of Fill says why
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
   }
 
 private:

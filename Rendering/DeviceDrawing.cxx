@@ -80,7 +80,6 @@ struct DeviceDrawing::Parts
   vtkNew<LiveMeshSource> Source;
   vtkNew<DeviceMapper> Mapper;
   Coloring Colors;
-  double SmallestAngle = std::numeric_limits<double>::quiet_NaN();
   bool IsCalm = false; ///< SetQuiet().
 
   Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
@@ -157,7 +156,7 @@ void DeviceDrawing::Parts::FillBuffers()
   if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
   {
     vtkPolyData* mesh = this->Mapper->GetInput();
-    this->SmallestAngle = this->Filler->Fill(
+    this->Filler->Fill(
       { *session, ViewPoints(mesh), mesh->GetPoints()->GetMTime(), this->Colors.Shown });
   }
 }
@@ -249,6 +248,6 @@ void DeviceDrawing::SetQuiet(bool isQuiet)
 
 std::string DeviceDrawing::GetFailure() const { return this->On->Mapper->GetFailure(); }
 
-double DeviceDrawing::GetSmallestAngle() const { return this->On->SmallestAngle; }
+double DeviceDrawing::GetSmallestAngle() const { return this->On->Filler->GetSmallestAngle(); }
 
 }

@@ -67,7 +67,7 @@ public:
   std::string FindObstacle(vtkDelaunayFlip*) override { return {}; }
   void Register(const DrawnBuffers& buffers) override { this->Buffers = buffers; }
   void Release() noexcept override {}
-  double Fill(const FilledMesh& mesh) override
+  void Fill(const FilledMesh& mesh) override
   {
     const std::int64_t count = this->Buffers.Count;
     std::vector<std::int32_t> ids(3 * count);
@@ -84,10 +84,12 @@ public:
       mesh.Colors.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
     Write(this->Buffers.Colors,
       mesh.Colors.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees));
-    return *std::min_element(degrees.begin(), degrees.end());
+    this->SmallestAngle = *std::min_element(degrees.begin(), degrees.end());
   }
+  double GetSmallestAngle() noexcept override { return this->SmallestAngle; }
 
 private:
+  double SmallestAngle = 0.0;
   DrawnBuffers Buffers;
 };
 
@@ -112,11 +114,12 @@ public:
     Plan.IsRegistered = false;
     this->Filler->Release();
   }
-  double Fill(const FilledMesh& mesh) override
+  void Fill(const FilledMesh& mesh) override
   {
     Count(Plan.Fills, Plan.FailingFill, "no filling");
-    return this->Filler->Fill(mesh);
+    this->Filler->Fill(mesh);
   }
+  double GetSmallestAngle() noexcept override { return this->Filler->GetSmallestAngle(); }
 
 private:
   static void Count(int& calls, int failing, const char* message)

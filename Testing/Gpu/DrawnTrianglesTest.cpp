@@ -80,7 +80,8 @@ protected:
   /// What an update leaves in the arrays.
   Picture Update(const FlipSession& session, const DrawnColors& colors)
   {
-    const double smallest = this->Drawn.Update(session, this->View(), colors);
+    this->Drawn.Update(session, this->View(), colors);
+    const double smallest = this->Drawn.GetSmallestAngle();
     return { this->Memory->Result.Get(), this->ColorMemory->Get(), smallest };
   }
 
@@ -253,33 +254,60 @@ TEST_F(DrawnTrianglesTest, FlipsOfInsertedConstraintsCount)
 TEST_F(DrawnTrianglesTest, AnyCallMayFail)
 {
   this->UseMesh(MakeRandomBadMeshDouble(2000, 7));
-  bool hasFailed = true;
-  std::int64_t call = 1;
-  for (; hasFailed; ++call)
+  for (const DrawnColors& colors : { ByFlipCount(), ByAngle(50.0) })
   {
-    FlipSession session = this->Begin();
-    this->ExpectSame(session, ByAngle(60.0));
-    session.Advance(2);
-    hasFailed = false;
-    InjectCudaError(call, cudaErrorMemoryAllocation);
-    try
+    bool hasFailed = true;
+    std::int64_t call = 1;
+    for (; hasFailed; ++call)
     {
-      this->Drawn.Update(session, this->View(), ByFlipCount());
+      FlipSession session = this->Begin();
+      this->ExpectSame(session, ByAngle(60.0));
+      session.Advance(2);
+      hasFailed = false;
+      InjectCudaError(call, cudaErrorMemoryAllocation);
+      try
+      {
+        this->Drawn.Update(session, this->View(), colors);
+        this->Drawn.GetSmallestAngle();
+      }
+      catch (const BackendUnavailable&)
+      {
+        hasFailed = true;
+      }
+      InjectCudaError(0, cudaSuccess);
+      this->ExpectSame(session, colors);
     }
-    catch (const BackendUnavailable&)
-    {
-      hasFailed = true;
-    }
-    InjectCudaError(0, cudaSuccess);
-    this->ExpectSame(session, ByFlipCount());
+    EXPECT_LT(10, call);
   }
-  EXPECT_LT(10, call);
+}
+
+/// An update need not be over when the engine is told to go on.
+TEST_F(DrawnTrianglesTest, TheEngineWaitsForAnUpdate)
+{
+  this->UseMesh(MakeRandomBadMeshDouble(300000, 8));
+  FlipSession session = this->Begin();
+  std::vector<Picture> expected;
+  while (session.Advance(1))
+  {
+    expected.push_back(this->WriteAll(session, ByAngle(60.0)));
+  }
+  session = this->Begin();
+  session.Advance(1);
+  for (const Picture& picture : expected)
+  {
+    this->Drawn.Update(session, this->View(), ByAngle(60.0));
+    session.Advance(1);
+    const double smallest = this->Drawn.GetSmallestAngle();
+    const Picture actual{ this->Memory->Result.Get(), this->ColorMemory->Get(), smallest };
+    EXPECT_TRUE(picture == actual);
+  }
 }
 
 TEST_F(DrawnTrianglesTest, NothingToDraw)
 {
   const FlipSession session = this->Begin();
-  EXPECT_TRUE(std::isnan(this->Drawn.Update(session, {}, ByAngle(60.0))));
+  this->Drawn.Update(session, {}, ByAngle(60.0));
+  EXPECT_TRUE(std::isnan(this->Drawn.GetSmallestAngle()));
   const DrawnColors none{ false, [](double) { return ColorBands(); } };
   EXPECT_THROW(this->Drawn.Update(session, this->View(), none), InvalidOptions);
   this->ExpectSame(session, ByAngle(60.0));

@@ -171,8 +171,10 @@ void TimeFilling(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& 
                              return ColorBands{ std::vector<std::uint32_t>(12, 7), 0.0, 60.0, 0 };
                            } };
   const PointArray points(mesh.Floats.data(), mesh.CountPoints());
-  const auto fill = [&]() {
-    return filler->Fill({ *scene.Filter->GetSession(), points, 0, colors }) >= 0.0;
+  const auto fill = [&]()
+  {
+    filler->Fill({ *scene.Filter->GetSession(), points, 0, colors });
+    return filler->GetSmallestAngle() >= 0.0; // waits for the GPU
   };
   fill();
   const int frames = arguments.Frames;
