@@ -8,6 +8,10 @@
 #include "PieceFlip.h"
 #include "Records.h"
 
+#ifdef DELAUNAYFLIP_HAS_MPI
+#include "MpiGroup.h"
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -33,6 +37,9 @@
 ///     devices=        CUDA's numbers of GPUs, separated by commas: the ranks use them in turn, and
 ///                     the undivided mesh is on all of them
 ///     runs=1          the fastest is printed
+///
+/// delaunay-flip-processes, started by mpirun, does the same with a process for each rank: pieces=
+/// does not matter, and CPU seconds are those of all processes.
 ///
 /// Not measured is how the mesh is made, and how it is divided among ranks. `hash` is one of all
 /// triangles in their order: two programs that print the same have made the same result. `set` is
@@ -138,6 +145,31 @@ Measure TakeTime(const Work& work)
   return measure;
 }
 
+#ifdef DELAUNAYFLIP_HAS_MPI
+Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOptions& options)
+{
+  GroupMeter meter;
+  FlippedPiece flipped;
+  group.Wait();
+  Measure measure = TakeTime(
+    [&](Measure& own)
+    {
+      MeteredGroup metered(group, meter);
+      own.Report = FlipPiece(piece.View(), options, metered, flipped);
+      group.Wait();
+    });
+  measure.CpuSeconds = group.Sum(measure.CpuSeconds);
+  measure.Meter = meter;
+  measure.Hash = group.PassOn(measure.Hash,
+    [&](std::uint64_t hash)
+    {
+      measure.Hash = hash;
+      measure.AddToHash(flipped.Triangles);
+      return measure.Hash;
+    });
+  return measure;
+}
+#else
 /// Undivided, or in pieces without ranks.
 Measure FlipInOneProcess(
   OwnedMesh<float>& mesh, const FlipOptions& options, const PieceDivision& division, bool isLast)
@@ -200,6 +232,7 @@ Measure FlipPieces(
   }
   return measure;
 }
+#endif
 
 std::string DescribeCounts(const Measure& measure)
 {
@@ -230,12 +263,9 @@ void Print(const Settings& settings, const Measure& measure)
     DescribeMachine().c_str());
 }
 
-void Run(const Settings& settings)
+FlipOptions MakeOptions(const Settings& settings, const std::vector<int>& devices)
 {
   const bool isSurface = settings.at("surface") == "1";
-  OwnedMesh<float> mesh = MakeMesh(std::atoll(settings.at("points").c_str()), isSurface);
-  const int count = std::atoi(settings.at("pieces").c_str());
-  const std::vector<int> devices = ReadDevices(settings.at("devices"));
   FlipOptions options;
   options.Geometry = isSurface ? GeometryKind::Surface : GeometryKind::Planar;
   options.TieRule = isSurface ? TieRuleKind::Keep : TieRuleKind::Canonical;
@@ -243,36 +273,98 @@ void Run(const Settings& settings)
   options.Backend = devices.empty() ? BackendKind::Threads : BackendKind::CUDA;
   options.NumberOfThreads = std::atoi(settings.at("threads").c_str());
   options.Device = devices.empty() ? -1 : devices.front();
-  options.Devices = count > 0 ? std::vector<int>() : devices;
-  const bool hasRanks = count > 0 && settings.at("ranks") != "0";
-  const std::vector<OwnPiece> pieces =
-    hasRanks ? DivideMesh(mesh.View(), count) : std::vector<OwnPiece>();
+  return options;
+}
+
+/// @param flip makes a measure; it is given whether it is the last run.
+template <typename Flip>
+Measure FindFastest(const Settings& settings, const Flip& flip)
+{
   Measure best;
   const int runs = std::atoi(settings.at("runs").c_str());
   for (int run = 0; run < runs; ++run)
   {
-    Measure measure = hasRanks
-      ? FlipPieces(pieces, options, devices)
-      : FlipInOneProcess(mesh, options, { count, devices }, run + 1 == runs);
+    Measure measure = flip(run + 1 == runs);
     if (run == 0 || measure.Seconds < best.Seconds)
     {
       best = std::move(measure);
     }
   }
-  Print(settings, best);
+  return best;
 }
+
+OwnedMesh<float> MakeMesh(const Settings& settings)
+{
+  return MakeMesh(std::atoll(settings.at("points").c_str()), settings.at("surface") == "1");
+}
+
+#ifdef DELAUNAYFLIP_HAS_MPI
+OwnPiece MakePiece(const Settings& settings, const MpiGroup& group)
+{
+  const OwnedMesh<float> mesh = MakeMesh(settings);
+  return std::move(DivideMesh(mesh.View(), group.GetSize())[group.GetRank()]);
+}
+
+void Run(Settings settings, MpiGroup& group)
+{
+  settings["pieces"] = std::to_string(group.GetSize());
+  const OwnPiece piece = MakePiece(settings, group);
+  std::vector<int> devices = ReadDevices(settings.at("devices"));
+  if (!devices.empty())
+  {
+    devices = { devices[group.GetRank() % devices.size()] };
+  }
+  const FlipOptions options = MakeOptions(settings, devices);
+  const Measure measure =
+    FindFastest(settings, [&](bool) { return FlipInProcesses(group, piece, options); });
+  if (group.GetRank() == 0)
+  {
+    Print(settings, measure);
+  }
+}
+#else
+void Run(const Settings& settings)
+{
+  OwnedMesh<float> mesh = MakeMesh(settings);
+  const int count = std::atoi(settings.at("pieces").c_str());
+  const std::vector<int> devices = ReadDevices(settings.at("devices"));
+  FlipOptions options = MakeOptions(settings, devices);
+  if (count > 0 && settings.at("ranks") != "0")
+  {
+    const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), count);
+    Print(
+      settings, FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices); }));
+    return;
+  }
+  options.Devices = count > 0 ? std::vector<int>() : devices;
+  const PieceDivision division{ count, devices };
+  Print(settings,
+    FindFastest(
+      settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, division, isLast); }));
+}
+#endif
 
 }
 
 int main(int argc, char** argv)
 {
+#ifdef DELAUNAYFLIP_HAS_MPI
+  MpiGroup group(argc, argv);
+#endif
   try
   {
+#ifdef DELAUNAYFLIP_HAS_MPI
+    Run(ReadSettings(argc, argv), group);
+#else
     Run(ReadSettings(argc, argv));
+#endif
   }
   catch (const std::exception& error)
   {
-    std::fprintf(stderr, "delaunay-flip-pieces: %s\n", error.what());
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+#ifdef DELAUNAYFLIP_HAS_MPI
+    group.Abort();
+#endif
     return 1;
   }
   return 0;

@@ -3,11 +3,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures how one mesh in pieces scales, by delaunay-flip-pieces.
 
-    scaling.py [--quick] [--gpus 0,1] [--turns N] [--output scaling.json] PROGRAM
+    scaling.py [--quick] [--gpus 0,1 | --processes PROGRAM2] [--turns N] [--output scaling.json]
+               PROGRAM
 
 Strong scaling: one mesh (20 million points) in 1, 2, 4, 8 and 16 pieces, a rank with one thread
 each, and undivided, with as many threads. Weak scaling: 1.25 million points per piece. With --gpus
-the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. All cases
+the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. With
+--processes, and delaunay-flip-processes, strong scaling also with processes of mpirun. All cases
 run once in turn, then again (--turns, 3), so what slows the machine down for a while slows all of
 them; the median of a case counts. Prints a table and what the cost model says of 64 nodes; the JSON
 has every run.
@@ -34,7 +36,7 @@ LATENCY, BANDWIDTH = 5e-6, 10e9
 NODES = 64
 
 
-def plan(sizes, gpus):
+def plan(sizes, gpus, with_processes):
     """Settings of all cases, by name."""
     cases = {}
     devices = [f"devices={gpus}"] if gpus else []
@@ -48,23 +50,32 @@ def plan(sizes, gpus):
                 f"points={sizes['strong']}", "pieces=0", f"threads={pieces}"]
         cases[f"strong {pieces}"] = [f"points={sizes['strong']}", f"pieces={pieces}", *devices]
         cases[f"weak {pieces}"] = [f"points={sizes['weak'] * pieces}", f"pieces={pieces}", *devices]
+        if with_processes:
+            cases[f"strong, processes {pieces}"] = cases[f"strong {pieces}"]
     if gpus:
         for pieces in (2, 4, 8):
             cases[f"one GPU {pieces}"] = [f"points={sizes['strong']}", f"pieces={pieces}", *first]
     return cases
 
 
-def measure(program, settings):
-    text = subprocess.run([program, *settings], check=True, capture_output=True, text=True).stdout
+def measure(command, settings):
+    text = subprocess.run([*command, *settings], check=True, capture_output=True, text=True).stdout
     return json.loads(text)
 
 
-def run_all(program, cases, turns):
+def get_command(name, options):
+    """What runs a case."""
+    if "processes" not in name:
+        return [options.program]
+    return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", name.split()[-1], options.processes]
+
+
+def run_all(options, cases):
     runs = {name: [] for name in cases}
-    for turn in range(turns):
+    for turn in range(options.turns):
         for name, settings in cases.items():
-            print(f"turn {turn + 1} of {turns}: {name}", file=sys.stderr)
-            runs[name].append(measure(program, settings))
+            print(f"turn {turn + 1} of {options.turns}: {name}", file=sys.stderr)
+            runs[name].append(measure(get_command(name, options), settings))
     return runs
 
 
@@ -88,7 +99,7 @@ def print_table(cases, cores):
             share = ideal / (pieces * case["seconds"])
         else:
             share = ideal / case["cpu_seconds"]
-        threads = cases.get("undivided" if name == "strong 1" else name.replace("strong", "threads"))
+        threads = cases.get("undivided" if pieces == 1 else f"threads {pieces}")
         rival = f"{threads['seconds'] / case['seconds']:.2f}" if "strong" in name and threads else ""
         print(
             f"{name} | {case['seconds']:.3f} | {case['cpu_seconds']:.3f} | {case['communication_seconds']:.3f} | {rival} | "
@@ -141,11 +152,12 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--quick", action="store_true", help="small meshes, for two cores")
     parser.add_argument("--gpus", default="", help="CUDA's numbers, separated by commas")
+    parser.add_argument("--processes", help="delaunay-flip-processes")
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--output", default="scaling.json")
     options = parser.parse_args()
-    cases = plan(QUICK if options.quick else FULL, options.gpus)
-    runs = run_all(options.program, cases, options.turns)
+    cases = plan(QUICK if options.quick else FULL, options.gpus, options.processes)
+    runs = run_all(options, cases)
     medians = {name: take_median(case) for name, case in runs.items()}
     cores = len(os.sched_getaffinity(0))
     print(f"{medians['undivided']['machine']}; {cores} cores may be used\n")
