@@ -3,6 +3,7 @@
 #include "CudaContext.h"
 
 #include "CudaDevice.h"
+#include "IdleMemory.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -309,7 +310,9 @@ int CountCudaDevices()
   return error == cudaSuccess ? devices : 0;
 }
 
-void ReleaseCudaMemory() { IdleContexts::Get().TakeAll().clear(); }
+void ReleaseCudaMemory() { ReleaseIdleMemory(); }
+
+bool ReleaseIdleMemory() { return !IdleContexts::Get().TakeAll().empty(); }
 
 std::size_t TakePeakCudaMemory() { return IdleContexts::Get().TakePeak(); }
 

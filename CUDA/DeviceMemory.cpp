@@ -4,6 +4,7 @@
 
 #include "CudaError.h"
 #include "FlipError.h"
+#include "IdleMemory.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -47,14 +48,18 @@ void* DeviceMemory::Allocate(std::size_t bytes)
 {
   constexpr std::size_t Least = 256;
   const std::size_t size = std::max(bytes, Least);
-  void* memory = nullptr;
-  CallCuda("allocate memory",
-    [&]
+  return AllocateOrRelease(
+    [&]()
     {
-      return this->Pool ? cudaMallocFromPoolAsync(&memory, size, this->Pool, this->Stream)
-                        : cudaMalloc(&memory, size);
+      void* memory = nullptr;
+      CallCuda("allocate memory",
+        [&]
+        {
+          return this->Pool ? cudaMallocFromPoolAsync(&memory, size, this->Pool, this->Stream)
+                            : cudaMalloc(&memory, size);
+        });
+      return memory;
     });
-  return memory;
 }
 
 void DeviceMemory::Free(void* memory, std::size_t) noexcept

@@ -4,6 +4,7 @@
 
 #include "CudaError.h"
 #include "FlipError.h"
+#include "IdleMemory.h"
 
 #include <cuda.h>
 #include <cuda_runtime_api.h>
@@ -186,7 +187,7 @@ void* SharedMemory::Allocate(std::size_t bytes)
     catch (const BackendUnavailable&)
     {
       this->ReleaseIdle();
-      memory = this->Map(part);
+      memory = AllocateOrRelease([&]() { return this->Map(part); });
     }
   }
   this->Used += part * this->Devices.size();

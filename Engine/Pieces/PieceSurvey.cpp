@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -176,6 +177,10 @@ void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup&
     {
       CheckOptions(options);
       CheckMeshSize(piece.Mesh.Triangles.Count, piece.Mesh.Points.Count);
+      if (piece.Mesh.Points.Count > std::numeric_limits<std::int32_t>::max())
+      {
+        throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");
+      }
       const ThreadBackend backend(options.NumberOfThreads);
       for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
       {

@@ -193,6 +193,16 @@ TEST_P(PieceEdgesTest, IterationLimit)
   }
 }
 
+/// They are not looked at.
+TEST(PiecesTest, TooManyPointsForARankAreAnError)
+{
+  const double x[3] = {};
+  MeshPiece piece;
+  piece.Mesh.Points = PointArray(x, std::int64_t(1) << 31);
+  FlippedPiece flipped;
+  EXPECT_THROW(FlipPiece(piece, {}, *MakeSingleGroup(), flipped), MeshTooLarge);
+}
+
 TEST(PiecesTest, PointsThatCoincideOnOneRankStayApart)
 {
   // A slit from (0, 0) to (1, 0), along which the left piece has two points at the same place.

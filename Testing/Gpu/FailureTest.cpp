@@ -67,6 +67,30 @@ TEST_P(FailureTest, AnyCallMayFail)
   EXPECT_LE(freeBefore, GetFreeMemory() + (std::size_t(4) << 20));
 }
 
+/// Memory that other runs have left is freed before the CPU takes over.
+TEST_P(FailureTest, IdleMemoryIsFreedForARunThatLacksMemory)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(40000, 33);
+  FlipOptions options;
+  const FlipResult expected = Flip(mesh.View(), options);
+  int successes = 0;
+  for (std::int64_t call = 10; call < 50; ++call)
+  {
+    {
+      const FlipSession one(mesh.View(), options);
+      const FlipSession other(mesh.View(), options); // at the same time, so with memory of its own
+    }
+    InjectCudaError(call, GetParam());
+    const FlipResult result = Flip(mesh.View(), options);
+    InjectCudaError(0, cudaSuccess);
+    ASSERT_TRUE(expected.Triangles == result.Triangles) << "call " << call;
+    successes += result.Report.Fallback.empty() ? 1 : 0;
+    ReleaseCudaMemory();
+  }
+  EXPECT_LT(5, successes);
+  EXPECT_GT(40, successes); // a failure of another call has no remedy
+}
+
 TEST_P(FailureTest, ForcedCudaSaysWhy)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 32);
