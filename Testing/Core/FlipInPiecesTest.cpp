@@ -66,24 +66,7 @@ protected:
     return result;
   }
 
-  /// For other meshes: nothing is broken, no edge is left that may flip, and a second run gives the
-  /// same triangles.
-  PiecesResult ExpectGood(const TriangleMesh& mesh, const FlipOptions& options) const
-  {
-    const FlipResult alone = Flip(mesh, options);
-    PiecesResult result = FlipHere(mesh, GetParam(), options);
-    ExpectSameCounts(alone.Report, result.Report);
-    ExpectConsistentStatistics(result.Report);
-    const TriangleArray after = ViewTriangles(result.Triangles);
-    EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
-    EXPECT_EQ(0, CountDuplicateEdgesGained(mesh.Triangles, after));
-    EXPECT_EQ(EulerCharacteristic(mesh.Triangles), EulerCharacteristic(after));
-    this->ExpectNothingLeft(mesh, options, result);
-    EXPECT_EQ(result.Triangles, FlipHere(mesh, GetParam(), options).Triangles);
-    return result;
-  }
-
-private:
+  /// Expects that no edge is left that may flip, with the edges fixed that are fixed in the input.
   void ExpectNothingLeft(
     const TriangleMesh& mesh, FlipOptions options, const PiecesResult& result) const
   {
@@ -101,6 +84,23 @@ private:
     EXPECT_EQ(again.NonDelaunayAfter, result.Report.NonDelaunayAfter);
     EXPECT_EQ(again.BlockedByShape, result.Report.BlockedByShape);
     EXPECT_EQ(again.BlockedByEdge, result.Report.BlockedByEdge);
+  }
+
+  /// For other meshes: nothing is broken, no edge is left that may flip, and a second run gives the
+  /// same triangles.
+  PiecesResult ExpectGood(const TriangleMesh& mesh, const FlipOptions& options) const
+  {
+    const FlipResult alone = Flip(mesh, options);
+    PiecesResult result = FlipHere(mesh, GetParam(), options);
+    ExpectSameCounts(alone.Report, result.Report);
+    ExpectConsistentStatistics(result.Report);
+    const TriangleArray after = ViewTriangles(result.Triangles);
+    EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+    EXPECT_EQ(0, CountDuplicateEdgesGained(mesh.Triangles, after));
+    EXPECT_EQ(EulerCharacteristic(mesh.Triangles), EulerCharacteristic(after));
+    this->ExpectNothingLeft(mesh, options, result);
+    EXPECT_EQ(result.Triangles, FlipHere(mesh, GetParam(), options).Triangles);
+    return result;
   }
 };
 
@@ -206,11 +206,18 @@ TEST_P(FlipInPiecesTest, AnyMess)
     const TriangleMesh mesh = mess.View();
     const PiecesResult result = FlipHere(mesh, GetParam(), mess.Options);
     const FlipResult alone = Flip(mesh, mess.Options);
-    ExpectSameCounts(alone.Report, result.Report);
+    if (!std::isnan(alone.Report.MinimumAngleBefore)) // it has triangles with finite points
+    {
+      ExpectSameCounts(alone.Report, result.Report);
+    }
     const TriangleArray after = ViewTriangles(result.Triangles);
     EXPECT_EQ(0, CountDuplicateEdgesGained(mesh.Triangles, after));
     EXPECT_EQ(EulerCharacteristic(mesh.Triangles), EulerCharacteristic(after));
     EXPECT_EQ(result.Triangles, FlipHere(mesh, GetParam(), mess.Options).Triangles);
+    if (result.Report.Converged())
+    {
+      this->ExpectNothingLeft(mesh, mess.Options, result);
+    }
   }
 }
 
