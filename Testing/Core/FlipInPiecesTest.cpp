@@ -194,6 +194,46 @@ TEST_P(FlipInPiecesTest, ThreeSheets)
   EXPECT_LT(0, result.Report.Edges.NonManifold);
 }
 
+/// Three pages around a spine.
+OwnedMesh<double> MakePages(int length, int width)
+{
+  const double directions[3][2] = { { -1.0, 0.0 }, { 1.0, 0.3 }, { 1.0, -0.3 } };
+  OwnedMesh<double> mesh;
+  for (int i = 0; i <= length; ++i)
+  {
+    mesh.Points.insert(mesh.Points.end(), { 0.0, 1.0 * i, 0.0 });
+  }
+  for (int page = 0; page < 3; ++page)
+  {
+    const auto first = static_cast<std::int32_t>(mesh.NumberOfPoints());
+    const auto find = [=](int i, int j) { return j == 0 ? i : first + (j - 1) * (length + 1) + i; };
+    for (int i = 0; i < width * (length + 1); ++i)
+    {
+      const int j = i / (length + 1) + 1;
+      const double away = 0.2 * j * j; // the first row is narrow
+      mesh.Points.insert(mesh.Points.end(),
+        { away * directions[page][0], i % (length + 1) + 0.5, away * directions[page][1] });
+    }
+    for (int i = 0; i < width * length; ++i)
+    {
+      const std::int32_t a = find(i % length, i / length), b = find(i % length + 1, i / length);
+      const std::int32_t d = find(i % length, i / length + 1), c = d + 1;
+      const bool isTurned = page == 2;
+      mesh.Triangles.insert(mesh.Triangles.end(), { a, isTurned ? d : b, isTurned ? b : d });
+      mesh.Triangles.insert(mesh.Triangles.end(), { b, isTurned ? d : c, isTurned ? c : d });
+    }
+  }
+  return mesh;
+}
+
+/// Of three pieces one has the first page. In those of the others, edges of the spine have two
+/// triangles and look like any edge that is bad.
+TEST_P(FlipInPiecesTest, ThreePages)
+{
+  const PiecesResult result = this->ExpectGood(MakePages(12, 8).View(), MakeOnSurface());
+  EXPECT_EQ(12, result.Report.Edges.NonManifold);
+}
+
 TEST_P(FlipInPiecesTest, AnyMess)
 {
   for (std::uint32_t seed = 0; seed < 100 / Reduction; ++seed)
