@@ -47,7 +47,9 @@ double FindSmallestAngle(const MeshInPieces& mesh, const Counts& counts)
   return ToDegrees(largest.Value);
 }
 
-/// Adds the points at the border of a region that flips have reached.
+/// Adds the points at the border of a region that flips have reached. A flip that would join two
+/// points at the border, which may have an edge elsewhere, waits; a triangle beside it has changed,
+/// or the edge would not be bad, so one of the two is reached.
 /// @param inner the points all of whose triangles belong to it.
 /// @param flips of its triangles.
 void AddReached(const SubMesh& region, const PointSet& inner,
@@ -64,21 +66,6 @@ void AddReached(const SubMesh& region, const PointSet& inner,
       }
     }
   }
-}
-
-/// Adds the points at the border of a region around which a flip waits: it would join two of them,
-/// which may have an edge elsewhere.
-void AddWaiting(
-  SubMesh& region, const PointSet& inner, const FlipOptions& options, PointSet& reached)
-{
-  region.GuardPoints([](std::int64_t) { return false; });
-  FlipOptions once = options;
-  once.MaximumIterations = 1;
-  FlipSession session(region.ViewWithoutLabels(), once);
-  session.Advance();
-  std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
-  session.StoreFlipCounts(flips.data());
-  AddReached(region, inner, flips, reached);
 }
 }
 
@@ -136,10 +123,6 @@ PointSet DividedRun::FlipRegion(const PointSet& active, const ProgressObserver& 
   region.Store(this->Mesh.GetTriangles());
   PointSet next(this->Mesh.View().Points.Count, threads);
   AddReached(region, inner, flips, next);
-  if (session.GetReport().BlockedByEdge > 0 && this->Mesh.GetSurvey().NeedsGuard())
-  {
-    AddWaiting(region, inner, options, next);
-  }
   next.Number(threads);
   return next;
 }
