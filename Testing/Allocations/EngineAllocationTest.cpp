@@ -7,11 +7,13 @@
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
 #include "MeshAudit.h"
+#include "PieceFlip.h"
 #include "PolygonSplit.h"
 #include "TriangleAngles.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <new>
 #include <vector>
@@ -93,6 +95,30 @@ FlipOptions WithThreads(int threads, GeometryKind geometry)
   return options;
 }
 
+/// In pieces the array has valid triangles, or what it had before.
+void ExpectFailuresInPiecesReported(const OwnedMesh<double>& mesh, FlipOptions options)
+{
+  options.Backend = BackendKind::Threads;
+  options.NumberOfThreads = 1;
+  const std::int64_t euler = EulerCharacteristic(mesh.View().Triangles);
+  const Ids untouched(mesh.Triangles.size(), -7);
+  Ids output = untouched;
+  const MutableTriangleArray triangles(output.data(), mesh.NumberOfTriangles());
+  const auto flip = [&]() { FlipInPieces(mesh.View(), options, { 3, {} }, triangles); };
+  flip();
+  const Ids expected = output;
+  std::copy(untouched.begin(), untouched.end(), output.begin());
+  const std::int64_t count = FailEach(flip,
+    [&]()
+    {
+      EXPECT_TRUE(output == untouched ||
+        EulerCharacteristic(TriangleArray(output.data(), mesh.NumberOfTriangles())) == euler);
+      std::copy(untouched.begin(), untouched.end(), output.begin());
+    });
+  EXPECT_GT(count, 200);
+  EXPECT_TRUE(output == expected);
+}
+
 }
 
 TEST(EngineAllocations, OfAPlaneFailOnce)
@@ -149,6 +175,20 @@ TEST(EngineAllocations, OfASessionLeaveItUsable)
   session.Advance(-1);
   session.StoreTriangles(target);
   EXPECT_TRUE(output == expected);
+}
+
+TEST(EngineAllocations, OfAMeshInPiecesFailOnce)
+{
+  FlipOptions options;
+  options.TieRule = TieRuleKind::Canonical;
+  ExpectFailuresInPiecesReported(MakeRandomBadMeshDouble(60, 1), options);
+}
+
+TEST(EngineAllocations, OfASurfaceInPiecesFailOnce)
+{
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  ExpectFailuresInPiecesReported(MakeBadSphere(12, 6, 1), options);
 }
 
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
 #include "Machine.h"
@@ -70,17 +71,6 @@ Settings ReadSettings(int argc, char** argv)
     known->second = word.substr(sign + 1);
   }
   return settings;
-}
-
-std::vector<int> ReadDevices(const std::string& list)
-{
-  std::vector<int> devices;
-  std::stringstream stream(list);
-  for (std::string one; std::getline(stream, one, ',');)
-  {
-    devices.push_back(std::atoi(one.c_str()));
-  }
-  return devices;
 }
 
 /// @param isSurface whether points get heights.
@@ -309,7 +299,7 @@ void Run(Settings settings, MpiGroup& group)
 {
   settings["pieces"] = std::to_string(group.GetSize());
   const OwnPiece piece = MakePiece(settings, group);
-  std::vector<int> devices = ReadDevices(settings.at("devices"));
+  std::vector<int> devices = ParseDevices(settings.at("devices"));
   if (!devices.empty())
   {
     devices = { devices[group.GetRank() % devices.size()] };
@@ -327,7 +317,7 @@ void Run(const Settings& settings)
 {
   OwnedMesh<float> mesh = MakeMesh(settings);
   const int count = std::atoi(settings.at("pieces").c_str());
-  const std::vector<int> devices = ReadDevices(settings.at("devices"));
+  const std::vector<int> devices = ParseDevices(settings.at("devices"));
   FlipOptions options = MakeOptions(settings, devices);
   if (count > 0 && settings.at("ranks") != "0")
   {
