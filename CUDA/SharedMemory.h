@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// A mesh of fewer triangles per GPU stays on one.
+/// The fewest triangles per GPU for which GPUs share a mesh; smaller meshes stay on one GPU.
 std::int64_t GetSmallestShare();
 /// For tests.
 void SetSmallestShare(std::int64_t triangles);
@@ -23,8 +23,8 @@ void SetSmallestShare(std::int64_t triangles);
 /// an equal part of it on each GPU, in their order: what belongs to the same part of the mesh is on
 /// the same GPU. Small arrays are on the first GPU.
 ///
-/// Freed memory is kept for arrays of the same size. As in a pool, it may be used again by what
-/// follows in the stream's order; so all work of all GPUs must be in that order.
+/// Freed memory is kept for arrays of the same size. As in a memory pool, work that follows on the
+/// stream may use it again at once, so the work of all GPUs must be in the order of the stream.
 class SharedMemory : public Memory
 {
 public:

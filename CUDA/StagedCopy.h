@@ -20,8 +20,7 @@ namespace delaunayflip
 class PartOrder
 {
 public:
-  /// @param partsPerSlice slices, one after the other, have so many parts, the last one perhaps
-  /// fewer.
+  /// @param partsPerSlice the number of parts in each slice; the last slice may have fewer.
   PartOrder(std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
     : Parts(parts),
       PartsPerSlice(std::max<std::int64_t>(1, partsPerSlice)),

@@ -28,8 +28,8 @@ struct alignas(128) TeamState
   unsigned int Verdict; ///< and how that ended: 1: all are present; 2: they are not.
 };
 
-/// What thread blocks tell each other when they arrive at a wait. Every block adds its own number
-/// to one number of 64 bits, and all blocks see the sum:
+/// What thread blocks tell each other when they arrive at a barrier. Every block adds its own
+/// number to one number of 64 bits, and all blocks read the sum:
 ///
 /// | bits     | sum over the blocks of                  | range                                   |
 /// |----------|-----------------------------------------|-----------------------------------------|

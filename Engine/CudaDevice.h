@@ -31,8 +31,8 @@ DELAUNAYFLIP_EXPORT bool HasCudaDevice();
 DELAUNAYFLIP_EXPORT int CountCudaDevices();
 
 /// GPUs for FlipOptions::Devices.
-/// @param list CUDA's numbers, separated by commas, e.g. "0,1"; "all": every GPU, none of which
-/// gives an empty list, as an empty text does.
+/// @param list CUDA's numbers, separated by commas, e.g. "0,1"; or "all", for every GPU. The result
+/// is empty for an empty text, and for "all" without a GPU.
 /// @throws InvalidOptions for anything else.
 DELAUNAYFLIP_EXPORT std::vector<int> ParseDevices(const std::string& list);
 
@@ -40,8 +40,8 @@ DELAUNAYFLIP_EXPORT std::vector<int> ParseDevices(const std::string& list);
 /// that exist keep theirs.
 DELAUNAYFLIP_EXPORT void ReleaseCudaMemory();
 
-/// The most device memory, in bytes, that any run which ended since the last call has used. 0
-/// without the backend, and if the device has no memory pools.
+/// The most device memory, in bytes, that a single run has used, of all that have ended since the
+/// last call. 0 without the backend, and if the device has no memory pools.
 DELAUNAYFLIP_EXPORT std::size_t TakePeakCudaMemory();
 
 }

@@ -9,13 +9,13 @@ namespace delaunayflip
 
 FlipSession::FlipSession(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Impl(new Implementation(CallerMesh(mesh), options, progress))
+  : Work(SessionWork::Make(CallerMesh(mesh), options, progress))
 {
 }
 
 FlipSession::FlipSession(
   const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Impl(new Implementation(CallerMesh(mesh), options, progress))
+  : Work(SessionWork::Make(CallerMesh(mesh), options, progress))
 {
 }
 
@@ -26,32 +26,32 @@ FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
 bool FlipSession::Advance(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
 {
-  return this->Impl->Advance(iterations, observer, progress);
+  return this->Work->Advance(iterations, observer, progress);
 }
 
-const FlipReport& FlipSession::GetReport() const { return this->Impl->GetReport(); }
+const FlipReport& FlipSession::GetReport() const { return this->Work->GetReport(); }
 
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
-  this->Impl->StoreTriangles(triangles);
+  this->Work->StoreTriangles(triangles);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  this->Impl->StoreFlipCounts(counts);
+  this->Work->StoreFlipCounts(counts);
 }
 
 void FlipSession::StoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream) const
 {
-  this->Impl->StoreTriangles(triangles, stream);
+  this->Work->StoreTriangles(triangles, stream);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
 {
-  this->Impl->StoreFlipCounts(counts, stream);
+  this->Work->StoreFlipCounts(counts, stream);
 }
 
-EngineTriangles FlipSession::ViewTriangles() const { return this->Impl->ViewTriangles(); }
+EngineTriangles FlipSession::ViewTriangles() const { return this->Work->ViewTriangles(); }
 
 }

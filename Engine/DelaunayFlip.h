@@ -20,13 +20,18 @@
 namespace delaunayflip
 {
 
+class SessionWork;
 struct EngineTriangles;
 
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
-/// iterations, and can be read at any time between them. With BackendKind::Auto, and if a progress
-/// observer stopped the constructor, the caller's arrays must stay unchanged as long as the session
-/// exists: if a GPU fails, the CPU starts from them. Otherwise they are not needed after the
-/// constructor.
+/// iterations, and can be read at any time between them. With BackendKind::Auto, with several
+/// pieces, and if a progress observer stopped the constructor, the caller's arrays must stay
+/// unchanged as long as the session exists: if a GPU fails, the CPU starts from them. Otherwise
+/// they are not needed after the constructor.
+///
+/// With several pieces (FlipOptions::NumberOfPieces) the first Advance makes all iterations,
+/// whatever their number, and the edges and angles of the report are known only then. If it is
+/// stopped, the next one begins anew.
 ///
 /// The same mesh and options give the same result, bit for bit, with any number of threads and on
 /// any backend.
@@ -42,7 +47,8 @@ public:
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
 
   /// The same for a mesh in the memory of a GPU, with the same result. FlipOptions::Device must be
-  /// -1 or that GPU. BackendKind::Auto uses it whatever the size of the mesh.
+  /// -1 or that GPU, and NumberOfPieces 0 or 1. BackendKind::Auto uses the GPU whatever the size of
+  /// the mesh.
   /// @throws InvalidOptions if the arrays are not in the memory of that GPU; BackendUnavailable if
   /// CUDA cannot be used at all, with any BackendKind.
   FlipSession(
@@ -55,8 +61,8 @@ public:
   /// convergence, at FlipOptions::MaximumIterations, or if an observer returns false. The next call
   /// continues from there.
   /// @returns whether there is more to do and no observer stopped the run.
-  /// @throws BackendUnavailable, std::bad_alloc; if the constructor was stopped, also what it
-  /// throws.
+  /// @throws BackendUnavailable, std::bad_alloc; if the constructor was stopped, and with several
+  /// pieces, also what it throws.
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 
@@ -83,8 +89,7 @@ private:
   friend class DrawnTriangles; // of DeviceColors.h
   EngineTriangles ViewTriangles() const;
 
-  class Implementation;
-  std::unique_ptr<Implementation> Impl;
+  std::unique_ptr<SessionWork> Work;
 };
 
 /// Finds the interior edges (edges with two triangles) that never flip in a run with these options,
@@ -101,7 +106,8 @@ DELAUNAYFLIP_EXPORT std::vector<std::int64_t> FindFixedEdges(
 DELAUNAYFLIP_EXPORT GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options);
 
 /// Flips `mesh` in a single call and writes the result to `triangles`, which may be the array that
-/// mesh.Triangles views. After an exception nothing has been written.
+/// mesh.Triangles views. After an exception nothing has been written. FlipInPieces (PieceFlip.h)
+/// needs less memory for a mesh in several pieces.
 /// @throws the same as FlipSession's constructor.
 DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},

@@ -86,10 +86,20 @@ struct FlipOptions
   /// thread.
   int Device = -1;
 
-  /// CUDA's numbers of GPUs that share one mesh, which is larger or flips faster then; empty
-  /// (default): Device alone. They must be connected by NVLink. The result does not depend on it.
-  /// A mesh that is given in a GPU's memory stays on that GPU.
+  /// CUDA's numbers of GPUs that share the mesh. It may be larger, or flips faster, than on one.
+  /// They must be connected by NVLink. Empty (default): Device alone. The result does not depend on
+  /// it. A mesh that is given in a GPU's memory stays on that GPU.
   std::vector<int> Devices;
+
+  /// In how many pieces the mesh is flipped, one after the other, so that it may be larger than the
+  /// memory of a GPU; 1 to 255, or 0 (default): one, or the fewest that are possible if it has more
+  /// than 715 million triangles. Devices, if given, flip pieces in turn instead of sharing the
+  /// mesh, and need no NVLink. The triangles around the edges between pieces are flipped at the
+  /// end.
+  ///
+  /// In planar geometry with TieRuleKind::Canonical the triangles with an area do not depend on it.
+  /// Otherwise they do, but the backend, the threads and the devices never matter.
+  int NumberOfPieces = 0;
 
   /// Compute the smallest angle after every iteration, by one pass over the mesh each. Default off:
   /// only after the first and the last iteration.
@@ -101,7 +111,8 @@ inline bool operator==(const FlipOptions& a, const FlipOptions& b)
   const auto tie = [](const FlipOptions& o)
   {
     return std::tie(o.Geometry, o.Criterion, o.TieRule, o.Backend, o.Tolerance, o.FeatureAngle,
-      o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices, o.TrackQuality);
+      o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices, o.NumberOfPieces,
+      o.TrackQuality);
   };
   return tie(a) == tie(b);
 }

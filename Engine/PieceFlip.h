@@ -19,28 +19,29 @@
 namespace delaunayflip
 {
 
-/// Something that was given by a rank.
+/// Names a triangle or a point by the rank that gave it.
 struct PieceOrigin
 {
   std::int32_t Rank;
-  std::int64_t Id; ///< The rank's own id of it.
+  std::int64_t Id; ///< Its id on that rank.
 };
 
 /// The piece of one rank. It may be empty. Triangles must not be repeated on several ranks.
 struct MeshPiece
 {
-  /// Regions must have the same labels on all ranks. A constraint edge may be given by any rank
-  /// that has both of its points, even if it has no triangle at them, and by several. Those that
-  /// are to be inserted may cross triangles of any rank; where they cross each other, those that a
-  /// rank can insert alone are first, then the others by rank and in its order.
+  /// Regions must have the same labels on all ranks. Any rank that has both ends of a constraint
+  /// edge may give it, even if none of its triangles has them. Several ranks may give the same one.
+  /// Constraints that are to be inserted may cross triangles of any rank. Where they cross each
+  /// other, those come first that a rank can insert alone; the others follow in the order of ranks
+  /// and, on each rank, in its own order.
   TriangleMesh Mesh;
 
   /// One number per point, the same for a point on all ranks that have it; or null. If no rank has
   /// numbers, points at the borders of pieces are the same if their coordinates are equal.
   const std::int64_t* PointNumbers = nullptr;
 
-  /// More constraint edges to be inserted, after those of Mesh, whose points may be those of any
-  /// rank: two for each, or null. Any rank may give them.
+  /// More constraint edges, to be inserted after those of Mesh; their ends may be points of any
+  /// rank. Two ends for each edge, or null. Any rank may give them.
   const PieceOrigin* FarConstraints = nullptr;
   std::int64_t NumberOfFarConstraints = 0;
 };
@@ -82,35 +83,22 @@ struct PiecesReport : FlipReport
 DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,
   PieceGroup& group, FlippedPiece& flipped, const ProgressObserver& progress = {});
 
-/// How a mesh of one process is divided.
-struct PieceDivision
-{
-  /// 1 to 255. Each may have as many triangles as a session (715 million), and must fit into the
-  /// memory of a GPU.
-  int Pieces = 2;
-
-  /// CUDA's numbers of the GPUs that flip the pieces in turn: piece 0 on the first, and so on.
-  /// While a piece is on a GPU, the next one is prepared. Empty: FlipOptions::Device.
-  std::vector<int> Devices;
-};
-
-/// Flips a mesh in pieces, one after the other on each GPU, so that it may be larger than the
-/// memory of a GPU and have more than 715 million triangles. Constraints are inserted before, if it
-/// has no more triangles than that.
+/// Flips a mesh of one process in FlipOptions::NumberOfPieces pieces, in place: FlipToDelaunay does
+/// the same with a copy of the triangles. So the mesh may be larger than the memory of a GPU and
+/// have more than 715 million triangles. Constraints are inserted before, if it has no more
+/// triangles than that.
 ///
-/// The pieces are next to each other. Afterwards the triangles around the edges between them are
-/// flipped, as far as flips reach. In planar geometry with TieRuleKind::Canonical the triangles
-/// with an area are those of FlipToDelaunay. Otherwise the result depends on the number of pieces,
-/// and on nothing else.
+/// The pieces are next to each other. They are flipped one after the other on each GPU; while one
+/// is on a GPU, the next is prepared. Afterwards the triangles around the edges between them are
+/// flipped, as far as flips reach.
 /// @param triangles receives the result: the array that mesh.Triangles views, or another one. It
 /// has valid triangles of the same surface at any time after InvalidMesh and InvalidOptions have
 /// been ruled out, so also if another exception ends the run or `progress` stops it.
 /// @returns the report of the whole mesh. Rounds are 1 and the number of times that triangles
 /// between pieces were flipped; MovedTriangles is 0. The seconds are those of a GPU's pieces.
-/// @throws as FlipSession's constructor; InvalidOptions for other numbers of pieces.
+/// @throws as FlipSession's constructor.
 DELAUNAYFLIP_EXPORT PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
-  const PieceDivision& division, const MutableTriangleArray& triangles,
-  const ProgressObserver& progress = {});
+  const MutableTriangleArray& triangles, const ProgressObserver& progress = {});
 
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// How a session begins: checks, constraints, the engine, and what is reported of the input.
 
-#include "SessionWork.h"
+#include "WholeSession.h"
 
 #include "BuildProgress.h"
 #include "InputChecks.h"
@@ -10,16 +10,16 @@
 namespace delaunayflip
 {
 
-FlipSession::Implementation::Implementation(
+WholeSession::WholeSession(
   const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Mesh(mesh),
+  : SessionWork(mesh),
     Options(Check(mesh, options)),
     Observer(progress)
 {
   this->Try([this]() { this->Build(); });
 }
 
-FlipOptions FlipSession::Implementation::Check(const CallerMesh& mesh, const FlipOptions& options)
+FlipOptions WholeSession::Check(const CallerMesh& mesh, const FlipOptions& options)
 {
   CheckOptions(options);
   CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
@@ -30,7 +30,7 @@ FlipOptions FlipSession::Implementation::Check(const CallerMesh& mesh, const Fli
 
 //------------------------------------------------------------------------------
 /// When an exception leaves, there is no engine.
-void FlipSession::Implementation::Build()
+void WholeSession::Build()
 {
   try
   {
@@ -43,7 +43,7 @@ void FlipSession::Implementation::Build()
   }
 }
 
-void FlipSession::Implementation::BuildEngine(const ProgressObserver& tell)
+void WholeSession::BuildEngine(const ProgressObserver& tell)
 {
   const StopWatch watch;
   const CallerMesh mesh = this->InsertConstraints(tell);
@@ -65,7 +65,7 @@ void FlipSession::Implementation::BuildEngine(const ProgressObserver& tell)
 }
 
 /// @returns the mesh that iterations start from.
-CallerMesh FlipSession::Implementation::InsertConstraints(const ProgressObserver& tell)
+CallerMesh WholeSession::InsertConstraints(const ProgressObserver& tell)
 {
   this->Insertion = ConstraintInsertion();
   if (!this->Mesh.HasConstraintsToInsert())
@@ -79,7 +79,7 @@ CallerMesh FlipSession::Implementation::InsertConstraints(const ProgressObserver
 }
 
 /// Reports on the input, and ends the run if there is nothing to do or no iteration is allowed.
-void FlipSession::Implementation::DetectFirst()
+void WholeSession::DetectFirst()
 {
   const StopWatch watch;
   this->Detected(this->Engine->Detect());
@@ -87,7 +87,7 @@ void FlipSession::Implementation::DetectFirst()
   this->Report.FlipSeconds = watch.GetSeconds();
 }
 
-void FlipSession::Implementation::Reset()
+void WholeSession::Reset()
 {
   this->Engine.reset();
   this->Insertion = ConstraintInsertion();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The iterations of a session, and what is reported of them.
 
-#include "SessionWork.h"
+#include "WholeSession.h"
 
 #include "CotangentAngle.h"
 
@@ -41,7 +41,7 @@ private:
 };
 }
 
-bool FlipSession::Implementation::Advance(
+bool WholeSession::Advance(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
 {
   const TemporaryValue<ProgressObserver> told(this->Observer, progress);
@@ -56,7 +56,7 @@ bool FlipSession::Implementation::Advance(
   return this->Try(work) && this->IsRunning();
 }
 
-void FlipSession::Implementation::Run(
+void WholeSession::Run(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
 {
   const StopWatch watch;
@@ -79,7 +79,7 @@ void FlipSession::Implementation::Run(
   }
 }
 
-std::int64_t FlipSession::Implementation::GetIterationLimit() const
+std::int64_t WholeSession::GetIterationLimit() const
 {
   if (this->Options.MaximumIterations >= 0)
   {
@@ -91,7 +91,7 @@ std::int64_t FlipSession::Implementation::GetIterationLimit() const
 }
 
 /// Continues, even after an abort, unless there is nothing to do or no iteration is left.
-void FlipSession::Implementation::Resume()
+void WholeSession::Resume()
 {
   const auto done = static_cast<std::int64_t>(this->Report.Iterations.size());
   this->Report.StopReason = StopReasonKind::Running;
@@ -107,7 +107,7 @@ void FlipSession::Implementation::Resume()
 
 //------------------------------------------------------------------------------
 /// Runs at least one iteration and at most `most`.
-void FlipSession::Implementation::Iterate(
+void WholeSession::Iterate(
   std::int64_t most, const FlipObserver& observer, const ProgressObserver& progress)
 {
   const StopWatch watch;
@@ -133,7 +133,7 @@ void FlipSession::Implementation::Iterate(
   this->Tell(progress);
 }
 
-void FlipSession::Implementation::Detected(const StepCounts& found)
+void WholeSession::Detected(const StepCounts& found)
 {
   this->Found = found;
   this->Report.NonDelaunayAfter = found.Bad + found.GetBlocked();
@@ -141,7 +141,7 @@ void FlipSession::Implementation::Detected(const StepCounts& found)
   this->Report.BlockedByEdge = found.BlockedByEdge;
 }
 
-void FlipSession::Implementation::Keep(const IterationCounts& counts, double seconds)
+void WholeSession::Keep(const IterationCounts& counts, double seconds)
 {
   IterationRecord record;
   record.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
@@ -159,7 +159,7 @@ void FlipSession::Implementation::Keep(const IterationCounts& counts, double sec
 }
 
 /// Calls the observer for the iterations from `first` on, once all of them are in the report.
-void FlipSession::Implementation::Tell(const FlipObserver& observer, std::size_t first)
+void WholeSession::Tell(const FlipObserver& observer, std::size_t first)
 {
   bool continues = true;
   for (std::size_t i = first; observer && i < this->Report.Iterations.size(); ++i)
@@ -172,7 +172,7 @@ void FlipSession::Implementation::Tell(const FlipObserver& observer, std::size_t
   }
 }
 
-void FlipSession::Implementation::Tell(const ProgressObserver& progress)
+void WholeSession::Tell(const ProgressObserver& progress)
 {
   if (this->IsRunning() &&
     !this->Progress.TellFlips(progress, this->Report, this->Found.Bad, this->GetIterationLimit()))
@@ -182,7 +182,7 @@ void FlipSession::Implementation::Tell(const ProgressObserver& progress)
 }
 
 //------------------------------------------------------------------------------
-const FlipReport& FlipSession::Implementation::GetReport()
+const FlipReport& WholeSession::GetReport()
 {
   this->Try([this]() { this->MeasureEnd(); });
   if (this->Engine)
@@ -195,7 +195,7 @@ const FlipReport& FlipSession::Implementation::GetReport()
 
 /// The smallest angle is known after the first and the last iteration. If a run stops in between,
 /// this takes a pass over the mesh, made only when the report is requested.
-void FlipSession::Implementation::MeasureEnd()
+void WholeSession::MeasureEnd()
 {
   if (this->IsMeasured)
   {
@@ -211,7 +211,7 @@ void FlipSession::Implementation::MeasureEnd()
 }
 
 /// Defects of the input and, at the end of a run, those that flips have caused.
-void FlipSession::Implementation::UpdateDefects()
+void WholeSession::UpdateDefects()
 {
   this->Report.Defects = this->Engine->GetInputReport().Defects;
   this->Insertion.AddTo(this->Report.Defects);
@@ -222,7 +222,7 @@ void FlipSession::Implementation::UpdateDefects()
   }
 }
 
-double FlipSession::Implementation::MeasureAngle()
+double WholeSession::MeasureAngle()
 {
   return ToDegrees(this->Engine->FindLargestSquaredCotangent());
 }

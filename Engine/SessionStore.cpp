@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The results of a session, as its caller asks for them.
 
-#include "SessionWork.h"
-
-#include "DeviceCopies.h"
+#include "WholeSession.h"
 
 #include <algorithm>
 
 namespace delaunayflip
 {
 
-void FlipSession::Implementation::StoreTriangles(const MutableTriangleArray& triangles)
+void WholeSession::StoreTriangles(const MutableTriangleArray& triangles)
 {
   const bool isInput = this->Mesh.HasTriangles(triangles.Data());
   if (this->Engine && this->Try([&]() { this->Engine->StoreTriangles(triangles, isInput); }))
@@ -26,25 +24,15 @@ void FlipSession::Implementation::StoreTriangles(const MutableTriangleArray& tri
   }
 }
 
-void FlipSession::Implementation::StoreTriangles(
+bool WholeSession::TryToStoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream)
 {
-  RequireOnDevice(triangles);
   bool isStored = false;
   const auto store = [&]() { isStored = this->Engine->StoreTrianglesOnDevice(triangles, stream); };
-  if (this->Engine && this->Try(store) && isStored)
-  {
-    return;
-  }
-  const auto pass = [&](auto* ids)
-  {
-    StoreThroughHost(ids, 3 * triangles.Count, stream,
-      [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
-  };
-  triangles.Ids32 ? pass(triangles.Ids32) : pass(triangles.Ids64);
+  return this->Engine && this->Try(store) && isStored;
 }
 
-void FlipSession::Implementation::StoreFlipCounts(std::int32_t* counts)
+void WholeSession::StoreFlipCounts(std::int32_t* counts)
 {
   const auto store = [&]()
   {
@@ -57,22 +45,15 @@ void FlipSession::Implementation::StoreFlipCounts(std::int32_t* counts)
   }
 }
 
-void FlipSession::Implementation::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream)
+bool WholeSession::TryToStoreFlipCounts(std::int32_t* counts, const DeviceStream& stream)
 {
-  const std::int64_t size = this->Mesh.CountTriangles();
-  RequireOnDevice(counts, size);
   bool isStored = false;
   const auto store = [&]() { isStored = this->Engine->StoreFlipCountsOnDevice(counts, stream); };
-  if (this->Engine && !this->Insertion.HasFlips() && this->Try(store) && isStored)
-  {
-    return;
-  }
-  StoreThroughHost(
-    counts, size, stream, [this](std::int32_t* host) { this->StoreFlipCounts(host); });
+  return this->Engine && !this->Insertion.HasFlips() && this->Try(store) && isStored;
 }
 
 /// None if the engine's flips are not all.
-EngineTriangles FlipSession::Implementation::ViewTriangles() const
+EngineTriangles WholeSession::ViewTriangles() const
 {
   return this->Engine && !this->Insertion.HasFlips() ? this->Engine->ViewTriangles()
                                                      : EngineTriangles();

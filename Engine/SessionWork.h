@@ -4,16 +4,12 @@
 #define DELAUNAYFLIP_SESSIONWORK_H
 
 #include "CallerMesh.h"
-#include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "EngineChoice.h"
-#include "FlipLoop.h"
-#include "RunProgress.h"
+#include "EngineTriangles.h"
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 
 namespace delaunayflip
 {
@@ -31,75 +27,41 @@ private:
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
 };
 
-/// Makes a loop from the caller's arrays, and a report from its iterations.
-class FlipSession::Implementation
+/// What a session does, for each way to do it. The functions are those of FlipSession.
+class SessionWork
 {
 public:
-  Implementation(
+  /// A session of the whole mesh, or of its pieces, as the options say.
+  static std::unique_ptr<SessionWork> Make(
     const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
 
-  bool Advance(
-    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress);
-  const FlipReport& GetReport();
+  virtual ~SessionWork() = default;
 
-  void StoreTriangles(const MutableTriangleArray& triangles);
+  virtual bool Advance(
+    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress) = 0;
+  virtual const FlipReport& GetReport() = 0;
+
+  virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
+  virtual void StoreFlipCounts(std::int32_t* counts) = 0;
   void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream);
-  void StoreFlipCounts(std::int32_t* counts);
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream);
-  EngineTriangles ViewTriangles() const;
+  virtual EngineTriangles ViewTriangles() const { return {}; }
 
-private:
-  static FlipOptions Check(const CallerMesh& mesh, const FlipOptions& options);
-
-  /// Calls work(), and forgets all when an observer stops it before there is a mesh to show for it:
-  /// while one is built, or while the CPU repeats what a GPU has lost.
-  /// @returns whether it was not stopped.
-  template <typename Work>
-  bool Try(const Work& work)
+protected:
+  explicit SessionWork(const CallerMesh& mesh)
+    : Mesh(mesh)
   {
-    try
-    {
-      work();
-      return true;
-    }
-    catch (const RunAborted&)
-    {
-      this->Reset();
-      this->Report.StopReason = StopReasonKind::Aborted;
-      return false;
-    }
   }
 
-  // The beginning: SessionBuild.cpp.
-  void Build();
-  void BuildEngine(const ProgressObserver& tell);
-  CallerMesh InsertConstraints(const ProgressObserver& tell);
-  void DetectFirst();
-  void Reset();
-
-  // Iterations: SessionRun.cpp.
-  void Run(std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress);
-  bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
-  std::int64_t GetIterationLimit() const;
-  void Resume();
-  void Iterate(std::int64_t most, const FlipObserver& observer, const ProgressObserver& progress);
-  void Detected(const StepCounts& found);
-  void Keep(const IterationCounts& counts, double seconds);
-  void Tell(const FlipObserver& observer, std::size_t first);
-  void Tell(const ProgressObserver& progress);
-  void MeasureEnd();
-  void UpdateDefects();
-  double MeasureAngle();
+  /// Stores on a device without a copy through the host.
+  /// @returns whether that was possible.
+  virtual bool TryToStoreTriangles(const MutableTriangleArray&, const DeviceStream&)
+  {
+    return false;
+  }
+  virtual bool TryToStoreFlipCounts(std::int32_t*, const DeviceStream&) { return false; }
 
   CallerMesh Mesh;
-  FlipOptions Options;
-  ConstraintInsertion Insertion; ///< The engine starts from its arrays.
-  ProgressObserver Observer; ///< Of the call under way, else the constructor's.
-  std::optional<ChosenEngine> Engine; ///< None if its build was aborted.
-  RunProgress Progress;
-  StepCounts Found; ///< The counts of the last Detect.
-  FlipReport Report;
-  bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
 };
 
 }

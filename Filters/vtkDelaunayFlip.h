@@ -295,9 +295,10 @@ public:
   ///@{
   /**
    * GPUs that share the mesh, instead of DeviceId: CUDA's numbers separated by commas, such as
-   * "0,1", or "all"; empty (default): DeviceId alone. Large meshes flip faster then, and may be
-   * larger; the result is the same. The GPUs must be connected by NVLink. What is wrong with them
-   * is treated as with DeviceId; a list that cannot be read is an error.
+   * "0,1", or "all"; empty (default): DeviceId alone. They flip a large mesh
+   * faster than one GPU, or one that is too large for it; the result is the same. The GPUs must be
+   * connected by NVLink. If one cannot be used, that is treated as with DeviceId. A list that
+   * cannot be read is an error.
    */
   vtkSetStdStringFromCharMacro(Devices);
   vtkGetCharFromStdStringMacro(Devices);

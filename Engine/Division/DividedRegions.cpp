@@ -119,6 +119,7 @@ PointSet DividedRun::FlipRegion(const PointSet& active, const ProgressObserver& 
   this->KeepRegion(session.GetReport(), inner);
   std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
   session.StoreFlipCounts(flips.data());
+  this->KeepFlips(region, flips.data());
   session.StoreTriangles(region.GetTriangles());
   region.Store(this->Mesh.GetTriangles());
   PointSet next(this->Mesh.View().Points.Count, threads);
@@ -192,7 +193,7 @@ void DividedRun::CountBadEdges()
   };
   SubMesh strip = this->Mesh.GetTrianglesAt(this->Mesh.FindSeamPoints());
   count(strip, 1);
-  for (int piece = 0; piece < this->Division.Pieces; ++piece)
+  for (int piece = 0; piece < this->Mesh.GetNumberOfPieces(); ++piece)
   {
     SubMesh whole = this->Mesh.GetPiece(piece);
     SubMesh atSeams = this->Mesh.GetPieceOf(strip, piece);

@@ -21,29 +21,33 @@ namespace delaunayflip
 namespace
 {
 /// One worker prepares a piece while another's is on the GPU.
-int CountWorkers(const PieceDivision& division)
+int CountWorkers(int pieces, const std::vector<int>& devices)
 {
-  const auto devices = static_cast<int>(division.Devices.size());
-  return devices == 0 ? 1 : std::min(division.Pieces, 2 * devices);
+  return devices.empty() ? 1 : std::min(pieces, 2 * static_cast<int>(devices.size()));
 }
 }
 
-DividedRun::DividedRun(MeshInPieces& mesh, const FlipOptions& options,
-  const PieceDivision& division, const ProgressObserver& progress)
+DividedRun::DividedRun(MeshInPieces& mesh, const FlipOptions& options, std::int32_t* flipCounts,
+  const ProgressObserver& progress)
   : Mesh(mesh),
     Options(options),
-    Division(division),
+    FlipCounts(flipCounts),
     Progress(progress),
     Constraints(mesh.View().ConstraintEdges,
       mesh.View().ConstraintEdges + 2 * mesh.View().NumberOfConstraintEdges),
     Seam(mesh.FindSeamPoints()),
-    Shares(division.Pieces),
-    Reports(division.Pieces)
+    Shares(mesh.GetNumberOfPieces()),
+    Reports(mesh.GetNumberOfPieces())
 {
 }
 
 PiecesReport DividedRun::Run()
 {
+  if (this->FlipCounts)
+  {
+    this->Mesh.GetThreads().ForEach(
+      this->Mesh.View().Triangles.Count, [this](std::int64_t t) { this->FlipCounts[t] = 0; });
+  }
   this->ExamineSeams();
   this->FlipPieces();
   this->JoinPieces();
@@ -62,9 +66,9 @@ FlipOptions DividedRun::GetCountingOptions() const
 {
   FlipOptions options = GetPartOptions(this->Mesh.GetSurvey(), this->Options);
   options.MaximumIterations = 0;
-  if (!this->Division.Devices.empty())
+  if (!this->Options.Devices.empty())
   {
-    options.Device = this->Division.Devices.front();
+    options.Device = this->Options.Devices.front();
     options.Devices.clear();
   }
   return options;
@@ -84,7 +88,7 @@ void DividedRun::ExamineSeams()
   strip.FixEdges(this->Constraints);
   this->KeepFixedEdges(strip, options, count(strip, 1));
   this->FixedAtSeams = this->Fixed;
-  for (int piece = 0; piece < this->Division.Pieces; ++piece)
+  for (int piece = 0; piece < this->Mesh.GetNumberOfPieces(); ++piece)
   {
     SubMesh part = this->Mesh.GetPieceOf(strip, piece);
     part.FixEdges(this->Constraints);
@@ -132,17 +136,17 @@ std::int64_t DividedRun::CountUnmatched() const
 //------------------------------------------------------------------------------
 void DividedRun::FlipPieces()
 {
-  const int workers = CountWorkers(this->Division);
+  const int workers = CountWorkers(this->Mesh.GetNumberOfPieces(), this->Options.Devices);
   std::vector<int> turns;
-  for (int worker = 0; worker < workers && !this->Division.Devices.empty(); ++worker)
+  for (int worker = 0; worker < workers && !this->Options.Devices.empty(); ++worker)
   {
-    turns.push_back(worker % static_cast<int>(this->Division.Devices.size()));
+    turns.push_back(worker % static_cast<int>(this->Options.Devices.size()));
   }
   const auto work = [&](PieceGroup& group)
   {
     try
     {
-      for (int piece = group.GetRank(); piece < this->Division.Pieces; piece += workers)
+      for (int piece = group.GetRank(); piece < this->Mesh.GetNumberOfPieces(); piece += workers)
       {
         this->FlipPiece(piece, group);
       }
@@ -159,10 +163,11 @@ void DividedRun::FlipPieces()
 FlipOptions DividedRun::GetPieceOptions(int piece) const
 {
   FlipOptions options = this->Options;
+  options.NumberOfPieces = 1;
   options.Geometry = this->Mesh.GetSurvey().Geometry;
-  if (!this->Division.Devices.empty())
+  if (!this->Options.Devices.empty())
   {
-    options.Device = this->Division.Devices[piece % this->Division.Devices.size()];
+    options.Device = this->Options.Devices[piece % this->Options.Devices.size()];
     options.Devices.clear();
   }
   return options;
@@ -203,6 +208,24 @@ void DividedRun::FlipSubMesh(SubMesh& part, int piece, const ProgressObserver& p
   }
   this->Reports[piece] = session.GetReport();
   session.StoreTriangles(part.GetTriangles());
+  if (this->FlipCounts)
+  {
+    Array<std::int32_t> counts =
+      this->Mesh.GetThreads().MakeArray<std::int32_t>(part.GetNumberOfTriangles());
+    session.StoreFlipCounts(counts.Data());
+    this->KeepFlips(part, counts.Data());
+  }
+}
+
+/// Adds the flips of a part's triangles. Parts that are flipped at the same time have no triangle
+/// in common.
+void DividedRun::KeepFlips(const SubMesh& part, const std::int32_t* counts)
+{
+  if (this->FlipCounts)
+  {
+    this->Mesh.GetThreads().ForEach(part.GetNumberOfTriangles(),
+      [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += counts[t]; });
+  }
 }
 
 /// @returns whether to go on.
@@ -212,7 +235,8 @@ bool DividedRun::Tell(int piece, double share, bool isCaller)
   if (isCaller && this->Progress)
   {
     const double sum = std::accumulate(this->Shares.begin(), this->Shares.end(), 0.0);
-    this->GoesOn = this->Progress(PiecesShare * sum / this->Division.Pieces) && this->GoesOn;
+    this->GoesOn =
+      this->Progress(PiecesShare * sum / this->Mesh.GetNumberOfPieces()) && this->GoesOn;
   }
   return this->GoesOn;
 }
@@ -242,7 +266,7 @@ void DividedRun::JoinPieces()
 /// Those of all pieces that have the same GPU; of several GPUs the largest.
 void DividedRun::SumSeconds()
 {
-  const std::size_t devices = std::max<std::size_t>(1, this->Division.Devices.size());
+  const std::size_t devices = std::max<std::size_t>(1, this->Options.Devices.size());
   std::vector<double> build(devices), flip(devices);
   for (std::size_t piece = 0; piece < this->Reports.size(); ++piece)
   {

@@ -26,7 +26,8 @@ class DividedRun
 {
 public:
   /// All must live as long as the run.
-  DividedRun(MeshInPieces& mesh, const FlipOptions& options, const PieceDivision& division,
+  /// @param flipCounts is set to the number of flips of each triangle slot; or null.
+  DividedRun(MeshInPieces& mesh, const FlipOptions& options, std::int32_t* flipCounts,
     const ProgressObserver& progress);
 
   PiecesReport Run();
@@ -46,6 +47,7 @@ private:
   void FlipSubMesh(SubMesh& part, int piece, const ProgressObserver& progress);
   void KeepFixedEdges(const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges);
   FlipOptions GetPieceOptions(int piece) const;
+  void KeepFlips(const SubMesh& part, const std::int32_t* counts);
   bool Tell(int piece, double share, bool isCaller);
 
   void JoinPieces();
@@ -64,7 +66,7 @@ private:
 
   MeshInPieces& Mesh;
   const FlipOptions& Options;
-  const PieceDivision& Division;
+  std::int32_t* const FlipCounts; ///< Of the mesh; or null.
   const ProgressObserver& Progress;
 
   std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.

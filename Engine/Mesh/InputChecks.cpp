@@ -18,6 +18,7 @@ namespace
 /// triangle, stay below 2^32.
 constexpr std::int64_t LargestMesh = ((std::int64_t(1) << 32) - 2) / 6;
 constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
+constexpr int MostPieces = 255;
 
 void CheckDevices(std::vector<int> devices)
 {
@@ -58,6 +59,11 @@ void CheckOptions(const FlipOptions& options)
   {
     throw InvalidOptions("the number of the GPU must be -1 (CUDA's current one), 0 or more");
   }
+  if (options.NumberOfPieces < 0 || options.NumberOfPieces > MostPieces)
+  {
+    throw InvalidOptions("the number of pieces must be from 1 to " + std::to_string(MostPieces) +
+      ", or 0 (as few as possible)");
+  }
   CheckDevices(options.Devices);
 }
 
@@ -72,14 +78,25 @@ void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
   }
 }
 
-void CheckMeshSize(std::int64_t triangles, std::int64_t points)
+int CountPieces(const FlipOptions& options, std::int64_t triangles)
+{
+  // They are cut by a sample of the triangles, so that they are not of quite the same size.
+  constexpr std::int64_t LargestPiece = LargestMesh - LargestMesh / 16;
+  if (options.NumberOfPieces > 0 || triangles <= LargestMesh)
+  {
+    return std::max(1, options.NumberOfPieces);
+  }
+  const std::int64_t count = (triangles + LargestPiece - 1) / LargestPiece;
+  return static_cast<int>(std::min<std::int64_t>(count, MostPieces));
+}
+
+void CheckMeshSize(std::int64_t triangles, std::int64_t points, const char* remedy)
 {
   if (triangles > LargestMesh || points > MostPoints)
   {
     throw MeshTooLarge("the mesh has " + std::to_string(triangles) + " triangles and " +
       std::to_string(points) + " points; at most " + std::to_string(LargestMesh) +
-      " triangles and " + std::to_string(MostPoints) +
-      " points are supported at once: use FlipInPieces, or split the mesh into parts");
+      " triangles and " + std::to_string(MostPoints) + " points are supported " + remedy);
   }
 }
 

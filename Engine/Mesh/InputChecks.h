@@ -16,8 +16,13 @@ void CheckOptions(const FlipOptions& options);
 /// @throws InvalidOptions if the tie rule does not apply to the geometry.
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
+/// In how many pieces a mesh is flipped.
+int CountPieces(const FlipOptions& options, std::int64_t triangles);
+
 /// Throws MeshTooLarge if the mesh has too many triangles for 32-bit half-edges. Allocates nothing.
-void CheckMeshSize(std::int64_t triangles, std::int64_t points);
+/// @param remedy the end of the message: where that is the limit, and what to do.
+void CheckMeshSize(std::int64_t triangles, std::int64_t points,
+  const char* remedy = "in one piece; flip the mesh in more pieces");
 
 }
 

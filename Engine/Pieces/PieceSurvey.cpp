@@ -176,7 +176,8 @@ void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup&
     [&]()
     {
       CheckOptions(options);
-      CheckMeshSize(piece.Mesh.Triangles.Count, piece.Mesh.Points.Count);
+      CheckMeshSize(piece.Mesh.Triangles.Count, piece.Mesh.Points.Count,
+        "on one rank; divide the mesh among more ranks");
       if (piece.Mesh.Points.Count > std::numeric_limits<std::int32_t>::max())
       {
         throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");

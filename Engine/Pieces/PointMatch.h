@@ -20,11 +20,11 @@ struct PointKeys
   HostVector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
-  /// One flag per point: whether it is not shared and its triangles close around it.
+  /// One flag per point: whether it is not shared and its triangles form a closed ring around it.
   std::vector<unsigned char> Closed;
 
   // Of the whole mesh:
-  std::int64_t Repeated = 0; ///< Points that another rank has, too, and is the first to have.
+  std::int64_t Repeated = 0; ///< Points that a rank before theirs has, too.
   std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
   std::int64_t Ambiguous = 0; ///< Coincide with others of their rank, and with one of another.
 
@@ -33,8 +33,9 @@ struct PointKeys
 
 /// Finds the points that several ranks have: those with the same number or, without numbers, with
 /// the same coordinates if at least one of them is at the border of a piece. A point without
-/// triangles counts as such if it is the end of a constraint. Points inside two pieces with the
-/// same number are found if each lies in the bounding box of the other's rank.
+/// triangles that is the end of a constraint counts as a border point. Two points with the same
+/// number that are inside their pieces are found if each of them lies in the bounding box of the
+/// other one's rank.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
 }

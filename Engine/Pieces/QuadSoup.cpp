@@ -43,6 +43,7 @@ FlipOptions GetPartOptions(const PieceSurvey& survey, const FlipOptions& options
   part.Geometry = survey.Geometry;
   part.FeatureAngle = 180.0;
   part.TrackQuality = false;
+  part.NumberOfPieces = 1;
   if (part.Backend == BackendKind::CUDA)
   {
     part.Backend = BackendKind::Auto; // parts are often too small for a GPU

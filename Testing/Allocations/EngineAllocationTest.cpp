@@ -100,11 +100,12 @@ void ExpectFailuresInPiecesReported(const OwnedMesh<double>& mesh, FlipOptions o
 {
   options.Backend = BackendKind::Threads;
   options.NumberOfThreads = 1;
+  options.NumberOfPieces = 3;
   const std::int64_t euler = EulerCharacteristic(mesh.View().Triangles);
   const Ids untouched(mesh.Triangles.size(), -7);
   Ids output = untouched;
   const MutableTriangleArray triangles(output.data(), mesh.NumberOfTriangles());
-  const auto flip = [&]() { FlipInPieces(mesh.View(), options, { 3, {} }, triangles); };
+  const auto flip = [&]() { FlipInPieces(mesh.View(), options, triangles); };
   flip();
   const Ids expected = output;
   std::copy(untouched.begin(), untouched.end(), output.begin());

@@ -161,8 +161,7 @@ Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOption
 }
 #else
 /// Undivided, or in pieces without ranks.
-Measure FlipInOneProcess(
-  OwnedMesh<float>& mesh, const FlipOptions& options, const PieceDivision& division, bool isLast)
+Measure FlipInOneProcess(OwnedMesh<float>& mesh, const FlipOptions& options, bool isLast)
 {
   std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
   std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
@@ -170,9 +169,9 @@ Measure FlipInOneProcess(
   Measure measure = TakeTime(
     [&](Measure& own)
     {
-      if (division.Pieces > 0)
+      if (options.NumberOfPieces > 0)
       {
-        own.Report = FlipInPieces(mesh.View(), options, division, triangles);
+        own.Report = FlipInPieces(mesh.View(), options, triangles);
       }
       else
       {
@@ -326,11 +325,10 @@ void Run(const Settings& settings)
       settings, FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices); }));
     return;
   }
-  options.Devices = count > 0 ? std::vector<int>() : devices;
-  const PieceDivision division{ count, devices };
+  options.Devices = devices;
+  options.NumberOfPieces = count;
   Print(settings,
-    FindFastest(
-      settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, division, isLast); }));
+    FindFastest(settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, isLast); }));
 }
 #endif
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
+#include "InputChecks.h"
 #include "MeshAudit.h"
 #include "PieceTestSupport.h"
 #include "RandomMess.h"
@@ -38,13 +39,14 @@ std::vector<std::int32_t> CopyTriangles(const TriangleMesh& mesh)
 }
 
 /// In the array of the mesh.
-PiecesResult FlipHere(const TriangleMesh& mesh, int pieces, const FlipOptions& options,
-  const ProgressObserver& progress = {})
+PiecesResult FlipHere(
+  const TriangleMesh& mesh, int pieces, FlipOptions options, const ProgressObserver& progress = {})
 {
+  options.NumberOfPieces = pieces;
   PiecesResult result{ CopyTriangles(mesh), {} };
   const TriangleMesh given = WithTriangles(mesh, result.Triangles);
-  result.Report = FlipInPieces(given, options, { pieces, {} },
-    MutableTriangleArray(result.Triangles.data(), mesh.Triangles.Count), progress);
+  result.Report = FlipInPieces(
+    given, options, MutableTriangleArray(result.Triangles.data(), mesh.Triangles.Count), progress);
   return result;
 }
 
@@ -276,7 +278,7 @@ TEST_P(FlipInPiecesTest, AnotherArrayOfLongIds)
 {
   const OwnedMesh<float> mesh = MakeRandomBadMesh(500, 50);
   std::vector<std::int64_t> output(mesh.Triangles.size());
-  FlipInPieces(mesh.View(), MakeCanonical(), { GetParam(), {} },
+  FlipInPieces(mesh.View(), MakeInPieces(GetParam()),
     MutableTriangleArray(output.data(), mesh.NumberOfTriangles()));
   const std::vector<std::int32_t> expected =
     FlipHere(mesh.View(), GetParam(), MakeCanonical()).Triangles;
@@ -350,10 +352,11 @@ TEST_P(FlipInPiecesTest, ErrorsChangeNothing)
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(100, 55);
   mesh.Triangles[100] = 77777;
   std::vector<std::int32_t> output(mesh.Triangles.size(), -5);
-  const auto flip = [&](const FlipOptions& options)
+  const auto flip = [&](FlipOptions options)
   {
-    FlipInPieces(mesh.View(), options, { GetParam(), {} },
-      MutableTriangleArray(output.data(), mesh.NumberOfTriangles()));
+    options.NumberOfPieces = GetParam();
+    FlipInPieces(
+      mesh.View(), options, MutableTriangleArray(output.data(), mesh.NumberOfTriangles()));
   };
   EXPECT_THROW(flip(MakeCanonical()), InvalidMesh);
   mesh.Triangles[100] = 0;
@@ -391,13 +394,24 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(NumberOfPiecesTest, IsFrom1To255)
 {
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20, 57);
-  const MutableTriangleArray triangles(mesh.Triangles.data(), mesh.NumberOfTriangles());
-  for (const int pieces : { -1, 0, 256 })
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20, 57);
+  for (const int pieces : { -1, 256 })
   {
-    EXPECT_THROW(FlipInPieces(mesh.View(), {}, { pieces, {} }, triangles), InvalidOptions);
+    EXPECT_THROW(FlipHere(mesh.View(), pieces, {}), InvalidOptions);
+    EXPECT_THROW(FlipSession(mesh.View(), MakeInPieces(pieces)), InvalidOptions);
   }
-  FlipInPieces(mesh.View(), {}, { 255, {} }, triangles);
+  FlipHere(mesh.View(), 255, {});
+}
+
+TEST(NumberOfPiecesTest, IsTheSmallestThatIsPossibleByDefault)
+{
+  constexpr std::int64_t most = 715827882;
+  EXPECT_EQ(1, CountPieces({}, 0));
+  EXPECT_EQ(1, CountPieces({}, most));
+  EXPECT_EQ(2, CountPieces({}, most + 1));
+  EXPECT_EQ(3, CountPieces({}, 2 * most));
+  EXPECT_EQ(7, CountPieces(MakeInPieces(7), 2 * most));
+  EXPECT_EQ(1, CountPieces(MakeInPieces(1), 2 * most));
 }
 
 }

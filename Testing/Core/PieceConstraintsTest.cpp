@@ -64,12 +64,12 @@ TEST_P(PieceConstraintsTest, ConstraintsAreInsertedAcrossThePiecesOfOneProcess)
   ASSERT_LT(2, alone.Report.InsertedConstraints);
   std::vector<std::int32_t> triangles = mesh.Triangles;
   const MutableTriangleArray output(triangles.data(), mesh.NumberOfTriangles());
-  const PieceDivision division{ GetParam(), {} };
+  const FlipOptions inPieces = MakeInPieces(GetParam());
   const auto stop = [](double) { return false; };
-  const PiecesReport stopped = FlipInPieces(given, MakeCanonical(), division, output, stop);
+  const PiecesReport stopped = FlipInPieces(given, inPieces, output, stop);
   EXPECT_EQ(StopReasonKind::Aborted, stopped.StopReason);
   EXPECT_EQ(mesh.Triangles, triangles);
-  const PiecesReport report = FlipInPieces(given, MakeCanonical(), division, output);
+  const PiecesReport report = FlipInPieces(given, inPieces, output);
   EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(triangles));
   EXPECT_EQ(alone.Report.InsertedConstraints, report.InsertedConstraints);
   EXPECT_EQ(alone.Report.ConstraintFlips, report.ConstraintFlips);

@@ -229,8 +229,10 @@ TEST_P(PieceEdgesTest, AMeshOfOneProcessInPieces)
     std::vector<std::int32_t> triangles = mesh.Triangles;
     TriangleMesh given = mesh.View();
     given.Triangles = ViewTriangles(triangles);
-    const PiecesReport report = FlipInPieces(given, MakeCanonical(), { GetParam(), devices },
-      MutableTriangleArray(triangles.data(), mesh.NumberOfTriangles()));
+    FlipOptions options = MakeInPieces(GetParam());
+    options.Devices = devices;
+    const PiecesReport report = FlipInPieces(
+      given, options, MutableTriangleArray(triangles.data(), mesh.NumberOfTriangles()));
     EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(triangles));
     ExpectSameCounts(alone.Report, report);
   }
@@ -253,7 +255,7 @@ TEST_P(PieceEdgesTest, WhatIsFixedInAMeshOfOneProcessStays)
   given.FrozenTriangles = frozen.data();
   const FlipResult alone = Flip(given, MakeCanonical());
   std::vector<std::int32_t> triangles = mesh.Triangles;
-  const PiecesReport report = FlipInPieces(given, MakeCanonical(), { GetParam(), {} },
+  const PiecesReport report = FlipInPieces(given, MakeInPieces(GetParam()),
     MutableTriangleArray(triangles.data(), mesh.NumberOfTriangles()));
   EXPECT_EQ(ToTriangleSet(alone.Triangles), ToTriangleSet(triangles));
   ExpectSameCounts(alone.Report, report);
@@ -265,7 +267,7 @@ TEST_P(PieceEdgesTest, TheCallerCanStopAMeshInPieces)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 34);
   std::vector<std::int32_t> triangles = mesh.Triangles;
-  const PiecesReport report = FlipInPieces(mesh.View(), MakeCanonical(), { GetParam(), {} },
+  const PiecesReport report = FlipInPieces(mesh.View(), MakeInPieces(GetParam()),
     MutableTriangleArray(triangles.data(), mesh.NumberOfTriangles()),
     [](double share) { return share < 0.3; });
   EXPECT_EQ(StopReasonKind::Aborted, report.StopReason);

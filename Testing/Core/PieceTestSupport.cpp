@@ -50,6 +50,13 @@ FlipOptions MakeCanonical()
   return options;
 }
 
+FlipOptions MakeInPieces(int pieces)
+{
+  FlipOptions options = MakeCanonical();
+  options.NumberOfPieces = pieces;
+  return options;
+}
+
 FlipOptions MakeOnSurface(double featureAngle)
 {
   FlipOptions options;

@@ -35,6 +35,9 @@ inline std::string NameRanks(const testing::TestParamInfo<int>& info)
 /// Planar, with canonical ties, on one thread per rank: the triangles are unique.
 FlipOptions MakeCanonical();
 
+/// The same in pieces, without ranks.
+FlipOptions MakeInPieces(int pieces);
+
 /// On a surface, on one thread per rank.
 FlipOptions MakeOnSurface(double featureAngle = 180.0);
 

@@ -31,12 +31,14 @@ protected:
                        : std::vector<std::vector<int>>{ { 0 }, { 0, 1 } };
   }
 
-  static std::vector<std::int32_t> FlipPieces(const TriangleMesh& mesh, const FlipOptions& options,
+  static std::vector<std::int32_t> FlipPieces(const TriangleMesh& mesh, FlipOptions options,
     const std::vector<int>& devices, PiecesReport& report)
   {
+    options.NumberOfPieces = 5;
+    options.Devices = devices;
     std::vector<std::int32_t> triangles(3 * mesh.Triangles.Count);
-    report = FlipInPieces(
-      mesh, options, { 5, devices }, MutableTriangleArray(triangles.data(), mesh.Triangles.Count));
+    report =
+      FlipInPieces(mesh, options, MutableTriangleArray(triangles.data(), mesh.Triangles.Count));
     return triangles;
   }
 
