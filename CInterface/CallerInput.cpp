@@ -172,6 +172,7 @@ FlipOptions ToOptions(const delaunayflip_options* given)
   options.NumberOfThreads = c.number_of_threads;
   options.Device = c.device;
   options.Devices = ParseDevices(c.devices ? c.devices : "");
+  options.NumberOfPieces = c.number_of_pieces;
   options.TrackQuality = c.track_quality != 0;
   return options;
 }

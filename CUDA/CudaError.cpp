@@ -22,7 +22,8 @@ std::string Advise(cudaError_t error)
   switch (error)
   {
     case cudaErrorMemoryAllocation:
-      return "; the mesh is too large for the free memory of the GPU";
+      return "; the mesh is too large for the free memory of the GPU, unless it is flipped in "
+             "pieces";
     case cudaErrorNoDevice:
       return "; does this machine have an NVIDIA GPU?";
     case cudaErrorInvalidDevice:

@@ -148,6 +148,12 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
       "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
     ->check(FindFaultOfDevices);
   app
+    .add_option("--pieces", arguments.Flip.NumberOfPieces,
+      "Flip the mesh in this many pieces, one after the other, so that it may be larger than the "
+      "memory of the GPU. With --devices they take turns and need no NVLink. With --tie-rule "
+      "canonical the result does not depend on it; 0: as few as possible [0]")
+    ->transform(WholeNumber(0, 255, "a number of pieces (0 to 255)"));
+  app
     .add_option("--threads", arguments.Flip.NumberOfThreads,
       "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
       "that is more. The result does not depend on it [0]")

@@ -39,8 +39,9 @@ double SecondsSince(Clock::time_point start)
 }
 
 /// Reports contradicting options and a missing backend before a large file is read.
-void TryOptions(const FlipOptions& options)
+void TryOptions(FlipOptions options)
 {
+  options.NumberOfPieces = 1; // a session of several looks for a GPU when it flips
   const double points[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
   const std::int32_t triangle[] = { 0, 1, 2 };
   TriangleMesh mesh;
@@ -73,6 +74,7 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetNumberOfThreads(flip.NumberOfThreads);
   filter->SetDeviceId(flip.Device);
   filter->SetDevices(arguments.Devices.c_str());
+  filter->SetNumberOfPieces(flip.NumberOfPieces);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
   filter->SetInsertLines(arguments.InsertLines);
   filter->SetInsertConstraints(arguments.InsertConstraints);

@@ -286,6 +286,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "DeviceId: " << this->DeviceId << "\n";
   os << indent << "Devices: " << this->Devices << "\n";
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "TrackQuality: " << this->TrackQuality << "\n";

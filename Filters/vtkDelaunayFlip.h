@@ -306,6 +306,18 @@ public:
 
   ///@{
   /**
+   * In how many pieces the mesh is flipped, one after the other, so that it may be larger than the
+   * memory of a GPU: 1 to 255, or 0 (default): one, or the fewest that are possible if it has more
+   * than 715 million triangles. Devices then flip pieces in turn, and need no NVLink. In planar
+   * geometry with the canonical tie rule the triangles with an area do not depend on it. With
+   * LiveUpdate, the first update flips the whole mesh if there are several pieces.
+   */
+  vtkSetClampMacro(NumberOfPieces, int, 0, 255);
+  vtkGetMacro(NumberOfPieces, int);
+  ///@}
+
+  ///@{
+  /**
    * The number of CPU threads; 0 (default): as many as the machine has. At most twice as many are
    * used, or 16 if that is more, and fewer if the system cannot start so many; GetBackendUsed()
    * tells how many there were. The result does not depend on it.
@@ -650,6 +662,7 @@ protected:
   int Backend = BACKEND_AUTO;
   int DeviceId = -1;
   std::string Devices;
+  int NumberOfPieces = 0;
   int NumberOfThreads = 0;
   vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;

@@ -356,6 +356,7 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
   options.NumberOfThreads = this->NumberOfThreads;
   options.Device = this->DeviceId;
   options.Devices = delaunayflip::ParseDevices(this->Devices);
+  options.NumberOfPieces = this->NumberOfPieces;
   options.TrackQuality = this->TrackQuality;
   return options;
 }

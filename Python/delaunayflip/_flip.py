@@ -29,8 +29,9 @@ def flip(
     feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
     insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
     frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
-    threads: int = 0, device: int = -1, devices: Devices = (), track_quality: bool = False,
-    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
+    threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0,
+    track_quality: bool = False, progress: Optional[Progress] = None,
+    on_iteration: Optional[OnIteration] = None,
 ) -> Result:
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
@@ -43,8 +44,7 @@ def flip(
         geometry: "planar": edges are judged in the plane of the points; "planar-xy": by x and y
             (terrain); "surface": in space; "auto": whichever fits.
         criterion: "in-circle" (exact; surfaces ignore it) or "opposite-angles".
-        tie_rule: "keep" edges of four points on one circle, or, in the plane, "canonical": the
-            result does not depend on the input's triangles.
+        tie_rule: For points on one circle: "keep" edges or, in the plane, "canonical" triangles.
         tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
@@ -57,6 +57,7 @@ def flip(
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
         devices: GPUs, connected by NVLink, that share the mesh: [0, 1] or "all"; (): device.
+        pieces: 1 to 255, flipped in turn where a GPU is too small for the mesh; 0: the fewest.
         track_quality: Compute the smallest angle after every iteration.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.
@@ -78,8 +79,7 @@ def flip(
         regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion,
         tie_rule=tie_rule, tolerance=tolerance, feature_angle=feature_angle,
         maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
-        devices=devices, track_quality=track_quality,
-    ) as session:
+        devices=devices, pieces=pieces, track_quality=track_quality) as session:
         if session.report.stop_reason != "aborted":
             session.advance(progress=progress, on_iteration=on_iteration)
         return Result(session.triangles, session.flip_counts, session.iterations, session.report)

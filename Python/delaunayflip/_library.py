@@ -65,7 +65,7 @@ class Options(ctypes.Structure):
         ("number_of_threads", c_int32),
         ("device", c_int32),
         ("track_quality", c_int32),
-        ("reserved", c_int32),
+        ("number_of_pieces", c_int32),
         ("devices", c_char_p),
     ]
 

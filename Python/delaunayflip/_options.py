@@ -9,7 +9,7 @@ _CHOICES = {
     "tie_rule": _library.TIE_RULES,
     "backend": _library.BACKENDS,
 }
-_NAMES = {"threads": "number_of_threads"}
+_NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
 
 
 def make_options(**keywords):
@@ -21,7 +21,7 @@ def make_options(**keywords):
     """
     options = _library.Options()
     _library.library().delaunayflip_options_init(options)
-    known = {name for name, _ in options._fields_} - {"size", "reserved"}
+    known = {name for name, _ in options._fields_} - {"size"}
     for keyword, value in keywords.items():
         name = _NAMES.get(keyword, keyword)
         if name not in known:

@@ -49,4 +49,5 @@ class Options(typing.TypedDict, total=False):
     threads: int
     device: int
     devices: Devices
+    pieces: int
     track_quality: bool

@@ -52,6 +52,7 @@ PROPERTIES = (
     Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
     Property("DeviceId", -1, -1, VTK_INT_MAX),
     Property("Devices", ""),
+    Property("NumberOfPieces", 0, 0, 255),
     Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
     Property("MaximumIterations", -1, -1, VTK_ID_MAX),
     Property("TrackQuality", False),

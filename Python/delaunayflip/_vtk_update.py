@@ -197,6 +197,7 @@ class Update:
             "threads": filter_.GetNumberOfThreads(),
             "device": filter_.GetDeviceId(),
             "devices": filter_.GetDevices(),
+            "pieces": filter_.GetNumberOfPieces(),
             "track_quality": filter_.GetTrackQuality(),
         }
 

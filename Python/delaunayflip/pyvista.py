@@ -26,7 +26,7 @@ _CHOICES = {"geometry": ("Geometry", _library.GEOMETRIES),
             "criterion": ("Criterion", _library.CRITERIA),
             "tie_rule": ("TieRule", _library.TIE_RULES),
             "backend": ("Backend", _library.BACKENDS)}
-_NAMES = {"threads": "NumberOfThreads", "device": "DeviceId"}
+_NAMES = {"threads": "NumberOfThreads", "device": "DeviceId", "pieces": "NumberOfPieces"}
 
 
 class Options(typing.TypedDict, total=False):
@@ -47,6 +47,7 @@ class Options(typing.TypedDict, total=False):
     threads: int
     device: int
     devices: str
+    pieces: int
 
 
 if typing.TYPE_CHECKING:
@@ -67,9 +68,9 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads, device and devices ("0,1") as for delaunayflip.flip; region_array: a
-            cell array, edges between its values stay; lines_as_constraints, insert_lines,
-            insert_constraints and triangulate as in vtkDelaunayFlip.
+            backend, threads, device, devices ("0,1") and pieces as for delaunayflip.flip;
+            region_array: a cell array, edges between its values stay; lines_as_constraints,
+            insert_lines, insert_constraints and triangulate as in vtkDelaunayFlip.
 
     Returns:
         The mesh. Its field data tells what was done, e.g. "DelaunayFlip:TotalFlips".

@@ -523,6 +523,26 @@ static void TestThreads(void)
   FreeLattice(&lattice);
 }
 
+static void TestPieces(void)
+{
+  Lattice lattice = MakeLattice(40);
+  int64_t* triangles = malloc(sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles);
+  delaunayflip_options options;
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  delaunayflip_options_init(&options);
+  CHECK(options.number_of_pieces == 0);
+  options.number_of_pieces = 4;
+  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(report.stop_reason == DELAUNAYFLIP_CONVERGED && report.total_flips > 0);
+  CHECK(report.non_delaunay_after == 0);
+  options.number_of_pieces = 256;
+  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, triangles, NULL) ==
+    DELAUNAYFLIP_INVALID_OPTIONS);
+  free(triangles);
+  FreeLattice(&lattice);
+}
+
 /* A quad, a line that is no polygon, and an L of six corners, whose fan would leave it. */
 static void TestPolygons(void)
 {
@@ -647,7 +667,7 @@ int main(int argc, char** argv)
     { "old_program", TestOldProgram }, { "newer_program", TestNewerProgram },
     { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
     { "backend_unavailable", TestBackendUnavailable }, { "device_memory", TestDeviceMemory },
-    { "threads", TestThreads }, { "polygons", TestPolygons },
+    { "threads", TestThreads }, { "pieces", TestPieces }, { "polygons", TestPolygons },
     { "polygons_stopped", TestPolygonsCanBeStopped }, { "triangle_numbers", TestTriangleNumbers },
     { "warm_start", TestWarmStart }, { "normals", TestNormals } };
   size_t i;

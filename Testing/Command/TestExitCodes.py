@@ -58,6 +58,7 @@ class WrongUsage(CommandTest):
             "--threads": ["-1", "1.5", "99999999"],
             "--device": ["-2", "0.5", "x", "nan", "9999999999", "gpu0"],
             "--devices": ["x", "0,", "-1", "0.5", "0;1", "all,0"],
+            "--pieces": ["-1", "256", "1.5", "x"],
             "--max-iterations": ["-2", "1e30", "x"],
         }.items():
             for value in values:
@@ -117,7 +118,7 @@ class Success(CommandTest):
             *(mesh, "out.vtk", "--geometry", "planar-xy", "--criterion", "in-circle"),
             *("--feature-angle", "20", "--tolerance", "1e-8", "--tie-rule", "canonical"),
             *("--ignore-lines", "--max-iterations", "-1", "--backend", "threads"),
-            *("--device", "0", "--threads", "2", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
+            *("--device", "0", "--threads", "2", "--pieces", "3", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
         )
         self.assertLess({"out.vtk", "s.csv", "r.json"}, set(os.listdir(self.folder)))
 

@@ -170,6 +170,16 @@ class Options(CommandTest):
         for threads in (1, 3):
             self.assertEqual(self.report(*arguments, threads)["backend"], f"Threads: {threads}")
 
+    def test_pieces(self):
+        path = write_mesh(random_insertion(500), self.path("in.vtk"))
+        meshes = []
+        for pieces in (1, 5):
+            report = self.report(path, "out.vtk", "--tie-rule", "canonical", "--pieces", pieces)
+            self.assertEqual((report["converged"], report["non_delaunay_after"]), (True, 0))
+            meshes.append(read_mesh(self.path("out.vtk")))
+        self.assertEqual(triangle_set(meshes[0]), triangle_set(meshes[1]))
+        self.assertNotEqual(triangles_of(meshes[0]), triangles_of(meshes[1]))
+
 
 class ManyThreads(CommandTest):
     def test_more_than_there_is_memory_for(self):

@@ -8,11 +8,14 @@
 #include "FlipReport.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkPoints.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <set>
 
 namespace
 {
@@ -84,6 +87,56 @@ TEST(VtkDelaunayFlip, DevicesThatCannotBeReadAreAnError)
   filter->Update();
   EXPECT_EQ(filter.GetErrors().size(), 1u);
   EXPECT_EQ(filter->GetTotalFlips(), 1);
+}
+
+TEST(VtkDelaunayFlip, NumberOfPiecesIsAProperty)
+{
+  vtkNew<vtkDelaunayFlip> filter;
+  EXPECT_EQ(filter->GetNumberOfPieces(), 0);
+  filter->SetNumberOfPieces(3);
+  EXPECT_EQ(filter->GetNumberOfPieces(), 3);
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("NumberOfPieces: 3"), std::string::npos);
+  filter->SetNumberOfPieces(1000);
+  EXPECT_EQ(filter->GetNumberOfPieces(), 255);
+}
+
+TEST(VtkDelaunayFlip, PiecesGiveTheSameMesh)
+{
+  const auto mesh = ToPolyData(delaunayflip::MakeRandomBadMesh(2000, 6));
+  std::set<std::set<vtkIdType>> expected;
+  for (const int pieces : { 0, 1, 4 })
+  {
+    WatchedFilter filter(mesh);
+    filter->SetTieRuleToCanonical();
+    filter->SetNumberOfPieces(pieces);
+    filter->GenerateFlipCountOn();
+    vtkPolyData* output = RunCleanly(filter);
+    std::set<std::set<vtkIdType>> triangles;
+    for (const Cell& cell : GetCells(output->GetPolys()))
+    {
+      triangles.emplace(cell.begin(), cell.end());
+    }
+    expected = pieces == 0 ? triangles : expected;
+    EXPECT_EQ(triangles, expected) << pieces;
+    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+    const std::vector<int> counts = GetNumbers(output->GetCellData(), "vtkDelaunayFlipCount");
+    EXPECT_EQ(
+      std::accumulate(counts.begin(), counts.end(), vtkIdType(0)), 2 * filter->GetTotalFlips());
+  }
+}
+
+TEST(VtkDelaunayFlip, ALiveUpdateFlipsPiecesAtOnce)
+{
+  WatchedFilter filter(ToPolyData(delaunayflip::MakeRandomBadMesh(500, 7)));
+  filter->LiveUpdateOn();
+  filter->SetIterationsPerUpdate(1);
+  filter->SetNumberOfPieces(2);
+  RunCleanly(filter);
+  EXPECT_LT(1, filter->GetNumberOfIterations());
+  EXPECT_EQ(filter->GetReport().StopReason, delaunayflip::StopReasonKind::Converged);
+  EXPECT_FALSE(filter->Advance());
 }
 
 TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)

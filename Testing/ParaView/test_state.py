@@ -14,6 +14,7 @@ SETTINGS = {
     "RegionArray": "Side",
     "TieRule": "Canonical",
     "Backend": "Threads",
+    "NumberOfPieces": 3,
     "NumberOfThreads": 2,
     "GenerateFlipCount": 1,
 }

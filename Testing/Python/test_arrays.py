@@ -81,6 +81,18 @@ class Flip(unittest.TestCase):
         numpy.testing.assert_array_equal(runs[0], runs[1])
         numpy.testing.assert_array_equal(runs[0], runs[2])
 
+    def test_pieces_agree(self):
+        points, triangles = sheared_lattice(60)
+        runs = [delaunayflip.flip(points, triangles, pieces=n, tie_rule="canonical")
+                for n in (0, 1, 7)]
+        sets = [{frozenset(ids) for ids in run.triangles.tolist()} for run in runs]
+        self.assertEqual(sets[0], sets[1])
+        self.assertEqual(sets[0], sets[2])
+        for run in runs:
+            self.assertEqual(run.flip_counts.sum(), 2 * run.report.total_flips)
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "number of pieces"):
+            delaunayflip.flip(points, triangles, pieces=256)
+
     def test_what_must_stay(self):
         for keywords in (
             {"constraints": [[2, 0]]},

@@ -313,6 +313,11 @@ class Same(unittest.TestCase):
             self.assertEqual([watched.filter.Advance() for watched in both.pair], [True, True])
             self.assertEqual(*both.read())
 
+    def test_pieces(self):
+        told = self.expect_same(make_bad_mesh(), lambda flip: (
+            flip.SetNumberOfPieces(3), flip.GenerateFlipCountOn()))
+        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 100)
+
     def test_live_update(self):
         def prepare(flip):
             flip.LiveUpdateOn()
