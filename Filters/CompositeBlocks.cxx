@@ -5,11 +5,8 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUniformGridAMR.h"
 
@@ -57,16 +54,6 @@ double CountCells(vtkCompositeDataSet* blocks)
   return cells;
 }
 
-unsigned int CountPartitions(vtkPartitionedDataSet* partitions)
-{
-  unsigned int meshes = 0;
-  for (unsigned int i = 0; partitions && i < partitions->GetNumberOfPartitions(); ++i)
-  {
-    meshes += CountCells(partitions->GetPartitionAsDataObject(i)) > 0.0 ? 1 : 0;
-  }
-  return meshes;
-}
-
 }
 
 std::vector<Block> ListBlocks(vtkCompositeDataSet* blocks)
@@ -106,40 +93,6 @@ void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
     output->SetDataSet(leaf, transform(block));
     leaf->GoToNextItem();
   }
-}
-
-std::map<unsigned int, vtkSmartPointer<vtkPolyData>> ListMeshes(vtkCompositeDataSet* blocks)
-{
-  std::map<unsigned int, vtkSmartPointer<vtkPolyData>> meshes;
-  for (auto leaf = Traverse(blocks); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    if (auto* mesh = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()))
-    {
-      meshes[leaf->GetCurrentFlatIndex()] = mesh;
-    }
-  }
-  return meshes;
-}
-
-bool HasPartitions(vtkCompositeDataSet* blocks)
-{
-  if (CountPartitions(vtkPartitionedDataSet::SafeDownCast(blocks)) > 1)
-  {
-    return true;
-  }
-  auto* tree = GetTree(blocks);
-  if (!tree)
-  {
-    return false;
-  }
-  auto node = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  node->VisitOnlyLeavesOff();
-  bool found = false;
-  for (node->InitTraversal(); !node->IsDoneWithTraversal() && !found; node->GoToNextItem())
-  {
-    found = CountPartitions(vtkPartitionedDataSet::SafeDownCast(node->GetCurrentDataObject())) > 1;
-  }
-  return found;
 }
 
 }

@@ -6,13 +6,11 @@
 #include "vtkSmartPointer.h"
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 class vtkCompositeDataSet;
 class vtkDataObject;
-class vtkPolyData;
 
 namespace delaunayflip
 {
@@ -40,13 +38,6 @@ constexpr const char* NotASurface = "not a surface, passed unchanged";
 /// leaves stay empty. `transform` may change `input`.
 void TransformBlocks(vtkCompositeDataSet* input, vtkCompositeDataSet* output,
   const std::function<vtkSmartPointer<vtkDataObject>(const Block& block)>& transform);
-
-/// The polygonal leaves, by their flat indices.
-std::map<unsigned int, vtkSmartPointer<vtkPolyData>> ListMeshes(vtkCompositeDataSet* blocks);
-
-/// Whether some dataset in `blocks` is divided into partitions. (Blocks, by contrast, are meshes of
-/// their own.)
-bool HasPartitions(vtkCompositeDataSet* blocks);
 
 }
 

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceInput.h"
 
+#include "MalformedArrays.h"
 #include "PointIds.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -20,6 +23,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <numeric>
 
 namespace delaunayflip
 {
@@ -80,6 +84,46 @@ void UnpackTexts(const Message& message, std::vector<std::string>& texts)
     texts.emplace_back(message.data() + at, size);
     at += size;
   }
+}
+
+vtkSmartPointer<vtkCellArray> TakeCells(vtkCellArray* cells, vtkIdType first, vtkIdList* chosen)
+{
+  auto taken = vtkSmartPointer<vtkCellArray>::New();
+  const bool isWide = cells->GetConnectivityArray()->GetDataTypeSize() == 8;
+  isWide ? taken->Use64BitStorage() : taken->Use32BitStorage();
+  vtkNew<vtkIdList> ids;
+  for (auto cell = std::lower_bound(chosen->begin(), chosen->end(), first);
+       cell != chosen->end() && *cell < first + cells->GetNumberOfCells(); ++cell)
+  {
+    cells->GetCellAtId(*cell - first, ids);
+    taken->InsertNextCell(ids);
+  }
+  return taken;
+}
+
+/// The mesh with some of its cells, of any size. (vtkPolyData::DeleteCell fails for some sizes.)
+vtkSmartPointer<vtkPolyData> TakeCells(vtkPolyData* mesh, vtkIdList* chosen)
+{
+  auto taken = vtkSmartPointer<vtkPolyData>::New();
+  taken->SetPoints(mesh->GetPoints());
+  taken->GetPointData()->ShallowCopy(mesh->GetPointData());
+  taken->GetFieldData()->ShallowCopy(mesh->GetFieldData());
+  vtkIdType first = 0;
+  taken->SetVerts(TakeCells(mesh->GetVerts(), first, chosen));
+  first += mesh->GetNumberOfVerts();
+  taken->SetLines(TakeCells(mesh->GetLines(), first, chosen));
+  first += mesh->GetNumberOfLines();
+  taken->SetPolys(TakeCells(mesh->GetPolys(), first, chosen));
+  first += mesh->GetNumberOfPolys();
+  taken->SetStrips(TakeCells(mesh->GetStrips(), first, chosen));
+  const vtkSmartPointer<vtkCellData> whole = TakeWholeArrays(mesh);
+  vtkNew<vtkIdList> places;
+  places->SetNumberOfIds(chosen->GetNumberOfIds());
+  std::iota(places->begin(), places->end(), 0);
+  taken->GetCellData()->CopyAllOn();
+  taken->GetCellData()->CopyAllocate(whole, chosen->GetNumberOfIds());
+  taken->GetCellData()->CopyData(whole, chosen, places);
+  return taken;
 }
 
 /// The ends of edges along lines and polygons: six coordinates for each.
@@ -160,29 +204,17 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 {
   auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
     mesh->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  const vtkIdType count =
-    ghosts ? std::min(ghosts->GetNumberOfValues(), mesh->GetNumberOfCells()) : 0;
-  const auto isDuplicate = [&](vtkIdType cell)
-  { return (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; };
-  vtkSmartPointer<vtkPolyData> kept;
-  for (vtkIdType cell = 0; cell < count; ++cell)
+  const vtkIdType flags = ghosts ? ghosts->GetNumberOfValues() : 0;
+  vtkNew<vtkIdList> kept;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
   {
-    if (isDuplicate(cell) && !kept)
+    if (cell >= flags || !(ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL))
     {
-      kept = vtkSmartPointer<vtkPolyData>::New();
-      kept->ShallowCopy(mesh);
-      kept->BuildCells();
-    }
-    if (isDuplicate(cell))
-    {
-      kept->DeleteCell(cell);
+      kept->InsertNextId(cell);
     }
   }
-  if (kept)
-  {
-    kept->RemoveDeletedCells();
-  }
-  return kept ? kept : vtkSmartPointer<vtkPolyData>(mesh);
+  return kept->GetNumberOfIds() == mesh->GetNumberOfCells() ? vtkSmartPointer<vtkPolyData>(mesh)
+                                                            : TakeCells(mesh, kept);
 }
 
 std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
@@ -192,9 +224,10 @@ std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
   if (ids && ids->GetNumberOfComponents() == 1 &&
     ids->GetNumberOfTuples() == mesh->GetNumberOfPoints())
   {
-    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+    auto* known = vtkArrayDownCast<vtkIdTypeArray>(ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i) // a double has not all bits of an id
     {
-      numbers.push_back(static_cast<std::int64_t>(ids->GetComponent(i, 0)));
+      numbers.push_back(known ? known->GetValue(i) : ids->GetVariantValue(i).ToTypeInt64());
     }
   }
   return numbers;
@@ -230,6 +263,23 @@ void ShareRegionLabels(
     label =
       static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), own[label]) - all.begin());
   }
+}
+
+vtkSmartPointer<vtkPolyData> JoinConstraints(const std::vector<ConstraintsOfMesh>& sources)
+{
+  SegmentList all;
+  bool areFloats = true;
+  for (const ConstraintsOfMesh& one : sources)
+  {
+    const bool hasPoints = one.Constraints->GetNumberOfPoints() > 0 || one.Mesh;
+    if (hasPoints)
+    {
+      vtkPoints* points = GetPointsOf(one.Constraints, one.Mesh);
+      ListSegments(one.Constraints, points, all);
+      areFloats = areFloats && points->GetDataType() == VTK_FLOAT;
+    }
+  }
+  return all.Coordinates.empty() ? nullptr : BuildSegments(all.Coordinates, areFloats);
 }
 
 vtkSmartPointer<vtkPolyData> GatherConstraints(

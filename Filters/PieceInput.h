@@ -31,6 +31,16 @@ std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh);
 void ShareRegionLabels(vtkPolyData* mesh, const std::string& array,
   std::vector<std::int32_t>& labels, PieceGroup& group);
 
+/// Constraints, and the mesh whose points they name if they have none of their own; or null.
+struct ConstraintsOfMesh
+{
+  vtkPolyData* Constraints;
+  vtkPolyData* Mesh;
+};
+
+/// The constraints of several meshes as one; null if there are none.
+vtkSmartPointer<vtkPolyData> JoinConstraints(const std::vector<ConstraintsOfMesh>& sources);
+
 /// The constraints of all ranks as one mesh: each rank may have all of them, or a part. Null if
 /// they name points of the rank's own mesh by id, or if there are none.
 vtkSmartPointer<vtkPolyData> GatherConstraints(

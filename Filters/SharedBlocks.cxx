@@ -28,26 +28,18 @@ bool HasCells(vtkDataObject* data)
 class PlaceFinder
 {
 public:
-  explicit PlaceFinder(vtkCompositeDataSet* blocks) { this->Visit(blocks, {}, false); }
+  explicit PlaceFinder(vtkCompositeDataSet* blocks) { this->Visit(blocks, {}); }
 
-  SharedBlock Find(unsigned int number) const
+  BlockPlace Find(unsigned int number) const
   {
-    const auto found = this->Leaves.find(number);
-    SharedBlock leaf = found == this->Leaves.end() ? SharedBlock() : found->second;
-    if (leaf.Place.empty())
-    {
-      leaf.Place = { number }; // no tree
-    }
-    leaf.Number = number;
-    return leaf;
+    const bool isInTree = number < this->Places.size() && !this->Places[number].empty();
+    return isInTree ? this->Places[number] : BlockPlace{ number };
   }
 
 private:
-  void Visit(vtkDataObject* node, const BlockPlace& place, bool isPartition)
+  void Visit(vtkDataObject* node, const BlockPlace& place)
   {
-    SharedBlock& leaf = this->Leaves[this->Next++];
-    leaf.Place = place;
-    leaf.IsPartition = isPartition;
+    this->Places.push_back(place);
     if (auto* partitions = vtkPartitionedDataSet::SafeDownCast(node))
     {
       this->VisitPartitions(partitions, place);
@@ -72,7 +64,7 @@ private:
     for (unsigned int i = 0; i < count; ++i)
     {
       place.back() = i;
-      this->Visit(getChild(i), place, false);
+      this->Visit(getChild(i), place);
     }
   }
 
@@ -80,32 +72,36 @@ private:
   {
     BlockPlace place = parent;
     place.push_back(0);
-    std::int64_t meshes = 0;
     for (unsigned int i = 0; i < partitions->GetNumberOfPartitions(); ++i)
     {
       vtkDataObject* data = partitions->GetPartitionAsDataObject(i);
-      place.back() = HasCells(data) ? meshes++ : -1 - static_cast<std::int64_t>(i);
-      this->Visit(data, place, true);
+      place.back() = HasCells(data) ? 0 : -1 - static_cast<std::int64_t>(i);
+      this->Visit(data, place);
     }
   }
 
-  unsigned int Next = 0;
-  std::map<unsigned int, SharedBlock> Leaves;
+  std::vector<BlockPlace> Places;
 };
 
+/// This rank's blocks, by their first leaves.
 std::vector<SharedBlock> ListOwnBlocks(vtkCompositeDataSet* blocks)
 {
   const PlaceFinder places(blocks);
   std::vector<SharedBlock> list;
-  for (const Block& block : ListBlocks(blocks))
+  std::map<BlockPlace, std::size_t> known;
+  for (const Block& leaf : ListBlocks(blocks))
   {
-    SharedBlock own = places.Find(block.Number);
-    own.Name = block.Name;
-    own.Data = block.Data;
-    own.HasCells = block.HasCells;
-    own.MayBeMesh = block.MayBeMesh;
-    own.Cells = static_cast<double>(block.Data->GetNumberOfElements(vtkDataObject::CELL));
-    list.push_back(own);
+    const BlockPlace place = places.Find(leaf.Number);
+    const auto [found, isNew] = known.emplace(place, list.size());
+    if (isNew)
+    {
+      list.emplace_back();
+      list.back().Place = place;
+      list.back().Name = leaf.Name;
+    }
+    SharedBlock& block = list[found->second];
+    block.Leaves.push_back({ leaf.Data, leaf.Number, leaf.HasCells, leaf.MayBeMesh });
+    block.Cells += static_cast<double>(leaf.Data->GetNumberOfElements(vtkDataObject::CELL));
   }
   return list;
 }
@@ -117,7 +113,7 @@ Message Pack(const std::vector<SharedBlock>& blocks)
   text.precision(17);
   for (const SharedBlock& block : blocks)
   {
-    text << block.Cells << ' ' << block.IsPartition << ' ' << block.Place.size() << ' ';
+    text << block.Cells << ' ' << block.Place.size() << ' ';
     for (const std::int64_t number : block.Place)
     {
       text << number << ' ';
@@ -135,7 +131,7 @@ std::vector<SharedBlock> Unpack(const Message& message)
   std::vector<SharedBlock> blocks;
   SharedBlock block;
   std::size_t size = 0;
-  while (text >> block.Cells >> block.IsPartition >> size)
+  while (text >> block.Cells >> size)
   {
     block.Place.resize(size);
     for (std::int64_t& number : block.Place)
@@ -151,7 +147,7 @@ std::vector<SharedBlock> Unpack(const Message& message)
   return blocks;
 }
 
-/// Joins leaves of several ranks at the same place.
+/// Joins blocks of several ranks at the same place.
 std::vector<SharedBlock> Join(const std::vector<Message>& lists)
 {
   std::map<BlockPlace, SharedBlock> joined;
@@ -169,7 +165,7 @@ std::vector<SharedBlock> Join(const std::vector<Message>& lists)
   return blocks;
 }
 
-/// Puts this rank's leaf at the same place into each of the shared ones.
+/// Puts this rank's leaves at the same place into each of the shared blocks.
 void AddOwn(const std::vector<SharedBlock>& own, std::vector<SharedBlock>& blocks)
 {
   for (SharedBlock& block : blocks)
@@ -178,10 +174,7 @@ void AddOwn(const std::vector<SharedBlock>& own, std::vector<SharedBlock>& block
       [&block](const SharedBlock& one) { return one.Place == block.Place; });
     if (found != own.end())
     {
-      block.Data = found->Data;
-      block.Number = found->Number;
-      block.HasCells = found->HasCells;
-      block.MayBeMesh = found->MayBeMesh;
+      block.Leaves = found->Leaves;
     }
   }
 }
@@ -213,31 +206,20 @@ std::vector<SharedBlock> ListSharedBlocks(vtkCompositeDataSet* blocks, PieceGrou
   return shared;
 }
 
-std::map<BlockPlace, vtkSmartPointer<vtkPolyData>> ListMeshesByPlace(vtkCompositeDataSet* blocks)
+std::map<BlockPlace, std::vector<BlockLeaf>> ListMeshesByPlace(vtkCompositeDataSet* blocks)
 {
-  std::map<BlockPlace, vtkSmartPointer<vtkPolyData>> meshes;
+  std::map<BlockPlace, std::vector<BlockLeaf>> meshes;
   for (const SharedBlock& block : ListOwnBlocks(blocks))
   {
-    if (auto* mesh = vtkPolyData::SafeDownCast(block.Data))
+    for (const BlockLeaf& leaf : block.Leaves)
     {
-      meshes[block.Place] = mesh;
+      if (vtkPolyData::SafeDownCast(leaf.Data))
+      {
+        meshes[block.Place].push_back(leaf);
+      }
     }
   }
   return meshes;
-}
-
-bool HaveSharedPartitions(const std::vector<SharedBlock>& blocks)
-{
-  std::map<BlockPlace, int> counts;
-  for (const SharedBlock& block : blocks)
-  {
-    if (block.IsPartition && block.Cells > 0.0)
-    {
-      ++counts[BlockPlace(block.Place.begin(), block.Place.end() - 1)];
-    }
-  }
-  return std::any_of(
-    counts.begin(), counts.end(), [](const auto& count) { return count.second > 1; });
 }
 
 }

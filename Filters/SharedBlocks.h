@@ -14,41 +14,41 @@
 
 class vtkCompositeDataSet;
 class vtkDataObject;
-class vtkPolyData;
 
 namespace delaunayflip
 {
 
-/// Where a leaf of a composite dataset is: the numbers of children, from the root on. Partitions
-/// without cells are not counted, so that the first partition that a rank has is at the same place
-/// as the first one of any other rank.
+/// Where a block of a composite dataset is: the numbers of children, from the root on. The
+/// partitions of a dataset that have cells are one block, whatever their numbers.
 using BlockPlace = std::vector<std::int64_t>;
 
-/// A leaf of a composite dataset that some ranks have a piece of.
+/// A leaf of this process's composite dataset.
+struct BlockLeaf
+{
+  vtkSmartPointer<vtkDataObject> Data; ///< Never null.
+  unsigned int Number; ///< VTK's flat index.
+  bool HasCells = false;
+  bool MayBeMesh = false; ///< Whether the dataset can hold a mesh in its place.
+};
+
+/// A block that is one mesh, or none: a leaf, or the partitions of a dataset. Other ranks may have
+/// a piece of it, too.
 struct SharedBlock
 {
   BlockPlace Place;
   std::string Name; ///< Its name in messages, from the first rank that has it.
   double Cells = 0.0; ///< On all ranks.
-  bool IsPartition = false; ///< Whether leaves with the same parent belong to the same mesh.
-  double Before = 0.0; ///< The share of all cells in the leaves before it, 0 to 1.
+  double Before = 0.0; ///< The share of all cells in the blocks before it, 0 to 1.
   double Share = 0.0; ///< The share of all cells in it, 0 to 1.
-
-  vtkSmartPointer<vtkDataObject> Data; ///< This rank's; null if it has none.
-  unsigned int Number = 0; ///< VTK's flat index of Data; 0 if there is none.
-  bool HasCells = false; ///< Whether Data has.
-  bool MayBeMesh = false; ///< Whether this rank's dataset can hold a mesh in its place.
+  std::vector<BlockLeaf> Leaves; ///< Of this rank.
 };
 
-/// The leaves that any rank of the group has, in the same order on all ranks. All ranks must call
+/// The blocks that any rank of the group has, in the same order on all ranks. All ranks must call
 /// this together.
 std::vector<SharedBlock> ListSharedBlocks(vtkCompositeDataSet* blocks, PieceGroup& group);
 
-/// The polygonal leaves of this rank.
-std::map<BlockPlace, vtkSmartPointer<vtkPolyData>> ListMeshesByPlace(vtkCompositeDataSet* blocks);
-
-/// Whether several leaves with cells are partitions of one mesh.
-bool HaveSharedPartitions(const std::vector<SharedBlock>& blocks);
+/// The polygonal leaves of this process.
+std::map<BlockPlace, std::vector<BlockLeaf>> ListMeshesByPlace(vtkCompositeDataSet* blocks);
 
 }
 

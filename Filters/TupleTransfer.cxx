@@ -157,23 +157,6 @@ Message PackTuples(const std::vector<std::int64_t>& wanted, vtkDataSetAttributes
   return std::move(writer.Data);
 }
 
-/// An array of the same kind, of zeros or empty texts; null if there is no such kind.
-vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType size)
-{
-  const char* name = like->GetName();
-  const auto array =
-    MakeArray(like->GetDataType(), name ? name : "", like->GetNumberOfComponents());
-  if (array)
-  {
-    array->SetNumberOfTuples(size);
-  }
-  if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
-  {
-    numbers->Fill(0.0);
-  }
-  return array;
-}
-
 void AddZeros(vtkDataSetAttributes* given, vtkIdType size, vtkDataSetAttributes* result)
 {
   for (int i = 0; i < given->GetNumberOfArrays(); ++i)
@@ -261,6 +244,22 @@ std::vector<Message> PackRequests(
   return requests;
 }
 
+}
+
+vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType size)
+{
+  const char* name = like->GetName();
+  const auto array =
+    MakeArray(like->GetDataType(), name ? name : "", like->GetNumberOfComponents());
+  if (array)
+  {
+    array->SetNumberOfTuples(size);
+  }
+  if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
+  {
+    numbers->Fill(0.0);
+  }
+  return array;
 }
 
 void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* given,

@@ -6,16 +6,21 @@
 #include "PieceFlip.h"
 #include "PieceGroup.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+class vtkAbstractArray;
 class vtkDataSetAttributes;
 
 namespace delaunayflip
 {
+
+/// An array of the same kind, of zeros or empty texts; null if there is no such kind.
+vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType size);
 
 /// Brings the data of points or cells from the ranks that have them. All ranks must call this
 /// together.

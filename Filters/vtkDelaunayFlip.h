@@ -51,7 +51,7 @@
  * Delaunay in the sense of opposite-angle sums. An edge whose flip would fold the surface over, or
  * create an edge that exists already, stays and is reported as blocked.
  *
- * Composite input (multiblock, partitioned): every polygonal block is flipped separately; other
+ * Composite input (multiblock, partitioned): every polygonal block is a mesh of its own; other
  * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
  * and the other blocks are flipped. The methods that return results, and the only table, have the
  * sums over all blocks; the field data of a block are its own. Composite constraints with the same
@@ -59,10 +59,19 @@
  * vtkMultiProcessController updates one piece, the sums are over all pieces. All
  * ranks must update together. Rank 0 has the table and gives the messages.
  *
+ * The partitions of a dataset (vtkPartitionedDataSet, vtkMultiPieceDataSet) are one mesh: edges
+ * between them flip, too. Points of several partitions are the same if they have the same global id
+ * (active global ids of the point data, in all partitions) or, without global ids, equal
+ * coordinates and at least one of them is at the border of its partition. Where such a point
+ * coincides with another one of its own partition, it is not known which of the two is meant; a
+ * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
+ * partition, with its cell data. Points that a partition then lacks are added behind its own, with
+ * their point data; arrays that they do not have are 0 or empty there. The field data of each
+ * partition, and all results, are those of the whole mesh.
+ *
  * @warning
- * Edges between the pieces of a parallel run, or between the partitions of a dataset, stay and are
- * not counted. An update that leaves such edges gives a warning. vtkPDelaunayFlip flips those
- * between pieces, too.
+ * Edges between the pieces of a parallel run stay and are not counted. An update that leaves such
+ * edges gives a warning. vtkPDelaunayFlip flips them, too.
  *
  * @par References
  * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
@@ -82,6 +91,7 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For meshes of inputs
 
+#include <map> // For std::map
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
@@ -93,7 +103,7 @@ namespace delaunayflip
 class FlipRun;
 class FlipSession;
 class PieceGroup;
-struct Block;
+struct BlockConstraints;
 struct FlipOptions;
 struct FlipReport;
 struct IterationRecord;
@@ -673,7 +683,13 @@ protected:
   bool Paused = false;
 
 private:
-  struct Connection;
+  struct Connection
+  {
+    vtkPolyData* Input;
+    vtkPolyData* Constraints; ///< Or null.
+    vtkPolyData* Output;
+    bool IsLive;
+  };
   struct Resumption;
   struct SharedMesh;
 
@@ -681,20 +697,17 @@ private:
     vtkInformationVector* outputVector);
   delaunayflip::UpdateSummary FlipMesh(
     vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece);
-  delaunayflip::UpdateSummary FlipBlocks(
-    vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output);
+  delaunayflip::UpdateSummary FlipBlocks(vtkCompositeDataSet* input, vtkDataObject* constraints,
+    vtkDataObject* output, delaunayflip::PieceGroup& group);
   delaunayflip::UpdateSummary FlipTogether(vtkDataObject* input, vtkDataObject* constraints,
     vtkDataObject* output, delaunayflip::PieceGroup& group);
-  delaunayflip::UpdateSummary FlipSharedBlocks(vtkCompositeDataSet* input,
-    vtkDataObject* constraints, vtkCompositeDataSet* output, delaunayflip::PieceGroup& group);
-  vtkSmartPointer<vtkDataObject> FlipSharedBlock(const delaunayflip::SharedBlock& block,
-    vtkPolyData* constraints, delaunayflip::PieceGroup& group,
-    delaunayflip::UpdateSummary& summary);
+  void FlipBlock(const delaunayflip::SharedBlock& block,
+    const delaunayflip::BlockConstraints& constraints, delaunayflip::PieceGroup& group,
+    delaunayflip::UpdateSummary& summary,
+    std::map<unsigned int, vtkSmartPointer<vtkDataObject>>& leaves);
   void FlipShared(
     const SharedMesh& mesh, delaunayflip::PieceGroup& group, delaunayflip::UpdateSummary& summary);
   vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
-  vtkSmartPointer<vtkDataObject> FlipBlock(const delaunayflip::Block& block,
-    vtkPolyData* constraints, delaunayflip::UpdateSummary& summary);
   delaunayflip::MeshOutcome TryToFlip(const Connection& data);
   void Flip(const Connection& data);
   void DiscardRun(vtkDataObject* output);

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The part of vtkDelaunayFlip that runs in an update of many ranks, each of which has a piece of
-/// every mesh.
+/// The part of vtkDelaunayFlip that runs in an update of composite data, or of many ranks, each of
+/// which has a piece of every mesh.
 
 #include "vtkDelaunayFlip.h"
 
+#include "BlockMesh.h"
 #include "CompositeBlocks.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
@@ -17,11 +18,19 @@
 #include "vtkPolyData.h"
 
 #include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
 
 using namespace delaunayflip;
+
+namespace
+{
+
+constexpr const char* AmbiguousPartitions =
+  "points of some partitions coincide with others of the same partition, and edges there stayed; "
+  "give the points global ids";
+
+}
 
 /// A mesh of which every rank has a piece.
 struct vtkDelaunayFlip::SharedMesh
@@ -60,8 +69,7 @@ UpdateSummary vtkDelaunayFlip::FlipTogether(
   auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
   if (IsOnAnyRank(blocks != nullptr, group))
   {
-    return this->FlipSharedBlocks(
-      blocks, constraints, vtkCompositeDataSet::SafeDownCast(output), group);
+    return this->FlipBlocks(blocks, constraints, output, group);
   }
   UpdateSummary summary;
   const auto getPiece = [&]()
@@ -117,13 +125,13 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
 }
 
 //------------------------------------------------------------------------------
-/// Flips every leaf that is a mesh on some rank, as a mesh of its own.
-UpdateSummary vtkDelaunayFlip::FlipSharedBlocks(vtkCompositeDataSet* input,
-  vtkDataObject* constraints, vtkCompositeDataSet* output, PieceGroup& group)
+/// Flips every block that is a mesh on some rank, as a mesh of its own.
+/// @param group the ranks that have pieces of the blocks; one rank flips its blocks alone.
+UpdateSummary vtkDelaunayFlip::FlipBlocks(
+  vtkCompositeDataSet* input, vtkDataObject* constraints, vtkDataObject* output, PieceGroup& group)
 {
-  std::map<BlockPlace, vtkSmartPointer<vtkPolyData>> edgesOfBlocks;
+  BlockConstraints edges;
   vtkSmartPointer<vtkCompositeDataSet> blocks; // observers may change the input
-  auto* edges = vtkCompositeDataSet::SafeDownCast(constraints);
   DoTogether(group,
     [&]()
     {
@@ -133,53 +141,74 @@ UpdateSummary vtkDelaunayFlip::FlipSharedBlocks(vtkCompositeDataSet* input,
       }
       blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
       blocks->ShallowCopy(input);
-      edgesOfBlocks = edges ? ListMeshesByPlace(edges) : edgesOfBlocks;
+      edges.OfAll = vtkPolyData::SafeDownCast(constraints);
+      if (auto* ofBlocks = vtkCompositeDataSet::SafeDownCast(constraints))
+      {
+        edges.Blocks = ListMeshesByPlace(ofBlocks);
+      }
     });
   UpdateSummary summary;
   summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
-  std::map<unsigned int, vtkSmartPointer<vtkDataObject>> results;
+  BlockLeaves results;
   std::vector<SharedBlock> shared;
   const auto list = [&](PieceGroup& told) { shared = ListSharedBlocks(blocks, told); };
   RunTogether(group, std::ref(list)); // a copy would need memory
   for (const SharedBlock& block : shared)
   {
-    vtkPolyData* own =
-      edges ? edgesOfBlocks[block.Place].Get() : vtkPolyData::SafeDownCast(constraints);
-    results[block.Number] = this->FlipSharedBlock(block, own, group, summary);
+    this->FlipBlock(block, edges, group, summary, results);
   }
-  TransformBlocks(blocks, output, [&](const Block& block) { return results[block.Number]; });
+  TransformBlocks(blocks, vtkCompositeDataSet::SafeDownCast(output),
+    [&](const Block& block) { return results[block.Number]; });
   this->SetProgressShiftScale(0.0, 1.0);
-  summary.HasSeams = HaveSharedPartitions(shared);
   return summary;
 }
 
-/// @returns the leaf of this rank's output. A rank that has no triangle of a mesh receives none.
-vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipSharedBlock(
-  const SharedBlock& block, vtkPolyData* constraints, PieceGroup& group, UpdateSummary& summary)
+/// Reads a block, flips it and adds its leaves to the output's. A rank that has no triangle of a
+/// mesh receives none.
+void vtkDelaunayFlip::FlipBlock(const SharedBlock& block, const BlockConstraints& constraints,
+  PieceGroup& group, UpdateSummary& summary, BlockLeaves& leaves)
 {
-  vtkSmartPointer<vtkPolyData> mesh;
+  BlockMesh mesh(block);
+  vtkSmartPointer<vtkPolyData> edges;
   const auto read = [&]()
-  { mesh = block.Data && block.MayBeMesh ? this->ReadMesh(block.Data) : nullptr; };
+  {
+    mesh.Read([this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray,
+      group.GetRank());
+    edges = mesh.FindConstraints(constraints);
+  };
   MeshOutcome outcome;
   outcome.Failure = Attempt([&]() { DoTogether(group, read); });
-  auto flipped = vtkSmartPointer<vtkPolyData>::New();
   if (outcome.Failure)
   {
+    mesh.StoreNothing(leaves);
     summary.AddMesh(outcome, 0, block.Name);
-    return flipped;
+    return;
   }
-  if (IsOnAnyRank(block.HasCells && !mesh, group))
+  if (IsOnAnyRank(mesh.HasOtherCells(), group))
   {
     summary.Warnings.push_back({ block.Name, NotASurface });
   }
-  const bool isAborted = summary.Report.StopReason == StopReasonKind::Aborted;
-  if (!isAborted && IsOnAnyRank(mesh != nullptr, group))
+  if (IsOnAnyRank(mesh.HasAmbiguousPoints(), group))
   {
-    this->SetProgressShiftScale(block.Before, block.Share);
-    const auto getPiece = [&mesh]() { return mesh ? mesh : vtkSmartPointer<vtkPolyData>::New(); };
-    this->FlipShared({ getPiece, constraints, flipped, block.Name }, group, summary);
+    summary.Warnings.push_back({ block.Name, AmbiguousPartitions });
   }
-  const bool isPassed = block.Data && (!mesh || isAborted);
-  return isPassed ? CopyBlock(isAborted && mesh ? mesh.Get() : block.Data.Get())
-                  : vtkSmartPointer<vtkDataObject>(flipped);
+  if (summary.Report.StopReason == StopReasonKind::Aborted || !IsOnAnyRank(mesh.HasMesh(), group))
+  {
+    mesh.Store(nullptr, leaves);
+    return;
+  }
+  this->SetProgressShiftScale(block.Before, block.Share);
+  const auto flipped = vtkSmartPointer<vtkPolyData>::New();
+  if (group.GetSize() > 1)
+  {
+    const auto getPiece = [&mesh]() { return mesh.GetMesh(); };
+    this->FlipShared({ getPiece, edges, flipped, block.Name }, group, summary);
+  }
+  else
+  {
+    const vtkSmartPointer<vtkPolyData> whole = mesh.GetMesh();
+    const MeshOutcome alone = this->TryToFlip({ whole, edges, flipped, false });
+    summary.AddMesh(alone, block.Leaves.front().Number, block.Name);
+  }
+  DoTogether(group, [&]() { mesh.Store(flipped, leaves); });
 }

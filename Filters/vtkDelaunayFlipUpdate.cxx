@@ -4,7 +4,6 @@
 
 #include "vtkDelaunayFlip.h"
 
-#include "CompositeBlocks.h"
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
@@ -27,21 +26,12 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
-#include <map>
 #include <string>
 #include <utility>
 
 using namespace delaunayflip;
 
 //------------------------------------------------------------------------------
-struct vtkDelaunayFlip::Connection
-{
-  vtkPolyData* Input;
-  vtkPolyData* Constraints; ///< Or null.
-  vtkPolyData* Output;
-  bool IsLive;
-};
-
 /// How the run of an update may go on from that of the last one.
 struct vtkDelaunayFlip::Resumption
 {
@@ -102,8 +92,8 @@ int vtkDelaunayFlip::RequestData(
     [&]()
     {
       summary = group ? this->FlipTogether(input, constraints, output, *group)
-        : blocks ? this->FlipBlocks(blocks, constraints, vtkCompositeDataSet::SafeDownCast(output))
-                 : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
+        : blocks      ? this->FlipBlocks(blocks, constraints, output, *MakeSingleGroup())
+                      : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
       WarnOfLiveUpdate(this->LiveUpdate && (blocks || group || piece.Count > 1), summary);
     });
   if (failure)
@@ -204,56 +194,6 @@ UpdateSummary vtkDelaunayFlip::FlipMesh(
   }
   summary.AddMesh(outcome, 0, "");
   return summary;
-}
-
-//------------------------------------------------------------------------------
-UpdateSummary vtkDelaunayFlip::FlipBlocks(
-  vtkCompositeDataSet* input, vtkDataObject* constraints, vtkCompositeDataSet* output)
-{
-  UpdateSummary summary;
-  summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
-  auto* edges = vtkCompositeDataSet::SafeDownCast(constraints);
-  std::map<unsigned int, vtkSmartPointer<vtkPolyData>> edgesOfBlocks;
-  if (edges)
-  {
-    edgesOfBlocks = ListMeshes(edges);
-  }
-  TransformBlocks(input, output,
-    [&](const Block& block)
-    {
-      vtkPolyData* own =
-        edges ? edgesOfBlocks[block.Number].Get() : vtkPolyData::SafeDownCast(constraints);
-      return this->FlipBlock(block, own, summary);
-    });
-  this->SetProgressShiftScale(0.0, 1.0);
-  summary.HasSeams = HasPartitions(input);
-  return summary;
-}
-
-/// @returns the block of the output.
-vtkSmartPointer<vtkDataObject> vtkDelaunayFlip::FlipBlock(
-  const Block& block, vtkPolyData* constraints, UpdateSummary& summary)
-{
-  MeshOutcome outcome;
-  vtkSmartPointer<vtkPolyData> mesh;
-  outcome.Failure =
-    Attempt([&]() { mesh = block.MayBeMesh ? this->GetMesh(block.Data) : nullptr; });
-  if (mesh || outcome.Failure)
-  {
-    auto flipped = vtkSmartPointer<vtkPolyData>::New();
-    this->SetProgressShiftScale(block.Before, block.Share);
-    if (mesh)
-    {
-      outcome = this->TryToFlip({ mesh, constraints, flipped, false });
-    }
-    summary.AddMesh(outcome, block.Number, block.Name);
-    return flipped;
-  }
-  if (block.HasCells)
-  {
-    summary.Warnings.push_back({ block.Name, NotASurface });
-  }
-  return CopyBlock(block.Data);
 }
 
 //------------------------------------------------------------------------------

@@ -11,23 +11,25 @@
  * without a controller, this filter is vtkDelaunayFlip.
  *
  * Input: a vtkPolyData on every process; it may be empty. Or composite data on every process: each
- * leaf is a mesh of its own, of which each process may have a piece, in the same place of the same
- * structure; null where it has none. Leaves that are no meshes pass unchanged, with a warning.
- * Partitions of a dataset are counted without those that are null or have no cells: the first ones
- * of all processes are one mesh, the second ones another, with a warning if there are any. Points
- * of several pieces are the same if one of them is at the border of its piece and they have the
- * same global id (active global ids of the point data, on all processes that have points) or,
- * without global ids, equal coordinates. Points that coincide within a piece are then not matched;
- * a warning counts them. Duplicate ghost cells (vtkGhostType) are dropped first. Constraints
- * (second input) may be on any process, all or in part; they are matched by coordinates. The ends
- * of lines (LinesAsConstraints) are points of the process that has them, if need be without cells.
- * In planar geometry both are inserted across the pieces of all processes. If two cross, those
- * within one piece come first, the rest in the order of processes.
+ * block is a mesh of its own, of which each process may have a piece, in the same place of the same
+ * structure; null where it has none. Blocks that are no meshes pass unchanged, with a warning. All
+ * partitions of a dataset, on all processes, are one mesh: a process joins those that it has, as
+ * vtkDelaunayFlip does, and they are its piece. Points of several pieces are the same if one of
+ * them is at the border of its piece and they have the same global id (active global ids of the
+ * point data, on all processes that have points) or, without global ids, equal coordinates. Points
+ * that coincide within a piece are then not matched; a warning counts them. Duplicate ghost cells
+ * (vtkGhostType) are dropped first. Constraints (second input) may be on any process, all or in
+ * part; they are matched by coordinates. The ends of lines (LinesAsConstraints) are points of the
+ * process that has them, if need be without cells. In planar geometry both are inserted across the
+ * pieces of all processes. If two cross, those within one piece come first, the rest in the order
+ * of processes.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
  * input, the same vtkPoints object if none were received, else followed by received points with
- * their point data. Verts, lines and cells that are not flipped stay.
+ * their point data. Verts, lines and cells that are not flipped stay. If the process has several
+ * partitions, triangles that stayed on it are in the partition that they came from. A received one
+ * is in the first partition that has one of its points, or else in the first one.
  *
  * All results (GetTotalFlips() and the like, the field data) are those of the whole mesh, the same
  * on every process; only rank 0 has the table of iterations and gives messages. GetNumberOfRounds()

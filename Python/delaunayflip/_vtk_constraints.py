@@ -61,7 +61,8 @@ def _unite(pairs, flags, count):
     return numpy.ascontiguousarray(pairs[first[order]]), united[order]
 
 
-def _list_other_pairs(others, count):
+def list_other_pairs(others, count):
+    """The edges of the second input, which names `count` points."""
     lines = Cells(others.GetLines(), "constraint cell", others.GetNumberOfVerts())
     polygons = Cells(others.GetPolys(), "constraint cell", lines.first + lines.count)
     for cells in (lines, polygons):
@@ -75,8 +76,8 @@ def _find_others(others, points, triangles):
     has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
                      and other_points.tobytes() == points.tobytes())
     if len(other_points) == 0 or has_same_bits:
-        return _drop_points(_list_other_pairs(others, len(points))), 0
-    pairs = _list_other_pairs(others, len(other_points))
+        return _drop_points(list_other_pairs(others, len(points))), 0
+    pairs = list_other_pairs(others, len(other_points))
     return _match_places(pairs, other_points, points, triangles)
 
 

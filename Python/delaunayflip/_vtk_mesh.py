@@ -95,7 +95,7 @@ class MeshInput:
         cells, corners = new_cells(sizes, self._uses_wide_ids())
         of_triangle = numpy.repeat(is_triangle, sizes)
         corners[of_triangle] = session.triangles[slots.polygon_triangles[is_triangle]].ravel()
-        corners[~of_triangle] = _gather(kept, sources[~is_triangle])
+        corners[~of_triangle] = gather(kept, sources[~is_triangle])
         return cells
 
     def _build_strips(self):
@@ -106,7 +106,7 @@ class MeshInput:
             return vtkCellArray()
         kept = Cells(strips, "cell", self.slots.first_strip)
         cells, corners = new_cells(kept.sizes[chosen], kept.is_wide())
-        corners[:] = _gather(kept, chosen)
+        corners[:] = gather(kept, chosen)
         return cells
 
     def _pass_cell_data(self, output):
@@ -116,12 +116,12 @@ class MeshInput:
             return
         sources = numpy.concatenate([numpy.arange(self.slots.first_polygon),
                                      self.slots.polygon_cells, self.slots.kept_strips])
-        whole = _take_whole_arrays(self.mesh)
+        whole = take_whole_arrays(self.mesh)
         data.CopyAllOn()
         data.CopyAllocate(whole, len(sources))
         data.CopyData(whole, make_ids(sources), make_ids(numpy.arange(len(sources))))
         if self.slots.divides_cells:
-            _demote_global_ids(data)
+            demote_global_ids(data)
 
     def _find_changed(self, output):
         """(polygons, old triangles, new triangles) of the polygons that flips have changed."""
@@ -163,7 +163,7 @@ class MeshInput:
         output.GetCellData().AddArray(make(name, of_cells))
 
 
-def _gather(cells, chosen):
+def gather(cells, chosen):
     """The corners of the chosen cells, one after the other."""
     sizes = cells.sizes[chosen]
     steps = numpy.arange(sizes.sum()) - numpy.repeat(numpy.cumsum(sizes) - sizes, sizes)
@@ -178,7 +178,7 @@ def _find_normals(points, triangles):
     return normals
 
 
-def _take_whole_arrays(mesh):
+def take_whole_arrays(mesh):
     """The cell data without arrays that are too short."""
     data = vtkCellData()
     data.ShallowCopy(mesh.GetCellData())
@@ -188,7 +188,7 @@ def _take_whole_arrays(mesh):
     return data
 
 
-def _demote_global_ids(data):
+def demote_global_ids(data):
     """Global ids become pedigree ids: where cells are divided, several share an id."""
     ids = data.GetGlobalIds()
     if ids is not None:

@@ -109,9 +109,14 @@ def _split(polygons, points, triangulate, progress):
 
 def _split_strips(strips, triangulate):
     counts = numpy.maximum(strips.sizes - 2, 0)
+    return _Part(strips, split_strips(strips), counts, _stay(strips.sizes, triangulate, 2), False)
+
+
+def split_strips(strips):
+    """(m, 3) the triangles of strips, which are Cells."""
+    counts = numpy.maximum(strips.sizes - 2, 0)
     steps = numpy.arange(counts.sum()) - numpy.repeat(numpy.cumsum(counts) - counts, counts)
     first = numpy.repeat(strips.offsets[:-1], counts) + steps
     odd = steps % 2  # every other triangle of a strip is wound the other way
     places = numpy.stack([first + odd, first + 1 - odd, first + 2], axis=1)
-    triangles = strips.corners[places].astype(numpy.int64).reshape(-1, 3)
-    return _Part(strips, triangles, counts, _stay(strips.sizes, triangulate, 2), False)
+    return strips.corners[places].astype(numpy.int64).reshape(-1, 3)

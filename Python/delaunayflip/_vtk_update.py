@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
 
 from . import _errors, _library, _vtk_blocks
 from ._session import ITERATION
+from ._vtk_block_mesh import BlockMesh
 from ._vtk_mesh import Settings
 from ._vtk_report import Totals, describe
 from ._vtk_run import Request, Run
@@ -44,7 +45,6 @@ class Update:
         self._sum = self.totals = Totals()
         self._errors, self._warnings = [], []
         self._part = (0.0, 1.0)
-        self._has_seams = False
         self.failure = Failure.NONE
 
     @property
@@ -68,7 +68,7 @@ class Update:
         if self._filter.GetLiveUpdate() and (is_composite or self._pieces > 1):
             self._warnings.append(
                 ("", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once"))
-        if self._has_seams or (self._pieces > 1 and self._sum.has_triangles):
+        if self._pieces > 1 and self._sum.has_triangles:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def tell(self, tell):
@@ -98,31 +98,31 @@ class Update:
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.stop_reason = "converged"  # the result for an input without blocks
+        blocks = _vtk_blocks.copy(source)  # observers may change the input meanwhile
         of_blocks = isinstance(constraints, vtkCompositeDataSet)
-        own = _vtk_blocks.list_meshes(constraints) if of_blocks else {}
+        edges = _vtk_blocks.list_meshes(constraints) if of_blocks else constraints
+        results = {}
+        for block in _vtk_blocks.list_blocks(blocks):
+            self._flip_block(block, edges, results)
+        _vtk_blocks.store(blocks, results, output)
 
-        def transform(block):
-            return self._flip_block(block, own.get(block.number) if of_blocks else constraints)
-
-        _vtk_blocks.transform_blocks(source, output, transform)
-        self._has_seams = _vtk_blocks.has_partitions(source)
-
-    def _flip_block(self, block, constraints):
-        flipped = vtkPolyData()
+    def _flip_block(self, block, constraints, results):
+        """`results` receives the leaves of the output."""
         try:
-            mesh = self._filter.get_mesh(block.data) if block.may_be_mesh else None
-        except _errors.InvalidMesh as error:
+            mesh = BlockMesh(block, self._filter.get_mesh, self._filter.GetRegionArray())
+            edges = mesh.find_constraints(constraints)
+        except Exception as error:
             self.fail(explain(error), block.name)
-            return flipped
-        if mesh is not None:
-            self._part = (block.before, block.share)
-            self._try_to_flip((mesh, constraints, flipped), False, block.name)
-            return flipped
-        if block.has_cells:
-            self._warnings.append((block.name, "not a surface, passed unchanged"))
-        passed = block.data.NewInstance()
-        passed.ShallowCopy(block.data)
-        return passed
+            results.update((leaf.number, vtkPolyData()) for leaf in block.leaves)
+            return
+        self._warnings += [(block.name, text) for text in mesh.list_warnings()]
+        if mesh.mesh is None or self._sum.stop_reason == "aborted":
+            mesh.store(None, results)
+            return
+        flipped = vtkPolyData()
+        self._part = (block.before, block.share)
+        self._try_to_flip((mesh.mesh, edges, flipped), False, block.name)
+        mesh.store(flipped, results)
 
     def _try_to_flip(self, data, is_live, where=""):
         """`data`: (mesh, constraints or None, output)."""

@@ -10,6 +10,7 @@
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkOutputWindow.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPoints.h"
 #include "vtkStringOutputWindow.h"
 
@@ -120,4 +121,26 @@ TEST(FilterAllocations, OfBlocksFailOnce)
   filter->SetBackendToThreads();
   filter->SetNumberOfThreads(1);
   FailEach(filter, [&]() { EXPECT_EQ(blocks->GetNumberOfBlocks(), 2u); });
+}
+
+TEST(FilterAllocations, OfPartitionsFailOnce)
+{
+  const QuietVtk quiet;
+  vtkNew<vtkPartitionedDataSet> partitions;
+  partitions->SetPartition(0, MakeInput(true, 20));
+  partitions->SetPartition(1, MakeInput(false, 10));
+  WatchedFilter filter;
+  filter->SetInputDataObject(partitions);
+  filter->SetBackendToThreads();
+  filter->SetNumberOfThreads(1);
+  FailEach(filter,
+    [&]()
+    {
+      auto* output = vtkPartitionedDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+      for (unsigned int i = 0; i < output->GetNumberOfPartitions(); ++i)
+      {
+        vtkDataSet* partition = output->GetPartition(i);
+        EXPECT_TRUE(!partition || partition->GetNumberOfCells() == 0);
+      }
+    });
 }

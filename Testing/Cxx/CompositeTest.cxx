@@ -13,8 +13,6 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPartitionedDataSet.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPoints.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -333,27 +331,6 @@ TEST(Composite, ConstraintsInBlocksForASingleMeshAreAnError)
   EXPECT_TRUE(Holds(filter.GetErrors()[0], "constraints"));
   filter->SetInputDataObject(1, nullptr);
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
-}
-
-TEST(Composite, PartitionsWarnOfSeams)
-{
-  vtkNew<vtkPartitionedDataSet> partitions;
-  partitions->SetPartition(0, MakeRhombus());
-  vtkNew<vtkPartitionedDataSetCollection> collection;
-  collection->SetPartitionedDataSet(0, partitions);
-  CompositeFilter filter(collection);
-  filter.Update();
-  EXPECT_TRUE(filter.GetWarnings().empty()); // one partition has no seams
-  partitions->SetPartition(1, MakeWorstCase(20));
-  collection->Modified();
-  filter.Update();
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "edges between pieces"));
-  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
-  ASSERT_NE(output, nullptr);
-  EXPECT_TRUE(HasEdge(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 0)), 1, 3));
-  EXPECT_EQ(CountViolations(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(0, 1))), 0);
-  EXPECT_EQ(filter->GetTotalFlips(), 19 * 19 + 1);
 }
 
 TEST(Composite, PiecesWarnOfSeams)

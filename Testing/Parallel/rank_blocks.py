@@ -9,7 +9,8 @@ from vtkmodules.vtkCommonDataModel import (
 
 import delaunayflip
 import rank_meshes
-from rank_runs import RANK, RANKS, WORLD, describe, flip_alone, listen, require, set_options
+from rank_runs import (
+    RANK, RANKS, WORLD, check_data, describe, flip_alone, listen, require, set_options)
 
 OPTIONS = {"TieRule": 1, "NumberOfThreads": 1}
 
@@ -63,19 +64,35 @@ def make_collection():
     return collection
 
 
-def make_two_partitions():
-    """Every rank has two pieces of a mesh."""
+def make_some_partitions(counts, kind="space", ids=True):
+    """Rank r has counts[r] pieces of a mesh."""
     points, triangles = make_mesh(0)
-    owners = rank_meshes.divide(points, triangles, 2 * RANKS, "space")
+    owners = rank_meshes.divide(points, triangles, sum(counts), kind)
+    first = sum(counts[:RANK])
     partitions = vtkPartitionedDataSet()
-    for i in range(2):
-        slots = np.flatnonzero(owners == 2 * RANK + i)
-        partitions.SetPartition(i, rank_meshes.make_piece(points, triangles, slots, True))
+    for i in range(counts[RANK]):
+        slots = np.flatnonzero(owners == first + i)
+        piece = rank_meshes.make_piece(points, triangles, slots, ids)
+        partitions.SetPartition(i + RANK, piece)
     return partitions
 
 
+def make_two_partitions():
+    return make_some_partitions([2] * RANKS)
+
+
+def make_uneven_partitions():
+    """None, one, two and so on. Those of several ranks are between those of one."""
+    return make_some_partitions(list(range(RANKS)), "scattered")
+
+
+def make_anonymous_partitions():
+    return make_some_partitions([3] * RANKS, "scattered", False)
+
+
 MAKERS = {"blocks": make_blocks, "partitions": make_partitions, "collection": make_collection,
-          "two partitions": make_two_partitions}
+          "two partitions": make_two_partitions, "uneven partitions": make_uneven_partitions,
+          "anonymous partitions": make_anonymous_partitions}
 
 
 def list_leaves(data):
@@ -136,8 +153,11 @@ def run_composite(kind):
     require([leaf.GetClassName() for leaf in leaves] == [leaf.GetClassName() for leaf in given],
             "other leaves")
     joined = join_places(leaves)
-    if kind != "two partitions":
-        facts["same"] = [is_same(number, joined[number], OPTIONS) for number in sorted(joined)]
+    facts["same"] = [is_same(number, joined[number], OPTIONS) for number in sorted(joined)]
+    if kind.endswith(" partitions"):
+        for leaf in leaves:
+            check_data(make_mesh(0)[0], leaf)
+        facts["partitions"] = sum(WORLD.allgather(len(leaves)))
     facts["triangles"] = [len(joined[number]) for number in sorted(joined)]
     facts["flips of leaves"] = sorted(set(WORLD.allreduce(
         [int(leaf.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetValue(0))

@@ -31,11 +31,15 @@ class Blocks(RanksTest):
                 self.expect_converged(facts, meshes)
                 self.assertEqual(facts["said"], [])
 
-    def test_seams_between_partitions_of_a_rank(self):
-        facts = flip_on(2, "composite", kind="two partitions")
-        self.assertEqual(facts["stopped"], "converged")
-        self.assertEqual(len(facts["said"]), 1)
-        self.assertIn("edges between pieces of the mesh stayed", facts["said"][0])
+    def test_partitions_of_a_rank_are_one_mesh(self):
+        for ranks, kind, count in ((2, "two", 4), (4, "uneven", 6), (3, "anonymous", 9),
+                                   (1, "two", 2)):
+            with self.subTest(kind):
+                facts = flip_on(ranks, "composite", kind=kind + " partitions")
+                self.assertEqual((facts["same"], facts["said"]), ([True], []))
+                self.assertEqual((facts["stopped"], facts["left"]), ("converged", 0))
+                self.assertEqual(facts["flips of leaves"], [facts["flips"]])
+                self.assertEqual((facts["partitions"], facts["rounds"] > 1), (count, ranks > 1))
 
     def test_constraints(self):
         for kind, unmatched in (("shared", True), ("composite", False)):

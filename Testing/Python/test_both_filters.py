@@ -13,7 +13,7 @@ from delaunayflip._vtk_filter import vtkDelaunayFlip as PythonFilter
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
-    vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
+    vtkDoubleArray, vtkIntArray, vtkObject, vtkPoints, vtkStringArray, vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData)
 
@@ -119,6 +119,41 @@ def get_text(messages):
     return [message.split("): ", 1)[1].strip() for message in messages]
 
 
+def list_blocks(output):
+    if output.IsA("vtkMultiBlockDataSet"):
+        return [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
+    if output.IsA("vtkPartitionedDataSet"):
+        return [output.GetPartition(i) for i in range(output.GetNumberOfPartitions())]
+    return [output]
+
+
+def cut(mesh, count):
+    """Cell i is in part i % count; the other cells of a part are ghosts."""
+    parts = []
+    for part in range(count):
+        parts.append(vtkPolyData())
+        parts[-1].DeepCopy(mesh)
+        is_other = numpy.arange(mesh.GetNumberOfCells()) % count != part
+        ghosts = numpy_to_vtk(is_other.astype(numpy.uint8), deep=True)
+        ghosts.SetName("vtkGhostType")
+        parts[-1].GetCellData().AddArray(ghosts)
+    return parts
+
+
+def cut_triangles(mesh, count):
+    """Triangle i is in part i % count, with points of its own."""
+    points, cells = vtk_to_numpy(mesh.GetPoints().GetData()), numpy.array(get_cells(mesh.GetPolys()))
+    parts = [numpy.unique(cells[part::count], return_inverse=True) for part in range(count)]
+    return [make_mesh(points[used], ids.reshape(-1, 3)) for used, ids in parts]
+
+
+def join(parts):
+    data = vtkPartitionedDataSet()
+    for part in parts:
+        data.SetPartition(data.GetNumberOfPartitions(), part)
+    return data
+
+
 class Both:
     """The two filters on one input. `prepare` sets them up."""
 
@@ -133,8 +168,7 @@ class Both:
         for watched in self.pair:
             watched.filter.Update()
             output = watched.filter.GetOutputDataObject(0)
-            blocks = ([output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
-                      if output.IsA("vtkMultiBlockDataSet") else [output])
+            blocks = list_blocks(output)
             results.append({
                 "meshes": [read_mesh(block) for block in blocks],
                 "table": [read_array(column) for column in
@@ -285,13 +319,47 @@ class Same(unittest.TestCase):
         self.assertEqual(len(told["errors"]), 1)
 
     def test_partitions(self):
-        parts = vtkPartitionedDataSet()
-        for i in range(2):
-            parts.SetPartition(i, make_rhombus())
-        messages = [get_text(watched.warnings) for watched in Both(parts).pair
-                    if watched.filter.Update() is None]
-        self.assertEqual(messages[0], messages[1])
-        self.assertIn("edges between pieces", messages[0][0])
+        mesh = make_polygon_mesh()
+        add_regions(mesh)
+        for count in (2, 5):
+            parts = cut(mesh, count)
+            add_numbers(parts[0].GetPointData(), "Own", parts[0].GetNumberOfPoints())
+            parts[1].GetCellData().RemoveArray("Number")
+            for options in ({}, {"RegionArray": "Tree", "GenerateQuality": True},
+                            {"Triangulate": False, "GenerateFlipCount": True}):
+                with self.subTest((count, options)):
+                    told = self.expect_same(join([parts[0], None, *parts[1:]]), lambda flip: [
+                        getattr(flip, "Set" + name)(value) for name, value in options.items()])
+                    self.assertEqual(told["errors"], [])
+
+    def test_partitions_by_places(self):
+        """Parts with points of their own, numbers of points, ghosts, constraints and mistakes."""
+        parts = cut_triangles(make_bad_mesh(), 3)
+        lines = make_constraints(parts[0], float)
+        told = self.expect_same(join(parts), lambda flip: flip.SetConstraintsData(lines))
+        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 10)
+        own = vtkPolyData()
+        own.SetLines(make_cells([(0, 2), (5, 9)]))
+        self.expect_same(join(parts), lambda flip: flip.SetConstraintsData(own))
+        self.expect_same(join(parts), lambda flip: flip.SetInputDataObject(1, join([None, own, lines])))
+        add_ghosts(parts[1])
+        self.expect_same(join(parts))
+        twice = vtkPoints()
+        twice.DeepCopy(parts[2].GetPoints())
+        twice.SetPoint(1, twice.GetPoint(0))
+        parts[2].SetPoints(twice)
+        self.expect_same(join(parts))
+        for error, mistake in (("same type", lambda flip: flip.SetRegionArray("vtkGhostType")),
+                               ("4444", lambda _: parts[0].SetPolys(make_cells([(0, 1, 4444)])))):
+            told = self.expect_same(join(parts), mistake)
+            self.assertIn(error, told["errors"][0])
+
+    def test_partitions_with_global_ids(self):
+        mesh = make_bad_mesh()
+        ids = numpy_to_vtk(numpy.arange(mesh.GetNumberOfPoints()) + (1 << 60), deep=True)
+        ids.SetName("Ids")
+        mesh.GetPointData().SetGlobalIds(ids)
+        self.expect_same(join(cut(mesh, 4)))
 
     def test_aborts(self):
         def stop(flip, _event):

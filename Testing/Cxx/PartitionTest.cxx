@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The partitions of a dataset are flipped as one mesh.
+
+#include "FilterTestSupport.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkMultiPieceDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace
+{
+
+using Corner = std::array<double, 3>;
+using Triangles = std::multiset<std::array<Corner, 3>>;
+using Parts = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+Corner GetPlace(vtkPolyData* mesh, vtkIdType point)
+{
+  Corner place;
+  mesh->GetPoint(point, place.data());
+  return place;
+}
+
+/// By their corners, from the smallest one on.
+void AddTriangles(vtkPolyData* mesh, Triangles& triangles)
+{
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    std::array<Corner, 3> corners;
+    std::transform(cell.begin(), cell.end(), corners.begin(),
+      [mesh](vtkIdType id) { return GetPlace(mesh, id); });
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    triangles.insert(corners);
+  }
+}
+
+/// Cuts a mesh: triangle t goes to part ownerOf(t). Each part has the points of its triangles, with
+/// their number in "Point", and its triangles' numbers in "Cell".
+template <typename OwnerOf>
+Parts Cut(vtkPolyData* mesh, int count, const OwnerOf& ownerOf)
+{
+  Parts parts;
+  for (int part = 0; part < count; ++part)
+  {
+    std::map<vtkIdType, vtkIdType> local;
+    Points points;
+    Cells cells;
+    vtkNew<vtkIntArray> pointNumbers, cellNumbers;
+    pointNumbers->SetName("Point");
+    cellNumbers->SetName("Cell");
+    for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
+    {
+      if (ownerOf(t) != part)
+      {
+        continue;
+      }
+      Cell cell = GetCell(mesh, t);
+      for (vtkIdType& id : cell)
+      {
+        const auto known = local.emplace(id, static_cast<vtkIdType>(points.size()));
+        if (known.second)
+        {
+          points.push_back(GetPlace(mesh, id));
+          pointNumbers->InsertNextValue(static_cast<int>(id));
+        }
+        id = known.first->second;
+      }
+      cells.push_back(cell);
+      cellNumbers->InsertNextValue(static_cast<int>(t));
+    }
+    parts.push_back(MakeMesh(points, cells));
+    parts.back()->GetPointData()->AddArray(pointNumbers);
+    parts.back()->GetCellData()->AddArray(cellNumbers);
+  }
+  return parts;
+}
+
+Parts CutInOrder(vtkPolyData* mesh, int count)
+{
+  const vtkIdType size = mesh->GetNumberOfCells();
+  return Cut(mesh, count, [=](vtkIdType t) { return static_cast<int>(t * count / size); });
+}
+
+vtkSmartPointer<vtkPolyData> MakeBadMesh(int points = 300)
+{
+  return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(points, 3));
+}
+
+class PartitionFilter : public WatchedFilter
+{
+public:
+  explicit PartitionFilter(const Parts& parts, vtkPartitionedDataSet* like = nullptr)
+  {
+    auto data = vtkSmartPointer<vtkPartitionedDataSet>::New();
+    if (like)
+    {
+      data.TakeReference(like);
+    }
+    for (const auto& part : parts)
+    {
+      data->SetPartition(data->GetNumberOfPartitions(), part);
+    }
+    (*this)->SetInputDataObject(data);
+    (*this)->SetTieRuleToCanonical();
+  }
+
+  Parts Update()
+  {
+    (*this)->Update();
+    auto* data = vtkPartitionedDataSet::SafeDownCast((*this)->GetOutputDataObject(0));
+    Parts parts;
+    for (unsigned int i = 0; data && i < data->GetNumberOfPartitions(); ++i)
+    {
+      parts.emplace_back(vtkPolyData::SafeDownCast(data->GetPartitionAsDataObject(i)));
+    }
+    return parts;
+  }
+
+  Parts UpdateCleanly()
+  {
+    const Parts parts = this->Update();
+    EXPECT_TRUE(this->GetErrors().empty()) << this->GetErrors()[0];
+    EXPECT_TRUE(this->GetWarnings().empty()) << this->GetWarnings()[0];
+    return parts;
+  }
+};
+
+Triangles Join(const Parts& parts)
+{
+  Triangles triangles;
+  for (const auto& part : parts)
+  {
+    AddTriangles(part, triangles);
+  }
+  return triangles;
+}
+
+Triangles FlipUndivided(vtkPolyData* mesh)
+{
+  WatchedFilter filter(mesh);
+  filter->SetTieRuleToCanonical();
+  Triangles triangles;
+  AddTriangles(RunCleanly(filter), triangles);
+  return triangles;
+}
+
+/// Every partition has the cells that it had, and its points first.
+void ExpectOwnData(vtkPolyData* mesh, const Parts& given, const Parts& parts)
+{
+  ASSERT_EQ(parts.size(), given.size());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    EXPECT_EQ(
+      GetNumbers(parts[k]->GetCellData(), "Cell"), GetNumbers(given[k]->GetCellData(), "Cell"));
+    const std::vector<int> own = GetNumbers(given[k]->GetPointData(), "Point");
+    const std::vector<int> points = GetNumbers(parts[k]->GetPointData(), "Point");
+    ASSERT_EQ(static_cast<vtkIdType>(points.size()), parts[k]->GetNumberOfPoints());
+    EXPECT_TRUE(std::equal(own.begin(), own.end(), points.begin()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      EXPECT_EQ(GetPlace(parts[k], static_cast<vtkIdType>(i)), GetPlace(mesh, points[i]));
+    }
+  }
+}
+
+void AddGlobalIds(const Parts& parts)
+{
+  for (const auto& part : parts)
+  {
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName("Ids");
+    for (const int number : GetNumbers(part->GetPointData(), "Point"))
+    {
+      ids->InsertNextValue((vtkIdType(1) << 60) + number);
+    }
+    part->GetPointData()->SetGlobalIds(ids);
+  }
+}
+
+}
+
+TEST(Partitions, AreFlippedAsOneMesh)
+{
+  const auto mesh = MakeBadMesh();
+  for (const int count : { 2, 5, 40 })
+  {
+    const Parts given = CutInOrder(mesh, count);
+    PartitionFilter filter(given);
+    const Parts parts = filter.UpdateCleanly();
+    EXPECT_EQ(Join(parts), FlipUndivided(mesh));
+    ExpectOwnData(mesh, given, parts);
+    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+    for (const auto& part : parts)
+    {
+      EXPECT_EQ(part->GetFieldData()->GetArray("DelaunayFlip:TotalFlips")->GetComponent(0, 0),
+        filter->GetTotalFlips());
+      EXPECT_EQ(part->GetCellData()->GetNumberOfArrays(), 1);
+    }
+  }
+}
+
+TEST(Partitions, OfOtherDatasetsAreOtherMeshes)
+{
+  const auto mesh = MakeBadMesh();
+  const Parts given = CutInOrder(mesh, 3);
+  PartitionFilter pieces(given, vtkMultiPieceDataSet::New());
+  EXPECT_EQ(Join(pieces.UpdateCleanly()), FlipUndivided(mesh));
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartition(0, 1, given[0]); // after one that is null
+  collection->SetPartition(0, 2, given[2]);
+  collection->SetPartition(1, 0, given[1]);
+  WatchedFilter filter;
+  filter->SetInputDataObject(collection);
+  filter->SetTieRuleToCanonical();
+  filter->Update();
+  EXPECT_TRUE(filter.GetWarnings().empty());
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_EQ(output->GetPartitionAsDataObject(0, 0), nullptr);
+  Triangles alone;
+  AddTriangles(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(1, 0)), alone);
+  EXPECT_EQ(alone, FlipUndivided(given[1]));
+}
+
+TEST(Partitions, ShareNoPointsWithoutBorders)
+{
+  const auto sphere = ToPolyData(delaunayflip::MakeBadSphere(12, 8, 1));
+  Parts twins;
+  for (int i = 0; i < 2; ++i)
+  {
+    twins.push_back(vtkSmartPointer<vtkPolyData>::New());
+    twins.back()->DeepCopy(sphere);
+    AddNumbers(twins.back()->GetPointData(), "Point", sphere->GetNumberOfPoints(), 0);
+  }
+  PartitionFilter apart(twins);
+  apart->SetTieRuleToKeep();
+  apart.UpdateCleanly();
+  WatchedFilter alone(sphere);
+  RunCleanly(alone);
+  EXPECT_EQ(apart->GetTotalFlips(), 2 * alone->GetTotalFlips());
+  AddGlobalIds(twins); // which say that points are the same
+  PartitionFilter joined(twins);
+  joined->SetTieRuleToKeep();
+  joined.Update();
+  EXPECT_LT(joined->GetTotalFlips(), apart->GetTotalFlips());
+}
+
+TEST(Partitions, GlobalIdsSayWhichPointsAreTheSame)
+{
+  const auto mesh = MakeBadMesh();
+  const Parts given = Cut(mesh, 3, [](vtkIdType t) { return static_cast<int>(t % 3); });
+  AddGlobalIds(given);
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  EXPECT_EQ(Join(parts), FlipUndivided(mesh));
+  ExpectOwnData(mesh, given, parts);
+  EXPECT_NE(parts[0]->GetPointData()->GetGlobalIds(), nullptr);
+  const vtkIdType last = given[1]->GetNumberOfPoints() - 1;
+  for (vtkIdType i = 0; i <= last; ++i)
+  {
+    given[1]->GetPointData()->GetGlobalIds()->SetComponent(i, 0, 5000 + i);
+  }
+  given[1]->Modified();
+  PartitionFilter other(given);
+  EXPECT_NE(Join(other.Update()), FlipUndivided(mesh)); // part 1 is apart from the others
+}
+
+TEST(Partitions, AmbiguousPointsAreToldOf)
+{
+  auto first =
+    MakeMesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { -1, 0, 0 }, { 0, -1, 0 } },
+      { { 0, 1, 2 }, { 3, 4, 5 } });
+  auto second = MakeMesh({ { 0, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 } }, { { 0, 1, 2 } });
+  PartitionFilter filter({ first, second });
+  filter.Update();
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "coincide with others of the same partition"));
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "global ids"));
+}
+
+TEST(Partitions, KeepArraysThatOthersLack)
+{
+  const auto mesh = MakeBadMesh(60);
+  const Parts given = CutInOrder(mesh, 2);
+  AddNumbers(given[0]->GetCellData(), "Own", given[0]->GetNumberOfCells(), 7);
+  AddNumbers(given[0]->GetPointData(), "OwnOfPoints", given[0]->GetNumberOfPoints(), 7);
+  vtkNew<vtkDoubleArray> other; // the same name, another type
+  other->SetName("Own");
+  other->SetNumberOfTuples(given[1]->GetNumberOfCells());
+  other->Fill(0.25);
+  given[1]->GetCellData()->SetScalars(other);
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  ExpectOwnData(mesh, given, parts);
+  EXPECT_EQ(GetNumbers(parts[0]->GetCellData(), "Own"), GetNumbers(given[0]->GetCellData(), "Own"));
+  ASSERT_NE(parts[1]->GetCellData()->GetScalars(), nullptr);
+  EXPECT_EQ(parts[1]->GetCellData()->GetScalars()->GetComponent(0, 0), 0.25);
+  EXPECT_FALSE(parts[1]->GetPointData()->HasArray("OwnOfPoints"));
+  const std::vector<int> points = GetNumbers(parts[0]->GetPointData(), "OwnOfPoints");
+  EXPECT_EQ(points.front(), 7);
+  EXPECT_EQ(points.back(), 0); // of a point that the other partition had
+}
+
+TEST(Partitions, DropDuplicateGhosts)
+{
+  const auto mesh = MakeBadMesh();
+  const vtkIdType half = mesh->GetNumberOfCells() / 2;
+  Parts given = CutInOrder(mesh, 2);
+  const Parts whole = Cut(mesh, 1, [](vtkIdType) { return 0; });
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
+  {
+    ghosts->InsertNextValue(t < half ? 0 : vtkDataSetAttributes::DUPLICATECELL);
+  }
+  whole[0]->GetCellData()->AddArray(ghosts);
+  PartitionFilter filter({ whole[0], given[1] });
+  const Parts parts = filter.UpdateCleanly();
+  EXPECT_EQ(Join(parts), FlipUndivided(mesh));
+  EXPECT_EQ(parts[0]->GetNumberOfCells(), half);
+}
+
+TEST(Partitions, NewArraysGoToEachOfThem)
+{
+  PartitionFilter filter(CutInOrder(MakeBadMesh(), 3));
+  filter->GenerateFlipCountOn();
+  filter->GenerateQualityOn();
+  int flips = 0;
+  for (const auto& part : filter.UpdateCleanly())
+  {
+    const std::vector<int> counts = GetNumbers(part->GetCellData(), "vtkDelaunayFlipCount");
+    ASSERT_EQ(static_cast<vtkIdType>(counts.size()), part->GetNumberOfCells());
+    flips = std::accumulate(counts.begin(), counts.end(), flips);
+    EXPECT_TRUE(part->GetCellData()->HasArray("vtkDelaunayFlipAngleAfter"));
+  }
+  EXPECT_EQ(flips, 2 * filter->GetTotalFlips());
+}
+
+TEST(Partitions, RegionsMustBeInAll)
+{
+  const Parts given = CutInOrder(MakeBadMesh(60), 2);
+  AddNumbers(given[0]->GetCellData(), "Region", given[0]->GetNumberOfCells(), 0);
+  PartitionFilter filter(given);
+  filter->SetRegionArray("Region");
+  EXPECT_EQ(filter.Update()[0]->GetNumberOfCells(), 0);
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_TRUE(
+    Holds(filter.GetErrors()[0], "not all partitions have a cell array named \"Region\""));
+  AddNumbers(given[1]->GetCellData(), "Region", given[1]->GetNumberOfCells(), 9000);
+  PartitionFilter all(given);
+  all->SetRegionArray("Region");
+  all.UpdateCleanly();
+  EXPECT_EQ(all->GetTotalFlips(), 0); // every triangle is a region
+}
+
+TEST(Partitions, BrokenOnesAreNamed)
+{
+  const Parts given = CutInOrder(MakeBadMesh(60), 2);
+  given[1]->SetPolys(MakeCells({ { 0, 1, 4444 } }));
+  PartitionFilter filter(given);
+  const Parts parts = filter.Update();
+  EXPECT_EQ(parts[0]->GetNumberOfCells() + parts[1]->GetNumberOfCells(), 0);
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetErrors()[0], "4444"));
+}
+
+TEST(Partitions, ConstraintsMayBeOfEach)
+{
+  const Parts given = { MakeMesh({ { -4, 0, 0 }, { 0, -1, 0 }, { 4, 0, 0 } }, { { 0, 1, 2 } }),
+    MakeMesh({ { -4, 0, 0 }, { 4, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } }) };
+  PartitionFilter free(given);
+  free.UpdateCleanly();
+  EXPECT_EQ(free->GetTotalFlips(), 1);
+  vtkNew<vtkPolyData> ofSecond; // an edge between its own points
+  ofSecond->SetLines(MakeCells({ { 0, 1 } }));
+  vtkNew<vtkPartitionedDataSet> lines;
+  lines->SetPartition(1, ofSecond);
+  PartitionFilter kept(given);
+  kept->SetInputDataObject(1, lines);
+  kept.UpdateCleanly();
+  EXPECT_EQ(kept->GetTotalFlips(), 0);
+  PartitionFilter named(given); // by all, of which 0 to 1 is the seam in the second one
+  named->SetInputDataObject(1, ofSecond);
+  named.UpdateCleanly();
+  EXPECT_EQ(named->GetTotalFlips(), 0);
+  vtkNew<vtkPolyData> places;
+  places->SetPoints(given[0]->GetPoints());
+  places->SetLines(MakeCells({ { 0, 2 } }));
+  PartitionFilter also(given);
+  also->SetInputDataObject(1, places);
+  also.UpdateCleanly();
+  EXPECT_EQ(also->GetTotalFlips(), 0);
+}
