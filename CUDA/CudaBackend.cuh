@@ -80,6 +80,7 @@ public:
     return std::unique_ptr<DeviceScope>(new CurrentDevice(this->Context->Device));
   }
 
+  static constexpr bool IsOnHost = false;
   static constexpr bool MemoryIsScarce = true;
 
   /// With slices of vertices an edge table takes a quarter of the memory, and every triangle is

@@ -53,5 +53,6 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
 }
 
 EngineTriangles FlipSession::ViewTriangles() const { return this->Work->ViewTriangles(); }
+HostTriangles FlipSession::ViewHostTriangles() const { return this->Work->ViewHostTriangles(); }
 
 }

@@ -22,6 +22,7 @@ namespace delaunayflip
 
 class SessionWork;
 struct EngineTriangles;
+struct HostTriangles;
 
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
 /// iterations, and can be read at any time between them. With BackendKind::Auto, with several
@@ -88,6 +89,8 @@ public:
 private:
   friend class DrawnTriangles; // of DeviceColors.h
   EngineTriangles ViewTriangles() const;
+  friend class PieceRun;
+  HostTriangles ViewHostTriangles() const;
 
   std::unique_ptr<SessionWork> Work;
 };

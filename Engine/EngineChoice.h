@@ -49,6 +49,7 @@ public:
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream);
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream);
   EngineTriangles ViewTriangles() const { return this->Engine->ViewTriangles(); }
+  HostTriangles ViewHostTriangles() const { return this->Engine->ViewHostTriangles(); }
   Defect FindTurnedTriangles();
   void Audit();
 

@@ -59,4 +59,10 @@ EngineTriangles WholeSession::ViewTriangles() const
                                                      : EngineTriangles();
 }
 
+HostTriangles WholeSession::ViewHostTriangles() const
+{
+  return this->Engine && !this->Insertion.HasFlips() ? this->Engine->ViewHostTriangles()
+                                                     : HostTriangles();
+}
+
 }

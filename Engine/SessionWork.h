@@ -6,26 +6,13 @@
 #include "CallerMesh.h"
 #include "DelaunayFlip.h"
 #include "EngineTriangles.h"
+#include "StopWatch.h"
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 
 namespace delaunayflip
 {
-
-/// The seconds since it was made.
-class StopWatch
-{
-public:
-  double GetSeconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
 
 /// What a session does, for each way to do it. The functions are those of FlipSession.
 class SessionWork
@@ -46,6 +33,7 @@ public:
   void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream);
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream);
   virtual EngineTriangles ViewTriangles() const { return {}; }
+  virtual HostTriangles ViewHostTriangles() const { return {}; }
 
 protected:
   explicit SessionWork(const CallerMesh& mesh)

@@ -32,6 +32,7 @@ public:
   using SessionWork::StoreFlipCounts;
   void StoreFlipCounts(std::int32_t* counts) override;
   EngineTriangles ViewTriangles() const override;
+  HostTriangles ViewHostTriangles() const override;
 
 protected:
   bool TryToStoreTriangles(

@@ -126,6 +126,13 @@ public:
     this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts, this->GetFlipCountStep());
   }
 
+  HostTriangles ViewHostTriangles() const override
+  {
+    return BackendT::IsOnHost ? HostTriangles{ this->Mesh.Triangles.Data(),
+      this->Mesh.CornerOfHalfEdge.Data(), this->Order.View(), this->Mesh.NumberOfTriangles }
+                              : HostTriangles();
+  }
+
   Defect FindTurnedTriangles() const override
   {
     const bool wasHeightField =

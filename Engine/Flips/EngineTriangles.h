@@ -24,6 +24,21 @@ struct EngineTriangles
   std::uint64_t Engine = 0; ///< Another number for every engine of the process.
 };
 
+/// The same where they are in the memory of the host.
+struct HostTriangles
+{
+  const TriangleRecord* Records = nullptr; ///< Null if they are not.
+  const CornerId* CornerOfHalfEdge = nullptr;
+  SpatialOrderView Order{};
+  std::int64_t Count = 0;
+
+  /// The corner on the other side of the edge opposite to a slot, or NoCorner.
+  CornerId GetOtherCorner(std::int64_t triangle, int slot) const
+  {
+    return this->CornerOfHalfEdge[this->Records[triangle].HalfEdges[slot] ^ 1u];
+  }
+};
+
 }
 
 #endif

@@ -53,6 +53,8 @@ public:
 
   /// The triangles as they are in device memory, if they are.
   virtual EngineTriangles ViewTriangles() const { return {}; }
+  /// The same in the host's memory.
+  virtual HostTriangles ViewHostTriangles() const = 0;
 
   /// The triangles that flips have turned over in x and y, on a surface that was a height field or
   /// nearly one; else none.

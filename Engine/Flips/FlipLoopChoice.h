@@ -81,10 +81,10 @@ std::unique_ptr<FlipLoop> MakeLoop(
     new Loop(input.Mesh, rule, input.Survey.Range, std::move(guard), backend));
 }
 
-inline AngleTolerance GetTolerance(const FlipLoopInput& input)
+inline AngleTolerance GetTolerance(const FlipOptions& options, const MeshSurvey& survey)
 {
-  const double fixed = input.Options.Tolerance;
-  return fixed < 0.0 ? AngleTolerance{ 0.0, 1.0, input.Survey.Precision }
+  const double fixed = options.Tolerance;
+  return fixed < 0.0 ? AngleTolerance{ 0.0, 1.0, survey.Precision }
                      : AngleTolerance{ std::sin(fixed), std::cos(fixed), 0.0 };
 }
 
@@ -104,7 +104,8 @@ std::unique_ptr<FlipLoop> MakePlanarLoop(
   const double* doubles = input.Points.Doubles.Data();
   if (input.Options.Criterion == CriterionKind::OppositeAngles)
   {
-    return MakeLoop(input, PlanarAngleRule{ { doubles, GetTolerance(input), input.Survey.Range } },
+    const AngleTolerance tolerance = GetTolerance(input.Options, input.Survey);
+    return MakeLoop(input, PlanarAngleRule{ { doubles, tolerance, input.Survey.Range } },
       std::move(guard), backend);
   }
   if (input.Survey.Projection.Tilted)
@@ -126,7 +127,7 @@ template <typename Backend>
 std::unique_ptr<FlipLoop> MakeSurfaceLoop(
   const FlipLoopInput& input, EdgeGuard guard, const Backend& backend)
 {
-  const AngleTolerance tolerance = GetTolerance(input);
+  const AngleTolerance tolerance = GetTolerance(input.Options, input.Survey);
   const PackedPoints& points = input.Points;
   const CoordinateRange range = input.Survey.Range;
   return points.IsFloat()

@@ -177,7 +177,7 @@ private:
         if (point >= 0)
         {
           this->Mesh.ForEachAt(static_cast<std::int32_t>(point),
-            [&](std::int64_t t) { this->Touch(t, one.Constraint); });
+            [&](const PieceCorner& corner) { this->Touch(corner.Triangle, one.Constraint); });
         }
       }
     }

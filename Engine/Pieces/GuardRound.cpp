@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GuardRound.h"
 
-#include "QuadSoup.h"
-
 #include <algorithm>
 #include <unordered_set>
 
@@ -26,14 +24,14 @@ std::vector<std::int64_t> FindTrianglesAtShared(const PieceMesh& mesh)
   std::vector<std::int64_t> triangles;
   for (const std::int32_t point : mesh.GetSharedPoints())
   {
-    mesh.ForEachAt(point, [&](std::int64_t t) { triangles.push_back(t); });
+    mesh.ForEachAt(point, [&](const PieceCorner& corner) { triangles.push_back(corner.Triangle); });
   }
   return triangles;
 }
 
 /// The inner edges of some triangles whose two opposite points are both shared, in the order of the
 /// later of their triangles.
-std::vector<InnerQuad> ListWaiting(const PieceMesh& mesh, std::vector<std::int64_t> triangles)
+std::vector<InnerQuad> ListWaiting(PieceMesh& mesh, std::vector<std::int64_t> triangles)
 {
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
@@ -63,39 +61,15 @@ std::vector<InnerQuad> ListWaiting(const PieceMesh& mesh, std::vector<std::int64
   return quads;
 }
 
-SeamSide MakeSide(const PieceMesh& mesh, const PieceCorner& corner, const PointPair& ends)
-{
-  const PieceTriangle& triangle = mesh.Triangles[corner.Triangle];
-  SeamSide side{};
-  mesh.GetPosition(ends[0], side.Ends[0]);
-  mesh.GetPosition(ends[1], side.Ends[1]);
-  mesh.GetPosition(triangle.Points[corner.Slot], side.Opposite);
-  side.RunsForward = triangle.GetStart(corner.Slot) == ends[0];
-  return side;
-}
-
 /// Those of the waiting edges that are bad and whose flip would not fold the mesh over.
-std::vector<InnerQuad> FindBadQuads(const PieceMesh& mesh,
-  const std::vector<std::int64_t>& triangles, const PieceSurvey& survey, const FlipOptions& options)
+std::vector<InnerQuad> FindBadQuads(
+  PieceMesh& mesh, const std::vector<std::int64_t>& triangles, const QuadJudge& judge)
 {
-  const std::vector<InnerQuad> quads = ListWaiting(mesh, triangles);
-  QuadSoup soup(survey, options);
-  for (const InnerQuad& quad : quads)
-  {
-    const PointPair ends = mesh.Triangles[quad.One.Triangle].GetEdge(quad.One.Slot);
-    soup.Add(MakeSide(mesh, quad.One, ends), MakeSide(mesh, quad.Other, ends));
-  }
-  std::int64_t blocked = 0;
-  const std::vector<unsigned char> isBad = soup.FindBad(blocked);
-  std::vector<InnerQuad> bad;
-  for (std::size_t i = 0; i < quads.size(); ++i)
-  {
-    if (isBad[i] != 0)
-    {
-      bad.push_back(quads[i]);
-    }
-  }
-  return bad;
+  std::vector<InnerQuad> quads = ListWaiting(mesh, triangles);
+  const auto isGood = [&](const InnerQuad& quad)
+  { return judge.Judge(mesh, quad.One, quad.Other) != EdgeState::Bad; };
+  quads.erase(std::remove_if(quads.begin(), quads.end(), isGood), quads.end());
+  return quads;
 }
 
 Question MakeQuestion(const PieceMesh& mesh, const InnerQuad& quad)
@@ -154,26 +128,6 @@ bool IsGranted(const PairMap<PointPair>& granted, const PointPair& ends, const P
   return found != granted.end() && found->second == ends;
 }
 
-/// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
-/// (b, q, a).
-void FlipQuad(PieceMesh& mesh, const InnerQuad& quad)
-{
-  PieceTriangle& t = mesh.Triangles[quad.One.Triangle];
-  PieceTriangle& s = mesh.Triangles[quad.Other.Triangle];
-  const int a = quad.One.Slot;
-  const int b = quad.Other.Slot;
-  const unsigned char pb = s.GetMarks((b + 1) % 3);
-  const unsigned char qa = t.GetMarks((a + 1) % 3);
-  t.Points[(a + 2) % 3] = s.Points[b];
-  s.Points[(b + 2) % 3] = t.Points[a];
-  t.SetMarks(a, pb);
-  t.SetMarks((a + 1) % 3, 0);
-  s.SetMarks(b, qa);
-  s.SetMarks((b + 1) % 3, 0);
-  ++t.Flips;
-  ++s.Flips;
-}
-
 /// Flips the granted ones of some edges, no two of the same triangle.
 /// @returns the triangles that have changed.
 std::unordered_set<std::int64_t> FlipGranted(PieceMesh& mesh, const std::vector<InnerQuad>& quads,
@@ -188,26 +142,25 @@ std::unordered_set<std::int64_t> FlipGranted(PieceMesh& mesh, const std::vector<
     {
       continue;
     }
-    mesh.ChangeTriangles(
-      { quad.One.Triangle, quad.Other.Triangle }, [&]() { FlipQuad(mesh, quad); });
+    round.Gone.push_back(mesh.Triangles[quad.One.Triangle].GetEdge(quad.One.Slot));
+    mesh.Flip(quad.One, quad.Other);
     ++round.Flipped;
     for (const std::int64_t t : { quad.One.Triangle, quad.Other.Triangle })
     {
       busy.insert(t);
-      const PieceTriangle& triangle = mesh.Triangles[t];
-      round.Points.insert(round.Points.end(), triangle.Points, triangle.Points + 3);
+      round.Changed.push_back(t);
     }
   }
   return busy;
 }
 }
 
-void WaitingEdges::Find(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options)
+void WaitingEdges::Find(PieceMesh& mesh, const QuadJudge& judge)
 {
   const std::vector<std::int64_t> changed = mesh.TakeChanged();
   this->Triangles.insert(this->Triangles.end(), changed.begin(), changed.end());
-  this->Bad = FindBadQuads(
-    mesh, this->IsFirst ? FindTrianglesAtShared(mesh) : this->Triangles, survey, options);
+  this->Bad =
+    FindBadQuads(mesh, this->IsFirst ? FindTrianglesAtShared(mesh) : this->Triangles, judge);
   this->IsFirst = false;
   this->Triangles.clear();
   for (const InnerQuad& quad : this->Bad)
@@ -216,10 +169,10 @@ void WaitingEdges::Find(PieceMesh& mesh, const PieceSurvey& survey, const FlipOp
   }
 }
 
-GuardRound WaitingEdges::Flip(PieceMesh& mesh, const PieceSurvey& survey,
-  const FlipOptions& options, SeamTest& test, PieceGroup& group)
+GuardRound WaitingEdges::Flip(
+  PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group)
 {
-  DoTogether(group, [&]() { this->Find(mesh, survey, options); });
+  DoTogether(group, [&]() { this->Find(mesh, judge); });
   std::vector<Question> questions;
   for (const InnerQuad& quad : this->Bad)
   {

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_GUARDROUND_H
 
 #include "PieceMesh.h"
+#include "QuadJudge.h"
 #include "SeamRound.h"
 
 #include <cstdint>
@@ -19,7 +20,8 @@ struct GuardRound
 {
   std::int64_t Flipped = 0; ///< Edges that this rank has flipped.
   std::int64_t FreeOfAll = 0; ///< Not 0 if some rank had an edge that may flip.
-  std::vector<std::int32_t> Points; ///< Around which edges must now be judged.
+  std::vector<std::int64_t> Changed; ///< Their triangles.
+  std::vector<PointPair> Gone; ///< What they were.
 };
 
 /// An inner edge of a rank: its two corners.
@@ -34,11 +36,10 @@ class WaitingEdges
 public:
   /// Flips edges of `mesh` that have waited, and removes the edges from `test` whose flip would
   /// make an edge that exists or that another flip makes.
-  GuardRound Flip(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options,
-    SeamTest& test, PieceGroup& group);
+  GuardRound Flip(PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group);
 
 private:
-  void Find(PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options);
+  void Find(PieceMesh& mesh, const QuadJudge& judge);
 
   bool IsFirst = true;
   std::vector<InnerQuad> Bad;

@@ -273,7 +273,7 @@ void PieceConstraints::AddEdge(std::int64_t from, std::int64_t to)
 void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
 {
   this->Fixed.Apply(this->Mesh.Triangles);
-  this->Mesh.BeginRounds();
+  this->Mesh.BeginRounds(false);
   std::vector<TriangleLabel> labels = ListLabels(this->Job.Piece.Mesh);
   const std::size_t given = labels.size();
   const InsertionTask task =
@@ -292,8 +292,7 @@ void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
 void PieceConstraints::InsertFar(
   const InsertionTask& task, const std::vector<TriangleLabel>& labels)
 {
-  RegionScratch scratch;
-  const PieceRegion region(this->Mesh, task.Triangles, this->Job.Survey, scratch);
+  const PieceRegion region(this->Mesh, task.Triangles, this->Job.Survey);
   std::vector<std::int32_t> regions;
   std::vector<unsigned char> frozen;
   for (const std::int64_t t : task.Triangles)

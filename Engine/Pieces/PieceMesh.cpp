@@ -71,9 +71,47 @@ void PieceMesh::GetPosition(std::int64_t point, double (&x)[3]) const
 }
 
 //------------------------------------------------------------------------------
-void PieceMesh::BeginRounds()
+void PieceMesh::TakeTriangles(const HostTriangles& made)
 {
+  constexpr std::int64_t PrefetchDistance = 16;
+  struct Past
+  {
+    std::int64_t Origin;
+    std::int64_t Flips;
+  };
+  HostVector<Past> past;
+  past.reserve(this->Triangles.size());
+  for (const PieceTriangle& triangle : this->Triangles)
+  {
+    past.push_back({ triangle.Origin, triangle.Flips });
+  }
+  this->Mates.reserve(3 * this->Triangles.capacity());
+  for (std::int64_t t = 0; t < made.Count; ++t)
+  {
+    Prefetch(&past[made.Records[std::min(t + PrefetchDistance, made.Count - 1)].InputTriangle]);
+    const TriangleRecord& record = made.Records[t];
+    const Past& before = past[record.InputTriangle];
+    PieceTriangle& triangle = this->Triangles[t];
+    triangle.Origin = before.Origin;
+    triangle.Flips = static_cast<std::int32_t>(before.Flips + record.Flips / OneFlip);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      triangle.Points[slot] =
+        static_cast<std::int32_t>(made.Order.GetVertex(record.Vertices[slot]));
+      const CornerId other = made.GetOtherCorner(t, slot);
+      this->Mates.push_back(other == NoCorner
+          ? NoMate
+          : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) })));
+    }
+  }
+}
+
+void PieceMesh::BeginRounds(bool listsChanged)
+{
+  this->ListsChanged = listsChanged;
   this->Stars.AddAll(this->Triangles, this->GetNumberOfPoints());
+  this->Mates.reserve(3 * this->Triangles.capacity());
+  this->Mates.resize(3 * this->Triangles.size(), Unknown);
   for (std::size_t t = 0; t < this->Triangles.size(); ++t)
   {
     this->NoteSeams(static_cast<std::int64_t>(t));
@@ -91,9 +129,18 @@ void PieceMesh::EndRounds()
     triangle.IsNoted = false;
   }
   this->Stars = PointStars();
+  this->Mates = HostVector<std::uint32_t>();
   this->Changed.clear();
   this->MayHaveSeams.clear();
   this->LostSeams.clear();
+}
+
+void PieceMesh::NoteChange(std::int64_t t)
+{
+  if (this->ListsChanged)
+  {
+    this->Changed.push_back(t);
+  }
 }
 
 void PieceMesh::NoteSeams(std::int64_t t)
@@ -106,9 +153,45 @@ void PieceMesh::NoteSeams(std::int64_t t)
   }
 }
 
+/// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
+/// (b, q, a).
+void PieceMesh::Flip(const PieceCorner& one, const PieceCorner& other)
+{
+  PieceTriangle& t = this->Triangles[one.Triangle];
+  PieceTriangle& s = this->Triangles[other.Triangle];
+  const int a = one.Slot;
+  const int b = other.Slot;
+  const int q = (a + 2) % 3; // the slots of t and s that change
+  const int p = (b + 2) % 3;
+  this->Stars.Remove({ one.Triangle, q }, t.Points[q]);
+  this->Stars.Remove({ other.Triangle, p }, s.Points[p]);
+  t.Points[q] = s.Points[b];
+  s.Points[p] = t.Points[a];
+  this->Stars.Add({ one.Triangle, q }, t.Points[q]);
+  this->Stars.Add({ other.Triangle, p }, s.Points[p]);
+  const std::size_t toPB = 3 * other.Triangle + (b + 1) % 3; // the slots of t and s that turn away
+  const std::size_t toQA = 3 * one.Triangle + (a + 1) % 3;
+  this->Join(GetNumber(one), this->Mates[toPB]);
+  this->Join(GetNumber(other), this->Mates[toQA]);
+  this->Join(toPB, static_cast<std::uint32_t>(toQA));
+  const unsigned char pb = s.GetMarks((b + 1) % 3);
+  const unsigned char qa = t.GetMarks((a + 1) % 3);
+  t.SetMarks(a, pb);
+  t.SetMarks((a + 1) % 3, 0);
+  s.SetMarks(b, qa);
+  s.SetMarks((b + 1) % 3, 0);
+  for (const std::int64_t changed : { one.Triangle, other.Triangle })
+  {
+    ++this->Triangles[changed].Flips;
+    this->NoteSeams(changed);
+    this->NoteChange(changed);
+  }
+}
+
 void PieceMesh::SetSeam(const PieceCorner& corner)
 {
   this->Triangles[corner.Triangle].Set(SeamMark, corner.Slot);
+  this->Mates[GetNumber(corner)] = Unknown;
   this->NoteSeams(corner.Triangle);
 }
 
@@ -116,6 +199,7 @@ void PieceMesh::ClearSeam(const PieceCorner& corner)
 {
   PieceTriangle& triangle = this->Triangles[corner.Triangle];
   triangle.Clear(SeamMark, corner.Slot);
+  this->Mates[GetNumber(corner)] = Unknown;
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }
 
@@ -145,35 +229,73 @@ PieceCorner PieceMesh::FindMate(const PieceCorner& corner) const
   const std::int32_t start = triangle.GetStart(corner.Slot);
   const std::int32_t end = triangle.GetEnd(corner.Slot);
   PieceCorner mate{ -1, 0 };
-  this->Stars.ForEach(start,
-    [&](std::int64_t t)
+  this->Stars.FindAtEither(start, end,
+    [&](const PieceCorner& at)
     {
-      const PieceTriangle& other = this->Triangles[t];
-      const bool hasEnd =
-        other.Points[0] == end || other.Points[1] == end || other.Points[2] == end;
-      for (int slot = 0; slot < 3 && hasEnd && t != corner.Triangle; ++slot)
+      const PieceTriangle& other = this->Triangles[at.Triangle];
+      for (const int slot : { (at.Slot + 1) % 3, (at.Slot + 2) % 3 })
       {
-        mate = other.HasEdge(slot, start, end) ? PieceCorner{ t, slot } : mate;
+        if (at.Triangle != corner.Triangle && other.HasEdge(slot, start, end))
+        {
+          mate = { at.Triangle, slot };
+        }
       }
+      return mate.Triangle >= 0;
     });
   return mate;
 }
 
-PieceCorner PieceMesh::FindOpenMate(const PieceCorner& corner) const
+PieceCorner PieceMesh::FindOpenMate(const PieceCorner& corner)
 {
   const PieceTriangle& triangle = this->Triangles[corner.Triangle];
-  const bool isMarked = triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot);
-  return isMarked ? PieceCorner{ -1, 0 } : this->FindMate(corner);
+  if (triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot))
+  {
+    return { -1, 0 };
+  }
+  const std::uint32_t& known = this->Mates[GetNumber(corner)];
+  if (known == Unknown)
+  {
+    const PieceCorner mate = this->FindMate(corner);
+    this->Join(
+      GetNumber(corner), mate.Triangle < 0 ? NoMate : static_cast<std::uint32_t>(GetNumber(mate)));
+  }
+  return known == NoMate ? PieceCorner{ -1, 0 }
+                         : PieceCorner{ known / 3, static_cast<int>(known % 3) };
+}
+
+/// Makes two corners each other's mates.
+void PieceMesh::Join(std::size_t one, std::uint32_t other)
+{
+  this->Mates[one] = other;
+  if (other < NoMate)
+  {
+    this->Mates[other] = static_cast<std::uint32_t>(one);
+  }
+}
+
+void PieceMesh::PrefetchPoints(std::int64_t triangle) const
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    this->PrefetchPoint(this->Triangles[triangle].Points[slot]);
+    const std::uint32_t mate = this->Mates[3 * triangle + slot];
+    if (mate < NoMate)
+    {
+      this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
+    }
+  }
 }
 
 bool PieceMesh::HasEdge(const PointPair& ends) const
 {
   bool has = false;
-  this->Stars.ForEach(static_cast<std::int32_t>(ends[0]),
-    [&](std::int64_t t)
+  this->Stars.FindAtEither(static_cast<std::int32_t>(ends[0]), static_cast<std::int32_t>(ends[1]),
+    [&](const PieceCorner& corner)
     {
-      const std::int32_t(&points)[3] = this->Triangles[t].Points;
-      has = has || std::find(points, points + 3, ends[1]) != points + 3;
+      const PieceTriangle& triangle = this->Triangles[corner.Triangle];
+      const auto isEnd = [&](std::int64_t point) { return point == ends[0] || point == ends[1]; };
+      has = isEnd(triangle.GetStart(corner.Slot)) || isEnd(triangle.GetEnd(corner.Slot));
+      return has;
     });
   return has;
 }
@@ -195,7 +317,6 @@ TravellingTriangle PieceMesh::Pack(const PieceTriangle& triangle) const
 
 std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_t>& triangles)
 {
-  this->Stars.Remove(this->Triangles, triangles);
   std::vector<TravellingTriangle> packed;
   for (const std::int64_t t : triangles)
   {
@@ -207,8 +328,10 @@ std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_
         this->LostSeams.push_back(this->GetKeys(this->Triangles[t].GetEdge(slot)));
       }
     }
-    for (const std::int32_t point : this->Triangles[t].Points)
+    for (int slot = 0; slot < 3; ++slot)
     {
+      const std::int32_t point = this->Triangles[t].Points[slot];
+      this->Stars.Remove({ t, slot }, point);
       this->Share(point);
     }
     this->Triangles[t].HasLeft = true;
@@ -235,9 +358,13 @@ std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
   triangle.Marks = packed.Marks;
   const auto t = static_cast<std::int64_t>(this->Triangles.size());
   this->Triangles.push_back(triangle);
-  this->Stars.Add(this->Triangles, t);
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
+  }
+  this->Mates.resize(this->Mates.size() + 3, Unknown);
   this->NoteSeams(t);
-  this->Changed.push_back(t);
+  this->NoteChange(t);
   return t;
 }
 
@@ -247,7 +374,10 @@ void PieceMesh::Share(std::int32_t point)
   {
     this->Shared[point] = 1;
     this->SharedPoints.push_back(point);
-    this->Stars.ForEach(point, [&](std::int64_t t) { this->Changed.push_back(t); });
+    if (this->ListsChanged)
+    {
+      this->ForEachAt(point, [&](const PieceCorner& corner) { this->NoteChange(corner.Triangle); });
+    }
   }
 }
 

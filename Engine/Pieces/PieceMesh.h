@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECEMESH_H
 #define DELAUNAYFLIP_PIECEMESH_H
 
+#include "EngineTriangles.h"
 #include "PieceFlip.h"
 #include "PieceTriangle.h"
 #include "PointMatch.h"
@@ -36,24 +37,17 @@ public:
 
   PieceTriangles Triangles; ///< Some may be empty places (PieceTriangle::HasLeft).
 
+  /// Takes the triangles that an engine has made of these, in its order, in which neighbours are
+  /// near each other.
+  void TakeTriangles(const HostTriangles& made);
   /// Lists what rounds need, so that they take no time for other triangles. From now on triangles
   /// change by the functions below only.
-  void BeginRounds();
+  /// @param listsChanged whether TakeChanged will be called.
+  void BeginRounds(bool listsChanged);
   /// Closes empty places, and forgets the lists and all marks. Triangles keep their order.
   void EndRounds();
-  /// Calls change() for triangles with other points or marks afterwards.
-  template <typename Change>
-  void ChangeTriangles(const std::vector<std::int64_t>& triangles, const Change& change)
-  {
-    this->Stars.Remove(this->Triangles, triangles);
-    change();
-    for (const std::int64_t t : triangles)
-    {
-      this->Stars.Add(this->Triangles, t);
-      this->NoteSeams(t);
-    }
-    this->Changed.insert(this->Changed.end(), triangles.begin(), triangles.end());
-  }
+  /// Flips the edge opposite to two corners.
+  void Flip(const PieceCorner& one, const PieceCorner& other);
   /// The triangles that have changed or come since the last call, and those at points that have
   /// become shared; some more than once.
   std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
@@ -66,22 +60,23 @@ public:
   /// Those without a triangle here since the last call: keys. Some of them may have one again, and
   /// some may never have been told.
   std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
-  /// Calls visit(triangle) for every corner at a point.
+  /// Calls visit(corner) for every corner at a point.
   template <typename Visit>
   void ForEachAt(std::int32_t point, const Visit& visit) const
   {
-    this->Stars.ForEach(point, visit);
-  }
-  /// The same for several points, in no order.
-  template <typename Visit>
-  void ForEachAt(const std::vector<std::int32_t>& points, const Visit& visit) const
-  {
-    this->Stars.ForEachOf(points, visit);
+    this->Stars.Find(point,
+      [&](const PieceCorner& corner)
+      {
+        visit(corner);
+        return false;
+      });
   }
   /// Another triangle here at the edge opposite to a corner.
   PieceCorner FindMate(const PieceCorner& corner) const;
   /// The same, but none if the edge is fixed or between ranks.
-  PieceCorner FindOpenMate(const PieceCorner& corner) const;
+  PieceCorner FindOpenMate(const PieceCorner& corner);
+  /// Prefetches the points of a triangle and those opposite to it.
+  void PrefetchPoints(std::int64_t triangle) const;
   bool HasEdge(const PointPair& ends) const;
 
   bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
@@ -95,6 +90,13 @@ public:
   /// The id of a key here, or -1.
   std::int64_t FindPoint(std::int64_t key) const;
   void GetPosition(std::int64_t point, double (&x)[3]) const;
+  void PrefetchPoint(std::int32_t point) const
+  {
+    if (point < this->Given.Count)
+    {
+      this->Given.Prefetch(point);
+    }
+  }
   PointPair GetKeys(const PointPair& pair) const
   {
     return MakePair(this->Keys[pair[0]], this->Keys[pair[1]]);
@@ -117,9 +119,20 @@ private:
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   TravellingTriangle Pack(const PieceTriangle& triangle) const;
   void Share(std::int32_t point);
+  void NoteChange(std::int64_t triangle);
   void NoteSeams(std::int64_t triangle);
 
+  static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
+  static std::size_t GetNumber(const PieceCorner& corner)
+  {
+    return static_cast<std::size_t>(3 * corner.Triangle + corner.Slot);
+  }
+  void Join(std::size_t one, std::uint32_t other);
+
   PointStars Stars;
+  /// By corner, 3 * triangle + slot: another one at the same edge, if it has been asked for.
+  HostVector<std::uint32_t> Mates;
+  bool ListsChanged = false;
   std::vector<std::int64_t> Changed;
   std::vector<std::int64_t> MayHaveSeams; ///< New ones: triangles (PieceTriangle::IsNoted).
   std::vector<PointPair> LostSeams;

@@ -37,18 +37,32 @@ double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
   const double cotangent = MeasureCotangent(x, survey);
   return triangle.HasLeft ? -INFINITY : cotangent;
 }
+
+struct MeasureStep
+{
+  const PieceMesh& Mesh;
+  const PieceSurvey& Survey;
+
+  void Prefetch(std::int64_t t) const
+  {
+    for (const std::int32_t point : this->Mesh.Triangles[t].Points)
+    {
+      this->Mesh.PrefetchPoint(point);
+    }
+  }
+  void operator()(std::int64_t t, LargestValue& sum) const
+  {
+    LargestValue one;
+    one.Value = Measure(this->Mesh, this->Survey, t);
+    sum += one;
+  }
+};
 }
 
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads)
 {
-  const LargestValue largest =
-    ThreadBackend(threads).Sum<LargestValue>(static_cast<std::int64_t>(mesh.Triangles.size()),
-      [&](std::int64_t t, LargestValue& sum)
-      {
-        LargestValue one;
-        one.Value = Measure(mesh, survey, t);
-        sum += one;
-      });
+  const LargestValue largest = ThreadBackend(threads).Sum<LargestValue>(
+    static_cast<std::int64_t>(mesh.Triangles.size()), MeasureStep{ mesh, survey });
   return ToDegrees(largest.Value);
 }
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRegion.h"
 
-#include "FixedPairs.h"
-#include "HostDevice.h"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -12,32 +9,19 @@
 namespace delaunayflip
 {
 
-PieceRegion::PieceRegion(const PieceMesh& mesh, const std::vector<std::int32_t>& points,
-  const PieceSurvey& survey, RegionScratch& scratch)
-  : Whole(survey.Whole),
-    Points(survey.IsFloat)
-{
-  scratch.Triangles.Resize(mesh.Triangles.size());
-  scratch.Inner.Resize(mesh.GetNumberOfPoints());
-  this->Collect(mesh, points, scratch);
-  this->CollectPoints(mesh, scratch);
-  this->Describe(mesh, survey);
-}
-
-PieceRegion::PieceRegion(const PieceMesh& mesh, std::vector<std::int64_t> triangles,
-  const PieceSurvey& survey, RegionScratch& scratch)
+PieceRegion::PieceRegion(
+  const PieceMesh& mesh, std::vector<std::int64_t> triangles, const PieceSurvey& survey)
   : Whole(survey.Whole),
     Triangles(std::move(triangles)),
     Points(survey.IsFloat)
 {
-  this->CollectPoints(mesh, scratch);
-  this->Describe(mesh, survey);
+  this->CollectPoints(mesh);
+  this->Describe(mesh, survey, false);
 }
 
 PieceRegion::PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey)
   : Whole(survey.Whole),
     PointOf(mesh.GetNumberOfPoints()),
-    Inner(mesh.GetNumberOfPoints(), 1),
     Points(survey.IsFloat)
 {
   std::iota(this->PointOf.begin(), this->PointOf.end(), 0);
@@ -52,10 +36,10 @@ PieceRegion::PieceRegion(const PieceMesh& mesh, const PieceSurvey& survey)
       this->Ids.insert(this->Ids.end(), triangle.Points, triangle.Points + 3);
     }
   }
-  this->Describe(mesh, survey);
+  this->Describe(mesh, survey, true);
 }
 
-void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
+void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey, bool isWhole)
 {
   this->ListFixedEdges(mesh);
   this->Points.Reserve(static_cast<std::int64_t>(this->PointOf.size()));
@@ -69,59 +53,25 @@ void PieceRegion::Describe(const PieceMesh& mesh, const PieceSurvey& survey)
       // Edges at it may be on other ranks, or outside the region.
       constexpr int Elsewhere = 1, Outside = 2;
       this->Shared.push_back(static_cast<unsigned char>(
-        (mesh.IsShared(this->PointOf[i]) ? Elsewhere : 0) | (this->Inner[i] ? 0 : Outside)));
+        (mesh.IsShared(this->PointOf[i]) ? Elsewhere : 0) | (isWhole ? 0 : Outside)));
     }
   }
-}
-
-/// Finds the triangles, and the points all of whose triangles they are.
-void PieceRegion::Collect(
-  const PieceMesh& mesh, const std::vector<std::int32_t>& points, RegionScratch& scratch)
-{
-  const auto addPoints = [&](std::int64_t t)
-  {
-    for (const std::int32_t point : mesh.Triangles[t].Points)
-    {
-      scratch.Inner.Add(point);
-    }
-  };
-  mesh.ForEachAt(points, addPoints);
-  mesh.ForEachAt(
-    scratch.Inner.List<std::int32_t>(), [&](std::int64_t t) { scratch.Triangles.Add(t); });
-  this->Triangles = scratch.Triangles.List<std::int64_t>();
-  scratch.Triangles.Clear();
 }
 
 /// Finds and numbers the points of the triangles.
-void PieceRegion::CollectPoints(const PieceMesh& mesh, RegionScratch& scratch)
+void PieceRegion::CollectPoints(const PieceMesh& mesh)
 {
-  constexpr std::size_t PrefetchDistance = 16;
-  scratch.Points.Resize(mesh.GetNumberOfPoints());
-  scratch.Inner.Resize(mesh.GetNumberOfPoints());
-  scratch.Numbers.resize(mesh.GetNumberOfPoints());
   this->Ids.reserve(3 * this->Triangles.size());
-  for (std::size_t i = 0; i < this->Triangles.size(); ++i)
+  for (const std::int64_t t : this->Triangles)
   {
-    const std::size_t later = std::min(i + PrefetchDistance, this->Triangles.size() - 1);
-    Prefetch(&mesh.Triangles[this->Triangles[later]]);
-    for (const std::int32_t point : mesh.Triangles[this->Triangles[i]].Points)
-    {
-      scratch.Points.Add(point);
-      this->Ids.push_back(point);
-    }
+    this->Ids.insert(this->Ids.end(), mesh.Triangles[t].Points, mesh.Triangles[t].Points + 3);
   }
-  this->PointOf = scratch.Points.List<std::int32_t>();
-  scratch.Points.Clear();
-  this->Inner.reserve(this->PointOf.size());
-  for (std::size_t i = 0; i < this->PointOf.size(); ++i)
-  {
-    scratch.Numbers[this->PointOf[i]] = static_cast<std::int32_t>(i);
-    this->Inner.push_back(scratch.Inner.Has(this->PointOf[i]) ? 1 : 0);
-  }
-  scratch.Inner.Clear();
+  this->PointOf = this->Ids;
+  std::sort(this->PointOf.begin(), this->PointOf.end());
+  this->PointOf.erase(std::unique(this->PointOf.begin(), this->PointOf.end()), this->PointOf.end());
   for (std::int32_t& id : this->Ids)
   {
-    id = scratch.Numbers[id];
+    id = static_cast<std::int32_t>(this->FindPoint(id));
   }
 }
 
@@ -161,52 +111,15 @@ TriangleMesh PieceRegion::View() const
 void PieceRegion::Store(const std::vector<std::int32_t>& ids,
   const std::vector<std::int32_t>& flips, PieceMesh& mesh) const
 {
-  std::vector<std::int64_t> changed;
-  std::vector<std::size_t> places;
-  MarkedEdges marks; // by the region's numbers
   for (std::size_t i = 0; i < this->Triangles.size(); ++i)
-  {
-    if (flips[i] == 0)
-    {
-      continue;
-    }
-    changed.push_back(this->Triangles[i]);
-    places.push_back(i);
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const unsigned char mark = mesh.Triangles[changed.back()].GetMarks(slot);
-      if (mark != 0)
-      {
-        marks.Add(
-          MakePair(this->Ids[3 * i + (slot + 1) % 3], this->Ids[3 * i + (slot + 2) % 3]), mark);
-      }
-    }
-  }
-  const auto change = [&](std::size_t i)
   {
     PieceTriangle& triangle = mesh.Triangles[this->Triangles[i]];
     triangle.Flips += flips[i];
     for (int slot = 0; slot < 3; ++slot)
     {
       triangle.Points[slot] = this->PointOf[ids[3 * i + slot]];
-      triangle.SetMarks(slot, marks.Get(ids[3 * i + (slot + 1) % 3], ids[3 * i + (slot + 2) % 3]));
-    }
-  };
-  mesh.ChangeTriangles(changed, [&]() { std::for_each(places.begin(), places.end(), change); });
-}
-
-std::vector<std::int32_t> PieceRegion::FindNext(
-  const std::vector<std::int32_t>& ids, const std::vector<std::int32_t>& flips) const
-{
-  std::vector<std::int32_t> next;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    if (flips[i / 3] > 0 && this->Inner[ids[i]] == 0)
-    {
-      next.push_back(this->PointOf[ids[i]]);
     }
   }
-  return next;
 }
 
 }

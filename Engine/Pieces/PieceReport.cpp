@@ -4,6 +4,8 @@
 
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
+#include "PieceRegion.h"
+#include "QuadSoup.h"
 
 #include <algorithm>
 

@@ -6,7 +6,8 @@
 #include "GuardRound.h"
 #include "MeshAudit.h"
 #include "PieceStore.h"
-#include "QuadSoup.h"
+#include "RoundFlips.h"
+#include "StopWatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,10 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
 /// are made at most.
 constexpr std::int64_t MostRounds = 1000;
+
+/// Nor that those of a round end, so it takes at most so many iterations more than the rank has
+/// triangles.
+constexpr std::int64_t SafetyMargin = 1000;
 
 std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& group)
 {
@@ -58,6 +63,7 @@ PieceRun::PieceRun(const PieceJob& job, PointKeys keys)
   : Job(job),
     FirstOrigins(NumberTriangles(job.Piece, job.Group)),
     Mesh(job.Piece, keys, job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
+    Judge(job.Survey, job.Options),
     Constraints(Job, Mesh),
     Seams(std::move(Constraints.GetSeams())),
     NumberOfPoints(keys.FirstKeys.back() - keys.Repeated),
@@ -120,21 +126,12 @@ void PieceRun::FlipFirst()
 
 void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
 {
-  const std::int64_t count = mesh.Triangles.Count;
-  HostVector<std::int32_t> ids(3 * count);
-  HostVector<std::int32_t> flips(count);
-  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
-  session.StoreFlipCounts(flips.data());
   this->Own = session.GetReport();
   this->Constraints.AddTo(this->Own);
-  this->KeepRows(this->Own, NaN);
+  this->KeepRows(this->Own);
   this->StopReason = this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->StopReason;
   this->MarkEdges(mesh);
-  for (std::int64_t t = 0; t < count; ++t)
-  {
-    std::copy_n(ids.data() + 3 * t, 3, this->Mesh.Triangles[t].Points);
-    this->Mesh.Triangles[t].Flips += flips[t];
-  }
+  this->TakeFirst(session);
   this->Edges.Apply(this->Mesh.Triangles);
   this->Edges = MarkedEdges();
   if (this->Job.Options.TrackQuality)
@@ -144,7 +141,27 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   }
   if (this->Job.Group.GetSize() > 1)
   {
-    this->Mesh.BeginRounds();
+    this->Mesh.BeginRounds(this->Job.Survey.NeedsGuard());
+  }
+}
+
+void PieceRun::TakeFirst(const FlipSession& session)
+{
+  const HostTriangles made = session.ViewHostTriangles();
+  if (made.Records && this->Job.Group.GetSize() > 1)
+  {
+    this->Mesh.TakeTriangles(made);
+    return;
+  }
+  const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
+  HostVector<std::int32_t> ids(3 * count);
+  HostVector<std::int32_t> flips(count);
+  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+  session.StoreFlipCounts(flips.data());
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    std::copy_n(ids.data() + 3 * t, 3, this->Mesh.Triangles[t].Points);
+    this->Mesh.Triangles[t].Flips += flips[t];
   }
 }
 
@@ -204,16 +221,14 @@ bool PieceRun::MakeRound()
 {
   ++this->Whole.Rounds;
   const bool mayGoOn = this->MayGoOn();
-  SeamTest test =
-    this->Tester.Run(this->Mesh, this->Job.Survey, this->Job.Options, this->Job.Group);
+  SeamTest test = this->Tester.Run(this->Mesh, this->Judge, this->Job.Group);
   this->BadSeams = test.BadOfAll + test.BlockedOfAll;
   this->FoldedSeams = test.BlockedOfAll;
   GuardRound waiting;
   waiting.FreeOfAll = test.BadOfAll;
   if (this->Job.Survey.NeedsGuard() && mayGoOn)
   {
-    waiting =
-      this->Waiting.Flip(this->Mesh, this->Job.Survey, this->Job.Options, test, this->Job.Group);
+    waiting = this->Waiting.Flip(this->Mesh, this->Judge, test, this->Job.Group);
     this->KeepFlips(waiting.Flipped);
   }
   if (!mayGoOn || waiting.FreeOfAll == 0)
@@ -221,11 +236,10 @@ bool PieceRun::MakeRound()
     return false;
   }
   std::int64_t moved = 0;
-  std::vector<std::int32_t> points =
+  const std::vector<std::int64_t> toJudge =
     MoveTriangles(this->Mesh, test.Bad, this->Whole.Rounds % 2 != 0, this->Job.Group, moved);
-  points.insert(points.end(), waiting.Points.begin(), waiting.Points.end());
   this->Whole.MovedTriangles += moved;
-  DoTogether(this->Job.Group, [&]() { this->FlipAround(points); });
+  DoTogether(this->Job.Group, [&]() { this->FlipAround(toJudge, waiting); });
   if (this->Job.Options.TrackQuality)
   {
     this->KeepAngle();
@@ -234,54 +248,85 @@ bool PieceRun::MakeRound()
 }
 
 //------------------------------------------------------------------------------
-/// Judges the edges around some points, then, as far as flips reached, those further away.
-void PieceRun::FlipAround(std::vector<std::int32_t> points)
+/// Judges the edges of triangles that have come or lie at bad edges between ranks, or that have
+/// waited; then, as far as flips reach, those further away.
+void PieceRun::FlipAround(const std::vector<std::int64_t>& toJudge, const GuardRound& waiting)
 {
-  while (!points.empty() && this->StopReason == StopReasonKind::Converged)
+  RoundFlips flips(this->Mesh, this->Judge, this->Job.Survey.NeedsGuard());
+  for (const std::vector<std::int64_t>* list : { &toJudge, &waiting.Changed })
   {
-    const double rounds = static_cast<double>(this->Whole.Rounds);
+    std::for_each(list->begin(), list->end(), [&](std::int64_t t) { flips.Add(t); });
+  }
+  for (const PointPair& edge : waiting.Gone)
+  {
+    flips.AddFreed(static_cast<std::int32_t>(edge[0]), static_cast<std::int32_t>(edge[1]));
+  }
+  this->Flip(flips);
+}
+
+void PieceRun::Flip(RoundFlips& flips)
+{
+  const StopWatch watch;
+  const double rounds = static_cast<double>(this->Whole.Rounds);
+  const bool tracks = this->Job.Options.TrackQuality;
+  const std::int64_t limit = this->GetIterationLimit();
+  if (tracks)
+  {
+    this->Quality.Update(this->Mesh, this->Job.Survey, flips.GetNext());
+  }
+  while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
+  {
     if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
     {
       this->StopReason = StopReasonKind::Aborted;
-      return;
     }
-    points = this->FlipRegion(PieceRegion(this->Mesh, points, this->Job.Survey, this->Scratch));
+    else if (static_cast<std::int64_t>(this->Rows.size()) >= limit)
+    {
+      this->StopReason = flips.HasBad() ? StopReasonKind::IterationLimit : this->StopReason;
+      break;
+    }
+    else
+    {
+      this->KeepIteration(flips.Iterate(), flips.GetNext());
+    }
   }
+  this->Own.FlipSeconds += watch.GetSeconds();
 }
 
-/// @returns the points around which edges must now be judged.
-std::vector<std::int32_t> PieceRun::FlipRegion(const PieceRegion& region)
+/// @param changed the triangles that have changed.
+void PieceRun::KeepIteration(IterationRecord row, const std::vector<std::int64_t>& changed)
 {
-  FlipOptions options = GetPartOptions(this->Job.Survey, this->Job.Options);
-  options.MaximumIterations = this->CountIterationsLeft();
-  options.TrackQuality = this->Job.Options.TrackQuality;
-  FlipSession session(region.View(), options);
-  session.Advance();
-  std::vector<std::int32_t> ids(3 * region.GetNumberOfTriangles());
-  std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
-  session.StoreTriangles(MutableTriangleArray(ids.data(), region.GetNumberOfTriangles()));
-  session.StoreFlipCounts(flips.data());
-  region.Store(ids, flips, this->Mesh);
-  const FlipReport& report = session.GetReport();
-  double rest = NaN;
-  if (options.TrackQuality)
+  this->HasBlocked = this->HasBlocked || row.Blocked > 0;
+  if (row.Flipped == 0)
   {
-    rest = this->Quality.FindSmallest(this->Mesh, region.GetTriangles());
-    this->Quality.Update(this->Mesh, this->Job.Survey, region.GetTriangles());
+    return; // it has found that nothing is left to do
   }
-  this->KeepRows(report, rest);
-  this->Own.BuildSeconds += report.BuildSeconds;
-  this->Own.FlipSeconds += report.FlipSeconds;
-  return region.FindNext(ids, flips);
+  row.MinimumAngle = NaN;
+  if (this->Job.Options.TrackQuality)
+  {
+    this->Quality.Update(this->Mesh, this->Job.Survey, changed);
+    row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
+  }
+  this->KeepRow(row);
+}
+
+/// How many iterations this rank may make in all.
+std::int64_t PieceRun::GetIterationLimit() const
+{
+  if (this->Job.Options.MaximumIterations >= 0)
+  {
+    return this->Job.Options.MaximumIterations;
+  }
+  const auto triangles = static_cast<std::int64_t>(this->Mesh.Triangles.size());
+  return static_cast<std::int64_t>(this->Rows.size()) + triangles + SafetyMargin;
 }
 
 //------------------------------------------------------------------------------
-/// @param rest the smallest angle of the triangles that the report is not about.
-void PieceRun::KeepRows(const FlipReport& report, double rest)
+void PieceRun::KeepRows(const FlipReport& report)
 {
   for (IterationRecord row : report.Iterations)
   {
-    row.MinimumAngle = this->Job.Options.TrackQuality ? std::fmin(row.MinimumAngle, rest) : NaN;
+    row.MinimumAngle = this->Job.Options.TrackQuality ? row.MinimumAngle : NaN;
     this->KeepRow(row);
   }
   this->HasBlocked = this->HasBlocked || report.NonDelaunayAfter > 0;
@@ -320,13 +365,6 @@ void PieceRun::KeepAngle()
     row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
     this->Angles.push_back({ this->Whole.Rounds, -1, row });
   }
-}
-
-std::int64_t PieceRun::CountIterationsLeft() const
-{
-  const std::int64_t most = this->Job.Options.MaximumIterations;
-  const auto made = static_cast<std::int64_t>(this->Rows.size());
-  return most < 0 ? most : std::max<std::int64_t>(0, most - made);
 }
 
 //------------------------------------------------------------------------------

@@ -10,7 +10,7 @@
 #include "PieceJob.h"
 #include "PieceMesh.h"
 #include "PieceQuality.h"
-#include "PieceRegion.h"
+#include "QuadJudge.h"
 #include "SeamRound.h"
 #include "SeamSurvey.h"
 #include "SeamTester.h"
@@ -22,6 +22,7 @@ namespace delaunayflip
 {
 
 class FlipSession;
+class RoundFlips;
 
 /// A run, as one of its ranks sees it.
 ///
@@ -43,16 +44,18 @@ private:
   TriangleMesh GetFirstMesh() const;
   void FlipFirst();
   void KeepFirst(const FlipSession& session, const TriangleMesh& mesh);
+  void TakeFirst(const FlipSession& session);
   void MarkEdges(const TriangleMesh& mesh);
   bool MakeRound();
   bool MayGoOn();
-  void FlipAround(std::vector<std::int32_t> points);
-  std::vector<std::int32_t> FlipRegion(const PieceRegion& region);
-  void KeepRows(const FlipReport& report, double rest);
+  void FlipAround(const std::vector<std::int64_t>& toJudge, const GuardRound& waiting);
+  void Flip(RoundFlips& flips);
+  std::int64_t GetIterationLimit() const;
+  void KeepRows(const FlipReport& report);
+  void KeepIteration(IterationRecord row, const std::vector<std::int64_t>& changed);
   void KeepRow(const IterationRecord& row);
   void KeepFlips(std::int64_t flipped);
   void KeepAngle();
-  std::int64_t CountIterationsLeft() const;
   bool Tell(double share) const;
   void CountRest();
   PiecesReport MakeReport();
@@ -61,7 +64,7 @@ private:
   PieceJob Job;
   std::vector<std::int64_t> FirstOrigins; ///< The number of the first triangle of every rank.
   PieceMesh Mesh;
-  RegionScratch Scratch;
+  QuadJudge Judge;
   SeamTester Tester;
   WaitingEdges Waiting;
   PieceConstraints Constraints;

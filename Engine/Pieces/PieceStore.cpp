@@ -35,21 +35,24 @@ public:
     this->Flipped.Triangles.reserve(3 * triangles.size());
     this->Flipped.Origins.reserve(triangles.size());
     this->Flipped.FlipCounts.reserve(triangles.size());
-    const std::int64_t inOrder = this->CountInOrder();
-    const std::vector<std::int64_t> others = this->SortOthers(inOrder);
-    auto next = others.begin();
-    for (std::int64_t t = 0; t < inOrder; ++t)
+    this->FindPlaces();
+    for (std::size_t i = 0; i < this->Own.size(); ++i)
     {
-      for (; next != others.end() && this->IsBefore(*next, t); ++next)
+      constexpr std::size_t PrefetchDistance = 16;
+      const std::uint32_t later = this->Own[std::min(i + PrefetchDistance, this->Own.size() - 1)];
+      if (later != Nowhere)
       {
-        this->StoreTriangle(triangles[*next]);
+        Prefetch(&triangles[later]);
       }
-      if (!triangles[t].HasLeft)
+      if (this->Own[i] != Nowhere)
       {
-        this->StoreTriangle(triangles[t]);
+        this->StoreTriangle(triangles[this->Own[i]]);
       }
     }
-    std::for_each(next, others.end(), [&](std::int64_t t) { this->StoreTriangle(triangles[t]); });
+    for (const std::uint32_t t : this->Others)
+    {
+      this->StoreTriangle(triangles[t]);
+    }
   }
 
 private:
@@ -59,40 +62,25 @@ private:
       triangle.Origin < this->FirstOrigins[this->Rank + 1];
   }
 
-  /// The order in which a caller gets triangles.
-  bool IsBefore(std::int64_t a, std::int64_t b) const
+  void FindPlaces()
   {
     const PieceTriangles& triangles = this->Mesh.Triangles;
-    const bool isOwn = this->IsOwn(triangles[a]);
-    return isOwn == this->IsOwn(triangles[b]) ? triangles[a].Origin < triangles[b].Origin : isOwn;
-  }
-
-  /// Triangles before this one are in order, as those that have never left are.
-  std::int64_t CountInOrder() const
-  {
-    const auto size = static_cast<std::int64_t>(this->Mesh.Triangles.size());
-    std::int64_t t = std::min<std::int64_t>(1, size);
-    while (t < size && this->IsBefore(t - 1, t))
+    const std::int64_t first = this->FirstOrigins[this->Rank];
+    this->Own.assign(this->FirstOrigins[this->Rank + 1] - first, Nowhere);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
     {
-      ++t;
-    }
-    return t;
-  }
-
-  std::vector<std::int64_t> SortOthers(std::int64_t inOrder) const
-  {
-    const PieceTriangles& triangles = this->Mesh.Triangles;
-    std::vector<std::int64_t> others;
-    for (auto t = inOrder; t < static_cast<std::int64_t>(triangles.size()); ++t)
-    {
-      if (!triangles[t].HasLeft)
+      const auto place = static_cast<std::uint32_t>(t);
+      if (!triangles[t].HasLeft && this->IsOwn(triangles[t]))
       {
-        others.push_back(t);
+        this->Own[triangles[t].Origin - first] = place;
+      }
+      else if (!triangles[t].HasLeft)
+      {
+        this->Others.push_back(place);
       }
     }
-    std::sort(others.begin(), others.end(),
-      [this](std::int64_t a, std::int64_t b) { return this->IsBefore(a, b); });
-    return others;
+    std::sort(this->Others.begin(), this->Others.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return triangles[a].Origin < triangles[b].Origin; });
   }
 
   void StoreTriangle(const PieceTriangle& triangle)
@@ -127,10 +115,14 @@ private:
     return id;
   }
 
+  static constexpr std::uint32_t Nowhere = 0xFFFFFFFFu;
+
   const PieceMesh& Mesh;
   const std::vector<std::int64_t>& FirstOrigins;
   int Rank;
   FlippedPiece& Flipped;
+  HostVector<std::uint32_t> Own; ///< Places of the rank's own triangles, by their slots.
+  std::vector<std::uint32_t> Others; ///< Places of those of other ranks, in the order of these.
   std::vector<std::int64_t> IdOfReceived; ///< Ids of received points in the result; -1: not yet.
 };
 }

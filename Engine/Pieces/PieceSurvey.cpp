@@ -204,6 +204,7 @@ PieceSurvey SurveyPieces(
   survey.GeometryReason = found.GeometryReason;
   survey.Projection = found.Projection;
   survey.Range = found.Range;
+  survey.FiltersApply = found.FiltersApply;
   survey.NearlyHeightField = found.NearlyHeightField;
   survey.NearlyHeightField.FirstIds.clear(); // of other ranks
   if (found.Geometry == GeometryKind::Planar)

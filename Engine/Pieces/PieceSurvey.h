@@ -21,6 +21,7 @@ struct PieceSurvey
   WholeMesh Whole; ///< The same plane, without flags of points.
   Defect NearlyHeightField; ///< As that of MeshSurvey.
   CoordinateRange Range = CoordinateRange::Usual;
+  bool FiltersApply = true; ///< As that of MeshSurvey.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 
   /// Whether flips could make an edge that exists, on any rank.

@@ -40,6 +40,15 @@ enum EdgeMark : unsigned char
   SeamMark = 8 ///< It may flip, and its other triangle is on another rank.
 };
 
+/// What becomes of a triangle in an iteration of a round (RoundFlips).
+enum class TriangleStep : unsigned char
+{
+  None,
+  Listed, ///< Its edges will be judged.
+  Visited, ///< They have been.
+  Next ///< They will be in the next iteration.
+};
+
 /// A triangle with its marks: bit `slot` of a mark, shifted, is for the edge opposite that corner.
 struct PieceTriangle
 {
@@ -49,6 +58,7 @@ struct PieceTriangle
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
   bool IsNoted; ///< In the list of triangles that may have new seam edges.
+  TriangleStep Step;
 
   bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
   void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }

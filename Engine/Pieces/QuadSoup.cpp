@@ -112,28 +112,4 @@ std::vector<unsigned char> QuadSoup::FindFixed(EdgeCounts& counts) const
   return fixed;
 }
 
-std::vector<unsigned char> QuadSoup::FindBad(std::int64_t& blocked) const
-{
-  std::vector<unsigned char> bad(this->GetSize());
-  blocked = 0;
-  if (bad.empty())
-  {
-    return bad;
-  }
-  FlipOptions one = this->Options;
-  one.FeatureAngle = 180.0;
-  one.MaximumIterations = 1;
-  FlipSession session(this->View(), one);
-  const FlipReport& report = session.GetReport();
-  blocked = report.BlockedByShape;
-  session.Advance();
-  std::vector<std::int32_t> flips(2 * this->GetSize());
-  session.StoreFlipCounts(flips.data());
-  for (std::size_t i = 0; i < bad.size(); ++i)
-  {
-    bad[i] = flips[2 * i] > 0 ? 1 : 0;
-  }
-  return bad;
-}
-
 }

@@ -57,10 +57,6 @@ public:
   /// alone.
   std::vector<unsigned char> FindFixed(EdgeCounts& counts) const;
 
-  /// One flag per quad: whether its edge is bad and may flip; edges that FindFixed finds may not.
-  /// @param blocked receives how many are bad but would fold the mesh over.
-  std::vector<unsigned char> FindBad(std::int64_t& blocked) const;
-
 private:
   TriangleMesh View() const;
   FlipOptions Options;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamJudge.h"
 
+#include "QuadJudge.h"
 #include "QuadSoup.h"
 
 #include <algorithm>
@@ -255,14 +256,11 @@ private:
 
   void CountBad()
   {
-    QuadSoup soup(this->Survey, this->Options);
-    for (const SeamEdge* edge : this->Open)
-    {
-      soup.Add(edge->Begin[0].Seam->Side, edge->Begin[1].Seam->Side);
-    }
-    std::int64_t blocked = 0;
-    const std::vector<unsigned char> bad = soup.FindBad(blocked);
-    this->Counts.NonDelaunay = blocked + std::count(bad.begin(), bad.end(), 1);
+    const QuadJudge judge(this->Survey, this->Options);
+    this->Counts.NonDelaunay = std::count_if(this->Open.begin(), this->Open.end(),
+      [&](const SeamEdge* edge) {
+        return judge.Judge(edge->Begin[0].Seam->Side, edge->Begin[1].Seam->Side) != EdgeState::Good;
+      });
   }
 
   const PieceSurvey& Survey;

@@ -93,14 +93,9 @@ RecordLists<TravellingTriangle> TakeAway(
   return toRank;
 }
 
-void AddPoints(const PieceTriangle& triangle, std::vector<std::int32_t>& points)
-{
-  points.insert(points.end(), triangle.Points, triangle.Points + 3);
-}
-
-/// Adds the triangles that have come, and their points to `points`.
+/// Adds the triangles that have come, and their numbers to `toJudge`.
 void TakeIn(PieceMesh& mesh, const RecordLists<TravellingTriangle>& arriving,
-  std::vector<std::int32_t>& points)
+  std::vector<std::int64_t>& toJudge)
 {
   for (const std::vector<TravellingTriangle>& list : arriving)
   {
@@ -108,22 +103,22 @@ void TakeIn(PieceMesh& mesh, const RecordLists<TravellingTriangle>& arriving,
     {
       const std::int64_t t = mesh.Receive(triangle);
       ClearSeams(mesh, t);
-      AddPoints(mesh.Triangles[t], points);
+      toJudge.push_back(t);
     }
   }
 }
 }
 
-std::vector<std::int32_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
+std::vector<std::int64_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
   bool toLower, PieceGroup& group, std::int64_t& moved)
 {
-  std::vector<std::int32_t> points;
+  std::vector<std::int64_t> toJudge;
   std::vector<Move> leaving;
   for (const Move& move : ChooseReceivers(bad, toLower, group.GetRank()))
   {
     if (move.Receiver == group.GetRank())
     {
-      AddPoints(mesh.Triangles[move.Triangle], points);
+      toJudge.push_back(move.Triangle);
     }
     else
     {
@@ -131,8 +126,8 @@ std::vector<std::int32_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSe
     }
   }
   moved = SumOverRanks(group, static_cast<std::int64_t>(leaving.size()));
-  TakeIn(mesh, ExchangeRecords(group, TakeAway(mesh, leaving, group.GetSize())), points);
-  return points;
+  TakeIn(mesh, ExchangeRecords(group, TakeAway(mesh, leaving, group.GetSize())), toJudge);
+  return toJudge;
 }
 
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamTester.h"
 
-#include "QuadSoup.h"
-
 #include <utility>
 
 namespace delaunayflip
@@ -11,7 +9,7 @@ namespace delaunayflip
 
 namespace
 {
-constexpr std::int64_t NoCorner = -1; // of a side that the rank has no longer
+constexpr std::int64_t HasNone = -1; // of a side that the rank has no longer
 
 RecordLists<SeamTriangle> ListNews(PieceMesh& mesh, const PieceGroup& group)
 {
@@ -22,7 +20,7 @@ RecordLists<SeamTriangle> ListNews(PieceMesh& mesh, const PieceGroup& group)
   {
     SeamTriangle lost{};
     lost.Ends = ends;
-    lost.Corner = NoCorner;
+    lost.Corner = HasNone;
     add(lost);
   }
   for (const PieceCorner& corner : mesh.TakeNewSeams())
@@ -49,7 +47,7 @@ void SeamTester::Update(const std::vector<RankedTriangle>& news)
     {
       this->Free.push_back(side->Place); // what the rank has said before
     }
-    if (one.Seam->Corner != NoCorner)
+    if (one.Seam->Corner != HasNone)
     {
       sides.push_back({ one.Ends, one.Rank, this->Keep(*one.Seam), true });
     }
@@ -95,40 +93,31 @@ void SeamTester::TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam
     MakePair(seam.Opposite, this->GetSeam(other).Opposite), this->Sides[other].Rank });
 }
 
-SeamTester::Found SeamTester::Judge(
-  const PieceSurvey& survey, const FlipOptions& options, int ranks)
+SeamTester::Found SeamTester::Judge(const QuadJudge& judge, int ranks)
 {
   Found found;
   found.ToRank.resize(ranks);
-  const std::vector<std::size_t> firsts = this->ListToTest();
-  QuadSoup soup(survey, options);
-  for (const std::size_t i : firsts)
+  for (const std::size_t i : this->ListToTest())
   {
-    soup.Add(this->GetSeam(i).Side, this->GetSeam(i + 1).Side);
-  }
-  const std::vector<unsigned char> bad = soup.FindBad(found.Blocked);
-  for (std::size_t k = 0; k < firsts.size(); ++k)
-  {
-    const std::size_t i = firsts[k];
-    // Which edges are blocked is not known. So that they are counted again, none is left out.
-    this->Sides[i].IsToTest = this->Sides[i + 1].IsToTest = bad[k] != 0 || found.Blocked > 0;
-    if (bad[k] != 0)
+    const EdgeState state = judge.Judge(this->GetSeam(i).Side, this->GetSeam(i + 1).Side);
+    this->Sides[i].IsToTest = this->Sides[i + 1].IsToTest = state != EdgeState::Good;
+    if (state == EdgeState::Bad)
     {
       this->TellBad(i, i + 1, found.ToRank);
       this->TellBad(i + 1, i, found.ToRank);
       ++found.Bad;
     }
+    found.Blocked += state == EdgeState::BlockedByShape ? 1 : 0;
   }
   return found;
 }
 
-SeamTest SeamTester::Run(
-  PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group)
+SeamTest SeamTester::Run(PieceMesh& mesh, const QuadJudge& judge, PieceGroup& group)
 {
   const RecordLists<SeamTriangle> news = ExchangeRecords(group, ListNews(mesh, group));
   this->Update(SortByEdge(news));
   Found found;
-  DoTogether(group, [&]() { found = this->Judge(survey, options, group.GetSize()); });
+  DoTogether(group, [&]() { found = this->Judge(judge, group.GetSize()); });
   SeamTest test;
   for (const std::vector<BadSeam>& list : ExchangeRecords(group, found.ToRank))
   {

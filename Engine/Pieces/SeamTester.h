@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_SEAMTESTER_H
 
 #include "PieceMesh.h"
-#include "PieceSurvey.h"
+#include "QuadJudge.h"
 #include "Records.h"
 #include "SeamTriangle.h"
 
@@ -38,8 +38,7 @@ class SeamTester
 {
 public:
   /// All ranks call it together, after BeginRounds.
-  SeamTest Run(
-    PieceMesh& mesh, const PieceSurvey& survey, const FlipOptions& options, PieceGroup& group);
+  SeamTest Run(PieceMesh& mesh, const QuadJudge& judge, PieceGroup& group);
 
 private:
   /// A triangle at an edge.
@@ -62,7 +61,7 @@ private:
   std::uint32_t Keep(const SeamTriangle& seam);
   std::vector<std::size_t> ListToTest() const;
   void TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const;
-  Found Judge(const PieceSurvey& survey, const FlipOptions& options, int ranks);
+  Found Judge(const QuadJudge& judge, int ranks);
   const SeamTriangle& GetSeam(std::size_t side) const { return this->Seams[Sides[side].Place]; }
 
   std::vector<Side> Sides; ///< Those of an edge next to each other, by rank.

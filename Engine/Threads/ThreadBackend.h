@@ -54,6 +54,9 @@ public:
   /// Threads have no device.
   std::unique_ptr<DeviceScope> MakeCurrent() const { return nullptr; }
 
+  /// Whether its arrays are in the host's memory.
+  static constexpr bool IsOnHost = true;
+
   /// Whether to save memory at the cost of time.
   static constexpr bool MemoryIsScarce = false;
   int CountTableSlices() const { return 1; }

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace delaunayflip
@@ -26,68 +25,100 @@ PieceTriangle Draw(std::mt19937& random)
   return triangle;
 }
 
+/// 3 * triangle + slot.
+std::int64_t GetNumber(const PieceCorner& corner) { return 3 * corner.Triangle + corner.Slot; }
+
+/// The corners at a point.
+std::vector<std::int64_t> FindAll(const PointStars& stars, std::int32_t point)
+{
+  std::vector<std::int64_t> found;
+  stars.Find(point,
+    [&](const PieceCorner& corner)
+    {
+      found.push_back(GetNumber(corner));
+      return false;
+    });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 /// Expects that the lists have these triangles.
-/// @param isListed one flag per triangle.
+/// @param isListed one flag per corner.
 void ExpectLists(
   const PointStars& stars, const PieceTriangles& triangles, const std::vector<bool>& isListed)
 {
-  std::vector<std::int64_t> fromAll, together;
-  std::vector<std::int32_t> all(Points);
-  std::iota(all.begin(), all.end(), 0);
-  stars.ForEachOf(all, [&](std::int64_t t) { together.push_back(t); });
   for (std::int32_t point = 0; point < Points; ++point)
   {
-    std::vector<std::int64_t> expected, found;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+    std::vector<std::int64_t> expected;
+    for (std::size_t i = 0; i < isListed.size(); ++i)
     {
-      const std::int32_t(&points)[3] = triangles[t].Points;
-      const auto corners = isListed[t] ? std::count(points, points + 3, point) : 0;
-      expected.insert(expected.end(), corners, static_cast<std::int64_t>(t));
-    }
-    stars.ForEach(point, [&](std::int64_t t) { found.push_back(t); });
-    std::sort(found.begin(), found.end());
-    EXPECT_EQ(expected, found) << "point " << point;
-    fromAll.insert(fromAll.end(), expected.begin(), expected.end());
-  }
-  std::sort(fromAll.begin(), fromAll.end());
-  std::sort(together.begin(), together.end());
-  EXPECT_EQ(fromAll, together);
-}
-
-TEST(PointStars, FollowTrianglesThatChange)
-{
-  std::mt19937 random(4);
-  PieceTriangles triangles;
-  for (int i = 0; i < 30; ++i)
-  {
-    triangles.push_back(Draw(random));
-  }
-  PointStars stars;
-  std::vector<bool> isListed(triangles.size(), true);
-  stars.AddAll(triangles, Points / 2); // the other points come later
-  ExpectLists(stars, triangles, isListed);
-  for (int step = 0; step < 40; ++step)
-  {
-    const std::vector<std::int64_t> changed{ step % 30, (7 * step + 1) % 30, (11 * step + 2) % 30 };
-    stars.Remove(triangles, changed);
-    for (const std::int64_t t : changed)
-    {
-      isListed[t] = false;
-    }
-    ExpectLists(stars, triangles, isListed);
-    for (const std::int64_t t : changed)
-    {
-      if (!isListed[t] && t != step % 5) // some stay away
+      if (isListed[i] && triangles[i / 3].Points[i % 3] == point)
       {
-        isListed[t] = true;
-        triangles[t] = Draw(random);
-        stars.Add(triangles, t);
+        expected.push_back(static_cast<std::int64_t>(i));
       }
     }
+    EXPECT_EQ(expected, FindAll(stars, point)) << "point " << point;
+  }
+}
+
+PieceTriangles DrawSome(std::mt19937& random, int size)
+{
+  PieceTriangles triangles;
+  for (int i = 0; i < size; ++i)
+  {
     triangles.push_back(Draw(random));
-    isListed.push_back(true);
-    stars.Add(triangles, static_cast<std::int64_t>(triangles.size()) - 1);
+  }
+  return triangles;
+}
+
+TEST(PointStars, FollowCornersThatMove)
+{
+  std::mt19937 random(4);
+  PieceTriangles triangles = DrawSome(random, 30);
+  PointStars stars;
+  std::vector<bool> isListed(3 * triangles.size(), true);
+  stars.AddAll(triangles, Points / 2); // the other points come later
+  ExpectLists(stars, triangles, isListed);
+  for (int step = 0; step < 60; ++step)
+  {
+    const PieceCorner corner{ 7 * step % 30, step % 3 };
+    std::int32_t& point = triangles[corner.Triangle].Points[corner.Slot];
+    if (isListed[GetNumber(corner)])
+    {
+      stars.Remove(corner, point);
+    }
+    point = DrawIndex(random, Points);
+    isListed[GetNumber(corner)] = step % 5 > 0; // some stay away
+    if (isListed[GetNumber(corner)])
+    {
+      stars.Add(corner, point);
+    }
     ExpectLists(stars, triangles, isListed);
+  }
+}
+
+/// Of two points whose corners are visited in turn, one without corners ends the search: an edge
+/// between them has triangles at both.
+TEST(PointStars, FindAtEitherOfTwoPoints)
+{
+  std::mt19937 random(5);
+  const PieceTriangles triangles = DrawSome(random, 100);
+  PointStars stars;
+  stars.AddAll(triangles, Points);
+  for (std::int32_t point = 1; point < Points; ++point)
+  {
+    const std::size_t one = FindAll(stars, point - 1).size(), other = FindAll(stars, point).size();
+    std::size_t visits = 0, stopped = 0;
+    const auto visitAll = [&](const PieceCorner&)
+    {
+      ++visits;
+      return false;
+    };
+    stars.FindAtEither(point - 1, point, visitAll);
+    const std::size_t untilOneIsSeen = one <= other ? 2 * one - 1 : 2 * other;
+    EXPECT_EQ(one == 0 ? 0 : untilOneIsSeen, visits);
+    stars.FindAtEither(point - 1, point, [&](const PieceCorner&) { return ++stopped == 2; });
+    EXPECT_EQ(std::min<std::size_t>(2, visits), stopped);
   }
 }
 

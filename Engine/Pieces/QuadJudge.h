@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_QUADJUDGE_H
+#define DELAUNAYFLIP_QUADJUDGE_H
+
+#include "EdgeMesh.h"
+#include "FlipOptions.h"
+#include "OppositeAngles.h"
+#include "PackedPoints.h"
+#include "PieceMesh.h"
+#include "PieceSurvey.h"
+#include "QuadSoup.h"
+
+namespace delaunayflip
+{
+
+/// Judges single edges by the rules of the engine (FlipRules.h).
+class QuadJudge
+{
+public:
+  QuadJudge(const PieceSurvey& survey, const FlipOptions& options);
+
+  /// @param apqb x, y and z of the points of a quad (EdgeFlip.h's picture).
+  /// @returns Good, Bad or BlockedByShape.
+  EdgeState Judge(const double (&apqb)[4][3]) const;
+
+  /// The same for two triangles that run through their edge in opposite directions.
+  EdgeState Judge(const SeamSide& one, const SeamSide& other) const;
+
+  /// The same for the edge opposite to two corners.
+  EdgeState Judge(const PieceMesh& mesh, const PieceCorner& one, const PieceCorner& other) const;
+
+private:
+  PackingPlan Plan;
+  CriterionKind Criterion;
+  bool IsSurface;
+  bool Canonical;
+  bool FiltersApply;
+  AngleTolerance Tolerance;
+  CoordinateRange Range;
+};
+
+}
+
+#endif
