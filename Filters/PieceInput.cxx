@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -195,9 +196,15 @@ void ListSegments(vtkPolyData* constraints, vtkPoints* points, SegmentList& segm
 
 bool IsOnAnyRank(bool flag, PieceGroup& group)
 {
-  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
-  return std::any_of(
-    flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
+  bool isOnAny = false;
+  const auto ask = [&](PieceGroup& told)
+  {
+    const std::vector<Message> flags = told.Gather(Message(1, flag ? 1 : 0));
+    isOnAny =
+      std::any_of(flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
+  };
+  RunTogether(group, std::ref(ask)); // the message needs memory
+  return isOnAny;
 }
 
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)

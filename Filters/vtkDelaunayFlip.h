@@ -701,6 +701,8 @@ private:
     vtkDataObject* output, delaunayflip::PieceGroup& group);
   delaunayflip::UpdateSummary FlipTogether(vtkDataObject* input, vtkDataObject* constraints,
     vtkDataObject* output, delaunayflip::PieceGroup& group);
+  delaunayflip::UpdateSummary FlipPieces(vtkDataObject* input, vtkDataObject* constraints,
+    vtkDataObject* output, delaunayflip::PieceGroup& group);
   void FlipBlock(const delaunayflip::SharedBlock& block,
     const delaunayflip::BlockConstraints& constraints, delaunayflip::PieceGroup& group,
     delaunayflip::UpdateSummary& summary,

@@ -20,6 +20,8 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace delaunayflip;
 
@@ -28,7 +30,31 @@ namespace
 
 constexpr const char* AmbiguousPartitions =
   "points of some partitions coincide with others of the same partition, and edges there stayed; "
-  "give the points global ids";
+  "number the points of the mesh before it is cut, as vtkGlobalPointIds";
+
+/// The group of an update, as blocks see it. RunTogether keeps failures of one block apart from
+/// those of the update, which end all blocks.
+class UpdateGroup : public PieceGroup
+{
+public:
+  explicit UpdateGroup(PieceGroup& told)
+    : Told(told)
+  {
+  }
+  int GetRank() const override { return this->Told.GetRank(); }
+  int GetSize() const override { return this->Told.GetSize(); }
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    return this->Told.Exchange(std::move(messages));
+  }
+  std::vector<Message> Gather(const Message& message) override
+  {
+    return this->Told.Gather(message);
+  }
+
+private:
+  PieceGroup& Told;
+};
 
 }
 
@@ -60,12 +86,26 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::ReadMesh(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
+/// Whatever fails on a rank, all ranks fail.
 UpdateSummary vtkDelaunayFlip::FlipTogether(
   vtkDataObject* input, vtkDataObject* constraints, vtkDataObject* output, PieceGroup& group)
 {
-  this->Run.reset();
-  *this->Report = UpdateReport();
-  this->CanContinue = false;
+  UpdateSummary summary;
+  const auto flip = [&](PieceGroup& told)
+  {
+    this->Run.reset();
+    *this->Report = UpdateReport();
+    this->CanContinue = false;
+    UpdateGroup blocks(told);
+    summary = this->FlipPieces(input, constraints, output, blocks);
+  };
+  RunTogether(group, std::ref(flip));
+  return summary;
+}
+
+UpdateSummary vtkDelaunayFlip::FlipPieces(
+  vtkDataObject* input, vtkDataObject* constraints, vtkDataObject* output, PieceGroup& group)
+{
   auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
   if (IsOnAnyRank(blocks != nullptr, group))
   {
@@ -104,7 +144,7 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
         this->RegionArray },
       this->GetOptions(), { this->GenerateFlipCount, this->GenerateQuality },
       [this](double fraction) { return this->ObserveProgress(fraction); } };
-    update = FlipPieces(request, told, mesh.Output);
+    update = delaunayflip::FlipPieces(request, told, mesh.Output);
   };
   outcome.Failure = Attempt([&]() { RunTogether(group, std::ref(flip)); });
   if (outcome.Failure)
@@ -120,7 +160,7 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
     summary.Warnings.push_back({ mesh.Name,
       std::to_string(update.AmbiguousPoints) +
         " points at the borders of pieces coincide with others of the same piece, and edges there "
-        "stayed; give the points global ids" });
+        "stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds" });
   }
 }
 
@@ -130,23 +170,19 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
 UpdateSummary vtkDelaunayFlip::FlipBlocks(
   vtkCompositeDataSet* input, vtkDataObject* constraints, vtkDataObject* output, PieceGroup& group)
 {
+  if (!input)
+  {
+    throw InvalidOptions("this rank has a single mesh, but others have composite datasets");
+  }
+  // Observers may change the input.
+  const auto blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
+  blocks->ShallowCopy(input);
   BlockConstraints edges;
-  vtkSmartPointer<vtkCompositeDataSet> blocks; // observers may change the input
-  DoTogether(group,
-    [&]()
-    {
-      if (!input)
-      {
-        throw InvalidOptions("this rank has a single mesh, but others have composite datasets");
-      }
-      blocks = vtkSmartPointer<vtkCompositeDataSet>::Take(input->NewInstance());
-      blocks->ShallowCopy(input);
-      edges.OfAll = vtkPolyData::SafeDownCast(constraints);
-      if (auto* ofBlocks = vtkCompositeDataSet::SafeDownCast(constraints))
-      {
-        edges.Blocks = ListMeshesByPlace(ofBlocks);
-      }
-    });
+  edges.OfAll = vtkPolyData::SafeDownCast(constraints);
+  if (auto* ofBlocks = vtkCompositeDataSet::SafeDownCast(constraints))
+  {
+    edges.Blocks = ListMeshesByPlace(ofBlocks);
+  }
   UpdateSummary summary;
   summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
   BlockLeaves results;
@@ -177,7 +213,7 @@ void vtkDelaunayFlip::FlipBlock(const SharedBlock& block, const BlockConstraints
     edges = mesh.FindConstraints(constraints);
   };
   MeshOutcome outcome;
-  outcome.Failure = Attempt([&]() { DoTogether(group, read); });
+  outcome.Failure = Attempt([&]() { DoTogether(group, std::ref(read)); }); // a copy needs memory
   if (outcome.Failure)
   {
     mesh.StoreNothing(leaves);

@@ -26,6 +26,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -86,11 +87,12 @@ int vtkDelaunayFlip::RequestData(
   auto* mesh = vtkPolyData::SafeDownCast(output);
   const FlagScope atWork(this->IsAtWork);
   this->HasExecuted = true;
-  const std::unique_ptr<PieceGroup> group = this->MakeGroup();
+  std::unique_ptr<PieceGroup> group;
   UpdateSummary summary;
   const FlipFailure failure = Attempt(
     [&]()
     {
+      group = this->MakeGroup();
       summary = group ? this->FlipTogether(input, constraints, output, *group)
         : blocks      ? this->FlipBlocks(blocks, constraints, output, *MakeSingleGroup())
                       : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
@@ -103,24 +105,25 @@ int vtkDelaunayFlip::RequestData(
     summary.AddMesh({ *this->Report, failure, "" }, 0, "");
   }
   const bool isFirst = group ? group->GetRank() == 0 : JoinRanks(summary, piece); // on every rank
-  const FlipFailure unreported = Attempt(
-    [&]()
+  const auto report = [&]()
+  {
+    // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
+    AddIterationColumns(isFirst ? summary.Report : UpdateReport(), "", table->GetRowData());
+    if (mesh && piece.Count > 1)
     {
-      // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
-      AddIterationColumns(isFirst ? summary.Report : UpdateReport(), "", table->GetRowData());
-      if (mesh && piece.Count > 1)
-      {
-        RenewFieldData(summary.Report, mesh->GetFieldData());
-      }
-      this->Publish(summary, isFirst);
-    });
+      RenewFieldData(summary.Report, mesh->GetFieldData());
+    }
+    this->Publish(summary, isFirst);
+  };
+  const FlipFailure unreported =
+    Attempt([&]() { group ? DoTogether(*group, std::ref(report)) : report(); });
   if (unreported)
   {
     this->DiscardRun(output);
     table->Initialize();
     UpdateSummary nothing;
     nothing.AddMesh({ *this->Report, unreported, "" }, 0, "");
-    this->Publish(nothing, true);
+    this->Publish(nothing, isFirst);
   }
   ForgetAbortRequest(this);
   // Even after an error: 0 would keep filters downstream from executing, and a representation of

@@ -23,7 +23,7 @@ vtkPDelaunayFlip::~vtkPDelaunayFlip() { this->SetController(nullptr); }
 std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
 {
   const bool isShared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-  return std::unique_ptr<PieceGroup>(isShared ? new ControllerGroup(this->Controller) : nullptr);
+  return isShared ? ControllerGroup::Make(this->Controller) : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -57,7 +57,8 @@ enum FailureKind : char
 }
 
 /// What the exception that is being handled means.
-RankFailure DescribeException()
+/// @throws std::bad_alloc if there is no memory for its text.
+RankFailure ReadException()
 {
   try
   {
@@ -85,7 +86,7 @@ RankFailure DescribeException()
   }
   catch (const std::bad_alloc&)
   {
-    return { Memory, "not enough memory" };
+    return { Memory, "" };
   }
   catch (const std::exception& error)
   {
@@ -97,19 +98,36 @@ RankFailure DescribeException()
   }
 }
 
+/// A failure that takes memory to describe is described as one for want of memory.
+RankFailure DescribeException()
+{
+  try
+  {
+    return ReadException();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { Memory, "" };
+  }
+}
+
 /// Throws if a rank has failed: the exception of the first of these, which names it.
-/// @param all what the ranks have sent: a text, and the kind of failure as the last character.
+/// @param all what the ranks have sent: a text, and the kind of failure as the last character; or
+/// nothing, for want of memory.
 void ThrowFirst(const std::vector<Message>& all)
 {
   bool isAborted = false;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    const char kind = all[rank].back();
+    const char kind = all[rank].empty() ? char(Memory) : all[rank].back();
     isAborted = isAborted || kind == Abort;
     if (kind != None && kind != Abort)
     {
       const std::string where = all.size() > 1 ? "rank " + std::to_string(rank) + ": " : "";
-      Throw(kind, where + std::string(all[rank].begin(), all[rank].end() - 1));
+      Throw(kind,
+        where +
+          (kind == Memory ? "not enough memory"
+                          : std::string(all[rank].begin(), all[rank].end() - 1)));
     }
   }
   if (isAborted)
@@ -135,16 +153,21 @@ public:
   int GetSize() const override { return this->Group.GetSize(); }
   std::vector<Message> Exchange(std::vector<Message> messages) override
   {
-    this->Share({ None });
-    this->HasEnded = true; // unless the call returns
-    std::vector<Message> received = this->Group.Exchange(std::move(messages));
-    this->HasEnded = false;
-    return received;
+    this->Gather({});
+    return this->Try([&]() { return this->Group.Exchange(std::move(messages)); });
   }
   std::vector<Message> Gather(const Message& message) override
   {
     Message told;
-    told.reserve(message.size() + 1);
+    try
+    {
+      told.reserve(message.size() + 1);
+    }
+    catch (const std::bad_alloc&)
+    {
+      this->Tell({ Memory, "" }); // or a group above this one would think that all ranks know
+      throw;
+    }
     told = message;
     told.push_back(None);
     return this->Share(told);
@@ -154,21 +177,37 @@ public:
   /// Tells the other ranks that this one has failed, if they do not know. @throws as they do.
   void Tell(const RankFailure& failure)
   {
-    if (!this->HasEnded)
+    if (!this->End)
     {
-      Message message(failure.Text.begin(), failure.Text.end());
-      message.push_back(failure.Kind);
-      this->Share(message);
+      this->Share(Pack(failure));
     }
   }
 
 private:
+  /// @returns an empty message if there is no memory for more.
+  static Message Pack(const RankFailure& failure)
+  {
+    try
+    {
+      Message message(failure.Text.begin(), failure.Text.end());
+      message.push_back(failure.Kind);
+      return message;
+    }
+    catch (const std::bad_alloc&)
+    {
+      return {};
+    }
+  }
+
   std::vector<Message> Share(const Message& message)
   {
-    this->HasEnded = true;
-    std::vector<Message> all = this->Group.Gather(message);
-    ThrowFirst(all);
-    this->HasEnded = false;
+    std::vector<Message> all = this->Try(
+      [&]()
+      {
+        std::vector<Message> gathered = this->Group.Gather(message);
+        ThrowFirst(gathered);
+        return gathered;
+      });
     for (Message& one : all)
     {
       one.pop_back();
@@ -176,8 +215,28 @@ private:
     return all;
   }
 
+  /// Calls a function of the group below, unless one has failed: then some rank calls none any
+  /// more.
+  template <typename Call>
+  std::vector<Message> Try(const Call& call)
+  {
+    if (this->End)
+    {
+      std::rethrow_exception(this->End);
+    }
+    try
+    {
+      return call();
+    }
+    catch (...)
+    {
+      this->End = std::current_exception();
+      throw;
+    }
+  }
+
   PieceGroup& Group;
-  bool HasEnded = false; ///< All ranks know of a failure, or the group itself has failed.
+  std::exception_ptr End; ///< What all ranks know of, or what the group itself has thrown.
 };
 }
 

@@ -15,7 +15,7 @@ from ._vtk_points import PartitionPoints
 
 _MARK = "vtkDelaunayFlipPartition"
 AMBIGUOUS = ("points of some partitions coincide with others of the same partition, and edges there "
-             "stayed; give the points global ids")
+             "stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds")
 
 
 class JoinedPartitions:

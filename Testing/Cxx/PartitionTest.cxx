@@ -293,7 +293,7 @@ TEST(Partitions, AmbiguousPointsAreToldOf)
   filter.Update();
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
   EXPECT_TRUE(Holds(filter.GetWarnings()[0], "coincide with others of the same partition"));
-  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "global ids"));
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0], "vtkGlobalPointIds"));
 }
 
 TEST(Partitions, KeepArraysThatOthersLack)

@@ -7,6 +7,7 @@ import signal
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
@@ -78,6 +79,32 @@ def run_overlap(count, kind):
     owners = rank_meshes.divide(points, triangles, RANKS, kind)
     piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
     return compare(points, triangles, piece, {"Geometry": 1}, False)
+
+
+def run_twins(ids):
+    """Every rank has the same closed surface. Without ids, nothing says that the points are the same."""
+    sphere = vtkSphereSource()
+    sphere.SetThetaResolution(12)
+    sphere.SetPhiResolution(10)
+    sphere.Update()
+    points = vtk_to_numpy(sphere.GetOutput().GetPoints().GetData()).astype(float)
+    points *= np.random.default_rng(4).uniform(0.7, 1.3, (len(points), 1))
+    triangles = rank_meshes.read_triangles(sphere.GetOutput())
+    options = {"Geometry": 3, "FeatureAngle": 180.0}
+    piece = rank_meshes.make_piece(points, triangles, np.arange(len(triangles)), ids)
+    flip, said = flip_piece(piece, options)
+    facts = describe(flip, said)
+    facts["flips alone"] = flip_alone(points, triangles, options).GetTotalFlips()
+    return facts, said
+
+
+def run_slit(ids):
+    """Two points of rank 0 are at the same place, at the two sides of a slit; rank 1 has one of them."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 0, 0], [0.5, -1, 0], [-1, 1, 0.0]])
+    slots = np.array([2] if RANK == 1 else [0, 1])
+    triangles = np.array([[0, 1, 2], [3, 4, 1], [0, 2, 5]])
+    flip, said = flip_piece(rank_meshes.make_piece(points, triangles, slots, ids), {})
+    return describe(flip, said), said
 
 
 def run_track_quality():

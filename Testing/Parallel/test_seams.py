@@ -31,6 +31,20 @@ class Seams(RanksTest):
                 self.assertGreater(facts["flips"], 10)
                 self.assertGreater(facts["left"], 0)
 
+    def test_closed_twins(self):
+        """Without global ids they share no points, as if they were alone."""
+        facts = flip_on(2, "twins", ids=False)
+        self.assertGreater(facts["flips"], 10)
+        self.assertEqual((facts["flips"], facts["said"]), (2 * facts["flips alone"], []))
+        self.assertEqual(flip_on(2, "twins", ids=True)["flips"], 0)  # four triangles at every edge
+
+    def test_points_that_coincide(self):
+        said = flip_on(2, "slit", ids=False)["said"]
+        self.assertIn("3 points at the borders of pieces coincide with others of the same piece",
+                      said[0])
+        self.assertIn("vtkGlobalPointIds", said[0])
+        self.assertEqual(flip_on(2, "slit", ids=True)["said"], [])
+
     def test_angles_of_iterations(self):
         facts = flip_on(3, "track_quality")
         self.assertNotIn(None, facts["angles"])
