@@ -11,18 +11,19 @@
  * without a controller, this filter is vtkDelaunayFlip.
  *
  * Input: a vtkPolyData on every process; it may be empty. Or composite data on every process: each
- * block is a mesh of its own, of which each process may have a piece, in the same place of the same
- * structure; null where it has none. Blocks that are no meshes pass unchanged, with a warning. All
- * partitions of a dataset, on all processes, are one mesh: a process joins those that it has, as
- * vtkDelaunayFlip does, and they are its piece. Points of several pieces are the same if one of
- * them is at the border of its piece and they have the same global id (active global ids of the
- * point data, on all processes that have points) or, without global ids, equal coordinates. Points
- * that coincide within a piece are then not matched; a warning counts them. Duplicate ghost cells
- * (vtkGhostType) are dropped first. Constraints (second input) may be on any process, all or in
- * part; they are matched by coordinates. The ends of lines (LinesAsConstraints) are points of the
- * process that has them, if need be without cells. In planar geometry both are inserted across the
- * pieces of all processes. If two cross, those within one piece come first, the rest in the order
- * of processes.
+ * block is a mesh of its own, of which each process may have a piece, in the same place of the
+ * same structure; null where it has none. Blocks that are no meshes pass unchanged, with a
+ * warning. All partitions of a dataset, on all processes, are one mesh: a process joins those that
+ * it has, as vtkDelaunayFlip does, and they are its piece. Points of several pieces are the same
+ * if they have the same global id (active global ids of the point data, on all processes that have
+ * points) or, without global ids, equal coordinates and one of them is at the border of its piece.
+ * Points that coincide within a piece are then not matched, because it is not known which of them
+ * is meant. A warning counts them; global ids made before the mesh is cut avoid it. Duplicate
+ * ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on any process,
+ * all or in part; they are matched by coordinates. The ends of lines (LinesAsConstraints) are
+ * points of the process that has them, if need be without cells. In planar geometry both are
+ * inserted across the pieces of all processes. If two cross, those within one piece come first,
+ * the rest in the order of processes.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
