@@ -82,12 +82,17 @@ int CountPieces(const FlipOptions& options, std::int64_t triangles)
 {
   // They are cut by a sample of the triangles, so that they are not of quite the same size.
   constexpr std::int64_t LargestPiece = LargestMesh - LargestMesh / 16;
-  if (options.NumberOfPieces > 0 || triangles <= LargestMesh)
+  std::int64_t pieces = std::max(1, options.NumberOfPieces);
+  if (options.NumberOfPieces == 0 && triangles > LargestMesh)
   {
-    return std::max(1, options.NumberOfPieces);
+    pieces = std::min<std::int64_t>(MostPieces, (triangles + LargestPiece - 1) / LargestPiece);
   }
-  const std::int64_t count = (triangles + LargestPiece - 1) / LargestPiece;
-  return static_cast<int>(std::min<std::int64_t>(count, MostPieces));
+  if (pieces > 1 && triangles > pieces * LargestPiece)
+  {
+    throw MeshTooLarge("the mesh has " + std::to_string(triangles) + " triangles; " +
+      std::to_string(pieces) + " pieces can have " + std::to_string(pieces * LargestPiece));
+  }
+  return static_cast<int>(pieces);
 }
 
 void CheckMeshSize(std::int64_t triangles, std::int64_t points, const char* remedy)

@@ -17,6 +17,7 @@ void CheckOptions(const FlipOptions& options);
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
 /// In how many pieces a mesh is flipped.
+/// @throws MeshTooLarge if it has too many triangles for these.
 int CountPieces(const FlipOptions& options, std::int64_t triangles);
 
 /// Throws MeshTooLarge if the mesh has too many triangles for 32-bit half-edges. Allocates nothing.

@@ -412,6 +412,7 @@ TEST(NumberOfPiecesTest, IsTheSmallestThatIsPossibleByDefault)
   EXPECT_EQ(3, CountPieces({}, 2 * most));
   EXPECT_EQ(7, CountPieces(MakeInPieces(7), 2 * most));
   EXPECT_EQ(1, CountPieces(MakeInPieces(1), 2 * most));
+  EXPECT_THROW(CountPieces(MakeInPieces(2), 2 * most), MeshTooLarge);
 }
 
 }

@@ -135,11 +135,18 @@ TEST(TooLargeMeshes, AreRefusedUnread)
   {
     TriangleMesh mesh = grid.View();
     mesh.Triangles.Count = count;
-    EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
+    FlipOptions options;
+    for (options.NumberOfPieces = 1; options.NumberOfPieces < 4; ++options.NumberOfPieces)
+    {
+      EXPECT_THROW(FlipSession(mesh, options), MeshTooLarge);
+    }
     mesh = grid.View();
     mesh.Points.Count = count << 2;
     EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
   }
+  TriangleMesh mesh = grid.View();
+  mesh.Triangles.Count = std::int64_t(1) << 40;
+  EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
 }
 
 /// A forced backend runs or is refused; it is never replaced silently.
