@@ -200,23 +200,20 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
   scene.View->SetShowStatistics(what == "no copies, with texts");
   scene.View->Step();
   scene.View->Step(); // what VTK makes for the first frames
-  // Drawing takes longer while triangles are bad, so each mesh is also drawn without a step.
-  std::vector<double> drawing;
-  const auto draw = [&]()
-  {
-    scene.Window->Render();
-    return true;
-  };
-  const auto drawAgain = [&]() { drawing.push_back(Time(1, draw).front()); };
   const std::string edges = drawsEdges ? ", edges" : "";
-  Print(mesh, what + edges,
-    Time(
-      frames, [&]() { return scene.View->Step(); }, drawAgain));
+  Print(mesh, what + edges, Time(frames, [&]() { return scene.View->Step(); }));
   std::printf("{\"drawing\": \"%s\", \"renderer\": \"%s\"}\n", scene.View->GetDrawing().c_str(),
     GetRendererName().c_str());
   if (what == "no copies")
   {
-    Print(mesh, "drawing alone" + edges, drawing);
+    scene.View->Render();
+    Print(mesh, "drawing alone" + edges,
+      Time(frames,
+        [&]()
+        {
+          scene.Window->Render();
+          return true;
+        }));
   }
 }
 
