@@ -99,6 +99,7 @@ public:
     this->Engine->StoreFlipCounts(counts);
     return true;
   }
+  HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   void Audit() const override { this->Engine->Audit(); }
 
