@@ -67,15 +67,18 @@ def get_command(name, options):
     """What runs a case."""
     if "processes" not in name:
         return [options.program]
-    return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", name.split()[-1], options.processes]
+    ranks = name.split()[-1]
+    return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks, options.processes]
 
 
 def run_all(options, cases):
     runs = {name: [] for name in cases}
     for turn in range(options.turns):
         for name, settings in cases.items():
-            print(f"turn {turn + 1} of {options.turns}: {name}", file=sys.stderr)
-            runs[name].append(measure(get_command(name, options), settings))
+            run = measure(get_command(name, options), settings)
+            runs[name].append(run)
+            print(f"turn {turn + 1} of {options.turns}: {name}: {run['seconds']:.3f} s, "
+                  f"CPU {run['cpu_seconds']:.3f} s", file=sys.stderr)
     return runs
 
 
@@ -88,7 +91,8 @@ def take_median(runs):
 
 
 def print_table(cases, cores):
-    print("case | wall s | CPU s | in communication s | of threads | efficiency | rounds | seam edges | moved | MB sent by a rank")
+    print("case | wall s | CPU s | in communication s | of threads | efficiency | rounds | "
+          "seam edges | moved | MB sent by a rank")
     print("---|---|---|---|---|---|---|---|---|---")
     for name, case in cases.items():
         pieces = int(case["pieces"]) or int(case["threads"])
@@ -100,10 +104,12 @@ def print_table(cases, cores):
         else:
             share = ideal / case["cpu_seconds"]
         threads = cases.get("undivided" if pieces == 1 else f"threads {pieces}")
-        rival = f"{threads['seconds'] / case['seconds']:.2f}" if "strong" in name and threads else ""
+        has_rival = "strong" in name and threads
+        rival = f"{threads['seconds'] / case['seconds']:.2f}" if has_rival else ""
         print(
-            f"{name} | {case['seconds']:.3f} | {case['cpu_seconds']:.3f} | {case['communication_seconds']:.3f} | {rival} | "
-            f"{share:.2f} | {case['rounds']} | {case['seam_edges']} | {case['moved']} | {case['bytes_sent'] / 1e6:.1f}"
+            f"{name} | {case['seconds']:.3f} | {case['cpu_seconds']:.3f} | "
+            f"{case['communication_seconds']:.3f} | {rival} | {share:.2f} | {case['rounds']} | "
+            f"{case['seam_edges']} | {case['moved']} | {case['bytes_sent'] / 1e6:.1f}"
         )
 
 
@@ -114,9 +120,10 @@ def fit_model(cases):
     triangles = many["triangles"] / ranks
     seams = 2 * many["seam_edges"] / ranks  # of a rank; each edge has two
     triangle = alone["cpu_seconds"] / alone["triangles"]
+    in_rounds = max(0.0, many["cpu_seconds"] - triangle * many["triangles"])
     return {
         "seconds_per_triangle": triangle,
-        "seconds_per_seam_edge": max(0.0, many["cpu_seconds"] - triangle * many["triangles"]) / ranks / seams,
+        "seconds_per_seam_edge": in_rounds / ranks / seams,
         "seam_edges_per_root_of_triangles": seams / math.sqrt(triangles),
         "bytes_per_seam_edge": many["bytes_sent"] / seams,
         "rounds": many["rounds"],
@@ -144,7 +151,8 @@ def print_model(model):
         parts = predict(model, triangles)
         total = sum(parts.values())
         text = ", ".join(f"{name} {seconds:.3g} s" for name, seconds in parts.items())
-        print(f"  {triangles:.0e} triangles per core: {total:.3g} s ({text}), efficiency {parts['flips'] / total:.2f}")
+        print(f"  {triangles:.0e} triangles per core: {total:.3g} s ({text}), "
+              f"efficiency {parts['flips'] / total:.2f}")
 
 
 def main():
@@ -165,7 +173,8 @@ def main():
     model = fit_model(medians)
     print_model(model)
     with open(options.output, "w", encoding="utf-8") as file:
-        json.dump({"runs": runs, "model": model, "latency": LATENCY, "bandwidth": BANDWIDTH}, file, indent=1)
+        assumed = {"latency": LATENCY, "bandwidth": BANDWIDTH}
+        json.dump({"runs": runs, "model": model, **assumed}, file, indent=1)
 
 
 if __name__ == "__main__":
