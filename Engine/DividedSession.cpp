@@ -44,11 +44,8 @@ bool DividedSession::Prepare(const ProgressObserver& progress)
   }
   catch (const RunAborted&)
   {
-    CopyTriangles(this->Mesh.GetOnHost().Triangles, this->GetTriangles(), this->Threads);
-    this->Report = PiecesReport();
-    this->Report.Points = this->Mesh.CountPoints();
-    this->Report.Triangles = this->Mesh.CountTriangles();
-    this->Report.StopReason = StopReasonKind::Aborted;
+    this->Report = PreparedPieces::Abort(
+      this->Mesh.GetOnHost(), this->GetTriangles(), this->Options.NumberOfThreads);
     return false;
   }
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceFlip.h"
 #include "PreparedPieces.h"
-#include "ThreadBackend.h"
 
 namespace delaunayflip
 {
@@ -16,12 +15,7 @@ PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   }
   catch (const RunAborted&) // before the first flip
   {
-    CopyTriangles(mesh.Triangles, triangles, ThreadBackend(options.NumberOfThreads));
-    PiecesReport report;
-    report.Points = mesh.Points.Count;
-    report.Triangles = mesh.Triangles.Count;
-    report.StopReason = StopReasonKind::Aborted;
-    return report;
+    return PreparedPieces::Abort(mesh, triangles, options.NumberOfThreads);
   }
 }
 

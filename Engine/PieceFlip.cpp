@@ -17,9 +17,11 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
   const auto flip = [&](PieceGroup& told)
   {
     CheckPieces(piece, options, told);
+    FlipOptions own = options;
+    own.NumberOfPieces = 1; // a session of several does not know what other ranks have
     PointKeys keys = MatchPoints(piece, told);
-    const PieceSurvey survey = SurveyPieces(piece, keys, options, told);
-    PieceRun run({ piece, options, survey, told, progress }, std::move(keys));
+    const PieceSurvey survey = SurveyPieces(piece, keys, own, told);
+    PieceRun run({ piece, own, survey, told, progress }, std::move(keys));
     report = run.Run();
     run.Store(flipped);
   };

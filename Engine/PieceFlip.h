@@ -74,7 +74,7 @@ struct PiecesReport : FlipReport
 };
 
 /// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
-/// group must call this together, with the same options.
+/// group must call this together, with the same options. FlipOptions::NumberOfPieces has no effect.
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.

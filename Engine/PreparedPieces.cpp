@@ -48,6 +48,17 @@ PiecesReport PreparedPieces::GetReport() const
   return report;
 }
 
+PiecesReport PreparedPieces::Abort(
+  const TriangleMesh& mesh, const MutableTriangleArray& triangles, int threads)
+{
+  CopyTriangles(mesh.Triangles, triangles, ThreadBackend(threads));
+  PiecesReport report;
+  report.Points = mesh.Points.Count;
+  report.Triangles = mesh.Triangles.Count;
+  report.StopReason = StopReasonKind::Aborted;
+  return report;
+}
+
 PiecesReport PreparedPieces::Run(const ProgressObserver& progress, std::int32_t* flipCounts)
 {
   const double begin = this->Insertion.GetShare();

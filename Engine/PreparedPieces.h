@@ -30,6 +30,10 @@ public:
   /// @param flipCounts receives in how many flips each triangle slot took part, or null.
   PiecesReport Run(const ProgressObserver& progress, std::int32_t* flipCounts);
 
+  /// What a run does that was stopped before there was such a mesh: copies the triangles.
+  static PiecesReport Abort(
+    const TriangleMesh& mesh, const MutableTriangleArray& triangles, int threads);
+
 private:
   ConstraintInsertion Insertion;
   FlipOptions Options;

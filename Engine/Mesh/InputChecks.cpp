@@ -90,7 +90,7 @@ int CountPieces(const FlipOptions& options, std::int64_t triangles)
   if (pieces > 1 && triangles > pieces * LargestPiece)
   {
     throw MeshTooLarge("the mesh has " + std::to_string(triangles) + " triangles; " +
-      std::to_string(pieces) + " pieces can have " + std::to_string(pieces * LargestPiece));
+      std::to_string(pieces) + " pieces can have at most " + std::to_string(pieces * LargestPiece));
   }
   return static_cast<int>(pieces);
 }

@@ -80,6 +80,18 @@ TEST_P(PieceEdgesTest, PointsThatAreNotFinite)
     FindFixedEdges(mesh.View(), options));
 }
 
+TEST_P(PieceEdgesTest, NumberOfPiecesHasNoEffect)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000, 37);
+  const std::vector<OwnedPiece> pieces = Divide(mesh.View(), this->Cut(mesh.View()), GetParam());
+  FlipOptions options = MakeCanonical();
+  const GroupResult expected = FlipDivided(mesh.View(), pieces, options);
+  options.NumberOfPieces = 3;
+  const GroupResult found = FlipDivided(mesh.View(), pieces, options);
+  EXPECT_EQ(ToTriangleSet(expected.View()), ToTriangleSet(found.View()));
+  EXPECT_EQ(expected.Reports.front().TotalFlips, found.Reports.front().TotalFlips);
+}
+
 TEST_P(PieceEdgesTest, OneRankHasAll)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 28);
