@@ -3,6 +3,7 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
+#include "LongConstraints.h"
 #include "Machine.h"
 #include "MeshDivision.h"
 #include "MeteredGroup.h"
@@ -35,12 +36,16 @@
 ///     threads=1       of each rank
 ///     surface=0       1: hills, flipped by opposite angles
 ///     feature=180     the feature angle
+///     constraints=0   so many lines across the whole mesh are inserted
+///     net=0           1: as many again across these, with a vertex wherever two meet
 ///     devices=        CUDA's numbers of GPUs, separated by commas: the ranks use them in turn, and
 ///                     the undivided mesh is on all of them
 ///     runs=1          the fastest is printed
 ///
 /// delaunay-flip-processes, started by mpirun, does the same with a process for each rank: pieces=
 /// does not matter, and CPU seconds are those of all processes.
+///
+/// `load` is the greatest number of triangles that a rank has in the end over the mean.
 ///
 /// Not measured is how the mesh is made, and how it is divided among ranks. `hash` is one of all
 /// triangles in their order: two programs that print the same have made the same result. `set` is
@@ -57,8 +62,8 @@ using Settings = std::map<std::string, std::string>;
 Settings ReadSettings(int argc, char** argv)
 {
   Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "ranks", "1" },
-    { "threads", "1" }, { "surface", "0" }, { "feature", "180" }, { "devices", "" },
-    { "runs", "1" } };
+    { "threads", "1" }, { "surface", "0" }, { "feature", "180" }, { "constraints", "0" },
+    { "net", "0" }, { "devices", "" }, { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string word = argv[i];
@@ -96,8 +101,16 @@ struct Measure
   double CpuSeconds = 0.0; ///< Of all threads.
   PiecesReport Report;
   GroupMeter Meter; ///< Of the rank that sent most.
+  double Load = 1.0;
   std::uint64_t Hash = 14695981039346656037u; ///< FNV-1a.
   std::uint64_t Set = 0;
+
+  /// @param most triangles of a rank.
+  void SetLoad(std::size_t most, int ranks)
+  {
+    const auto all = static_cast<double>(this->Report.Triangles);
+    this->Load = static_cast<double>(most) * ranks / all;
+  }
 
   /// Hashes some triangles.
   template <typename Id>
@@ -149,6 +162,9 @@ Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOption
       group.Wait();
     });
   measure.CpuSeconds = group.Sum(measure.CpuSeconds);
+  const std::uint64_t most = group.PassOn(
+    0, [&](std::uint64_t size) { return std::max<std::uint64_t>(size, flipped.Origins.size()); });
+  measure.SetLoad(most, group.GetSize());
   measure.Meter = meter;
   measure.Hash = group.PassOn(measure.Hash,
     [&](std::uint64_t hash)
@@ -161,21 +177,23 @@ Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOption
 }
 #else
 /// Undivided, or in pieces without ranks.
-Measure FlipInOneProcess(OwnedMesh<float>& mesh, const FlipOptions& options, bool isLast)
+Measure FlipInOneProcess(OwnedMesh<float>& mesh, const LongConstraints& constraints,
+  const FlipOptions& options, bool isLast)
 {
   std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
   std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
   const MutableTriangleArray triangles(ids.data(), mesh.NumberOfTriangles());
+  const TriangleMesh given = constraints.AddTo(mesh.View());
   Measure measure = TakeTime(
     [&](Measure& own)
     {
       if (options.NumberOfPieces > 0)
       {
-        own.Report = FlipInPieces(mesh.View(), options, triangles);
+        own.Report = FlipInPieces(given, options, triangles);
       }
       else
       {
-        static_cast<FlipReport&>(own.Report) = FlipToDelaunay(mesh.View(), options, triangles);
+        static_cast<FlipReport&>(own.Report) = FlipToDelaunay(given, options, triangles);
       }
     });
   measure.AddToHash(ids);
@@ -215,10 +233,13 @@ Measure FlipPieces(
     });
   measure.Meter = *std::max_element(meters.begin(), meters.end(),
     [](const GroupMeter& a, const GroupMeter& b) { return a.BytesSent < b.BytesSent; });
+  std::size_t most = 0;
   for (const FlippedPiece& piece : flipped)
   {
     measure.AddToHash(piece.Triangles);
+    most = std::max(most, piece.Origins.size());
   }
+  measure.SetLoad(most, ranks);
   return measure;
 }
 #endif
@@ -231,6 +252,7 @@ std::string DescribeCounts(const Measure& measure)
        << ", \"flip_seconds\": " << report.FlipSeconds << ", \"triangles\": " << report.Triangles
        << ", \"flips\": " << report.TotalFlips << ", \"rounds\": " << report.Rounds
        << ", \"moved\": " << report.MovedTriangles << ", \"seam_edges\": " << report.SeamEdges
+       << ", \"load\": " << measure.Load << ", \"inserted\": " << report.InsertedConstraints
        << ", \"bytes_sent\": " << measure.Meter.BytesSent
        << ", \"exchanges\": " << measure.Meter.Exchanges
        << ", \"gathers\": " << measure.Meter.Gathers << ", \"backend\": \"" << report.Backend
@@ -287,11 +309,18 @@ OwnedMesh<float> MakeMesh(const Settings& settings)
   return MakeMesh(std::atoll(settings.at("points").c_str()), settings.at("surface") == "1");
 }
 
+LongConstraints MakeConstraints(const Settings& settings, const OwnedMesh<float>& mesh)
+{
+  const int lines = std::atoi(settings.at("constraints").c_str());
+  return settings.at("net") == "1" ? MakeNet(mesh, lines) : MakeLines(mesh, lines);
+}
+
 #ifdef DELAUNAYFLIP_HAS_MPI
 OwnPiece MakePiece(const Settings& settings, const MpiGroup& group)
 {
   const OwnedMesh<float> mesh = MakeMesh(settings);
-  return std::move(DivideMesh(mesh.View(), group.GetSize())[group.GetRank()]);
+  const LongConstraints constraints = MakeConstraints(settings, mesh);
+  return std::move(DivideMesh(constraints.AddTo(mesh.View()), group.GetSize())[group.GetRank()]);
 }
 
 void Run(Settings settings, MpiGroup& group)
@@ -315,12 +344,13 @@ void Run(Settings settings, MpiGroup& group)
 void Run(const Settings& settings)
 {
   OwnedMesh<float> mesh = MakeMesh(settings);
+  const LongConstraints constraints = MakeConstraints(settings, mesh);
   const int count = std::atoi(settings.at("pieces").c_str());
   const std::vector<int> devices = ParseDevices(settings.at("devices"));
   FlipOptions options = MakeOptions(settings, devices);
   if (count > 0 && settings.at("ranks") != "0")
   {
-    const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), count);
+    const std::vector<OwnPiece> pieces = DivideMesh(constraints.AddTo(mesh.View()), count);
     Print(
       settings, FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices); }));
     return;
@@ -328,7 +358,8 @@ void Run(const Settings& settings)
   options.Devices = devices;
   options.NumberOfPieces = count;
   Print(settings,
-    FindFastest(settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, isLast); }));
+    FindFastest(
+      settings, [&](bool isLast) { return FlipInOneProcess(mesh, constraints, options, isLast); }));
 }
 #endif
 

@@ -32,7 +32,9 @@ public:
 
   std::vector<OwnPiece> Divide(int pieces)
   {
+    this->IsGiven.assign(this->Mesh.NumberOfConstraintEdges, 0);
     this->Cut({ this->Order.data(), this->Order.data() + this->Order.size() }, pieces);
+    this->AddFarConstraints();
     return std::move(this->Pieces);
   }
 
@@ -129,7 +131,7 @@ private:
   }
 
   /// Those whose points the piece has.
-  void AddConstraints(OwnPiece& piece) const
+  void AddConstraints(OwnPiece& piece)
   {
     for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
     {
@@ -140,13 +142,44 @@ private:
         const unsigned char* insert = this->Mesh.ConstraintsToInsert;
         piece.Constraints.insert(piece.Constraints.end(), { a, b });
         piece.ToInsert.push_back(insert ? insert[i] : 0);
+        this->IsGiven[i] = 1;
       }
     }
+  }
+
+  void AddFarConstraints()
+  {
+    for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
+    {
+      if (this->IsGiven[i] == 0 && this->Mesh.ConstraintsToInsert &&
+        this->Mesh.ConstraintsToInsert[i] != 0)
+      {
+        const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
+        this->Pieces.front().FarConstraints.push_back(this->FindPoint(ends[0]));
+        this->Pieces.front().FarConstraints.push_back(this->FindPoint(ends[1]));
+      }
+    }
+  }
+
+  /// In the first piece that has it.
+  PieceOrigin FindPoint(std::int64_t point) const
+  {
+    for (std::size_t rank = 0; rank < this->Pieces.size(); ++rank)
+    {
+      const std::vector<std::int64_t>& points = this->Pieces[rank].PointOf;
+      const auto found = std::find(points.begin(), points.end(), point);
+      if (found != points.end())
+      {
+        return { static_cast<std::int32_t>(rank), found - points.begin() };
+      }
+    }
+    return { 0, -1 }; // no piece has it, so no run can take it
   }
 
   const TriangleMesh& Mesh;
   std::vector<std::int64_t> Order;
   std::vector<std::int32_t> Local; ///< The id of every point in the current piece, or -1.
+  std::vector<unsigned char> IsGiven; ///< One flag per constraint.
   std::vector<OwnPiece> Pieces;
 };
 }
@@ -166,6 +199,8 @@ MeshPiece OwnPiece::View() const
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   piece.PointNumbers = this->PointOf.data();
+  piece.FarConstraints = this->FarConstraints.data();
+  piece.NumberOfFarConstraints = static_cast<std::int64_t>(this->FarConstraints.size()) / 2;
   return piece;
 }
 

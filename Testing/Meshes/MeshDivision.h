@@ -21,6 +21,7 @@ struct OwnPiece
   std::vector<std::int64_t> SlotOf; ///< The same for triangles.
   std::vector<std::int64_t> Constraints;
   std::vector<unsigned char> ToInsert;
+  std::vector<PieceOrigin> FarConstraints;
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Frozen;
 
@@ -29,7 +30,9 @@ struct OwnPiece
 };
 
 /// Divides a mesh with valid ids into pieces of about the same number of triangles, next to each
-/// other: by cuts across the longest side of what is to be divided.
+/// other: by cuts across the longest side of what is to be divided. Constraints go to all pieces
+/// that have both of their ends; if none has, and they are to be inserted, to the first piece, as
+/// far ones.
 std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, int pieces);
 
 }
