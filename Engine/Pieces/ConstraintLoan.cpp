@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ConstraintMove.h"
+#include "ConstraintLoan.h"
 
-#include "Records.h"
 #include "SegmentTree.h"
 
 #include <algorithm>
@@ -63,15 +62,15 @@ struct TouchedPoint
   std::int32_t Constraint;
 };
 
-class ConstraintMover
+class ConstraintLender
 {
 public:
-  ConstraintMover(const std::vector<FarConstraint>& constraints, const PieceSurvey& survey,
-    PieceMesh& mesh, std::vector<TriangleLabel>& labels, PieceGroup& group)
+  ConstraintLender(const std::vector<FarConstraint>& constraints, const PieceSurvey& survey,
+    const TriangleMesh& caller, PieceMesh& mesh, PieceGroup& group)
     : Constraints(constraints),
       Survey(survey),
+      Caller(caller),
       Mesh(mesh),
-      Labels(labels),
       Group(group),
       Groups(constraints.size()),
       TouchedBy(mesh.Triangles.size(), None)
@@ -94,7 +93,7 @@ public:
         task.Constraints.push_back(this->Constraints[i]);
       }
     }
-    this->Move(receivers, task.Triangles);
+    this->Lend(receivers, task);
     return task;
   }
 
@@ -238,56 +237,90 @@ private:
     return best;
   }
 
-  /// @param here receives the touched triangles that this rank then has.
-  void Move(const std::vector<int>& receivers, std::vector<std::int64_t>& here)
+  /// Divides the touched triangles among the ranks.
+  void Lend(const std::vector<int>& receivers, InsertionTask& task)
   {
-    RecordLists<std::int64_t> leaving(this->Group.GetSize());
+    task.Lent.resize(this->Group.GetSize());
     for (std::size_t t = 0; t < this->TouchedBy.size(); ++t)
     {
       if (this->TouchedBy[t] != None)
       {
         const int receiver = receivers[this->TouchedBy[t]];
-        (receiver == this->Group.GetRank() ? here : leaving[receiver])
+        (receiver == this->Group.GetRank() ? task.Triangles : task.Lent[receiver])
           .push_back(static_cast<std::int64_t>(t));
       }
     }
+    task.Labels = this->ListLabels(task.Triangles);
     RecordLists<TravellingTriangle> triangles;
-    RecordLists<TriangleLabel> labels(leaving.size());
-    for (std::size_t rank = 0; rank < leaving.size(); ++rank)
+    RecordLists<TriangleLabel> labels;
+    for (const std::vector<std::int64_t>& list : task.Lent)
     {
-      for (const std::int64_t t : leaving[rank])
+      triangles.push_back(this->Mesh.Release(list));
+      labels.push_back(this->ListLabels(list));
+    }
+    this->Borrow(
+      ExchangeRecords(this->Group, triangles), ExchangeRecords(this->Group, labels), task);
+  }
+
+  void Borrow(const RecordLists<TravellingTriangle>& triangles,
+    const RecordLists<TriangleLabel>& labels, InsertionTask& task)
+  {
+    for (std::size_t rank = 0; rank < triangles.size(); ++rank)
+    {
+      std::vector<std::int64_t> borrowed;
+      for (const TravellingTriangle& triangle : triangles[rank])
       {
-        labels[rank].push_back(this->Labels[t]);
+        borrowed.push_back(this->Mesh.Receive(triangle));
       }
-      triangles.push_back(this->Mesh.Release(leaving[rank]));
+      task.Triangles.insert(task.Triangles.end(), borrowed.begin(), borrowed.end());
+      task.Labels.insert(task.Labels.end(), labels[rank].begin(), labels[rank].end());
+      task.Borrowed.push_back(std::move(borrowed));
     }
-    for (const std::vector<TravellingTriangle>& list : ExchangeRecords(this->Group, triangles))
+  }
+
+  std::vector<TriangleLabel> ListLabels(const std::vector<std::int64_t>& triangles) const
+  {
+    const TriangleMesh& caller = this->Caller;
+    std::vector<TriangleLabel> labels;
+    for (const std::int64_t t : triangles)
     {
-      for (const TravellingTriangle& triangle : list)
-      {
-        here.push_back(this->Mesh.Receive(triangle));
-      }
+      labels.push_back({ caller.Regions ? caller.Regions[t] : 0,
+        caller.FrozenTriangles && caller.FrozenTriangles[t] != 0 });
     }
-    for (const std::vector<TriangleLabel>& list : ExchangeRecords(this->Group, labels))
-    {
-      this->Labels.insert(this->Labels.end(), list.begin(), list.end());
-    }
+    return labels;
   }
 
   const std::vector<FarConstraint>& Constraints;
   const PieceSurvey& Survey;
+  const TriangleMesh& Caller;
   PieceMesh& Mesh;
-  std::vector<TriangleLabel>& Labels;
   PieceGroup& Group;
   ConstraintGroups Groups;
   std::vector<std::int32_t> TouchedBy; ///< One constraint per triangle, or None.
 };
 }
 
-InsertionTask MoveToConstraints(const std::vector<FarConstraint>& constraints,
-  const PieceSurvey& survey, PieceMesh& mesh, std::vector<TriangleLabel>& labels, PieceGroup& group)
+InsertionTask LendToConstraints(const std::vector<FarConstraint>& constraints,
+  const PieceSurvey& survey, const TriangleMesh& caller, PieceMesh& mesh, PieceGroup& group)
 {
-  return ConstraintMover(constraints, survey, mesh, labels, group).Run();
+  return ConstraintLender(constraints, survey, caller, mesh, group).Run();
+}
+
+void ReturnTriangles(const InsertionTask& task, PieceMesh& mesh, PieceGroup& group)
+{
+  RecordLists<TravellingTriangle> leaving;
+  for (const std::vector<std::int64_t>& list : task.Borrowed)
+  {
+    leaving.push_back(mesh.Release(list));
+  }
+  const RecordLists<TravellingTriangle> back = ExchangeRecords(group, leaving);
+  for (std::size_t rank = 0; rank < back.size(); ++rank)
+  {
+    for (std::size_t i = 0; i < back[rank].size(); ++i)
+    {
+      mesh.PutBack(task.Lent[rank][i], back[rank][i]);
+    }
+  }
 }
 
 }

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_CONSTRAINTMOVE_H
-#define DELAUNAYFLIP_CONSTRAINTMOVE_H
+#ifndef DELAUNAYFLIP_CONSTRAINTLOAN_H
+#define DELAUNAYFLIP_CONSTRAINTLOAN_H
 
 #include "FarConstraints.h"
 #include "PieceMesh.h"
 #include "PieceSurvey.h"
+#include "Records.h"
+#include "TriangleMesh.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,17 +27,23 @@ struct InsertionTask
 {
   std::vector<FarConstraint> Constraints; ///< In their order.
   std::vector<std::int64_t> Triangles; ///< Ascending.
+  std::vector<TriangleLabel> Labels; ///< One per triangle.
+  RecordLists<std::int64_t> Borrowed; ///< Those of them that another rank has lent, by rank.
+  RecordLists<std::int64_t> Lent; ///< The triangles of this rank that others have, by rank.
 };
 
-/// Brings the triangles that touch a constraint to one rank, in planar geometry. Constraints that
+/// Lends the triangles that touch a constraint to one rank, in planar geometry. Constraints that
 /// touch the same triangle go to the same rank: the one that has most of their triangles. Where
 /// flips need a guard, the triangles around those triangles come, too, so that the rank knows all
 /// edges at their points.
-/// @param constraints the same on all ranks. @param mesh between BeginRounds and EndRounds.
-/// @param labels one per triangle; those of received ones are added.
-InsertionTask MoveToConstraints(const std::vector<FarConstraint>& constraints,
-  const PieceSurvey& survey, PieceMesh& mesh, std::vector<TriangleLabel>& labels,
-  PieceGroup& group);
+/// @param constraints the same on all ranks.
+/// @param caller has the labels. @param mesh its triangles, between BeginRounds and EndRounds.
+InsertionTask LendToConstraints(const std::vector<FarConstraint>& constraints,
+  const PieceSurvey& survey, const TriangleMesh& caller, PieceMesh& mesh, PieceGroup& group);
+
+/// Gives every triangle back to the rank that has lent it, as it is now, so that the mesh is
+/// divided about as before.
+void ReturnTriangles(const InsertionTask& task, PieceMesh& mesh, PieceGroup& group);
 
 }
 

@@ -274,31 +274,26 @@ void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
 {
   this->Fixed.Apply(this->Mesh.Triangles);
   this->Mesh.BeginRounds(false);
-  std::vector<TriangleLabel> labels = ListLabels(this->Job.Piece.Mesh);
-  const std::size_t given = labels.size();
-  const InsertionTask task =
-    MoveToConstraints(constraints, this->Job.Survey, this->Mesh, labels, this->Job.Group);
-  DoTogether(this->Job.Group, [&]() { this->InsertFar(task, labels); });
-  const bool hasLost = std::any_of(this->Mesh.Triangles.begin(), this->Mesh.Triangles.end(),
-    [](const PieceTriangle& triangle) { return triangle.HasLeft; });
-  if (hasLost || labels.size() > given)
+  const InsertionTask task = LendToConstraints(
+    constraints, this->Job.Survey, this->Job.Piece.Mesh, this->Mesh, this->Job.Group);
+  DoTogether(this->Job.Group, [&]() { this->InsertFar(task); });
+  ReturnTriangles(task, this->Mesh, this->Job.Group);
+  this->Mesh.EndRounds();
+  if (this->Mesh.GetNumberOfPoints() > this->Mesh.GetFirstReceived())
   {
-    this->Arrays.TakeLabels(this->Mesh, labels);
     this->Arrays.TakePoints(this->Mesh);
   }
-  this->Mesh.EndRounds();
 }
 
-void PieceConstraints::InsertFar(
-  const InsertionTask& task, const std::vector<TriangleLabel>& labels)
+void PieceConstraints::InsertFar(const InsertionTask& task)
 {
   const PieceRegion region(this->Mesh, task.Triangles, this->Job.Survey);
   std::vector<std::int32_t> regions;
   std::vector<unsigned char> frozen;
-  for (const std::int64_t t : task.Triangles)
+  for (const TriangleLabel& label : task.Labels)
   {
-    regions.push_back(labels[t].Region);
-    frozen.push_back(labels[t].IsFrozen ? 1 : 0);
+    regions.push_back(label.Region);
+    frozen.push_back(label.IsFrozen ? 1 : 0);
   }
   const ConstraintList list = this->ListFar(task.Constraints, region);
   TriangleMesh mesh = list.AddTo(region.View());

@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECECONSTRAINTS_H
 #define DELAUNAYFLIP_PIECECONSTRAINTS_H
 
-#include "ConstraintMove.h"
+#include "ConstraintLoan.h"
 #include "FarConstraints.h"
 #include "FixedPairs.h"
 #include "FlipReport.h"
@@ -25,8 +25,8 @@ class PieceRegion;
 /// The mesh that the first flips start from, and its seams: the caller's or, in planar geometry,
 /// one in which those constraints are edges that are to be inserted.
 ///
-/// Each rank first inserts those that stay within its piece. For the others the mesh is divided in
-/// another way: all triangles that such a constraint touches go to one rank, which inserts it.
+/// Each rank first inserts those that stay within its piece. For the others, all triangles that
+/// such a constraint touches are lent to one rank, which inserts it and gives them back.
 class PieceConstraints
 {
 public:
@@ -59,7 +59,7 @@ private:
   void Keep(const OwnWork& own);
   void AddEdge(std::int64_t from, std::int64_t to);
   void InsertFar(const std::vector<FarConstraint>& constraints);
-  void InsertFar(const InsertionTask& task, const std::vector<TriangleLabel>& labels);
+  void InsertFar(const InsertionTask& task);
   ConstraintList ListFar(const std::vector<FarConstraint>& constraints, const PieceRegion& region);
 
   PieceJob Job;

@@ -188,6 +188,17 @@ void PieceMesh::Flip(const PieceCorner& one, const PieceCorner& other)
   }
 }
 
+void PieceMesh::SetPoint(const PieceCorner& corner, std::int32_t point)
+{
+  std::int32_t& place = this->Triangles[corner.Triangle].Points[corner.Slot];
+  if (place != point)
+  {
+    this->Stars.Remove(corner, place);
+    this->Stars.Add(corner, point);
+    place = point;
+  }
+}
+
 void PieceMesh::SetSeam(const PieceCorner& corner)
 {
   this->Triangles[corner.Triangle].Set(SeamMark, corner.Slot);
@@ -347,25 +358,28 @@ std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
   {
     throw MeshTooLarge("a piece has too many triangles: divide the mesh among more ranks");
   }
-  PieceTriangle triangle{};
+  const auto t = static_cast<std::int64_t>(this->Triangles.size());
+  this->Triangles.push_back({});
+  this->Mates.resize(this->Mates.size() + 3, Unknown);
+  this->PutBack(t, packed);
+  return t;
+}
+
+void PieceMesh::PutBack(std::int64_t t, const TravellingTriangle& packed)
+{
+  PieceTriangle& triangle = this->Triangles[t];
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);
     this->Share(triangle.Points[slot]);
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
   }
   triangle.Origin = packed.Origin;
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
-  const auto t = static_cast<std::int64_t>(this->Triangles.size());
-  this->Triangles.push_back(triangle);
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    this->Stars.Add({ t, slot }, triangle.Points[slot]);
-  }
-  this->Mates.resize(this->Mates.size() + 3, Unknown);
+  triangle.HasLeft = false;
   this->NoteSeams(t);
   this->NoteChange(t);
-  return t;
 }
 
 void PieceMesh::Share(std::int32_t point)

@@ -48,6 +48,8 @@ public:
   void EndRounds();
   /// Flips the edge opposite to two corners.
   void Flip(const PieceCorner& one, const PieceCorner& other);
+  /// Puts another point at a corner. Marks do not change.
+  void SetPoint(const PieceCorner& corner, std::int32_t point);
   /// The triangles that have changed or come since the last call, and those at points that have
   /// become shared; some more than once.
   std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
@@ -106,6 +108,8 @@ public:
   std::vector<TravellingTriangle> Release(const std::vector<std::int64_t>& triangles);
   /// Adds one that comes from another rank. @returns its number here.
   std::int64_t Receive(const TravellingTriangle& triangle);
+  /// Puts one that comes back into the place that it has left.
+  void PutBack(std::int64_t place, const TravellingTriangle& triangle);
 
   /// Points that were not among the caller's, from this id on.
   std::int64_t GetFirstReceived() const { return this->Given.Count; }

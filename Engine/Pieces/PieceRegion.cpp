@@ -113,11 +113,10 @@ void PieceRegion::Store(const std::vector<std::int32_t>& ids,
 {
   for (std::size_t i = 0; i < this->Triangles.size(); ++i)
   {
-    PieceTriangle& triangle = mesh.Triangles[this->Triangles[i]];
-    triangle.Flips += flips[i];
+    mesh.Triangles[this->Triangles[i]].Flips += flips[i];
     for (int slot = 0; slot < 3; ++slot)
     {
-      triangle.Points[slot] = this->PointOf[ids[3 * i + slot]];
+      mesh.SetPoint({ this->Triangles[i], slot }, this->PointOf[ids[3 * i + slot]]);
     }
   }
 }

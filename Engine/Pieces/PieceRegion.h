@@ -37,8 +37,8 @@ public:
   /// The region's number of a point, or -1.
   std::int64_t FindPoint(std::int64_t point) const;
 
-  /// Gives the triangles of `mesh` the ids and flips of a run on View(). Their marks, and the lists
-  /// of rounds, do not change; EndRounds forgets them.
+  /// Gives the triangles of `mesh`, between BeginRounds and EndRounds, the ids and flips of a run
+  /// on View(). Their marks do not change; EndRounds forgets them.
   void Store(const std::vector<std::int32_t>& ids, const std::vector<std::int32_t>& flips,
     PieceMesh& mesh) const;
 
