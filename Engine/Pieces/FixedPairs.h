@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_FIXEDPAIRS_H
 #define DELAUNAYFLIP_FIXEDPAIRS_H
 
-#include "PieceMesh.h"
+#include "PieceTriangle.h"
 #include "TriangleMesh.h"
 
 #include <cstddef>

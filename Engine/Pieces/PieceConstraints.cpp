@@ -226,6 +226,7 @@ std::vector<FarConstraint> PieceConstraints::ListLeft() const
 /// Takes the triangles, and the constraints except those that this rank cannot insert alone.
 void PieceConstraints::Keep(const OwnWork& own)
 {
+  this->Mesh.ListAll();
   for (const MarkedCorner& mark : this->Seams.Marks)
   {
     if (mark.Mark == FixedMark)

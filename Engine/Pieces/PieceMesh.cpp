@@ -15,7 +15,9 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
   : Shared(std::move(keys.Shared)),
     Given(piece.Mesh.Points),
     Keys(std::move(keys.Keys)),
-    FirstOwnKey(keys.FirstKeys[rank])
+    FirstOwnKey(keys.FirstKeys[rank]),
+    Caller(piece.Mesh.Triangles),
+    FirstOrigin(firstOrigin)
 {
   keys.Keys.clear();
   keys.Shared.clear();
@@ -35,19 +37,10 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
       this->SharedPoints.push_back(static_cast<std::int32_t>(i));
     }
   }
-  const TriangleArray& triangles = piece.Mesh.Triangles;
   constexpr std::int64_t PartToReceive = 16; // so that the first arrival does not copy all
-  this->Triangles.reserve(triangles.Count + triangles.Count / PartToReceive);
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    PieceTriangle triangle{};
-    triangle.Origin = firstOrigin + t;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      triangle.Points[slot] = static_cast<std::int32_t>(triangles.Get(t, slot));
-    }
-    this->Triangles.push_back(triangle);
-  }
+  this->Triangles.reserve(this->Caller.Count + this->Caller.Count / PartToReceive);
+  this->Triangles.resize(this->Caller.Count);
+  this->Listed.resize(this->Caller.Count);
 }
 
 std::int64_t PieceMesh::FindPoint(std::int64_t key) const
@@ -71,50 +64,158 @@ void PieceMesh::GetPosition(std::int64_t point, double (&x)[3]) const
 }
 
 //------------------------------------------------------------------------------
-void PieceMesh::TakeTriangles(const HostTriangles& made)
+std::vector<std::int64_t> PieceMesh::FindListed() const
 {
-  constexpr std::int64_t PrefetchDistance = 16;
-  struct Past
+  std::vector<std::int64_t> listed;
+  listed.reserve(this->NumberListed);
+  for (std::size_t t = 0; t < this->Listed.size(); ++t)
   {
-    std::int64_t Origin;
-    std::int64_t Flips;
-  };
-  HostVector<Past> past;
-  past.reserve(this->Triangles.size());
-  for (const PieceTriangle& triangle : this->Triangles)
-  {
-    past.push_back({ triangle.Origin, triangle.Flips });
-  }
-  this->Mates.reserve(3 * this->Triangles.capacity());
-  for (std::int64_t t = 0; t < made.Count; ++t)
-  {
-    Prefetch(&past[made.Records[std::min(t + PrefetchDistance, made.Count - 1)].InputTriangle]);
-    const TriangleRecord& record = made.Records[t];
-    const Past& before = past[record.InputTriangle];
-    PieceTriangle& triangle = this->Triangles[t];
-    triangle.Origin = before.Origin;
-    triangle.Flips = static_cast<std::int32_t>(before.Flips + record.Flips / OneFlip);
-    for (int slot = 0; slot < 3; ++slot)
+    if (this->Listed[t])
     {
-      triangle.Points[slot] =
-        static_cast<std::int32_t>(made.Order.GetVertex(record.Vertices[slot]));
-      const CornerId other = made.GetOtherCorner(t, slot);
-      this->Mates.push_back(other == NoCorner
-          ? NoMate
-          : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) })));
+      listed.push_back(static_cast<std::int64_t>(t));
     }
   }
+  return listed;
+}
+
+void PieceMesh::ListAll()
+{
+  for (std::size_t t = 0; t < this->Triangles.size() && !this->AreAllListed(); ++t)
+  {
+    this->List(static_cast<std::int64_t>(t));
+  }
+}
+
+void PieceMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    points[slot] = this->IsListed(t) ? this->Triangles[t].Points[slot]
+      : this->Made.Records
+      ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
+      : static_cast<std::int32_t>(this->Caller.Get(t, slot));
+  }
+}
+
+void PieceMesh::MakeTriangle(std::int64_t t)
+{
+  PieceTriangle& triangle = this->Triangles[t];
+  triangle = PieceTriangle{};
+  this->GetPoints(t, triangle.Points);
+  if (this->Made.Records)
+  {
+    this->TakeRecord(t);
+  }
+  else
+  {
+    triangle.Origin = this->FirstOrigin + t;
+  }
+  this->Listed[t] = 1;
+  ++this->NumberListed;
+  for (int slot = 0; slot < 3 && this->HasStars; ++slot)
+  {
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
+  }
+}
+
+/// What a triangle that is being listed has besides its points.
+void PieceMesh::TakeRecord(std::int64_t t)
+{
+  const TriangleRecord& record = this->Made.Records[t];
+  const Past past = this->GetPast(record.InputTriangle);
+  PieceTriangle& triangle = this->Triangles[t];
+  triangle.Origin = past.Origin;
+  triangle.Flips = static_cast<std::int32_t>(past.Flips + record.Flips / OneFlip);
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    triangle.SetMarks(slot, this->Marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
+    const CornerId other = this->Made.GetOtherCorner(t, slot);
+    this->Mates[GetNumber({ t, slot })] = other == NoCorner
+      ? NoMate
+      : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
+  }
+}
+
+/// Of all triangles, before an engine's take their places.
+void PieceMesh::KeepPast()
+{
+  this->Pasts.reserve(this->Triangles.size());
+  for (const PieceTriangle& triangle : this->Triangles)
+  {
+    this->Pasts.push_back({ triangle.Origin, triangle.Flips });
+  }
+}
+
+bool PieceMesh::IsMarkedAtBoundary(std::int64_t t) const
+{
+  bool isMarked = false;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    if (this->Made.GetOtherCorner(t, slot) == NoCorner)
+    {
+      std::int32_t points[3];
+      this->GetPoints(t, points);
+      isMarked = isMarked || this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0;
+    }
+  }
+  return isMarked;
+}
+
+void PieceMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
+{
+  if (this->AreAllListed())
+  {
+    this->KeepPast();
+  }
+  std::fill(this->Listed.begin(), this->Listed.end(), 0);
+  this->NumberListed = 0;
+  this->Made = made;
+  this->Marks = std::move(marks);
+  this->Mates.reserve(3 * this->Triangles.capacity());
+  this->Mates.resize(3 * this->Triangles.size());
+  for (std::int64_t t = 0; t < made.Count; ++t)
+  {
+    if (this->IsMarkedAtBoundary(t))
+    {
+      this->List(t);
+    }
+  }
+}
+
+void PieceMesh::TakeTriangles(
+  const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks)
+{
+  this->ListAll();
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    std::copy_n(ids + 3 * t, 3, this->Triangles[t].Points);
+    this->Triangles[t].Flips += flips[t];
+  }
+  marks.Apply(this->Triangles);
 }
 
 void PieceMesh::BeginRounds(bool listsChanged)
 {
   this->ListsChanged = listsChanged;
-  this->Stars.AddAll(this->Triangles, this->GetNumberOfPoints());
+  const std::size_t count = this->Triangles.size();
   this->Mates.reserve(3 * this->Triangles.capacity());
-  this->Mates.resize(3 * this->Triangles.size(), Unknown);
-  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  this->Mates.resize(3 * count, Unknown);
+  this->Stars.Begin(static_cast<std::int64_t>(count),
+    static_cast<std::int64_t>(this->Triangles.capacity()), this->GetNumberOfPoints());
+  this->HasStars = true;
+  for (std::size_t t = count; t-- > 0;) // so that lists begin with their first triangle
   {
-    this->NoteSeams(static_cast<std::int64_t>(t));
+    for (int slot = 0; slot < 3 && this->Listed[t]; ++slot)
+    {
+      this->Stars.Add({ static_cast<std::int64_t>(t), slot }, this->Triangles[t].Points[slot]);
+    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    if (this->Listed[t])
+    {
+      this->NoteSeams(static_cast<std::int64_t>(t));
+    }
   }
 }
 
@@ -128,8 +229,11 @@ void PieceMesh::EndRounds()
     triangle.Marks = 0;
     triangle.IsNoted = false;
   }
+  this->Listed.assign(this->Triangles.size(), 1);
+  this->NumberListed = this->Triangles.size();
   this->Stars = PointStars();
-  this->Mates = HostVector<std::uint32_t>();
+  this->HasStars = false;
+  this->Mates = RawVector<std::uint32_t>();
   this->Changed.clear();
   this->MayHaveSeams.clear();
   this->LostSeams.clear();
@@ -153,10 +257,25 @@ void PieceMesh::NoteSeams(std::int64_t t)
   }
 }
 
+/// Lists the triangles that are known to share an edge with another one.
+void PieceMesh::ListBeside(std::int64_t t)
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const std::uint32_t mate = this->Mates[3 * t + slot];
+    if (mate < NoMate)
+    {
+      this->List(mate / 3);
+    }
+  }
+}
+
 /// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
 /// (b, q, a).
 void PieceMesh::Flip(const PieceCorner& one, const PieceCorner& other)
 {
+  this->ListBeside(one.Triangle);
+  this->ListBeside(other.Triangle);
   PieceTriangle& t = this->Triangles[one.Triangle];
   PieceTriangle& s = this->Triangles[other.Triangle];
   const int a = one.Slot;
@@ -270,8 +389,12 @@ PieceCorner PieceMesh::FindOpenMate(const PieceCorner& corner)
     this->Join(
       GetNumber(corner), mate.Triangle < 0 ? NoMate : static_cast<std::uint32_t>(GetNumber(mate)));
   }
-  return known == NoMate ? PieceCorner{ -1, 0 }
-                         : PieceCorner{ known / 3, static_cast<int>(known % 3) };
+  if (known == NoMate)
+  {
+    return { -1, 0 };
+  }
+  this->List(known / 3);
+  return { known / 3, static_cast<int>(known % 3) };
 }
 
 /// Makes two corners each other's mates.
@@ -290,7 +413,7 @@ void PieceMesh::PrefetchPoints(std::int64_t triangle) const
   {
     this->PrefetchPoint(this->Triangles[triangle].Points[slot]);
     const std::uint32_t mate = this->Mates[3 * triangle + slot];
-    if (mate < NoMate)
+    if (mate < NoMate && this->IsListed(mate / 3))
     {
       this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
     }
@@ -360,6 +483,8 @@ std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
   }
   const auto t = static_cast<std::int64_t>(this->Triangles.size());
   this->Triangles.push_back({});
+  this->Listed.push_back(1);
+  ++this->NumberListed;
   this->Mates.resize(this->Mates.size() + 3, Unknown);
   this->PutBack(t, packed);
   return t;

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_PIECEMESH_H
 
 #include "EngineTriangles.h"
+#include "FixedPairs.h"
 #include "PieceFlip.h"
 #include "PieceTriangle.h"
 #include "PointMatch.h"
@@ -28,6 +29,10 @@ struct TravellingTriangle
 };
 
 /// The triangles that a rank has at the moment, and all points that it has ever had.
+///
+/// Most triangles are never touched by a round. So a triangle is listed in Triangles when it is
+/// needed; until then it stays where the caller, or the engine of the first flips, has it. Before
+/// one changes or leaves, all that share an edge with it are listed.
 class PieceMesh
 {
 public:
@@ -35,14 +40,32 @@ public:
   /// @param firstOrigin the number of the first of them among those of all ranks.
   PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
 
-  PieceTriangles Triangles; ///< Some may be empty places (PieceTriangle::HasLeft).
+  PieceTriangles Triangles; ///< Some may be empty places (PieceTriangle::HasLeft), or not listed.
+
+  bool IsListed(std::int64_t t) const { return this->Listed[t] != 0; }
+  bool AreAllListed() const { return this->NumberListed == this->Triangles.size(); }
+  /// Numbers, in no order.
+  std::vector<std::int64_t> FindListed() const;
+  void List(std::int64_t t)
+  {
+    if (!this->IsListed(t))
+    {
+      this->MakeTriangle(t);
+    }
+  }
+  void ListAll();
+  /// The ids of a triangle that may not be listed.
+  void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
 
   /// Takes the triangles that an engine has made of these, in its order, in which neighbours are
-  /// near each other.
-  void TakeTriangles(const HostTriangles& made);
-  /// Lists what rounds need, so that they take no time for other triangles. From now on triangles
-  /// change by the functions below only.
-  /// @param listsChanged whether TakeChanged will be called.
+  /// near each other. Lists those at marked edges at the boundary.
+  /// @param made must stay as it is as long as there are triangles that are not listed.
+  void TakeTriangles(const HostTriangles& made, MarkedEdges marks);
+  /// The same for arrays with a value per triangle. Lists all.
+  void TakeTriangles(const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks);
+  /// Lists the corners at every point, so that rounds take no time for other triangles. From now on
+  /// triangles change by the functions below only.
+  /// @param listsChanged whether TakeChanged will be called; then all triangles must be listed.
   void BeginRounds(bool listsChanged);
   /// Closes empty places, and forgets the lists and all marks. Triangles keep their order.
   void EndRounds();
@@ -120,6 +143,22 @@ public:
   }
 
 private:
+  /// What is known of a triangle besides its points.
+  struct Past
+  {
+    std::int64_t Origin;
+    std::int64_t Flips;
+  };
+
+  void MakeTriangle(std::int64_t t);
+  void TakeRecord(std::int64_t t);
+  void KeepPast();
+  void ListBeside(std::int64_t t);
+  Past GetPast(std::int64_t t) const
+  {
+    return this->Pasts.empty() ? Past{ this->FirstOrigin + t, 0 } : this->Pasts[t];
+  }
+  bool IsMarkedAtBoundary(std::int64_t t) const;
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   TravellingTriangle Pack(const PieceTriangle& triangle) const;
   void Share(std::int32_t point);
@@ -133,9 +172,19 @@ private:
   }
   void Join(std::size_t one, std::uint32_t other);
 
-  PointStars Stars;
+  // Where triangles are that are not listed: with the caller or, if there are records, in these.
+  TriangleArray Caller;
+  HostTriangles Made;
+  std::int64_t FirstOrigin;
+  HostVector<Past> Pasts; ///< Of the engine's input triangles; empty: they were the caller's.
+  MarkedEdges Marks;
+  std::vector<unsigned char> Listed; ///< One flag per triangle.
+  std::size_t NumberListed = 0;
+  bool HasStars = false;
+
+  PointStars Stars; ///< Of listed triangles.
   /// By corner, 3 * triangle + slot: another one at the same edge, if it has been asked for.
-  HostVector<std::uint32_t> Mates;
+  RawVector<std::uint32_t> Mates;
   bool ListsChanged = false;
   std::vector<std::int64_t> Changed;
   std::vector<std::int64_t> MayHaveSeams; ///< New ones: triangles (PieceTriangle::IsNoted).

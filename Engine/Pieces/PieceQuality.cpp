@@ -28,14 +28,15 @@ namespace
 /// -infinity for an empty place.
 double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
 {
-  const PieceTriangle& triangle = mesh.Triangles[t];
+  std::int32_t points[3];
+  mesh.GetPoints(t, points);
   double x[3][3];
   for (int slot = 0; slot < 3; ++slot)
   {
-    mesh.GetPosition(triangle.Points[slot], x[slot]);
+    mesh.GetPosition(points[slot], x[slot]);
   }
   const double cotangent = MeasureCotangent(x, survey);
-  return triangle.HasLeft ? -INFINITY : cotangent;
+  return mesh.IsListed(t) && mesh.Triangles[t].HasLeft ? -INFINITY : cotangent;
 }
 
 struct MeasureStep
@@ -45,7 +46,9 @@ struct MeasureStep
 
   void Prefetch(std::int64_t t) const
   {
-    for (const std::int32_t point : this->Mesh.Triangles[t].Points)
+    std::int32_t points[3];
+    this->Mesh.GetPoints(t, points);
+    for (const std::int32_t point : points)
     {
       this->Mesh.PrefetchPoint(point);
     }

@@ -46,6 +46,7 @@ void PieceRun::CountRest()
   this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
   if (this->HasBlocked)
   {
+    this->Mesh.ListAll();
     const PieceRegion all(this->Mesh, this->Job.Survey);
     FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
     none.MaximumIterations = 0;

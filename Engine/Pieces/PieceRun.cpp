@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceRun.h"
 
-#include "DelaunayFlip.h"
 #include "GuardRound.h"
 #include "MeshAudit.h"
 #include "PieceStore.h"
@@ -116,24 +115,30 @@ void PieceRun::FlipFirst()
   const double begin = this->Constraints.GetShare();
   const ProgressObserver progress = [=](double share)
   { return this->Tell(begin + (FirstShare - begin) * share); };
-  FlipSession session(mesh, options, progress);
-  if (session.GetReport().StopReason != StopReasonKind::Aborted)
+  this->First = std::make_unique<FlipSession>(mesh, options, progress);
+  if (this->First->GetReport().StopReason != StopReasonKind::Aborted)
   {
-    session.Advance(-1, {}, progress);
+    this->First->Advance(-1, {}, progress);
   }
-  this->KeepFirst(session, mesh);
+  this->KeepFirst(mesh);
 }
 
-void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
+void PieceRun::KeepFirst(const TriangleMesh& mesh)
 {
-  this->Own = session.GetReport();
+  this->Own = this->First->GetReport();
   this->Constraints.AddTo(this->Own);
   this->KeepRows(this->Own);
   this->StopReason = this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->StopReason;
-  this->MarkEdges(mesh);
-  this->TakeFirst(session);
-  this->Edges.Apply(this->Mesh.Triangles);
-  this->Edges = MarkedEdges();
+  const bool haveChanged = this->Mesh.AreAllListed(); // by constraints
+  this->TakeFirst(this->MarkEdges(mesh));
+  if (haveChanged || this->Job.Survey.NeedsGuard() || this->Job.Options.TrackQuality)
+  {
+    this->Mesh.ListAll();
+  }
+  if (this->Mesh.AreAllListed())
+  {
+    this->First.reset();
+  }
   if (this->Job.Options.TrackQuality)
   {
     this->Quality.Update(this->Mesh, this->Job.Survey);
@@ -145,33 +150,30 @@ void PieceRun::KeepFirst(const FlipSession& session, const TriangleMesh& mesh)
   }
 }
 
-void PieceRun::TakeFirst(const FlipSession& session)
+void PieceRun::TakeFirst(MarkedEdges marks)
 {
-  const HostTriangles made = session.ViewHostTriangles();
-  if (made.Records && this->Job.Group.GetSize() > 1)
+  const HostTriangles made = this->First->ViewHostTriangles();
+  if (made.Records)
   {
-    this->Mesh.TakeTriangles(made);
+    this->Mesh.TakeTriangles(made, std::move(marks));
     return;
   }
-  const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
-  HostVector<std::int32_t> ids(3 * count);
-  HostVector<std::int32_t> flips(count);
-  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
-  session.StoreFlipCounts(flips.data());
-  for (std::int64_t t = 0; t < count; ++t)
-  {
-    std::copy_n(ids.data() + 3 * t, 3, this->Mesh.Triangles[t].Points);
-    this->Mesh.Triangles[t].Flips += flips[t];
-  }
+  const std::size_t count = this->Mesh.Triangles.size();
+  RawVector<std::int32_t> ids(3 * count);
+  RawVector<std::int32_t> flips(count);
+  this->First->StoreTriangles(MutableTriangleArray(ids.data(), static_cast<std::int64_t>(count)));
+  this->First->StoreFlipCounts(flips.data());
+  this->Mesh.TakeTriangles(ids.data(), flips.data(), marks);
 }
 
 /// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
 /// have others on other ranks.
-void PieceRun::MarkEdges(const TriangleMesh& mesh)
+MarkedEdges PieceRun::MarkEdges(const TriangleMesh& mesh)
 {
+  MarkedEdges edges;
   for (const MarkedCorner& mark : this->Seams.Marks)
   {
-    this->Edges.Add(this->Mesh.Triangles[mark.Triangle].GetEdge(mark.Slot), mark.Mark);
+    edges.Add(this->Mesh.Triangles[mark.Triangle].GetEdge(mark.Slot), mark.Mark);
   }
   const EdgeCounts& counts = this->Own.Edges;
   const bool hasFixed = counts.Fixed > counts.Boundary + counts.NonManifold;
@@ -182,16 +184,17 @@ void PieceRun::MarkEdges(const TriangleMesh& mesh)
     const std::vector<std::int64_t> fixed = FindFixedEdges(mesh, options);
     for (std::size_t i = 0; i < fixed.size(); i += 2)
     {
-      this->Edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
+      edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
     }
   }
   if (counts.NonManifold > 0)
   {
     for (const PointPair& edge : FindCrowdedEdges(mesh.Triangles))
     {
-      this->Edges.Add(edge, FixedMark);
+      edges.Add(edge, FixedMark);
     }
   }
+  return edges;
 }
 
 //------------------------------------------------------------------------------
@@ -370,7 +373,21 @@ void PieceRun::KeepAngle()
 //------------------------------------------------------------------------------
 void PieceRun::Store(FlippedPiece& flipped) const
 {
-  StorePiece(this->Mesh, this->FirstOrigins, this->Job.Group.GetRank(), flipped);
+  const int rank = this->Job.Group.GetRank();
+  flipped = FlippedPiece();
+  if (this->First)
+  {
+    const std::int64_t count = this->FirstOrigins[rank + 1] - this->FirstOrigins[rank];
+    flipped.Triangles.resize(3 * count);
+    flipped.FlipCounts.resize(count);
+    this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
+    this->First->StoreFlipCounts(flipped.FlipCounts.data());
+    StoreListed(this->Mesh, this->FirstOrigins, rank, flipped);
+  }
+  else
+  {
+    StorePiece(this->Mesh, this->FirstOrigins, rank, flipped);
+  }
   flipped.AreFloats = this->Job.Survey.IsFloat;
 }
 

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PIECERUN_H
 #define DELAUNAYFLIP_PIECERUN_H
 
+#include "DelaunayFlip.h"
 #include "FixedPairs.h"
 #include "GuardRound.h"
 #include "JoinReports.h"
@@ -16,12 +17,12 @@
 #include "SeamTester.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace delaunayflip
 {
 
-class FlipSession;
 class RoundFlips;
 
 /// A run, as one of its ranks sees it.
@@ -43,9 +44,9 @@ public:
 private:
   TriangleMesh GetFirstMesh() const;
   void FlipFirst();
-  void KeepFirst(const FlipSession& session, const TriangleMesh& mesh);
-  void TakeFirst(const FlipSession& session);
-  void MarkEdges(const TriangleMesh& mesh);
+  void KeepFirst(const TriangleMesh& mesh);
+  void TakeFirst(MarkedEdges marks);
+  MarkedEdges MarkEdges(const TriangleMesh& mesh);
   bool MakeRound();
   bool MayGoOn();
   void FlipAround(const std::vector<std::int64_t>& toJudge, const GuardRound& waiting);
@@ -77,7 +78,8 @@ private:
   std::vector<RoundRow> Rows;
   PieceQuality Quality; ///< Only with FlipOptions::TrackQuality.
   std::vector<RoundRow> Angles; ///< The smallest angle in rounds without iterations.
-  MarkedEdges Edges; ///< While the first triangles are replaced.
+  /// The first flips. Has the triangles that are not listed (PieceMesh), if there are any.
+  std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
 

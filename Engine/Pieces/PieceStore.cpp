@@ -3,6 +3,8 @@
 #include "PieceStore.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -29,7 +31,7 @@ public:
   {
   }
 
-  void Run()
+  void StoreAll()
   {
     const PieceTriangles& triangles = this->Mesh.Triangles;
     this->Flipped.Triangles.reserve(3 * triangles.size());
@@ -49,13 +51,96 @@ public:
         this->StoreTriangle(triangles[this->Own[i]]);
       }
     }
+    this->StoreOthers();
+  }
+
+  /// Overwrites the slots of listed triangles, closes those of triangles that have left, and adds
+  /// those of other ranks.
+  void StoreListed()
+  {
+    const auto count = static_cast<std::int64_t>(this->Flipped.FlipCounts.size());
+    this->Flipped.Origins.reserve(count);
+    for (std::int64_t slot = 0; slot < count; ++slot)
+    {
+      this->Flipped.Origins.push_back({ this->Rank, slot });
+    }
+    this->CloseSlots(this->OverwriteSlots());
+    this->StoreOthers();
+  }
+
+private:
+  /// @returns the slots of triangles that have left, ascending.
+  std::vector<std::int64_t> OverwriteSlots()
+  {
+    std::vector<std::int64_t> left, present;
+    for (const std::int64_t t : this->Mesh.FindListed())
+    {
+      const PieceTriangle& triangle = this->Mesh.Triangles[t];
+      const std::int64_t slot = triangle.Origin - this->FirstOrigins[this->Rank];
+      if (this->IsOwn(triangle) && !triangle.HasLeft)
+      {
+        this->Overwrite(slot, triangle);
+        present.push_back(slot);
+      }
+      else if (this->IsOwn(triangle))
+      {
+        left.push_back(slot); // it may have come back, with another number
+      }
+      else if (!triangle.HasLeft)
+      {
+        this->Others.push_back(static_cast<std::uint32_t>(t));
+      }
+    }
+    std::sort(left.begin(), left.end());
+    std::sort(present.begin(), present.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    std::vector<std::int64_t> gone;
+    std::set_difference(
+      left.begin(), left.end(), present.begin(), present.end(), std::back_inserter(gone));
+    return gone;
+  }
+
+  void Overwrite(std::int64_t slot, const PieceTriangle& triangle)
+  {
+    this->Flipped.FlipCounts[slot] = triangle.Flips;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      this->Flipped.Triangles[3 * slot + corner] = this->StorePoint(triangle.Points[corner]);
+    }
+  }
+
+  void CloseSlots(const std::vector<std::int64_t>& gone)
+  {
+    RemoveItems(gone, 3, this->Flipped.Triangles);
+    RemoveItems(gone, 1, this->Flipped.Origins);
+    RemoveItems(gone, 1, this->Flipped.FlipCounts);
+  }
+
+  /// Removes items of `size` values by their numbers, which ascend.
+  template <typename T>
+  static void RemoveItems(
+    const std::vector<std::int64_t>& gone, std::int64_t size, std::vector<T>& values)
+  {
+    auto to = values.begin() + (gone.empty() ? values.size() : size * gone.front());
+    for (std::size_t i = 0; i < gone.size(); ++i)
+    {
+      const auto end = i + 1 < gone.size() ? values.begin() + size * gone[i + 1] : values.end();
+      to = std::move(values.begin() + size * (gone[i] + 1), end, to);
+    }
+    values.erase(to, values.end());
+  }
+
+  void StoreOthers()
+  {
+    const PieceTriangles& triangles = this->Mesh.Triangles;
+    std::sort(this->Others.begin(), this->Others.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return triangles[a].Origin < triangles[b].Origin; });
     for (const std::uint32_t t : this->Others)
     {
       this->StoreTriangle(triangles[t]);
     }
   }
 
-private:
   bool IsOwn(const PieceTriangle& triangle) const
   {
     return this->FirstOrigins[this->Rank] <= triangle.Origin &&
@@ -79,8 +164,6 @@ private:
         this->Others.push_back(place);
       }
     }
-    std::sort(this->Others.begin(), this->Others.end(),
-      [&](std::uint32_t a, std::uint32_t b) { return triangles[a].Origin < triangles[b].Origin; });
   }
 
   void StoreTriangle(const PieceTriangle& triangle)
@@ -130,8 +213,13 @@ private:
 void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
   FlippedPiece& flipped)
 {
-  flipped = FlippedPiece();
-  PieceStore(mesh, firstOrigins, rank, flipped).Run();
+  PieceStore(mesh, firstOrigins, rank, flipped).StoreAll();
+}
+
+void StoreListed(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
+  FlippedPiece& flipped)
+{
+  PieceStore(mesh, firstOrigins, rank, flipped).StoreListed();
 }
 
 }

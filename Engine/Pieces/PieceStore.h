@@ -14,7 +14,13 @@ namespace delaunayflip
 
 /// Stores what a rank has in the end, but for FlippedPiece::AreFloats.
 /// @param firstOrigins the number of the first triangle of every rank.
+/// @param flipped is empty.
 void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
+  FlippedPiece& flipped);
+
+/// The same where few triangles are listed (PieceMesh).
+/// @param flipped has the triangles and the flip counts of the first flips in their slots.
+void StoreListed(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
   FlippedPiece& flipped);
 
 }

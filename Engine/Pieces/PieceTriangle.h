@@ -92,7 +92,7 @@ struct PieceTriangle
   }
 };
 
-using PieceTriangles = HostVector<PieceTriangle>;
+using PieceTriangles = RawVector<PieceTriangle>;
 
 /// A triangle of a rank and one of its corners.
 struct PieceCorner

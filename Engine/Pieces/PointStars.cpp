@@ -5,18 +5,11 @@
 namespace delaunayflip
 {
 
-void PointStars::AddAll(const PieceTriangles& triangles, std::int64_t points)
+void PointStars::Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points)
 {
   this->First.assign(points, None);
-  this->Links.reserve(3 * triangles.capacity());
-  this->Links.resize(3 * triangles.size());
-  for (std::size_t t = triangles.size(); t-- > 0;) // so that lists begin with their first triangle
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      this->Add({ static_cast<std::int64_t>(t), slot }, triangles[t].Points[slot]);
-    }
-  }
+  this->Links.reserve(3 * capacity);
+  this->Links.resize(3 * triangles);
 }
 
 void PointStars::Add(const PieceCorner& corner, std::int32_t point)

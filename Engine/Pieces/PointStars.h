@@ -17,10 +17,9 @@ namespace delaunayflip
 class PointStars
 {
 public:
-  /// Adds all corners of all triangles.
-  /// @param points how many there are; others may come later.
-  void AddAll(const PieceTriangles& triangles, std::int64_t points);
-
+  /// Begins with empty lists. Others than these triangles and points may come later.
+  /// @param capacity the number of triangles to reserve memory for.
+  void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
   /// Adds a corner that is in no list.
   void Add(const PieceCorner& corner, std::int32_t point);
 
@@ -69,7 +68,7 @@ private:
   }
 
   HostVector<std::uint32_t> First; ///< By point: the number of a corner, 3 * triangle + slot.
-  HostVector<Link> Links; ///< By that number.
+  RawVector<Link> Links; ///< By that number.
 };
 
 }

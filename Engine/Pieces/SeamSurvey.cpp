@@ -15,7 +15,7 @@ namespace
 class SeamLister
 {
 public:
-  SeamLister(const MeshPiece& piece, const PieceMesh& mesh)
+  SeamLister(const MeshPiece& piece, PieceMesh& mesh)
     : Piece(piece),
       Mesh(mesh)
   {
@@ -23,18 +23,28 @@ public:
 
   SeamTriangle Make(std::int64_t t, int slot) const
   {
+    this->Mesh.List(t);
     SeamTriangle seam = MakeSeamTriangle(this->Mesh, t, slot);
     seam.Side.IsFrozen = this->IsFrozen(t);
     seam.Side.Region = this->Piece.Mesh.Regions ? this->Piece.Mesh.Regions[t] : 0;
     return seam;
   }
 
-  bool IsShared(std::int64_t t, int slot) const
+  /// Calls visit(slot) for the edges of a triangle between shared points.
+  template <typename Visit>
+  void ForEachShared(std::int64_t t, const Visit& visit) const
   {
-    const PieceTriangle& triangle = this->Mesh.Triangles[t];
-    const std::int32_t start = triangle.GetStart(slot);
-    const std::int32_t end = triangle.GetEnd(slot);
-    return start != end && this->Mesh.IsShared(start) && this->Mesh.IsShared(end);
+    std::int32_t points[3];
+    this->Mesh.GetPoints(t, points);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int32_t start = points[(slot + 1) % 3];
+      const std::int32_t end = points[(slot + 2) % 3];
+      if (start != end && this->Mesh.IsShared(start) && this->Mesh.IsShared(end))
+      {
+        visit(slot);
+      }
+    }
   }
 
 private:
@@ -47,7 +57,7 @@ private:
   }
 
   const MeshPiece& Piece;
-  const PieceMesh& Mesh;
+  PieceMesh& Mesh;
 };
 
 std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
@@ -56,20 +66,19 @@ std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
 }
 
 RecordLists<SeamTriangle> ListSeamTriangles(
-  const MeshPiece& piece, const PieceMesh& mesh, const PieceGroup& group)
+  const MeshPiece& piece, PieceMesh& mesh, const PieceGroup& group)
 {
   const SeamLister lister(piece, mesh);
   RecordLists<SeamTriangle> toHome(group.GetSize());
   for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
   {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      if (lister.IsShared(t, slot))
+    const auto number = static_cast<std::int64_t>(t);
+    lister.ForEachShared(number,
+      [&](int slot)
       {
-        const SeamTriangle seam = lister.Make(t, slot);
+        const SeamTriangle seam = lister.Make(number, slot);
         toHome[GetHomeOf(seam.Ends, group)].push_back(seam);
-      }
-    }
+      });
   }
   return toHome;
 }
@@ -116,7 +125,7 @@ void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, Se
 }
 }
 
-SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, PieceMesh& mesh,
   const std::vector<FarConstraint>& far)
 {
   PieceGroup& group = job.Group;

@@ -6,6 +6,7 @@
 #include "HostMemory.h"
 
 #include <cstddef>
+#include <new>
 #include <vector>
 
 namespace delaunayflip
@@ -38,6 +39,23 @@ struct HostAllocator
 /// A vector in HostMemory, which takes huge pages if it is large.
 template <typename T>
 using HostVector = std::vector<T, HostAllocator<T>>;
+
+template <typename T>
+struct RawAllocator : HostAllocator<T>
+{
+  RawAllocator() = default;
+  template <typename Other>
+  explicit RawAllocator(const RawAllocator<Other>&)
+  {
+  }
+
+  void construct(T* value) noexcept { ::new (static_cast<void*>(value)) T; }
+};
+
+/// The same, but resize leaves what it adds as it is, so that this takes neither time nor, in pages
+/// that are never written, memory.
+template <typename T>
+using RawVector = std::vector<T, RawAllocator<T>>;
 
 }
 

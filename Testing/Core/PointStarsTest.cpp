@@ -61,6 +61,17 @@ void ExpectLists(
   }
 }
 
+void AddAll(const PieceTriangles& triangles, std::int64_t points, PointStars& stars)
+{
+  const auto count = static_cast<std::int64_t>(triangles.size());
+  stars.Begin(count, count, points);
+  for (std::int64_t corner = 0; corner < 3 * count; ++corner)
+  {
+    const int slot = static_cast<int>(corner % 3);
+    stars.Add({ corner / 3, slot }, triangles[corner / 3].Points[slot]);
+  }
+}
+
 PieceTriangles DrawSome(std::mt19937& random, int size)
 {
   PieceTriangles triangles;
@@ -77,7 +88,7 @@ TEST(PointStars, FollowCornersThatMove)
   PieceTriangles triangles = DrawSome(random, 30);
   PointStars stars;
   std::vector<bool> isListed(3 * triangles.size(), true);
-  stars.AddAll(triangles, Points / 2); // the other points come later
+  AddAll(triangles, Points / 2, stars); // the other points come later
   ExpectLists(stars, triangles, isListed);
   for (int step = 0; step < 60; ++step)
   {
@@ -104,7 +115,7 @@ TEST(PointStars, FindAtEitherOfTwoPoints)
   std::mt19937 random(5);
   const PieceTriangles triangles = DrawSome(random, 100);
   PointStars stars;
-  stars.AddAll(triangles, Points);
+  AddAll(triangles, Points, stars);
   for (std::int32_t point = 1; point < Points; ++point)
   {
     const std::size_t one = FindAll(stars, point - 1).size(), other = FindAll(stars, point).size();
