@@ -31,6 +31,20 @@ struct HostTriangles
   const CornerId* CornerOfHalfEdge = nullptr;
   SpatialOrderView Order{};
   std::int64_t Count = 0;
+  std::int64_t NumberOfEdges = 0; ///< Of half-edges twice as many.
+
+  /// Calls visit(corner) for every edge of one triangle.
+  template <typename Visit>
+  void ForEachAtBoundary(const Visit& visit) const
+  {
+    for (std::int64_t edge = 0; edge < this->NumberOfEdges; ++edge)
+    {
+      if (this->CornerOfHalfEdge[2 * edge + 1] == NoCorner)
+      {
+        visit(this->CornerOfHalfEdge[2 * edge]);
+      }
+    }
+  }
 
   /// The corner on the other side of the edge opposite to a slot, or NoCorner.
   CornerId GetOtherCorner(std::int64_t triangle, int slot) const

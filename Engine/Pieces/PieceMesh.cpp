@@ -12,12 +12,12 @@ namespace delaunayflip
 {
 
 PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin)
-  : Shared(std::move(keys.Shared)),
+  : Caller(piece.Mesh.Triangles),
+    FirstOrigin(firstOrigin),
+    Shared(std::move(keys.Shared)),
     Given(piece.Mesh.Points),
     Keys(std::move(keys.Keys)),
-    FirstOwnKey(keys.FirstKeys[rank]),
-    Caller(piece.Mesh.Triangles),
-    FirstOrigin(firstOrigin)
+    FirstOwnKey(keys.FirstKeys[rank])
 {
   keys.Keys.clear();
   keys.Shared.clear();
@@ -88,10 +88,21 @@ void PieceMesh::ListAll()
 
 void PieceMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
 {
+  if (this->IsListed(t))
+  {
+    std::copy_n(this->Triangles[t].Points, 3, points);
+  }
+  else
+  {
+    this->GetFirstPoints(t, points);
+  }
+}
+
+void PieceMesh::GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const
+{
   for (int slot = 0; slot < 3; ++slot)
   {
-    points[slot] = this->IsListed(t) ? this->Triangles[t].Points[slot]
-      : this->Made.Records
+    points[slot] = this->Made.Records
       ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
       : static_cast<std::int32_t>(this->Caller.Get(t, slot));
   }
@@ -101,7 +112,7 @@ void PieceMesh::MakeTriangle(std::int64_t t)
 {
   PieceTriangle& triangle = this->Triangles[t];
   triangle = PieceTriangle{};
-  this->GetPoints(t, triangle.Points);
+  this->GetFirstPoints(t, triangle.Points);
   if (this->Made.Records)
   {
     this->TakeRecord(t);
@@ -146,21 +157,6 @@ void PieceMesh::KeepPast()
   }
 }
 
-bool PieceMesh::IsMarkedAtBoundary(std::int64_t t) const
-{
-  bool isMarked = false;
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    if (this->Made.GetOtherCorner(t, slot) == NoCorner)
-    {
-      std::int32_t points[3];
-      this->GetPoints(t, points);
-      isMarked = isMarked || this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0;
-    }
-  }
-  return isMarked;
-}
-
 void PieceMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
 {
   if (this->AreAllListed())
@@ -173,13 +169,17 @@ void PieceMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
   this->Marks = std::move(marks);
   this->Mates.reserve(3 * this->Triangles.capacity());
   this->Mates.resize(3 * this->Triangles.size());
-  for (std::int64_t t = 0; t < made.Count; ++t)
-  {
-    if (this->IsMarkedAtBoundary(t))
+  made.ForEachAtBoundary(
+    [&](CornerId corner)
     {
-      this->List(t);
-    }
-  }
+      std::int32_t points[3];
+      this->GetFirstPoints(TriangleOf(corner), points);
+      const int slot = SlotOf(corner);
+      if (this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0)
+      {
+        this->List(TriangleOf(corner));
+      }
+    });
 }
 
 void PieceMesh::TakeTriangles(

@@ -44,7 +44,7 @@ public:
 
   bool IsListed(std::int64_t t) const { return this->Listed[t] != 0; }
   bool AreAllListed() const { return this->NumberListed == this->Triangles.size(); }
-  /// Numbers, in no order.
+  /// Their numbers, ascending.
   std::vector<std::int64_t> FindListed() const;
   void List(std::int64_t t)
   {
@@ -56,6 +56,13 @@ public:
   void ListAll();
   /// The ids of a triangle that may not be listed.
   void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
+  /// Those that it had before it was listed. Not for triangles that have come.
+  void GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const;
+  /// How many triangles there were before any came.
+  std::int64_t CountFirst() const
+  {
+    return this->Made.Records ? this->Made.Count : this->Caller.Count;
+  }
 
   /// Takes the triangles that an engine has made of these, in its order, in which neighbours are
   /// near each other. Lists those at marked edges at the boundary.
@@ -158,7 +165,6 @@ private:
   {
     return this->Pasts.empty() ? Past{ this->FirstOrigin + t, 0 } : this->Pasts[t];
   }
-  bool IsMarkedAtBoundary(std::int64_t t) const;
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   TravellingTriangle Pack(const PieceTriangle& triangle) const;
   void Share(std::int32_t point);

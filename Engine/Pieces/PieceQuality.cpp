@@ -25,18 +25,30 @@ double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
 
 namespace
 {
-/// -infinity for an empty place.
-double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
+double Measure(const PieceMesh& mesh, const PieceSurvey& survey, const std::int32_t (&points)[3])
 {
-  std::int32_t points[3];
-  mesh.GetPoints(t, points);
   double x[3][3];
   for (int slot = 0; slot < 3; ++slot)
   {
     mesh.GetPosition(points[slot], x[slot]);
   }
-  const double cotangent = MeasureCotangent(x, survey);
+  return MeasureCotangent(x, survey);
+}
+
+/// -infinity for an empty place.
+double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
+{
+  std::int32_t points[3];
+  mesh.GetPoints(t, points);
+  const double cotangent = Measure(mesh, survey, points);
   return mesh.IsListed(t) && mesh.Triangles[t].HasLeft ? -INFINITY : cotangent;
+}
+
+double MeasureFirst(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
+{
+  std::int32_t points[3];
+  mesh.GetFirstPoints(t, points);
+  return Measure(mesh, survey, points);
 }
 
 struct MeasureStep
@@ -67,6 +79,19 @@ double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int t
   const LargestValue largest = ThreadBackend(threads).Sum<LargestValue>(
     static_cast<std::int64_t>(mesh.Triangles.size()), MeasureStep{ mesh, survey });
   return ToDegrees(largest.Value);
+}
+
+double FindSmallestAngle(
+  const PieceMesh& mesh, const PieceSurvey& survey, double first, int threads)
+{
+  double before = -INFINITY, now = -INFINITY;
+  for (const std::int64_t t : mesh.FindListed())
+  {
+    before = t < mesh.CountFirst() ? std::max(before, MeasureFirst(mesh, survey, t)) : before;
+    now = std::max(now, Measure(mesh, survey, t));
+  }
+  const bool isElsewhere = before == -INFINITY || ToDegrees(before) > first;
+  return isElsewhere ? std::fmin(first, ToDegrees(now)) : FindSmallestAngle(mesh, survey, threads);
 }
 
 void PieceQuality::Update(const PieceMesh& mesh, const PieceSurvey& survey)

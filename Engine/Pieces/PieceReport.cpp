@@ -41,8 +41,10 @@ void PieceRun::CountRest()
   {
     return; // the first flips were the last
   }
-  this->Own.MinimumAngleAfter =
-    FindSmallestAngle(this->Mesh, this->Job.Survey, this->Job.Options.NumberOfThreads);
+  const int threads = this->Job.Options.NumberOfThreads;
+  this->Own.MinimumAngleAfter = this->First
+    ? FindSmallestAngle(this->Mesh, this->Job.Survey, this->Own.MinimumAngleAfter, threads)
+    : FindSmallestAngle(this->Mesh, this->Job.Survey, threads);
   this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
   if (this->HasBlocked)
   {
