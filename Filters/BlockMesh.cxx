@@ -3,6 +3,7 @@
 #include "BlockMesh.h"
 
 #include "CompositeBlocks.h"
+#include "MalformedArrays.h"
 #include "PieceInput.h"
 
 #include "vtkPolyData.h"
@@ -21,6 +22,7 @@ void BlockMesh::Read(const Reader& read, const std::string& regions, int rank)
     {
       this->Meshes.push_back(mesh);
       this->Numbers.push_back(leaf.Number);
+      this->Names.push_back(leaf.Name);
     }
   }
   if (this->Meshes.size() > 1)
@@ -42,6 +44,16 @@ bool BlockMesh::HasOtherCells() const
 bool BlockMesh::HasAmbiguousPoints() const
 {
   return this->Joined && this->Joined->CountAmbiguousPoints() > 0;
+}
+
+std::vector<Note> BlockMesh::ListShortArrays() const
+{
+  std::vector<Note> notes;
+  for (std::size_t i = 0; i < this->Meshes.size(); ++i)
+  {
+    AddShortArrays(this->Meshes[i], this->Names[i], notes);
+  }
+  return notes;
 }
 
 vtkSmartPointer<vtkPolyData> BlockMesh::GetMesh() const

@@ -4,6 +4,7 @@
 #define BlockMesh_h
 
 #include "JoinedPartitions.h"
+#include "Notes.h"
 #include "SharedBlocks.h"
 
 #include "vtkSmartPointer.h"
@@ -47,9 +48,13 @@ public:
   /// @param regions as in JoinedPartitions. @throws what `read` and JoinedPartitions throw.
   void Read(const Reader& read, const std::string& regions, int rank);
 
+  bool HasPartitions() const { return this->Joined != nullptr; } ///< Several.
   bool HasMesh() const { return !this->Meshes.empty(); }
   bool HasOtherCells() const; ///< Whether a leaf has cells and is not a surface.
   bool HasAmbiguousPoints() const;
+
+  /// Warnings of the leaves whose arrays have too few tuples.
+  std::vector<Note> ListShortArrays() const;
 
   /// Empty if the process has none.
   vtkSmartPointer<vtkPolyData> GetMesh() const;
@@ -68,6 +73,7 @@ private:
   const SharedBlock& Block;
   std::vector<vtkSmartPointer<vtkPolyData>> Meshes; ///< The surfaces.
   std::vector<unsigned int> Numbers; ///< Of their leaves.
+  std::vector<std::string> Names; ///< Of their leaves, in messages.
   std::unique_ptr<JoinedPartitions> Joined; ///< If there are several.
 };
 

@@ -4,6 +4,7 @@
 
 #include "CellAttributes.h"
 #include "FlipError.h"
+#include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "PieceInput.h"
 #include "PointIds.h"
@@ -274,7 +275,7 @@ private:
     if (this->Added.empty())
     {
       made->SetPoints(own->GetPoints());
-      made->GetPointData()->ShallowCopy(own->GetPointData());
+      made->GetPointData()->ShallowCopy(TakeWholePointArrays(own));
       return;
     }
     const vtkIdType given = own->GetNumberOfPoints();

@@ -30,6 +30,22 @@ std::vector<std::string> FindShortArrays(vtkDataSetAttributes* data, vtkIdType t
   return names;
 }
 
+/// A shallow copy without the arrays that have fewer than `tuples` tuples.
+template <typename Data>
+vtkSmartPointer<Data> TakeArrays(Data* data, vtkIdType tuples)
+{
+  auto whole = vtkSmartPointer<Data>::New();
+  whole->ShallowCopy(data);
+  for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < tuples)
+    {
+      whole->RemoveArray(i);
+    }
+  }
+  return whole;
+}
+
 /// The names in quotes, as many as fit into a warning.
 std::string List(const std::vector<std::string>& names)
 {
@@ -58,16 +74,12 @@ void AddShortArrays(const std::string& kind, const char* fate,
 
 vtkSmartPointer<vtkCellData> TakeWholeArrays(vtkPolyData* mesh)
 {
-  auto data = vtkSmartPointer<vtkCellData>::New();
-  data->ShallowCopy(mesh->GetCellData());
-  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    if (data->GetAbstractArray(i)->GetNumberOfTuples() < mesh->GetNumberOfCells())
-    {
-      data->RemoveArray(i);
-    }
-  }
-  return data;
+  return TakeArrays(mesh->GetCellData(), mesh->GetNumberOfCells());
+}
+
+vtkSmartPointer<vtkPointData> TakeWholePointArrays(vtkPolyData* mesh)
+{
+  return TakeArrays(mesh->GetPointData(), mesh->GetNumberOfPoints());
 }
 
 void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects)
@@ -82,6 +94,20 @@ void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& 
   if (ghosts && !vtkArrayDownCast<vtkUnsignedCharArray>(ghosts))
   {
     defects.push_back({ "ghost array that is not of type unsigned char ignored", 1, {} });
+  }
+}
+
+void AddShortArrays(vtkPolyData* mesh, const std::string& where, std::vector<Note>& notes)
+{
+  constexpr const char* Dropped = "left out";
+  std::vector<Defect> defects;
+  AddShortArrays(
+    "point", Dropped, FindShortArrays(mesh->GetPointData(), mesh->GetNumberOfPoints()), defects);
+  AddShortArrays(
+    "cell", Dropped, FindShortArrays(mesh->GetCellData(), mesh->GetNumberOfCells()), defects);
+  if (!defects.empty())
+  {
+    notes.push_back({ where, DescribeDefects(defects) });
   }
 }
 

@@ -207,6 +207,32 @@ bool IsOnAnyRank(bool flag, PieceGroup& group)
   return isOnAny;
 }
 
+std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
+{
+  if (group.GetSize() == 1)
+  {
+    return own;
+  }
+  std::vector<std::string> texts;
+  for (const Note& note : own)
+  {
+    texts.insert(texts.end(), { note.Where, note.Text });
+  }
+  std::vector<Note> notes;
+  int rank = 0;
+  for (const Message& message : group.Gather(PackTexts(texts)))
+  {
+    std::vector<std::string> told;
+    UnpackTexts(message, told);
+    const std::string place = "rank " + std::to_string(rank++);
+    for (std::size_t i = 0; i + 1 < told.size(); i += 2)
+    {
+      notes.push_back({ told[i].empty() ? place : place + ", " + told[i], told[i + 1] });
+    }
+  }
+  return notes;
+}
+
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 {
   auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(

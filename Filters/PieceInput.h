@@ -3,6 +3,7 @@
 #ifndef PieceInput_h
 #define PieceInput_h
 
+#include "Notes.h"
 #include "PieceGroup.h"
 
 #include "vtkSmartPointer.h"
@@ -18,6 +19,9 @@ namespace delaunayflip
 
 /// Whether any rank says so. All ranks must call this together, as most functions here.
 bool IsOnAnyRank(bool flag, PieceGroup& group);
+
+/// The notes of all ranks, in their order, with the rank's number if there are several ranks.
+std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group);
 
 /// The mesh without cells that are copies of those of other ranks (vtkGhostType); the mesh itself
 /// if it has none.

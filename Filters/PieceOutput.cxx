@@ -3,6 +3,7 @@
 #include "PieceOutput.h"
 
 #include "CellAttributes.h"
+#include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "TriangleSlots.h"
 #include "TupleTransfer.h"
@@ -151,9 +152,10 @@ void PieceOutput::Store(
 /// The points of the mesh, then those received, with their data.
 void PieceOutput::StorePoints(PieceGroup& group, vtkPolyData* output) const
 {
+  const vtkSmartPointer<vtkPointData> data = TakeWholePointArrays(this->Mesh);
   vtkNew<vtkPointData> received;
   BringTuples(
-    this->Flipped.ReceivedPoints, this->Mesh->GetPointData(),
+    this->Flipped.ReceivedPoints, data,
     [](std::int64_t point) { return static_cast<vtkIdType>(point); }, group, received);
   const auto count = static_cast<vtkIdType>(this->Flipped.ReceivedPoints.size());
   const vtkIdType given = this->Mesh->GetNumberOfPoints();
@@ -163,13 +165,12 @@ void PieceOutput::StorePoints(PieceGroup& group, vtkPolyData* output) const
       if (count == 0)
       {
         output->SetPoints(this->Mesh->GetPoints());
-        output->GetPointData()->ShallowCopy(this->Mesh->GetPointData());
+        output->GetPointData()->ShallowCopy(data);
         return;
       }
       output->SetPoints(this->MakePoints());
       const auto own = MakeRange(0, given);
-      JoinedData{ this->Mesh->GetPointData(), own, own, received, given }.Store(
-        output->GetPointData());
+      JoinedData{ data, own, own, received, given }.Store(output->GetPointData());
     });
 }
 

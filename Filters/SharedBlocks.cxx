@@ -100,7 +100,7 @@ std::vector<SharedBlock> ListOwnBlocks(vtkCompositeDataSet* blocks)
       list.back().Name = leaf.Name;
     }
     SharedBlock& block = list[found->second];
-    block.Leaves.push_back({ leaf.Data, leaf.Number, leaf.HasCells, leaf.MayBeMesh });
+    block.Leaves.push_back({ leaf.Data, leaf.Number, leaf.HasCells, leaf.MayBeMesh, leaf.Name });
     block.Cells += static_cast<double>(leaf.Data->GetNumberOfElements(vtkDataObject::CELL));
   }
   return list;

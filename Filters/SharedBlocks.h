@@ -29,6 +29,7 @@ struct BlockLeaf
   unsigned int Number; ///< VTK's flat index.
   bool HasCells = false;
   bool MayBeMesh = false; ///< Whether the dataset can hold a mesh in its place.
+  std::string Name = {}; ///< Its name in messages: "block 3 (wing)".
 };
 
 /// A block that is one mesh, or none: a leaf, or the partitions of a dataset. Other ranks may have

@@ -9,6 +9,7 @@
 #include "CompositeBlocks.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
+#include "MalformedArrays.h"
 #include "PieceInput.h"
 #include "PieceUpdate.h"
 #include "SharedBlocks.h"
@@ -55,6 +56,13 @@ public:
 private:
   PieceGroup& Told;
 };
+
+/// Adds the warnings of all ranks.
+void AddWarnings(const std::vector<Note>& own, PieceGroup& group, UpdateSummary& summary)
+{
+  const std::vector<Note> all = ShareNotes(own, group);
+  summary.Warnings.insert(summary.Warnings.end(), all.begin(), all.end());
+}
 
 }
 
@@ -112,6 +120,7 @@ UpdateSummary vtkDelaunayFlip::FlipPieces(
     return this->FlipBlocks(blocks, constraints, output, group);
   }
   UpdateSummary summary;
+  std::vector<Note> notes;
   const auto getPiece = [&]()
   {
     if (constraints && !vtkPolyData::SafeDownCast(constraints))
@@ -123,11 +132,13 @@ UpdateSummary vtkDelaunayFlip::FlipPieces(
     {
       throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
     }
+    AddShortArrays(mesh, "", notes);
     return mesh;
   };
   this->FlipShared(
     { getPiece, vtkPolyData::SafeDownCast(constraints), vtkPolyData::SafeDownCast(output), "" },
     group, summary);
+  AddWarnings(notes, group, summary);
   return summary;
 }
 
@@ -206,11 +217,16 @@ void vtkDelaunayFlip::FlipBlock(const SharedBlock& block, const BlockConstraints
 {
   BlockMesh mesh(block);
   vtkSmartPointer<vtkPolyData> edges;
+  std::vector<Note> notes;
   const auto read = [&]()
   {
     mesh.Read([this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray,
       group.GetRank());
     edges = mesh.FindConstraints(constraints);
+    if (mesh.HasPartitions() || group.GetSize() > 1) // a single mesh is told of when it is flipped
+    {
+      notes = mesh.ListShortArrays();
+    }
   };
   MeshOutcome outcome;
   outcome.Failure = Attempt([&]() { DoTogether(group, std::ref(read)); }); // a copy needs memory
@@ -220,6 +236,7 @@ void vtkDelaunayFlip::FlipBlock(const SharedBlock& block, const BlockConstraints
     summary.AddMesh(outcome, 0, block.Name);
     return;
   }
+  AddWarnings(notes, group, summary);
   if (IsOnAnyRank(mesh.HasOtherCells(), group))
   {
     summary.Warnings.push_back({ block.Name, NotASurface });

@@ -3,6 +3,7 @@
 """The mesh of a block: its leaf or, if a dataset is in several partitions, all of them as one."""
 from . import _vtk_blocks
 from ._vtk_partitions import AMBIGUOUS, JoinedPartitions, join_constraints
+from ._vtk_regions import describe_short_arrays
 
 
 class BlockMesh:
@@ -22,6 +23,13 @@ class BlockMesh:
         self.mesh = self._joined.mesh if self._joined else parts[0] if parts else None
 
     def list_warnings(self):
+        """(place, text) of each."""
+        notes = [(leaf.name, describe_short_arrays(self._meshes[leaf.number]))
+                 for leaf in self._block.leaves if self._joined and leaf.number in self._meshes]
+        return [note for note in notes if note[1]] + [
+            (self._block.name, text) for text in self._list_texts()]
+
+    def _list_texts(self):
         others = (leaf for leaf in self._block.leaves if leaf.number not in self._meshes)
         texts = ["not a surface, passed unchanged"] if any(leaf.cells for leaf in others) else []
         return texts + [AMBIGUOUS] * bool(self._joined and self._joined.has_ambiguous_points)

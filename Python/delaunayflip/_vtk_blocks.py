@@ -16,6 +16,7 @@ class Leaf:
     data: typing.Any
     number: int
     may_be_mesh: bool
+    name: str  #: "block 3 (wing)"
 
     @property
     def cells(self):
@@ -80,8 +81,9 @@ def list_blocks(source):
     for leaf in _leaves(source):
         number = leaf.GetCurrentFlatIndex()
         place = places[number] if number < len(places) else ()
-        block = blocks.setdefault(place or (number,), Block(place or (number,), _get_name(leaf), []))
-        block.leaves.append(Leaf(leaf.GetCurrentDataObject(), number, _is_tree(source)))
+        name = _get_name(leaf)
+        block = blocks.setdefault(place or (number,), Block(place or (number,), name, []))
+        block.leaves.append(Leaf(leaf.GetCurrentDataObject(), number, _is_tree(source), name))
     ordered = sorted(blocks.values(), key=lambda block: block.place)
     total, before = max(sum(block.cells for block in ordered), 1), 0
     for block in ordered:

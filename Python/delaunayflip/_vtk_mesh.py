@@ -4,7 +4,7 @@
 import dataclasses
 
 import numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellData
+from vtkmodules.vtkCommonDataModel import vtkCellArray
 
 from . import _arrays, _library, _vtk_arrays, _vtk_regions
 from ._flip import smallest_angles
@@ -180,12 +180,21 @@ def _find_normals(points, triangles):
 
 def take_whole_arrays(mesh):
     """The cell data without arrays that are too short."""
-    data = vtkCellData()
-    data.ShallowCopy(mesh.GetCellData())
-    for i in reversed(range(data.GetNumberOfArrays())):
-        if data.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
-            data.RemoveArray(i)
-    return data
+    return _take_arrays(mesh.GetCellData(), mesh.GetNumberOfCells())
+
+
+def take_whole_point_arrays(mesh):
+    """The point data without arrays that are too short."""
+    return _take_arrays(mesh.GetPointData(), mesh.GetNumberOfPoints())
+
+
+def _take_arrays(data, tuples):
+    whole = data.NewInstance()
+    whole.ShallowCopy(data)
+    for i in reversed(range(whole.GetNumberOfArrays())):
+        if whole.GetAbstractArray(i).GetNumberOfTuples() < tuples:
+            whole.RemoveArray(i)
+    return whole
 
 
 def demote_global_ids(data):

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
 from ._errors import InvalidOptions
 from ._vtk_arrays import Cells, make, make_ids, new_cells, view, view_points
 from ._vtk_constraints import list_other_pairs
-from ._vtk_mesh import demote_global_ids, gather, take_whole_arrays
+from ._vtk_mesh import demote_global_ids, gather, take_whole_arrays, take_whole_point_arrays
 from ._vtk_points import PartitionPoints
 
 _MARK = "vtkDelaunayFlipPartition"
@@ -112,7 +112,7 @@ class JoinedPartitions:
         own = self._parts[k]
         if len(added) == 0:
             made.SetPoints(own.GetPoints())
-            made.GetPointData().ShallowCopy(own.GetPointData())
+            made.GetPointData().ShallowCopy(take_whole_point_arrays(own))
             return
         given = view_points(own)
         points = vtkPoints()

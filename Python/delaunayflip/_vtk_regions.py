@@ -73,6 +73,14 @@ def describe_malformed_arrays(mesh, cells_stay):
     return texts
 
 
+def describe_short_arrays(mesh):
+    """The text of a warning about arrays that a partition's output lacks, or ""."""
+    fate = "left out"
+    texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", fate)
+    texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell", fate)
+    return "; ".join(texts)
+
+
 def _describe_short(data, tuples, kind, fate):
     arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
     names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]

@@ -115,7 +115,7 @@ class Update:
             self.fail(explain(error), block.name)
             results.update((leaf.number, vtkPolyData()) for leaf in block.leaves)
             return
-        self._warnings += [(block.name, text) for text in mesh.list_warnings()]
+        self._warnings += mesh.list_warnings()
         if mesh.mesh is None or self._sum.stop_reason == "aborted":
             mesh.store(None, results)
             return

@@ -382,6 +382,35 @@ TEST(Partitions, BrokenOnesAreNamed)
   EXPECT_TRUE(Holds(filter.GetErrors()[0], "4444"));
 }
 
+/// @param isOfCells whether the short array is of the cells, or of the points.
+/// @param iterations with 0, no partition gains a point.
+void ExpectLeftOut(bool isOfCells, int iterations)
+{
+  Parts given = CutInOrder(MakeBadMesh(60), 3);
+  given.insert(given.begin(), nullptr);
+  vtkDataSetAttributes* cells = given[2]->GetCellData();
+  AddNumbers(isOfCells ? cells : given[2]->GetPointData(), "Short", 2, 0);
+  PartitionFilter filter(given);
+  filter->SetMaximumIterations(iterations);
+  const Parts parts = filter.Update();
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  const std::string kind = isOfCells ? "cell" : "point";
+  EXPECT_TRUE(Holds(filter.GetWarnings()[0],
+    "block 3: 1 " + kind + " array with too few tuples left out: \"Short\""))
+    << filter.GetWarnings()[0];
+  EXPECT_EQ(parts[2]->GetCellData()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(parts[2]->GetPointData()->GetNumberOfArrays(), 1);
+}
+
+TEST(Partitions, ShortArraysAreLeftOutWithAWarning)
+{
+  for (const int iterations : { 0, -1 })
+  {
+    ExpectLeftOut(true, iterations);
+    ExpectLeftOut(false, iterations);
+  }
+}
+
 TEST(Partitions, ConstraintsMayBeOfEach)
 {
   const Parts given = { MakeMesh({ { -4, 0, 0 }, { 0, -1, 0 }, { 4, 0, 0 } }, { { 0, 1, 2 } }),

@@ -354,6 +354,19 @@ class Same(unittest.TestCase):
             told = self.expect_same(join(parts), mistake)
             self.assertIn(error, told["errors"][0])
 
+    def test_partitions_with_short_arrays(self):
+        parts = cut_triangles(make_bad_mesh(), 3)
+        for data in (parts[0].GetCellData(), parts[2].GetCellData(), parts[2].GetPointData()):
+            add_numbers(data, "Short", 1)
+        parts[1].GetCellData().AddArray(vtkIntArray())
+        data = join([parts[0], None, *parts[1:]])
+        self.expect_same(data, lambda flip: flip.SetMaximumIterations(0))
+        told = self.expect_same(data)
+        cells, points = ('1 %s array with too few tuples left out: "Short"' % kind
+                         for kind in ("cell", "point"))
+        self.assertEqual(told["warnings"], [
+            f"block 1: {cells}; block 3: {cells.replace('Short', '')}; block 4: {points}; {cells}"])
+
     def test_partitions_with_global_ids(self):
         mesh = make_bad_mesh()
         ids = numpy_to_vtk(numpy.arange(mesh.GetNumberOfPoints()) + (1 << 60), deep=True)
