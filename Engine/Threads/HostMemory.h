@@ -17,6 +17,9 @@ class HostMemory : public Memory
 {
 public:
   void* Allocate(std::size_t bytes) override;
+  /// Memory of which little will be used, and only that is taken from the system. Its bytes are
+  /// not initialized.
+  void* AllocateSparse(std::size_t bytes);
   void Free(void* memory, std::size_t bytes) noexcept override;
 };
 

@@ -49,11 +49,15 @@ struct RawAllocator : HostAllocator<T>
   {
   }
 
+  T* allocate(std::size_t count)
+  {
+    return static_cast<T*>(HostMemory().AllocateSparse(count * sizeof(T)));
+  }
   void construct(T* value) noexcept { ::new (static_cast<void*>(value)) T; }
 };
 
-/// The same, but resize leaves what it adds as it is, so that this takes neither time nor, in pages
-/// that are never written, memory.
+/// The same, but resize leaves what it adds as it is, so that this takes no time, and no memory
+/// where nothing is ever written. It takes small pages.
 template <typename T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
