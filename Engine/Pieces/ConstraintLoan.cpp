@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintLoan.h"
 
+#include "ConstraintGroups.h"
 #include "SegmentTree.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -15,37 +16,6 @@ namespace delaunayflip
 namespace
 {
 constexpr std::int32_t None = -1;
-
-/// Groups of constraints, each known by its first one.
-class ConstraintGroups
-{
-public:
-  explicit ConstraintGroups(std::size_t size)
-    : Parents(size)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), 0);
-  }
-
-  std::int32_t GetFirst(std::int32_t constraint)
-  {
-    while (this->Parents[constraint] != constraint)
-    {
-      std::int32_t& parent = this->Parents[constraint];
-      parent = this->Parents[parent]; // halves the chain
-      constraint = parent;
-    }
-    return constraint;
-  }
-
-  void Join(std::int32_t a, std::int32_t b)
-  {
-    const auto [first, second] = std::minmax({ this->GetFirst(a), this->GetFirst(b) });
-    this->Parents[second] = first;
-  }
-
-private:
-  std::vector<std::int32_t> Parents;
-};
 
 /// What a rank knows about a constraint.
 struct RankShare
@@ -251,6 +221,7 @@ private:
       }
     }
     task.Labels = this->ListLabels(task.Triangles);
+    task.LentPoints = this->ListPrivatePoints(task.Lent);
     RecordLists<TravellingTriangle> triangles;
     RecordLists<TriangleLabel> labels;
     for (const std::vector<std::int64_t>& list : task.Lent)
@@ -276,6 +247,21 @@ private:
       task.Labels.insert(task.Labels.end(), labels[rank].begin(), labels[rank].end());
       task.Borrowed.push_back(std::move(borrowed));
     }
+  }
+
+  std::vector<std::int32_t> ListPrivatePoints(const RecordLists<std::int64_t>& lists) const
+  {
+    std::vector<std::int32_t> points;
+    for (const std::vector<std::int64_t>& list : lists)
+    {
+      for (const std::int64_t t : list)
+      {
+        std::copy_if(std::begin(this->Mesh.Triangles[t].Points),
+          std::end(this->Mesh.Triangles[t].Points), std::back_inserter(points),
+          [this](std::int32_t point) { return !this->Mesh.IsShared(point); });
+      }
+    }
+    return points;
   }
 
   std::vector<TriangleLabel> ListLabels(const std::vector<std::int64_t>& triangles) const
@@ -306,11 +292,16 @@ InsertionTask LendToConstraints(const std::vector<FarConstraint>& constraints,
   return ConstraintLender(constraints, survey, caller, mesh, group).Run();
 }
 
-void ReturnTriangles(const InsertionTask& task, PieceMesh& mesh, PieceGroup& group)
+void ReturnTriangles(const InsertionTask& task, const std::vector<std::int64_t>& spread,
+  PieceMesh& mesh, PieceGroup& group)
 {
   RecordLists<TravellingTriangle> leaving;
+  RecordLists<std::int64_t> toLender(group.GetSize());
   for (const std::vector<std::int64_t>& list : task.Borrowed)
   {
+    const std::size_t rank = leaving.size();
+    const bool isOwn = static_cast<int>(rank) == group.GetRank();
+    toLender[rank] = isOwn || !list.empty() ? spread : std::vector<std::int64_t>();
     leaving.push_back(mesh.Release(list));
   }
   const RecordLists<TravellingTriangle> back = ExchangeRecords(group, leaving);
@@ -320,6 +311,11 @@ void ReturnTriangles(const InsertionTask& task, PieceMesh& mesh, PieceGroup& gro
     {
       mesh.PutBack(task.Lent[rank][i], back[rank][i]);
     }
+  }
+  mesh.Unshare(task.LentPoints);
+  for (const std::vector<std::int64_t>& list : ExchangeRecords(group, toLender))
+  {
+    std::for_each(list.begin(), list.end(), [&](std::int64_t key) { mesh.Share(key); });
   }
 }
 

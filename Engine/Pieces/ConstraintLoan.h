@@ -30,6 +30,7 @@ struct InsertionTask
   std::vector<TriangleLabel> Labels; ///< One per triangle.
   RecordLists<std::int64_t> Borrowed; ///< Those of them that another rank has lent, by rank.
   RecordLists<std::int64_t> Lent; ///< The triangles of this rank that others have, by rank.
+  std::vector<std::int32_t> LentPoints; ///< Their points that were not shared.
 };
 
 /// Lends the triangles that touch a constraint to one rank, in planar geometry. Constraints that
@@ -43,7 +44,10 @@ InsertionTask LendToConstraints(const std::vector<FarConstraint>& constraints,
 
 /// Gives every triangle back to the rank that has lent it, as it is now, so that the mesh is
 /// divided about as before.
-void ReturnTriangles(const InsertionTask& task, PieceMesh& mesh, PieceGroup& group);
+/// @param spread keys of points of the task that are shared from now on. The others that only the
+/// loan has made so are not shared any more.
+void ReturnTriangles(const InsertionTask& task, const std::vector<std::int64_t>& spread,
+  PieceMesh& mesh, PieceGroup& group);
 
 }
 

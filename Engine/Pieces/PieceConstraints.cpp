@@ -7,6 +7,7 @@
 #include "MissingConstraints.h"
 #include "PieceRegion.h"
 #include "Records.h"
+#include "SpreadPoints.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -277,8 +278,9 @@ void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
   this->Mesh.BeginRounds(false);
   const InsertionTask task = LendToConstraints(
     constraints, this->Job.Survey, this->Job.Piece.Mesh, this->Mesh, this->Job.Group);
-  DoTogether(this->Job.Group, [&]() { this->InsertFar(task); });
-  ReturnTriangles(task, this->Mesh, this->Job.Group);
+  std::vector<std::int64_t> spread;
+  DoTogether(this->Job.Group, [&]() { spread = this->InsertFar(task); });
+  ReturnTriangles(task, spread, this->Mesh, this->Job.Group);
   this->Mesh.EndRounds();
   if (this->Mesh.GetNumberOfPoints() > this->Mesh.GetFirstReceived())
   {
@@ -286,7 +288,8 @@ void PieceConstraints::InsertFar(const std::vector<FarConstraint>& constraints)
   }
 }
 
-void PieceConstraints::InsertFar(const InsertionTask& task)
+/// @returns keys of points that become shared.
+std::vector<std::int64_t> PieceConstraints::InsertFar(const InsertionTask& task)
 {
   const PieceRegion region(this->Mesh, task.Triangles, this->Job.Survey);
   std::vector<std::int32_t> regions;
@@ -306,11 +309,23 @@ void PieceConstraints::InsertFar(const InsertionTask& task)
   // Some may have become edges when others along them were inserted.
   part.InsertedConstraints = this->IsAborted ? 0 : list.CountToInsert() - part.UnmatchedConstraints;
   AddCounts(part, this->Found);
-  list.ForEachMade(insertion.GetMesh(mesh),
+  SpreadPoints spread(task, this->Job.Group.GetRank(), mesh.Points.Count);
+  spread.AddTriangles(mesh.Triangles);
+  const TriangleMesh after = insertion.GetMesh(mesh);
+  spread.AddTriangles(after.Triangles);
+  list.ForEachMade(after,
     [&](std::int64_t from, std::int64_t to)
-    { this->AddEdge(region.GetPoint(from), region.GetPoint(to)); });
+    {
+      this->AddEdge(region.GetPoint(from), region.GetPoint(to));
+      spread.AddEnd(from);
+      spread.AddEnd(to);
+    });
   const MadeTriangles made(insertion, mesh);
   region.Store(made.Ids, made.Flips, this->Mesh);
+  std::vector<std::int64_t> keys = spread.List();
+  std::transform(keys.begin(), keys.end(), keys.begin(),
+    [&](std::int64_t point) { return this->Mesh.GetKey(region.GetPoint(point)); });
+  return keys;
 }
 
 /// The constraints in the numbers of a region. Refuses those with an end at no triangle.

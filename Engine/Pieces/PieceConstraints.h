@@ -59,7 +59,7 @@ private:
   void Keep(const OwnWork& own);
   void AddEdge(std::int64_t from, std::int64_t to);
   void InsertFar(const std::vector<FarConstraint>& constraints);
-  void InsertFar(const InsertionTask& task);
+  std::vector<std::int64_t> InsertFar(const InsertionTask& task);
   ConstraintList ListFar(const std::vector<FarConstraint>& constraints, const PieceRegion& region);
 
   PieceJob Job;

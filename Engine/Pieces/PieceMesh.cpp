@@ -466,7 +466,7 @@ std::vector<TravellingTriangle> PieceMesh::Release(const std::vector<std::int64_
     {
       const std::int32_t point = this->Triangles[t].Points[slot];
       this->Stars.Remove({ t, slot }, point);
-      this->Share(point);
+      this->SharePoint(point);
     }
     this->Triangles[t].HasLeft = true;
   }
@@ -496,7 +496,7 @@ void PieceMesh::PutBack(std::int64_t t, const TravellingTriangle& packed)
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);
-    this->Share(triangle.Points[slot]);
+    this->SharePoint(triangle.Points[slot]);
     this->Stars.Add({ t, slot }, triangle.Points[slot]);
   }
   triangle.Origin = packed.Origin;
@@ -507,7 +507,27 @@ void PieceMesh::PutBack(std::int64_t t, const TravellingTriangle& packed)
   this->NoteChange(t);
 }
 
-void PieceMesh::Share(std::int32_t point)
+void PieceMesh::Share(std::int64_t key)
+{
+  const std::int64_t point = this->FindPoint(key);
+  if (point >= 0)
+  {
+    this->SharePoint(static_cast<std::int32_t>(point));
+  }
+}
+
+void PieceMesh::Unshare(const std::vector<std::int32_t>& points)
+{
+  for (const std::int32_t point : points)
+  {
+    this->Shared[point] = 0;
+  }
+  this->SharedPoints.erase(std::remove_if(this->SharedPoints.begin(), this->SharedPoints.end(),
+                             [this](std::int32_t point) { return !this->IsShared(point); }),
+    this->SharedPoints.end());
+}
+
+void PieceMesh::SharePoint(std::int32_t point)
 {
   if (!this->Shared[point])
   {

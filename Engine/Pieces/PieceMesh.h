@@ -117,6 +117,11 @@ public:
   /// Those points, without an order.
   const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
 
+  /// No other rank has triangles at these points any more; some may be repeated.
+  void Unshare(const std::vector<std::int32_t>& points);
+  /// Other ranks may have triangles at a point, if it is known here.
+  void Share(std::int64_t key);
+
   std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
   std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
   /// The id of a key here, or -1.
@@ -167,7 +172,7 @@ private:
   }
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   TravellingTriangle Pack(const PieceTriangle& triangle) const;
-  void Share(std::int32_t point);
+  void SharePoint(std::int32_t point);
   void NoteChange(std::int64_t triangle);
   void NoteSeams(std::int64_t triangle);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintOracle.h"
 #include "GivenConstraints.h"
+#include "PieceConstraints.h"
 
 #include <gtest/gtest.h>
 
@@ -128,6 +129,44 @@ std::map<std::int32_t, double> SumRegions(const TriangleMesh& mesh)
   return sums;
 }
 
+/// A point with triangles of a rank, after the insertions.
+struct RankPoint
+{
+  std::int64_t Key;
+  bool IsShared;
+};
+
+/// @returns those of every rank, each once.
+std::vector<std::vector<RankPoint>> FindPoints(const std::vector<OwnedPiece>& pieces)
+{
+  std::vector<std::vector<RankPoint>> points(pieces.size());
+  RunInThreads(static_cast<int>(pieces.size()),
+    [&](PieceGroup& group)
+    {
+      const int rank = group.GetRank();
+      const MeshPiece piece = pieces[rank].View(true);
+      const FlipOptions options = MakeCanonical();
+      const ProgressObserver none;
+      const PointKeys keys = MatchPoints(piece, group);
+      const PieceSurvey survey = SurveyPieces(piece, keys, options, group);
+      PieceMesh mesh(piece, keys, rank, 0);
+      const PieceConstraints constraints({ piece, options, survey, group, none }, mesh);
+      std::map<std::int64_t, bool> known;
+      for (const PieceTriangle& triangle : mesh.Triangles)
+      {
+        for (const std::int32_t point : triangle.Points)
+        {
+          known[mesh.GetKey(point)] = mesh.IsShared(point);
+        }
+      }
+      for (const auto& [key, isShared] : known)
+      {
+        points[rank].push_back({ key, isShared });
+      }
+    });
+  return points;
+}
+
 class PieceReturnTest : public RanksTest
 {
 protected:
@@ -148,6 +187,28 @@ TEST_P(PieceReturnTest, LongConstraintsHardlyAddSeamEdges)
     FlipDivided(mesh, this->CutIt(mesh), MakeCanonical()).Reports.front();
   EXPECT_LT(6 * with.SeamEdges, 7 * without.SeamEdges);
   EXPECT_LT(6 * with.MovedTriangles, 7 * without.MovedTriangles);
+}
+
+TEST_P(PieceReturnTest, PointsAreSharedWhereTrianglesOfSeveralRanksMeet)
+{
+  const ConstrainedMesh drawn = DrawLines(12000, 9);
+  std::map<std::int64_t, int> ranks; // with triangles at a point
+  std::map<std::int64_t, int> shares; // of these, those that take it for a shared one
+  for (const std::vector<RankPoint>& list : FindPoints(this->CutIt(drawn.View())))
+  {
+    for (const RankPoint& point : list)
+    {
+      ++ranks[point.Key];
+      shares[point.Key] += point.IsShared ? 1 : 0;
+    }
+  }
+  std::int64_t needless = 0;
+  for (const auto& [key, count] : ranks)
+  {
+    EXPECT_TRUE(count == 1 || shares[key] == count) << key;
+    needless += count == 1 ? shares[key] : 0;
+  }
+  EXPECT_LT(needless, 1000); // of 12,000; thousands are lent
 }
 
 TEST_P(PieceReturnTest, EveryRankHasItsTriangles)
