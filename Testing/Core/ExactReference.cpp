@@ -114,9 +114,9 @@ std::int64_t CountRationalViolations(const TriangleMesh& mesh)
   return violated;
 }
 
-TurnCounts CountTurns(const TriangleMesh& mesh)
+TriangleTurns CountTurns(const TriangleMesh& mesh)
 {
-  TurnCounts counts;
+  TriangleTurns counts;
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
     const int turn = RationalTurn(GetPoint(mesh, mesh.Triangles.Get(t, 0)),

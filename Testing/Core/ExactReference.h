@@ -28,11 +28,11 @@ int RationalInCircle(
 std::int64_t CountRationalViolations(const TriangleMesh& mesh);
 
 /// Triangles by the sign of their turn in x and y.
-struct TurnCounts
+struct TriangleTurns
 {
   std::int64_t Left = 0, Right = 0, Straight = 0;
 };
-TurnCounts CountTurns(const TriangleMesh& mesh);
+TriangleTurns CountTurns(const TriangleMesh& mesh);
 
 }
 

@@ -41,7 +41,7 @@ bool FaceOneWay(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& 
     project[0] = axis == 0 ? AffineRow{ 0, 1, 0, 0 } : X;
     project[1] = axis == 2 ? AffineRow{ 0, 1, 0, 0 } : AffineRow{ 0, 0, 1, 0 };
     const OwnedMesh<double> flat = Transform(mesh, project);
-    const TurnCounts turns = CountTurns(WithTriangles(flat.View(), triangles));
+    const TriangleTurns turns = CountTurns(WithTriangles(flat.View(), triangles));
     if (turns.Straight != mesh.NumberOfTriangles())
     {
       return turns.Left == mesh.NumberOfTriangles() || turns.Right == mesh.NumberOfTriangles();

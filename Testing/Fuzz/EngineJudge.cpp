@@ -179,7 +179,7 @@ void ExpectDelaunay(const EngineCase& drawn, const TriangleMesh& after, const Fl
   {
     return;
   }
-  const TurnCounts turns = CountTurns(after);
+  const TriangleTurns turns = CountTurns(after);
   EXPECT_EQ(0, turns.Right + turns.Straight);
   if (!IsExact(drawn.Options, result.Report) || !result.Report.Converged())
   {
