@@ -74,6 +74,19 @@ struct MeasureStep
 };
 }
 
+namespace
+{
+/// Whether an angle of the first flips is less than one measured here. Those flips measure in the
+/// coordinates of their plane, so the same angle differs by rounding, most in the flattest
+/// triangles.
+bool IsClearlyLess(double first, double here)
+{
+  constexpr double Flattest = 1e-6; // degrees
+  constexpr double MostRounding = 2.0;
+  return first > Flattest && here > MostRounding * first;
+}
+}
+
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads)
 {
   const LargestValue largest = ThreadBackend(threads).Sum<LargestValue>(
@@ -90,7 +103,7 @@ double FindSmallestAngle(
     before = t < mesh.CountFirst() ? std::max(before, MeasureFirst(mesh, survey, t)) : before;
     now = std::max(now, Measure(mesh, survey, t));
   }
-  const bool isElsewhere = before == -INFINITY || ToDegrees(before) > first;
+  const bool isElsewhere = before == -INFINITY || IsClearlyLess(first, ToDegrees(before));
   return isElsewhere ? std::fmin(first, ToDegrees(now)) : FindSmallestAngle(mesh, survey, threads);
 }
 
