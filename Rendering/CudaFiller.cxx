@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -62,7 +63,7 @@ std::vector<int> ListDrawingDevices()
   return std::vector<int>(devices.begin(), devices.begin() + count);
 }
 
-/// Registered buffers, and their memory while it is mapped, when OpenGL must not use it.
+/// Registered buffers, and their memory while they are mapped.
 class SharedBuffers
 {
 public:
@@ -86,23 +87,32 @@ public:
 
   DeviceStream GetStream() const { return { this->Stream }; }
 
-  /// Calls work(triangles, colors) with pointers to device memory.
-  template <typename Work>
-  void Map(std::int64_t count, const Work& work)
+  void Map()
   {
-    cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
-    Require(cudaGraphicsMapResources(2, both, this->Stream), "map the buffers of OpenGL");
-    try
+    if (!this->AreMapped)
     {
-      work(static_cast<std::int32_t*>(Get(this->Triangles, 12 * count)),
-        static_cast<std::uint32_t*>(Get(this->Colors, 4 * count)));
+      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
+      Require(cudaGraphicsMapResources(2, both, this->Stream), "map the buffers of OpenGL");
+      this->AreMapped = true;
     }
-    catch (...)
+  }
+  void Unmap()
+  {
+    if (std::exchange(this->AreMapped, false))
     {
-      cudaGraphicsUnmapResources(2, both, this->Stream);
-      throw;
+      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
+      Require(cudaGraphicsUnmapResources(2, both, this->Stream), "return the buffers to OpenGL");
     }
-    Require(cudaGraphicsUnmapResources(2, both, this->Stream), "return the buffers to OpenGL");
+  }
+
+  /// Only while they are mapped.
+  std::int32_t* GetTriangles(std::int64_t count) const
+  {
+    return static_cast<std::int32_t*>(Get(this->Triangles, 12 * count));
+  }
+  std::uint32_t* GetColors(std::int64_t count) const
+  {
+    return static_cast<std::uint32_t*>(Get(this->Colors, 4 * count));
   }
 
 private:
@@ -129,6 +139,11 @@ private:
   /// Of a context that is gone nothing can be released; that is no error here.
   void Close() noexcept
   {
+    if (this->AreMapped)
+    {
+      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
+      cudaGraphicsUnmapResources(2, both, this->Stream);
+    }
     for (cudaGraphicsResource_t resource : { this->Triangles, this->Colors })
     {
       if (resource)
@@ -143,6 +158,7 @@ private:
   cudaStream_t Stream = nullptr;
   cudaGraphicsResource_t Triangles = nullptr;
   cudaGraphicsResource_t Colors = nullptr;
+  bool AreMapped = false;
 };
 
 /// A copy of points in the memory of the current device.
@@ -231,6 +247,24 @@ public:
 
   void Release() noexcept override { this->Buffers.reset(); }
 
+  void Map() override
+  {
+    if (this->Buffers)
+    {
+      const CurrentGpu current(this->Device);
+      this->Buffers->Map();
+    }
+  }
+
+  void Unmap() override
+  {
+    if (this->Buffers)
+    {
+      const CurrentGpu current(this->Device);
+      this->Buffers->Unmap();
+    }
+  }
+
   void Fill(const FilledMesh& mesh) override
   {
     if (!this->Buffers || !IsOnGpu(mesh.Session.GetReport().Backend))
@@ -239,13 +273,12 @@ public:
     }
     const CurrentGpu current(this->Device);
     this->CopyPoints(mesh);
-    this->Buffers->Map(this->Count,
-      [&](std::int32_t* triangles, std::uint32_t* colors)
-      {
-        const DrawnArrays arrays{ this->Points->View(),
-          MutableTriangleArray(triangles, this->Count), colors, this->Buffers->GetStream() };
-        this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
-      });
+    this->Buffers->Map();
+    const DrawnArrays arrays{ this->Points->View(),
+      MutableTriangleArray(this->Buffers->GetTriangles(this->Count), this->Count),
+      this->Buffers->GetColors(this->Count), this->Buffers->GetStream() };
+    this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
+    this->Buffers->Unmap();
   }
 
   double GetSmallestAngle() noexcept override

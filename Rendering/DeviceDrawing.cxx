@@ -88,6 +88,7 @@ struct DeviceDrawing::Parts
   vtkPolyData* GetOutput() const;
   std::string FindObstacle();
   bool Fits(vtkPolyData* mesh) const;
+  void MakeCurrent() const;
   void FillBuffers();
   bool IsQuiet() const;
 };
@@ -107,6 +108,7 @@ DeviceDrawing::Parts::Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelauna
   this->Mapper->SelectColorArray(LiveMeshSource::ColorName);
   this->Mapper->SetCallbacks(
     { [this](const DrawnBuffers& buffers) { this->Filler->Register(buffers); },
+      [this]() { this->Filler->Map(); }, [this]() { this->Filler->Unmap(); },
       [this]() { this->FillBuffers(); }, [this]() { this->Filler->Release(); },
       [this]() { return this->IsQuiet(); } });
 }
@@ -149,6 +151,14 @@ bool DeviceDrawing::Parts::Fits(vtkPolyData* mesh) const
   vtkPolyData* drawn = this->Mapper->GetInput();
   return this->Mapper->IsReady() && drawn->GetNumberOfPoints() == mesh->GetNumberOfPoints() &&
     drawn->GetNumberOfPolys() == mesh->GetNumberOfPolys();
+}
+
+void DeviceDrawing::Parts::MakeCurrent() const
+{
+  if (!this->Window->IsCurrent()) // else a context may be flushed for nothing
+  {
+    this->Window->MakeCurrent();
+  }
 }
 
 void DeviceDrawing::Parts::FillBuffers()
@@ -198,6 +208,17 @@ void DeviceDrawing::End(const std::string& reason)
   this->Obstacle = reason;
 }
 
+/// CUDA takes the buffers while the session works. If something is drawn meanwhile, the mapper
+/// gives them back.
+void DeviceDrawing::BeginStep()
+{
+  if (this->On && this->On->Window && this->On->Mapper->IsReady())
+  {
+    this->On->MakeCurrent();
+    this->On->Mapper->MapBuffers();
+  }
+}
+
 void DeviceDrawing::NoteStep()
 {
   this->On->Source->Modified();
@@ -225,13 +246,10 @@ bool DeviceDrawing::Fill(const Coloring& coloring)
   this->On->Colors = coloring;
   if (this->On->Mapper->IsReady())
   {
-    if (!this->On->Window->IsCurrent()) // else a context may be flushed for nothing
-    {
-      this->On->Window->MakeCurrent();
-    }
+    this->On->MakeCurrent();
     this->On->Mapper->FillIfNeeded();
   }
-  else
+  else if (this->GetFailure().empty())
   {
     this->On->Window->Render();
   }

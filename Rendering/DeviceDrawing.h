@@ -44,6 +44,9 @@ public:
   /// Why this is off.
   const std::string& GetObstacle() const { return this->Obstacle; }
 
+  /// Says that the session is about to make a step.
+  void BeginStep();
+
   /// Says that the session has made a step.
   void NoteStep();
 

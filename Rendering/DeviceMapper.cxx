@@ -190,10 +190,26 @@ bool DeviceMapper::Try(const Call& call)
   }
 }
 
+void DeviceMapper::MapBuffers()
+{
+  if (this->IsRegistered)
+  {
+    this->TryToWrite(this->Calls.Map);
+  }
+}
+
 void DeviceMapper::FillIfNeeded()
 {
-  if (this->IsRegistered && std::exchange(this->IsBehind, false) &&
-    !this->Try([this]() { this->Calls.Fill(); }))
+  if (this->IsRegistered)
+  {
+    this->TryToWrite(std::exchange(this->IsBehind, false) ? this->Calls.Fill : this->Calls.Unmap);
+  }
+}
+
+/// Does without the buffers from now on if a call fails.
+void DeviceMapper::TryToWrite(const std::function<void()>& call)
+{
+  if (!this->Try(call))
   {
     this->AreSpoiled = true;
     this->Release();

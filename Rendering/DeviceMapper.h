@@ -30,6 +30,8 @@ public:
   struct Callbacks
   {
     std::function<void(const DrawnBuffers&)> Register; ///< The buffers have been made.
+    std::function<void()> Map; ///< OpenGL does not use them for the moment.
+    std::function<void()> Unmap; ///< They are about to be drawn as they are.
     std::function<void()> Fill; ///< They must be filled before they are drawn.
     std::function<void()> Release; ///< They are about to be changed or deleted. Throws nothing.
     /// Whether questions for bounds come from drawing, so that they need not bring the input up to
@@ -44,7 +46,11 @@ public:
   /// Whether there are buffers that can be filled.
   bool IsReady() const { return this->IsRegistered; }
 
-  /// Fills the buffers now, if they are there and must be; OpenGL's context must be current.
+  /// Takes the buffers from OpenGL until they are filled or drawn, if they are there. OpenGL's
+  /// context must be current, here and below.
+  void MapBuffers();
+
+  /// Fills the buffers now, if they are there and must be, and gives them back to OpenGL.
   void FillIfNeeded();
 
   /// Calls nothing of the callbacks any more, after a last Release().
@@ -71,6 +77,7 @@ private:
 
   template <typename Call>
   bool Try(const Call& call);
+  void TryToWrite(const std::function<void()>& call);
   void Release();
   bool CanMovePoints() const;
   void MovePoints(vtkRenderer* renderer);

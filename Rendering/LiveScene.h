@@ -63,6 +63,9 @@ public:
   /// Whether the run's mesh is drawn without copies.
   bool DrawsRun() const { return this->Device.IsOn(); }
 
+  /// Says that the run is about to make a step.
+  void BeginStep() { this->Device.BeginStep(); }
+
   /// Says that the run has made a step, in place of SetMesh().
   void NoteStep() { this->Device.NoteStep(); }
 

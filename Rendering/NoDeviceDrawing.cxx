@@ -30,6 +30,8 @@ void DeviceDrawing::End(const std::string& reason) { this->Obstacle = reason; }
 
 bool DeviceDrawing::IsOn() const { return false; }
 
+void DeviceDrawing::BeginStep() {}
+
 void DeviceDrawing::NoteStep() {}
 
 bool DeviceDrawing::TakeNextRun() { return false; }

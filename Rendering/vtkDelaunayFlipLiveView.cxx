@@ -243,6 +243,7 @@ LiveStep vtkDelaunayFlipLiveView::UpdateFilter()
 {
   const BusyScope busy(this->IsBusy);
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  this->Scene->BeginStep();
   return MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
 }
 

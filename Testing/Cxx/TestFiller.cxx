@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace delaunayflip;
@@ -44,18 +45,24 @@ std::vector<std::uint32_t> FindColors(const ColorBands& bands, const std::vector
   return colors;
 }
 
-template <typename T>
-void Write(unsigned int buffer, const std::vector<T>& values)
+/// The memory of a buffer, until it is unmapped. What is not written stays.
+void* MapMemory(unsigned int buffer, std::int64_t bytes)
 {
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
   GLint size = 0;
   glGetBufferParameteriv(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &size);
-  if (static_cast<std::size_t>(size) != values.size() * sizeof(T))
+  void* memory = glMapBuffer(GL_COPY_WRITE_BUFFER, GL_WRITE_ONLY);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  if (size != bytes || !memory)
   {
     throw std::runtime_error("the buffer has " + std::to_string(size) + " bytes");
   }
-  void* memory = glMapBuffer(GL_COPY_WRITE_BUFFER, GL_WRITE_ONLY);
-  std::copy(values.begin(), values.end(), static_cast<T*>(memory));
+  return memory;
+}
+
+void UnmapMemory(unsigned int buffer)
+{
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
   glUnmapBuffer(GL_COPY_WRITE_BUFFER);
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
@@ -66,13 +73,31 @@ class HostFiller : public BufferFiller
 public:
   std::string FindObstacle(vtkDelaunayFlip*) override { return {}; }
   void Register(const DrawnBuffers& buffers) override { this->Buffers = buffers; }
-  void Release() noexcept override {}
+  void Release() noexcept override { this->Unmap(); }
+  void Map() override
+  {
+    if (!this->Triangles)
+    {
+      const std::int64_t count = this->Buffers.Count;
+      this->Triangles = static_cast<std::int32_t*>(MapMemory(this->Buffers.Triangles, 12 * count));
+      this->Colors = static_cast<std::uint32_t*>(MapMemory(this->Buffers.Colors, 4 * count));
+    }
+  }
+  void Unmap() override
+  {
+    if (std::exchange(this->Triangles, nullptr))
+    {
+      UnmapMemory(this->Buffers.Triangles);
+      UnmapMemory(this->Buffers.Colors);
+    }
+  }
   void Fill(const FilledMesh& mesh) override
   {
     const std::int64_t count = this->Buffers.Count;
     std::vector<std::int32_t> ids(3 * count);
     mesh.Session.StoreTriangles(MutableTriangleArray(ids.data(), count));
-    Write(this->Buffers.Triangles, ids);
+    this->Map();
+    std::copy(ids.begin(), ids.end(), this->Triangles);
     TriangleMesh drawn;
     drawn.Points = mesh.Points;
     drawn.Triangles = TriangleArray(ids.data(), count);
@@ -82,8 +107,10 @@ public:
     mesh.Session.StoreFlipCounts(flips.data());
     const ColorBands bands = mesh.Colors.Choose(
       mesh.Colors.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
-    Write(this->Buffers.Colors,
-      mesh.Colors.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees));
+    const std::vector<std::uint32_t> colors =
+      mesh.Colors.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees);
+    std::copy(colors.begin(), colors.end(), this->Colors);
+    this->Unmap();
     this->SmallestAngle = *std::min_element(degrees.begin(), degrees.end());
   }
   double GetSmallestAngle() noexcept override { return this->SmallestAngle; }
@@ -91,6 +118,8 @@ public:
 private:
   double SmallestAngle = 0.0;
   DrawnBuffers Buffers;
+  std::int32_t* Triangles = nullptr; ///< The memory of the buffers while they are mapped.
+  std::uint32_t* Colors = nullptr;
 };
 
 /// Counts the calls of another one, and lets them fail as planned.
@@ -111,17 +140,35 @@ public:
   void Release() noexcept override
   {
     Plan.Releases += Plan.IsRegistered ? 1 : 0;
-    Plan.IsRegistered = false;
+    Plan.IsRegistered = Plan.AreMapped = false;
     this->Filler->Release();
+  }
+  void Map() override
+  {
+    CountMap();
+    this->Filler->Map();
+    Plan.AreMapped = true;
+  }
+  void Unmap() override
+  {
+    Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
+    this->Filler->Unmap();
+    Plan.AreMapped = false;
   }
   void Fill(const FilledMesh& mesh) override
   {
     Count(Plan.Fills, Plan.FailingFill, "no filling");
+    if (!Plan.AreMapped)
+    {
+      CountMap();
+    }
     this->Filler->Fill(mesh);
+    Plan.AreMapped = false;
   }
   double GetSmallestAngle() noexcept override { return this->Filler->GetSmallestAngle(); }
 
 private:
+  static void CountMap() { Count(Plan.Maps, Plan.FailingMap, "no mapping"); }
   static void Count(int& calls, int failing, const char* message)
   {
     ++calls;

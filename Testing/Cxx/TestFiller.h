@@ -14,12 +14,17 @@ struct TestFiller
   /// later ones; 0: none fails.
   std::string Obstacle;
   int FailingRegister = 0;
+  int FailingMap = 0;
+  int FailingUnmap = 0;
   int FailingFill = 0;
 
   int Registers = 0;
   int Releases = 0;
+  int Maps = 0; ///< Also by fills of buffers that are not mapped.
+  int Unmaps = 0;
   int Fills = 0;
   bool IsRegistered = false;
+  bool AreMapped = false; ///< OpenGL must not use the buffers.
 
   /// Puts the filler in the place of the live views' own, with nothing that fails.
   static TestFiller& Install();

@@ -67,6 +67,25 @@ TEST(ZeroCopyFallback, AFillingFails)
   }
 }
 
+TEST(ZeroCopyFallback, AMappingFails)
+{
+  for (const int call : { 1, 2 })
+  {
+    TestFiller& filler = TestFiller::Install();
+    filler.FailingMap = call;
+    ExpectCopies("no mapping");
+    EXPECT_FALSE(filler.IsRegistered);
+  }
+}
+
+TEST(ZeroCopyFallback, AnUnmappingFails)
+{
+  TestFiller& filler = TestFiller::Install();
+  filler.FailingUnmap = 1;
+  ExpectCopies("no unmapping");
+  EXPECT_FALSE(filler.IsRegistered);
+}
+
 TEST(ZeroCopyFallback, ALostContextDoesNotComeBack)
 {
   TestFiller& filler = TestFiller::Install();

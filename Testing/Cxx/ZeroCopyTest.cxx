@@ -102,6 +102,42 @@ TEST(ZeroCopy, FillsOncePerStep)
   EXPECT_EQ(filler.Registers, 1);
 }
 
+TEST(ZeroCopy, TheBuffersAreMappedDuringAStep)
+{
+  const TestFiller& filler = TestFiller::Install();
+  RunView view;
+  view->Step();
+  int steps = 0;
+  const auto look = [&]() { steps += filler.AreMapped ? 1 : 0; };
+  OnEvent(view.Filter.Get(), vtkCommand::StartEvent, look);
+  view->Step();
+  view->Step();
+  EXPECT_EQ(steps, 2);
+  EXPECT_FALSE(filler.AreMapped);
+  EXPECT_EQ(filler.Fills, 3);
+}
+
+TEST(ZeroCopy, WhatIsDrawnDuringAStepIsTheMeshBefore)
+{
+  const TestFiller& filler = TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  ViewPair views(mesh);
+  views.Step();
+  const Bytes before = views.Sharing.GetPicture();
+  int drawn = 0;
+  const auto draw = [&]()
+  {
+    views.Sharing.Window->Render();
+    EXPECT_FALSE(filler.AreMapped);
+    EXPECT_EQ(before, views.Sharing.GetPicture());
+    ++drawn;
+  };
+  OnEvent(views.Sharing.Filter.Get(), vtkCommand::StartEvent, draw);
+  ExpectSameStep(views);
+  EXPECT_EQ(drawn, 1);
+  EXPECT_NE(before, views.Sharing.GetPicture());
+}
+
 TEST(ZeroCopy, SameMesh)
 {
   TestFiller::Install();
