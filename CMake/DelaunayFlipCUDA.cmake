@@ -7,6 +7,43 @@ if(DELAUNAYFLIP_ENABLE_CUDA STREQUAL "OFF" OR DELAUNAYFLIP_SANITIZER)
   return() # the CPU's sanitizers do not support device code
 endif()
 
+# Older ones lack what SharedMemory.cpp asks of the runtime (cudaDriverEntryPointQueryResult).
+set(delaunayflip_oldest_cuda 12)
+
+# Sets delaunayflip_nvcc and delaunayflip_nvcc_version to the nvcc that CMake would take, or to
+# nothing. CMake itself must not try an old one: it often rejects the host's compiler, and CMake then
+# says that there is no CUDA compiler.
+function(delaunayflip_find_nvcc)
+  separate_arguments(named UNIX_COMMAND "$ENV{CUDACXX}") # it may have options
+  if(CMAKE_CUDA_COMPILER)
+    set(named "${CMAKE_CUDA_COMPILER}")
+  endif()
+  list(APPEND named nvcc)
+  list(GET named 0 name)
+  unset(program)
+  find_program(program NAMES "${name}" PATHS "$ENV{CUDA_PATH}/bin" NO_CACHE)
+  set(text "")
+  if(program)
+    execute_process(COMMAND "${program}" --version OUTPUT_VARIABLE text ERROR_QUIET)
+  endif()
+  string(REGEX MATCH "release ([0-9]+\\.[0-9]+)" release "${text}")
+  set(delaunayflip_nvcc "${program}" PARENT_SCOPE)
+  set(delaunayflip_nvcc_version "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+
+delaunayflip_find_nvcc()
+if(delaunayflip_nvcc_version AND delaunayflip_nvcc_version VERSION_LESS delaunayflip_oldest_cuda)
+  string(CONCAT delaunayflip_reason "${delaunayflip_nvcc} is of CUDA ${delaunayflip_nvcc_version}, "
+    "and CUDA ${delaunayflip_oldest_cuda} or newer is needed")
+  if(NOT DELAUNAYFLIP_ENABLE_CUDA STREQUAL "AUTO")
+    message(FATAL_ERROR "DELAUNAYFLIP_ENABLE_CUDA is ${DELAUNAYFLIP_ENABLE_CUDA}, but "
+      "${delaunayflip_reason}; install a newer CUDA Toolkit and set CMAKE_CUDA_COMPILER to its "
+      "nvcc, or set DELAUNAYFLIP_ENABLE_CUDA to OFF")
+  endif()
+  message(STATUS "CUDA backend: not built, ${delaunayflip_reason}")
+  return()
+endif()
+
 include(CheckLanguage)
 check_language(CUDA)
 if(NOT CMAKE_CUDA_COMPILER)

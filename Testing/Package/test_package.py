@@ -9,6 +9,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+from unittest import mock
 
 from readme import ROOT, read, snippets
 
@@ -197,6 +198,59 @@ endif()
 """)
         self.build(NO_VTK)
         self.expect_flips()
+
+
+class CudaVersion(Consumer):
+    """The engine where the nvcc that CMake finds is a program that only says its version."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("bin"))
+        self.nvcc = self.path("bin/nvcc")
+
+    def write_nvcc(self, version):
+        self.write("bin/nvcc", f"""#!/bin/sh
+[ "$1" = --version ] || exit 1
+echo "nvcc: NVIDIA (R) Cuda compiler driver"
+echo "Cuda compilation tools, release {version}, V{version}.89"
+""")
+        os.chmod(self.nvcc, 0o755)
+
+    def configure_engine(self, *options, **environment):
+        """How CMake ended, and what it said, in one line."""
+        with mock.patch.dict(os.environ, {"CUDACXX": "", **environment}):
+            run = self.configure("-DDELAUNAYFLIP_BUILD_VTK=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=OFF",
+                                 *options, source=ROOT)
+        return run.returncode, " ".join((run.stdout + run.stderr).split())
+
+    def expect_no_backend(self, reason, *options, **environment):
+        code, text = self.configure_engine(*options, **environment)
+        self.assertEqual(code, 0, text)
+        self.assertIn(f"CUDA backend: not built, {reason}", text)
+
+    def test_an_old_one_is_not_used(self):
+        self.write_nvcc("11.8")
+        reason = f"{self.nvcc} is of CUDA 11.8, and CUDA 12 or newer is needed"
+        path = f"{self.path('bin')}:{os.environ['PATH']}"
+        for options, environment in (
+                ([], {"PATH": path}), # the second time, from the cache
+                ([], {"PATH": path}),
+                ([], {"CUDACXX": f"{self.nvcc} -ccbin g++"}),
+                ([f"-DCMAKE_CUDA_COMPILER={self.nvcc}"], {})):
+            with self.subTest(options=options, environment=environment):
+                self.expect_no_backend(reason, *options, **environment)
+
+    def test_an_old_one_is_an_error_where_cuda_is_asked_for(self):
+        self.write_nvcc("11.8")
+        code, text = self.configure_engine("-DDELAUNAYFLIP_ENABLE_CUDA=ON",
+                                           f"-DCMAKE_CUDA_COMPILER={self.nvcc}")
+        self.assertNotEqual(code, 0)
+        self.assertIn(f"{self.nvcc} is of CUDA 11.8, and CUDA 12 or newer is needed; install a "
+                      "newer CUDA Toolkit", text)
+
+    def test_the_oldest_one_is_tried(self):
+        self.write_nvcc("12.0")
+        self.expect_no_backend("no CUDA compiler", CUDACXX=self.nvcc)
 
 
 if __name__ == "__main__":
