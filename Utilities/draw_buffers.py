@@ -24,10 +24,11 @@ COPYING = ("from copies", ("step", "store", "colours", "upload", "draw"), (
     ("triangles, colours (GPU)", ((3, 3, "CPU", "written"), (4, 4, "OpenGL", "read"))),
     ("vertices (GPU)", ((4, 4, "OpenGL", "read"),)),
 ))
-SHARING = ("without copies", ("step", "map", "write", "unmap", "draw"), (
-    ("session (GPU)", ((0, 0, "CUDA", "flips"), (2, 2, "CUDA", "read"))),
+SHARING = ("without copies", ("map", "step", "write", "unmap", "draw"), (
+    ("session (GPU)", ((1, 1, "CUDA", "flips"), (2, 2, "CUDA", "read"))),
     ("points (GPU)", ((2, 2, "CUDA", "angles"),)),
-    ("triangles, colours (GPU)", ((1, 3, "CUDA", "written"), (4, 4, "OpenGL", "read"))),
+    ("triangles, colours (GPU)", ((0, 1, "CUDA", ""), (2, 2, "CUDA", "written"),
+                                  (3, 3, "CUDA", ""), (4, 4, "OpenGL", "read"))),
     ("vertices (GPU)", ((4, 4, "OpenGL", "read"),)),
 ))
 
