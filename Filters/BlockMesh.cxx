@@ -46,12 +46,12 @@ bool BlockMesh::HasAmbiguousPoints() const
   return this->Joined && this->Joined->CountAmbiguousPoints() > 0;
 }
 
-std::vector<Note> BlockMesh::ListShortArrays() const
+std::vector<Note> BlockMesh::ListMalformedArrays() const
 {
   std::vector<Note> notes;
   for (std::size_t i = 0; i < this->Meshes.size(); ++i)
   {
-    AddShortArrays(this->Meshes[i], this->Names[i], notes);
+    AddMalformedArrays(this->Meshes[i], this->Names[i], notes);
   }
   return notes;
 }

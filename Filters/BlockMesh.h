@@ -53,8 +53,8 @@ public:
   bool HasOtherCells() const; ///< Whether a leaf has cells and is not a surface.
   bool HasAmbiguousPoints() const;
 
-  /// Warnings of the leaves whose arrays have too few tuples.
-  std::vector<Note> ListShortArrays() const;
+  /// Warnings of the leaves with malformed arrays.
+  std::vector<Note> ListMalformedArrays() const;
 
   /// Empty if the process has none.
   vtkSmartPointer<vtkPolyData> GetMesh() const;

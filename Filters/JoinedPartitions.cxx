@@ -140,7 +140,7 @@ void JoinedPartitions::RequireRegions(const std::string& name) const
   for (const auto& mesh : this->Partitions)
   {
     vtkAbstractArray* own = mesh->GetCellData()->GetAbstractArray(name.c_str());
-    if (!own || own->GetDataType() != joined->GetDataType() ||
+    if (!own || !joined || own->GetDataType() != joined->GetDataType() ||
       own->GetNumberOfComponents() != joined->GetNumberOfComponents() ||
       own->GetNumberOfTuples() < mesh->GetNumberOfCells())
     {

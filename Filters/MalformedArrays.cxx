@@ -4,6 +4,7 @@
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
@@ -70,6 +71,36 @@ void AddShortArrays(const std::string& kind, const char* fate,
   }
 }
 
+void AddWrongGhosts(vtkCellData* cells, std::vector<Defect>& defects)
+{
+  const char* name = vtkDataSetAttributes::GhostArrayName();
+  vtkAbstractArray* ghosts = cells->GetAbstractArray(name);
+  if (ghosts && IsWrongGhostArray(ghosts))
+  {
+    const std::string fault = ghosts->GetDataType() != VTK_UNSIGNED_CHAR
+      ? "ghost array that is not of type unsigned char ignored"
+      : "ghost array with several components ignored";
+    defects.push_back({ fault + ": " + List({ name }), 1, {} });
+  }
+}
+
+/// @param shortPoints what becomes of point arrays with too few tuples. @param shortCells the same
+/// of cell arrays.
+std::vector<Defect> ListMalformedArrays(
+  vtkPolyData* mesh, const char* shortPoints, const char* shortCells)
+{
+  std::vector<Defect> defects;
+  vtkCellData* cells = mesh->GetCellData();
+  AddShortArrays("point", shortPoints,
+    FindShortArrays(mesh->GetPointData(), mesh->GetNumberOfPoints()), defects);
+  AddShortArrays("cell", shortCells, FindShortArrays(cells, mesh->GetNumberOfCells()), defects);
+  AddWrongGhosts(cells, defects);
+  return defects;
+}
+
+constexpr const char* Passed = "passed unchanged";
+constexpr const char* LeftOut = "left out";
+
 }
 
 vtkSmartPointer<vtkCellData> TakeWholeArrays(vtkPolyData* mesh)
@@ -82,29 +113,38 @@ vtkSmartPointer<vtkPointData> TakeWholePointArrays(vtkPolyData* mesh)
   return TakeArrays(mesh->GetPointData(), mesh->GetNumberOfPoints());
 }
 
-void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects)
+bool IsWrongGhostArray(vtkAbstractArray* array)
 {
-  constexpr const char* Passed = "passed unchanged";
-  vtkCellData* cells = mesh->GetCellData();
-  AddShortArrays(
-    "point", Passed, FindShortArrays(mesh->GetPointData(), mesh->GetNumberOfPoints()), defects);
-  AddShortArrays("cell", cellsStay ? Passed : "left out",
-    FindShortArrays(cells, mesh->GetNumberOfCells()), defects);
-  vtkAbstractArray* ghosts = cells->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
-  if (ghosts && !vtkArrayDownCast<vtkUnsignedCharArray>(ghosts))
-  {
-    defects.push_back({ "ghost array that is not of type unsigned char ignored", 1, {} });
-  }
+  const char* name = array->GetName();
+  return name && std::string(name) == vtkDataSetAttributes::GhostArrayName() &&
+    (array->GetDataType() != VTK_UNSIGNED_CHAR || array->GetNumberOfComponents() != 1);
 }
 
-void AddShortArrays(vtkPolyData* mesh, const std::string& where, std::vector<Note>& notes)
+vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh)
 {
-  constexpr const char* Dropped = "left out";
-  std::vector<Defect> defects;
-  AddShortArrays(
-    "point", Dropped, FindShortArrays(mesh->GetPointData(), mesh->GetNumberOfPoints()), defects);
-  AddShortArrays(
-    "cell", Dropped, FindShortArrays(mesh->GetCellData(), mesh->GetNumberOfCells()), defects);
+  vtkDataArray* array = mesh->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
+  if (!array || IsWrongGhostArray(array))
+  {
+    return nullptr;
+  }
+  if (auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(array))
+  {
+    return ghosts;
+  }
+  auto ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New(); // another layout of memory
+  ghosts->DeepCopy(array);
+  return ghosts;
+}
+
+void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects)
+{
+  const std::vector<Defect> more = ListMalformedArrays(mesh, Passed, cellsStay ? Passed : LeftOut);
+  defects.insert(defects.end(), more.begin(), more.end());
+}
+
+void AddMalformedArrays(vtkPolyData* mesh, const std::string& where, std::vector<Note>& notes)
+{
+  const std::vector<Defect> defects = ListMalformedArrays(mesh, LeftOut, LeftOut);
   if (!defects.empty())
   {
     notes.push_back({ where, DescribeDefects(defects) });

@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+class vtkAbstractArray;
 class vtkCellData;
 class vtkPointData;
 class vtkPolyData;
+class vtkUnsignedCharArray;
 
 namespace delaunayflip
 {
@@ -26,14 +28,23 @@ vtkSmartPointer<vtkCellData> TakeWholeArrays(vtkPolyData* mesh);
 /// added.
 vtkSmartPointer<vtkPointData> TakeWholePointArrays(vtkPolyData* mesh);
 
-/// Defects to warn of: point and cell arrays with too few tuples, and ghost arrays of a wrong type.
+/// Whether an array is named as ghost types are, but has not one number of type unsigned char for
+/// each tuple. Such an array is ignored.
+bool IsWrongGhostArray(vtkAbstractArray* array);
+
+/// The ghost types of the cells, of which there may be too few; null if there are none that are not
+/// ignored.
+vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh);
+
+/// Defects to warn of: point and cell arrays with too few tuples, and ghost arrays that are
+/// ignored.
 /// @param cellsStay whether all cells keep their positions, so that all cell arrays pass.
 void AddMalformedArrays(vtkPolyData* mesh, bool cellsStay, std::vector<Defect>& defects);
 
-/// Adds the warning of a partition, or of the piece of a rank, if it has point or cell arrays with
-/// too few tuples, which are left out there.
+/// Adds the warning of a partition, or of the piece of a rank. Arrays with too few tuples are left
+/// out there.
 /// @param where names the partition.
-void AddShortArrays(vtkPolyData* mesh, const std::string& where, std::vector<Note>& notes);
+void AddMalformedArrays(vtkPolyData* mesh, const std::string& where, std::vector<Note>& notes);
 
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartitionData.h"
 
+#include "MalformedArrays.h"
 #include "TupleTransfer.h"
 
 #include "vtkAbstractArray.h"
@@ -36,6 +37,10 @@ std::string PartitionData::FindName(vtkDataSetAttributes* own, int index) const
 {
   vtkAbstractArray* array = own->GetAbstractArray(index);
   std::string name = array->GetName() ? array->GetName() : "\n" + std::to_string(index);
+  if (IsWrongGhostArray(array)) // the joined mesh has the ghost types of the other partitions
+  {
+    name += '\n';
+  }
   vtkAbstractArray* known = this->Joined->GetAbstractArray(name.c_str());
   while (known && !IsSameKind(known, array))
   {

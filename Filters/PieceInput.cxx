@@ -235,8 +235,7 @@ std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
 
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 {
-  auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
-    mesh->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = FindGhosts(mesh);
   const vtkIdType flags = ghosts ? ghosts->GetNumberOfValues() : 0;
   vtkNew<vtkIdList> kept;
   for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)

@@ -45,8 +45,7 @@ PolyDataBridge::PolyDataBridge(
 
 void PolyDataBridge::FreezeGhosts()
 {
-  auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
-    this->Mesh->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = FindGhosts(this->Mesh);
   if (this->Slots.AreInPlace() && !ghosts)
   {
     return;

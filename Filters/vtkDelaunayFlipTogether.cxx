@@ -132,7 +132,7 @@ UpdateSummary vtkDelaunayFlip::FlipPieces(
     {
       throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
     }
-    AddShortArrays(mesh, "", notes);
+    AddMalformedArrays(mesh, "", notes);
     return mesh;
   };
   this->FlipShared(
@@ -225,7 +225,7 @@ void vtkDelaunayFlip::FlipBlock(const SharedBlock& block, const BlockConstraints
     edges = mesh.FindConstraints(constraints);
     if (mesh.HasPartitions() || group.GetSize() > 1) // a single mesh is told of when it is flipped
     {
-      notes = mesh.ListShortArrays();
+      notes = mesh.ListMalformedArrays();
     }
   };
   MeshOutcome outcome;

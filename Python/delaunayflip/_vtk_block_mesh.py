@@ -3,7 +3,7 @@
 """The mesh of a block: its leaf or, if a dataset is in several partitions, all of them as one."""
 from . import _vtk_blocks
 from ._vtk_partitions import AMBIGUOUS, JoinedPartitions, join_constraints
-from ._vtk_regions import describe_short_arrays
+from ._vtk_regions import describe_malformed_arrays
 
 
 class BlockMesh:
@@ -24,9 +24,10 @@ class BlockMesh:
 
     def list_warnings(self):
         """(place, text) of each."""
-        notes = [(leaf.name, describe_short_arrays(self._meshes[leaf.number]))
+        fate = "left out"
+        notes = [(leaf.name, describe_malformed_arrays(self._meshes[leaf.number], fate, fate))
                  for leaf in self._block.leaves if self._joined and leaf.number in self._meshes]
-        return [note for note in notes if note[1]] + [
+        return [(name, "; ".join(texts)) for name, texts in notes if texts] + [
             (self._block.name, text) for text in self._list_texts()]
 
     def _list_texts(self):

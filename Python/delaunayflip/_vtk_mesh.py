@@ -59,7 +59,9 @@ class MeshInput:
         if count and not is_warm:
             edges = "edge" if count == 1 else "edges"
             texts.append(f"{count} constraint {edges} of the second input that the mesh does not have")
-        texts += _vtk_regions.describe_malformed_arrays(self.mesh, self.slots.in_place)
+        passed = "passed unchanged"
+        texts += _vtk_regions.describe_malformed_arrays(
+            self.mesh, passed, passed if self.slots.in_place else "left out")
         return "; ".join(texts)
 
     def store(self, session, output):

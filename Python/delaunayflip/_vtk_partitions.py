@@ -3,8 +3,7 @@
 """The partitions of a dataset as one mesh, and the way back."""
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import (
-    VTK_FLOAT, vtkAbstractArray, vtkDataArray, vtkPoints, vtkUnsignedCharArray)
+from vtkmodules.vtkCommonCore import VTK_FLOAT, vtkAbstractArray, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
 
 from ._errors import InvalidOptions
@@ -12,6 +11,7 @@ from ._vtk_arrays import Cells, make, make_ids, new_cells, view, view_points
 from ._vtk_constraints import list_other_pairs
 from ._vtk_mesh import demote_global_ids, gather, take_whole_arrays, take_whole_point_arrays
 from ._vtk_points import PartitionPoints
+from ._vtk_regions import find_ghosts, is_wrong_ghost_array
 
 _MARK = "vtkDelaunayFlipPartition"
 AMBIGUOUS = ("points of some partitions coincide with others of the same partition, and edges there "
@@ -136,6 +136,8 @@ class _Data:
     def _find_name(self, own, index):
         array = own.GetAbstractArray(index)
         name = array.GetName() if array.GetName() is not None else f"\n{index}"
+        if is_wrong_ghost_array(array):  # the joined mesh has the ghost types of the other partitions
+            name += "\n"
         while True:
             known = self._joined.GetAbstractArray(name)
             if known is None or _is_same_kind(known, array):
@@ -236,11 +238,11 @@ def _list_new(corners, local):
 
 def _drop_duplicates(mesh):
     """The mesh without duplicate ghost cells; the mesh itself if it has none."""
-    ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
-    if not isinstance(ghosts, vtkUnsignedCharArray):
+    ghosts = find_ghosts(mesh)
+    if ghosts is None:
         return mesh
-    values = view(ghosts).ravel()[:mesh.GetNumberOfCells()]
-    duplicates = numpy.flatnonzero(values & vtkDataSetAttributes.DUPLICATECELL)
+    duplicates = numpy.flatnonzero(
+        ghosts[:mesh.GetNumberOfCells()] & vtkDataSetAttributes.DUPLICATECELL)
     if len(duplicates) == 0:
         return mesh
     return _take_some(mesh, numpy.setdiff1d(numpy.arange(mesh.GetNumberOfCells()), duplicates))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cell arrays that say which edges stay: region labels and ghosts."""
 import numpy
-from vtkmodules.vtkCommonCore import vtkDataArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 
 from . import _vtk_arrays
@@ -49,36 +49,42 @@ def _number_texts(array):
     return labels
 
 
+def is_wrong_ghost_array(array):
+    """Whether an array is named as ghost types are, but has not one number of type unsigned char for
+    each tuple. Such an array is ignored."""
+    return (array.GetName() == vtkDataSetAttributes.GhostArrayName()
+            and (array.GetDataType() != VTK_UNSIGNED_CHAR or array.GetNumberOfComponents() != 1))
+
+
+def find_ghosts(mesh):
+    """The ghost types of the cells, of which there may be too few; None if there are none that are
+    not ignored."""
+    array = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+    return None if array is None or is_wrong_ghost_array(array) else _vtk_arrays.view(array)
+
+
 def find_frozen(mesh, slots):
     """(m,) whether the edges of a triangle stay, or None if no triangle's edges have to."""
-    ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
-    if not isinstance(ghosts, vtkUnsignedCharArray):
+    values = find_ghosts(mesh)
+    if values is None:
         return slots.frozen
-    values = _vtk_arrays.view(ghosts).ravel()
     padded = numpy.zeros(max(mesh.GetNumberOfCells(), len(values)), dtype=numpy.uint8)
     padded[:len(values)] = values
     are_ghosts = (padded[slots.cells] & _GHOST) != 0
     return are_ghosts if slots.frozen is None else are_ghosts | slots.frozen
 
 
-def describe_malformed_arrays(mesh, cells_stay):
-    """Texts of warnings about arrays that do not fit the mesh."""
-    texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point",
-                            "passed unchanged")
-    texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
-                             "passed unchanged" if cells_stay else "left out")
+def describe_malformed_arrays(mesh, short_points, short_cells):
+    """Texts of warnings about arrays that do not fit the mesh. `short_points` is what becomes of point
+    arrays with too few tuples, `short_cells` the same of cell arrays."""
+    texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", short_points)
+    texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell", short_cells)
     ghosts = mesh.GetCellData().GetAbstractArray(vtkDataSetAttributes.GhostArrayName())
-    if ghosts is not None and not isinstance(ghosts, vtkUnsignedCharArray):
-        texts.append("1 ghost array that is not of type unsigned char ignored")
+    if ghosts is not None and is_wrong_ghost_array(ghosts):
+        fault = ("that is not of type unsigned char" if ghosts.GetDataType() != VTK_UNSIGNED_CHAR
+                 else "with several components")
+        texts.append(f'1 ghost array {fault} ignored: "{ghosts.GetName()}"')
     return texts
-
-
-def describe_short_arrays(mesh):
-    """The text of a warning about arrays that a partition's output lacks, or ""."""
-    fate = "left out"
-    texts = _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", fate)
-    texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell", fate)
-    return "; ".join(texts)
 
 
 def _describe_short(data, tuples, kind, fate):

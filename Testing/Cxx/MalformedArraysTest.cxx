@@ -7,7 +7,6 @@
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
@@ -16,7 +15,6 @@
 #include "vtkStringArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkVariantArray.h"
 
 #include <gtest/gtest.h>
@@ -296,30 +294,6 @@ TEST(MalformedArrays, ShortPointDataPass)
   EXPECT_TRUE(Holds(warning, "1 point array with too few tuples passed unchanged: \"Short\""))
     << warning;
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetAbstractArray("Short"), array);
-}
-
-TEST(MalformedArrays, AShortGhostArrayFixesTheCellsItHas)
-{
-  auto mesh = MakeRhombus();
-  auto ghosts = MakeArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 1);
-  ghosts->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
-  mesh->GetCellData()->AddArray(ghosts);
-  WatchedFilter filter(mesh);
-  const std::string warning = RunToOneWarning(filter);
-  EXPECT_TRUE(Holds(warning, "\"vtkGhostType\"")) << warning;
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
-}
-
-TEST(MalformedArrays, AGhostArrayOfAnotherTypeIsIgnored)
-{
-  auto mesh = MakeRhombus();
-  auto ghosts = MakeArray<vtkIntArray>(vtkDataSetAttributes::GhostArrayName(), 2);
-  ghosts->Fill(vtkDataSetAttributes::DUPLICATECELL);
-  mesh->GetCellData()->AddArray(ghosts);
-  WatchedFilter filter(mesh);
-  const std::string warning = RunToOneWarning(filter);
-  EXPECT_TRUE(Holds(warning, "1 ghost array that is not of type unsigned char ignored")) << warning;
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
 }
 
 TEST(MalformedArrays, PedigreeIdsMayBeStrings)

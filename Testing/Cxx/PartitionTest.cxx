@@ -371,6 +371,20 @@ TEST(Partitions, RegionsMustBeInAll)
   EXPECT_EQ(all->GetTotalFlips(), 0); // every triangle is a region
 }
 
+TEST(Partitions, RegionsMustBeWhole)
+{
+  const Parts given = CutInOrder(MakeBadMesh(60), 2);
+  for (const auto& part : given)
+  {
+    AddNumbers(part->GetCellData(), "Region", 1, 0);
+  }
+  PartitionFilter filter(given);
+  filter->SetRegionArray("Region");
+  EXPECT_EQ(filter.Update()[0]->GetNumberOfCells(), 0);
+  ASSERT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_TRUE(Holds(filter.GetErrors()[0], "with a tuple for every cell"));
+}
+
 TEST(Partitions, BrokenOnesAreNamed)
 {
   const Parts given = CutInOrder(MakeBadMesh(60), 2);

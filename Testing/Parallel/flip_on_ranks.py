@@ -27,14 +27,16 @@ def run_same(maker, count, kind, ids, options, unique=True):
     return same(points, triangles, kind, ids, options, unique)
 
 
-def run_ghosts(count):
-    """Every piece also has the neighbours' triangles at its border, as duplicate ghosts."""
+def run_ghosts(count, wrong=None):
+    """Every piece also has the neighbours' triangles at its border, as duplicate ghosts. On rank
+    `wrong` the ghost array has two components."""
     points, triangles = rank_meshes.make_random(count)
     owners = rank_meshes.divide(points, triangles, RANKS, "space")
     touched = np.isin(triangles, triangles[owners == RANK]).any(1)
     slots = np.flatnonzero(touched)
     piece = rank_meshes.make_piece(points, triangles, slots, True)
     ghosts = np.where(owners[slots] == RANK, 0, vtkDataSetAttributes.DUPLICATECELL)
+    ghosts = np.stack([ghosts] * 2, 1) if RANK == wrong else ghosts
     rank_meshes.add_array(piece.GetCellData(), "vtkGhostType", ghosts.astype(np.uint8))
     flip, said = flip_piece(piece, {"TieRule": 1})
     after, slots = gather_triangles(points, flip.GetOutput())

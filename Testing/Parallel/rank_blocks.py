@@ -4,8 +4,8 @@
 have a piece."""
 import numpy as np
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
-    vtkPartitionedDataSetCollection, vtkPolyData)
+    vtkCompositeDataSet, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet,
+    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData)
 
 import delaunayflip
 import rank_meshes
@@ -178,6 +178,24 @@ def run_short_arrays(kind):
     leaf = list_leaves(output)[-1] if kind in MAKERS else output
     require(not leaf.GetCellData().HasArray("Short"), "a short cell array")
     require(not leaf.GetPointData().HasArray("Short"), "a short point array")
+    return facts, []
+
+
+def run_wrong_ghosts(kind):
+    """On rank 1, ghost types are of type int, and all hidden cells."""
+    data = MAKERS[kind]() if kind in MAKERS else cut(0)
+    leaf = list_leaves(data)[-1] if kind in MAKERS else data
+    number = vtkDataSetAttributes.HIDDENCELL if RANK == 1 else 0
+    ghosts = np.full(leaf.GetNumberOfCells(), number, np.int32 if RANK == 1 else np.uint8)
+    rank_meshes.add_array(leaf.GetCellData(), "vtkGhostType", ghosts)
+    flip, facts = update(data)
+    output = flip.GetOutputDataObject(0)
+    leaves = list_leaves(output) if kind in MAKERS else [output]
+    passed = leaves[-1].GetCellData().GetArray("vtkGhostType")
+    require(passed.GetDataType() == leaf.GetCellData().GetArray("vtkGhostType").GetDataType(),
+            "another type")
+    joined = join_places(leaves)
+    facts["same"] = is_same(0, joined[0], OPTIONS)
     return facts, []
 
 

@@ -53,6 +53,15 @@ class Pieces(RanksTest):
         facts = flip_on(3, "ghosts", count=400)
         self.assertTrue(facts["same"], facts)
 
+    def test_copies_that_no_ghost_array_marks(self):
+        """A rank that ignores its ghost array has triangles of others twice; the edges there stay."""
+        facts = flip_on(3, "ghosts", count=400, wrong=1)
+        self.assertEqual((facts["stopped"], facts["left"]), ("converged", 0))
+        self.assertGreater(facts["flips"], 100)
+        self.assertEqual(len(facts["said"]), 1)
+        self.assertIn('rank 1: 1 ghost array with several components ignored: "vtkGhostType"',
+                      facts["said"][0])
+
     def test_constraints(self):
         for kind in ("space", "scattered", "seams"):
             with self.subTest(kind):

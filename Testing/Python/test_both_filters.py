@@ -64,6 +64,19 @@ def add_ghosts(mesh):
     mesh.GetCellData().AddArray(ghosts)
 
 
+GHOST_FAULTS = (
+    (numpy.int32, '1 ghost array that is not of type unsigned char ignored: "vtkGhostType"'),
+    (numpy.uint8, '1 ghost array with several components ignored: "vtkGhostType"'))
+
+
+def add_wrong_ghosts(mesh, kind):
+    """Of type int; or unsigned char, with two components."""
+    shape = (mesh.GetNumberOfCells(),) + (2,) * (kind == numpy.uint8)
+    ghosts = numpy_to_vtk(numpy.ones(shape, kind), deep=True)
+    ghosts.SetName("vtkGhostType")
+    mesh.GetCellData().AddArray(ghosts)
+
+
 def add_regions(mesh):
     tree, height = vtkStringArray(), vtkDoubleArray()
     tree.SetName("Tree")
@@ -366,6 +379,29 @@ class Same(unittest.TestCase):
                          for kind in ("cell", "point"))
         self.assertEqual(told["warnings"], [
             f"block 1: {cells}; block 3: {cells.replace('Short', '')}; block 4: {points}; {cells}"])
+
+    def test_wrong_ghosts(self):
+        """In a mesh, in blocks and in partitions, whatever their order."""
+        for kind, fault in GHOST_FAULTS:
+            mesh = make_polygon_mesh()
+            add_wrong_ghosts(mesh, kind)
+            self.assertIn(fault, self.expect_same(mesh)["warnings"][0])
+            blocks = vtkMultiBlockDataSet()
+            for i, block in enumerate((make_bad_mesh(), mesh)):
+                blocks.SetBlock(i, block)
+            self.assertRegex(self.expect_same(blocks)["warnings"][0], f"^block 2: .*{fault}$")
+            for wrong in range(3):
+                parts = cut_triangles(make_bad_mesh(), 3)
+                add_wrong_ghosts(parts[wrong], kind)
+                self.assertEqual(self.expect_same(join(parts))["warnings"],
+                                 [f"block {wrong + 1}: {fault}"])
+
+    def test_partitions_without_whole_regions(self):
+        parts = cut_triangles(make_bad_mesh(), 3)
+        for part in parts:
+            add_numbers(part.GetCellData(), "Short", 1)
+        told = self.expect_same(join(parts), lambda flip: flip.SetRegionArray("Short"))
+        self.assertIn("a tuple for every cell", told["errors"][0])
 
     def test_partitions_with_global_ids(self):
         mesh = make_bad_mesh()
