@@ -54,15 +54,6 @@ std::int64_t PieceMesh::FindPoint(std::int64_t key) const
   return other != this->OtherKeys.end() ? other->second : -1;
 }
 
-void PieceMesh::GetPosition(std::int64_t point, double (&x)[3]) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    x[axis] = point < this->Given.Count ? this->Given.Get(point, axis)
-                                        : this->Received[3 * (point - this->Given.Count) + axis];
-  }
-}
-
 //------------------------------------------------------------------------------
 std::vector<std::int64_t> PieceMesh::FindListed() const
 {

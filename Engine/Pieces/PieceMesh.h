@@ -126,7 +126,14 @@ public:
   std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
   /// The id of a key here, or -1.
   std::int64_t FindPoint(std::int64_t key) const;
-  void GetPosition(std::int64_t point, double (&x)[3]) const;
+  void GetPosition(std::int64_t point, double (&x)[3]) const
+  {
+    const std::int64_t received = point - this->Given.Count;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = received < 0 ? this->Given.Get(point, axis) : this->Received[3 * received + axis];
+    }
+  }
   void PrefetchPoint(std::int32_t point) const
   {
     if (point < this->Given.Count)

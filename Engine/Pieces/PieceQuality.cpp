@@ -12,19 +12,20 @@
 namespace delaunayflip
 {
 
-double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
+namespace
+{
+inline double Measure(const double (&x)[3][3], const PieceSurvey& survey)
 {
   const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
   const Vector3 a{ x[0][0], x[0][1], isFlat ? 0.0 : x[0][2] };
   const Vector3 b{ x[1][0], x[1][1], isFlat ? 0.0 : x[1][2] };
   const Vector3 c{ x[2][0], x[2][1], isFlat ? 0.0 : x[2][2] };
-  const double usual = LargestSquaredCotangent(a, b, c);
+  const double usual =
+    isFlat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
   return usual == INFINITY || IsWide(survey.Range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
                                                             : usual;
 }
 
-namespace
-{
 double Measure(const PieceMesh& mesh, const PieceSurvey& survey, const std::int32_t (&points)[3])
 {
   double x[3][3];
@@ -32,7 +33,7 @@ double Measure(const PieceMesh& mesh, const PieceSurvey& survey, const std::int3
   {
     mesh.GetPosition(points[slot], x[slot]);
   }
-  return MeasureCotangent(x, survey);
+  return Measure(x, survey);
 }
 
 /// -infinity for an empty place.
@@ -72,6 +73,11 @@ struct MeasureStep
     sum += one;
   }
 };
+}
+
+double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
+{
+  return Measure(x, survey);
 }
 
 namespace

@@ -55,7 +55,7 @@ public:
     {
       if (rank != group.GetRank() && this->GetBox(rank).Overlaps(this->GetBox(group.GetRank())))
       {
-        this->Near.push_back(rank);
+        this->Near.push_back(this->GetBox(rank));
       }
     }
   }
@@ -117,9 +117,9 @@ private:
   /// Sheets that lie on each other may have the same points, with a number that says so.
   bool MayBeOnNear(std::int64_t point) const
   {
-    return this->Finder.HasNaN(point) ||
-      std::any_of(
-        this->Near.begin(), this->Near.end(), [=](int rank) { return this->MayBeOn(rank, point); });
+    return std::any_of(this->Near.begin(), this->Near.end(),
+             [=](const Box& box) { return this->Finder.MayBeIn(box, point); }) ||
+      this->Finder.HasNaN(point);
   }
 
   const MeshPiece& Piece;
@@ -127,7 +127,7 @@ private:
   PieceGroup& Group;
   RecordLists<Box> Boxes; ///< One per rank.
   PlaceSet Asked; ///< The places that others have asked for.
-  std::vector<int> Near; ///< Ranks whose boxes overlap that of this one.
+  std::vector<Box> Near; ///< Those of other ranks that overlap that of this one.
 };
 
 struct RankedCandidate
