@@ -128,10 +128,10 @@ public:
 
   HostTriangles ViewHostTriangles() const override
   {
-    return BackendT::IsOnHost
-      ? HostTriangles{ this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data(),
-          this->Order.View(), this->Mesh.NumberOfTriangles, this->Mesh.NumberOfEdges }
-      : HostTriangles();
+    return BackendT::IsOnHost ? HostTriangles{ this->Mesh.Triangles.Data(),
+      this->Mesh.CornerOfHalfEdge.Data(), this->Order.View(), this->Mesh.NumberOfTriangles,
+      this->Mesh.NumberOfEdges, this->Loop.get() }
+                              : HostTriangles();
   }
 
   Defect FindTurnedTriangles() const override

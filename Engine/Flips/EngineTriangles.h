@@ -24,6 +24,8 @@ struct EngineTriangles
   std::uint64_t Engine = 0; ///< Another number for every engine of the process.
 };
 
+class FlipLoop;
+
 /// The same where they are in the memory of the host.
 struct HostTriangles
 {
@@ -32,6 +34,7 @@ struct HostTriangles
   SpatialOrderView Order{};
   std::int64_t Count = 0;
   std::int64_t NumberOfEdges = 0; ///< Of half-edges twice as many.
+  const FlipLoop* Loop = nullptr; ///< That of the engine.
 
   /// Calls visit(corner) for every edge of one triangle.
   template <typename Visit>

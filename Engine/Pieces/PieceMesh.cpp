@@ -3,6 +3,7 @@
 #include "PieceMesh.h"
 
 #include "FlipError.h"
+#include "FlipLoop.h"
 
 #include <algorithm>
 #include <limits>
@@ -89,6 +90,12 @@ void PieceMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
   }
 }
 
+double PieceMesh::FindLargestSquaredCotangent() const
+{
+  return this->Made.Loop->FindLargestSquaredCotangentWithout(this->Listed.data());
+}
+
+/// Those that it had before it was listed.
 void PieceMesh::GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const
 {
   for (int slot = 0; slot < 3; ++slot)

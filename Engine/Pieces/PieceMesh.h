@@ -56,14 +56,15 @@ public:
   void ListAll();
   /// The ids of a triangle that may not be listed.
   void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
-  /// Those that it had before it was listed. Not for triangles that have come.
-  void GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const;
-  /// How many triangles there were before any came.
-  std::int64_t CountFirst() const
+  /// The ends of the edge opposite to a corner of such a triangle.
+  PointPair GetEdge(std::int64_t t, int slot) const
   {
-    return this->Made.Records ? this->Made.Count : this->Caller.Count;
+    std::int32_t points[3];
+    this->GetPoints(t, points);
+    return MakePair(points[(slot + 1) % 3], points[(slot + 2) % 3]);
   }
-
+  /// Of the triangles that are not listed, after TakeTriangles(made, marks): as FlipLoop.h has it.
+  double FindLargestSquaredCotangent() const;
   /// Takes the triangles that an engine has made of these, in its order, in which neighbours are
   /// near each other. Lists those at marked edges at the boundary.
   /// @param made must stay as it is as long as there are triangles that are not listed.
@@ -169,6 +170,7 @@ private:
     std::int64_t Flips;
   };
 
+  void GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const;
   void MakeTriangle(std::int64_t t);
   void TakeRecord(std::int64_t t);
   void KeepPast();

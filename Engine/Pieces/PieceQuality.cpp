@@ -45,13 +45,6 @@ double Measure(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
   return mesh.IsListed(t) && mesh.Triangles[t].HasLeft ? -INFINITY : cotangent;
 }
 
-double MeasureFirst(const PieceMesh& mesh, const PieceSurvey& survey, std::int64_t t)
-{
-  std::int32_t points[3];
-  mesh.GetFirstPoints(t, points);
-  return Measure(mesh, survey, points);
-}
-
 struct MeasureStep
 {
   const PieceMesh& Mesh;
@@ -80,19 +73,6 @@ double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
   return Measure(x, survey);
 }
 
-namespace
-{
-/// Whether an angle of the first flips is less than one measured here. Those flips measure in the
-/// coordinates of their plane, so the same angle differs by rounding, most in the flattest
-/// triangles.
-bool IsClearlyLess(double first, double here)
-{
-  constexpr double Flattest = 1e-6; // degrees
-  constexpr double MostRounding = 2.0;
-  return first > Flattest && here > MostRounding * first;
-}
-}
-
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads)
 {
   const LargestValue largest = ThreadBackend(threads).Sum<LargestValue>(
@@ -100,17 +80,14 @@ double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int t
   return ToDegrees(largest.Value);
 }
 
-double FindSmallestAngle(
-  const PieceMesh& mesh, const PieceSurvey& survey, double first, int threads)
+double FindSmallestAngleAfterRounds(const PieceMesh& mesh, const PieceSurvey& survey)
 {
-  double before = -INFINITY, now = -INFINITY;
+  double largest = mesh.FindLargestSquaredCotangent();
   for (const std::int64_t t : mesh.FindListed())
   {
-    before = t < mesh.CountFirst() ? std::max(before, MeasureFirst(mesh, survey, t)) : before;
-    now = std::max(now, Measure(mesh, survey, t));
+    largest = std::max(largest, Measure(mesh, survey, t));
   }
-  const bool isElsewhere = before == -INFINITY || IsClearlyLess(first, ToDegrees(before));
-  return isElsewhere ? std::fmin(first, ToDegrees(now)) : FindSmallestAngle(mesh, survey, threads);
+  return ToDegrees(largest);
 }
 
 void PieceQuality::Update(const PieceMesh& mesh, const PieceSurvey& survey)

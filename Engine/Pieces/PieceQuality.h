@@ -19,10 +19,9 @@ double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey);
 /// The smallest angle of all triangles of a rank, in degrees; NaN if there is none.
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads);
 
-/// The same after rounds, without a pass over all triangles if the smallest angle after the first
-/// flips, `first`, is that of a triangle that is not listed.
-double FindSmallestAngle(
-  const PieceMesh& mesh, const PieceSurvey& survey, double first, int threads);
+/// The same after rounds, in less time: the engine of the first flips measures the triangles that
+/// are not listed.
+double FindSmallestAngleAfterRounds(const PieceMesh& mesh, const PieceSurvey& survey);
 
 /// The smallest angle of every triangle of a rank, for FlipOptions::TrackQuality: a session sees
 /// only a region, but its iterations tell the angle of all triangles.

@@ -43,7 +43,7 @@ void PieceRun::CountRest()
   }
   const int threads = this->Job.Options.NumberOfThreads;
   this->Own.MinimumAngleAfter = this->First
-    ? FindSmallestAngle(this->Mesh, this->Job.Survey, this->Own.MinimumAngleAfter, threads)
+    ? FindSmallestAngleAfterRounds(this->Mesh, this->Job.Survey)
     : FindSmallestAngle(this->Mesh, this->Job.Survey, threads);
   this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
   if (this->HasBlocked)

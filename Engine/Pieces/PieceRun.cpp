@@ -173,7 +173,7 @@ MarkedEdges PieceRun::MarkEdges(const TriangleMesh& mesh)
   MarkedEdges edges;
   for (const MarkedCorner& mark : this->Seams.Marks)
   {
-    edges.Add(this->Mesh.Triangles[mark.Triangle].GetEdge(mark.Slot), mark.Mark);
+    edges.Add(this->Mesh.GetEdge(mark.Triangle, mark.Slot), mark.Mark);
   }
   const EdgeCounts& counts = this->Own.Edges;
   const bool hasFixed = counts.Fixed > counts.Boundary + counts.NonManifold;

@@ -15,7 +15,7 @@ namespace
 class SeamLister
 {
 public:
-  SeamLister(const MeshPiece& piece, PieceMesh& mesh)
+  SeamLister(const MeshPiece& piece, const PieceMesh& mesh)
     : Piece(piece),
       Mesh(mesh)
   {
@@ -23,7 +23,6 @@ public:
 
   SeamTriangle Make(std::int64_t t, int slot) const
   {
-    this->Mesh.List(t);
     SeamTriangle seam = MakeSeamTriangle(this->Mesh, t, slot);
     seam.Side.IsFrozen = this->IsFrozen(t);
     seam.Side.Region = this->Piece.Mesh.Regions ? this->Piece.Mesh.Regions[t] : 0;
@@ -51,13 +50,14 @@ private:
   /// Also with a repeated id.
   bool IsFrozen(std::int64_t t) const
   {
-    const std::int32_t(&p)[3] = this->Mesh.Triangles[t].Points;
+    std::int32_t p[3];
+    this->Mesh.GetPoints(t, p);
     const unsigned char* frozen = this->Piece.Mesh.FrozenTriangles;
     return (frozen && frozen[t] != 0) || p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
   }
 
   const MeshPiece& Piece;
-  PieceMesh& Mesh;
+  const PieceMesh& Mesh;
 };
 
 std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
@@ -66,7 +66,7 @@ std::size_t GetHomeOf(const PointPair& keys, const PieceGroup& group)
 }
 
 RecordLists<SeamTriangle> ListSeamTriangles(
-  const MeshPiece& piece, PieceMesh& mesh, const PieceGroup& group)
+  const MeshPiece& piece, const PieceMesh& mesh, const PieceGroup& group)
 {
   const SeamLister lister(piece, mesh);
   RecordLists<SeamTriangle> toHome(group.GetSize());
@@ -118,14 +118,14 @@ void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, Se
         { answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
       if (answer.IsToFix)
       {
-        survey.EdgesToFix.push_back(mesh.Triangles[answer.Triangle].GetEdge(answer.Slot));
+        survey.EdgesToFix.push_back(mesh.GetEdge(answer.Triangle, answer.Slot));
       }
     }
   }
 }
 }
 
-SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, PieceMesh& mesh,
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
   const std::vector<FarConstraint>& far)
 {
   PieceGroup& group = job.Group;

@@ -38,7 +38,7 @@ struct SeamSurvey
 
 /// @param piece as job.Piece, or as it has become.
 /// @param far more constraints to be inserted.
-SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, PieceMesh& mesh,
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
   const std::vector<FarConstraint>& far = {});
 
 }

@@ -10,13 +10,14 @@ namespace delaunayflip
 
 SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t t, int slot)
 {
-  const PieceTriangle& triangle = mesh.Triangles[t];
+  std::int32_t points[3];
+  mesh.GetPoints(t, points);
+  std::int32_t first = points[(slot + 1) % 3];
+  std::int32_t second = points[(slot + 2) % 3];
   SeamTriangle seam{};
-  seam.Ends = mesh.GetKeys(triangle.GetEdge(slot));
-  seam.Opposite = mesh.GetKey(triangle.Points[slot]);
+  seam.Ends = mesh.GetKeys({ first, second });
+  seam.Opposite = mesh.GetKey(points[slot]);
   seam.Corner = 3 * t + slot;
-  std::int32_t first = triangle.GetStart(slot);
-  std::int32_t second = triangle.GetEnd(slot);
   seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
   if (!seam.Side.RunsForward)
   {
@@ -24,7 +25,7 @@ SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t t, int slot)
   }
   mesh.GetPosition(first, seam.Side.Ends[0]);
   mesh.GetPosition(second, seam.Side.Ends[1]);
-  mesh.GetPosition(triangle.Points[slot], seam.Side.Opposite);
+  mesh.GetPosition(points[slot], seam.Side.Opposite);
   return seam;
 }
 

@@ -44,6 +44,14 @@ public:
       .Value;
   }
 
+  double FindLargestSquaredCotangentWithout(const unsigned char* omitted) const override
+  {
+    return this->Backend
+      .template Sum<LargestValue>(
+        this->Mesh.NumberOfTriangles, OtherAngles{ this->Angles(), omitted })
+      .Value;
+  }
+
 protected:
   /// Passes 1 to 3.
   StepCounts DetectAll() override
@@ -183,6 +191,22 @@ private:
       { std::replace(states + begin, states + end, EdgeState::Deferred, EdgeState::Candidate); });
     this->Worklist.ActivateAll();
   }
+
+  /// The angles of triangles without a flag.
+  struct OtherAngles
+  {
+    AngleSurvey<Rule> All;
+    const unsigned char* Omitted;
+
+    void Prefetch(std::int64_t t) const { this->All.Prefetch(t); }
+    void operator()(std::int64_t t, LargestValue& sum) const
+    {
+      if (this->Omitted[t] == 0)
+      {
+        this->All(t, sum);
+      }
+    }
+  };
 
   AngleSurvey<Rule> Angles() const
   {

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceQuality.h"
+#include "FlipEngine.h"
 #include "PieceTestSupport.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <vector>
 
 /// @file
 /// The smallest angle of a rank after rounds.
@@ -15,7 +17,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Two triangles that share no point: one flat, the other one less so.
+/// Two triangles that share no point, one of them flat, and a point above that one.
 OwnedMesh<double> MakeTwoTriangles()
 {
   OwnedMesh<double> mesh;
@@ -25,65 +27,86 @@ OwnedMesh<double> MakeTwoTriangles()
   return mesh;
 }
 
+/// The triangles of a rank after its first flips.
 class PieceQualityTest : public testing::Test
 {
 protected:
-  PieceQualityTest() { this->Mesh.BeginRounds(false); }
-
-  double FindAngle() const { return FindSmallestAngle(this->Mesh, this->Survey, 1); }
-  double FindAngle(double first) const
+  PieceQualityTest()
   {
-    return FindSmallestAngle(this->Mesh, this->Survey, first, 1);
+    this->Mesh.TakeTriangles(this->First->ViewHostTriangles(), MarkedEdges());
+    this->Mesh.BeginRounds(false);
   }
 
-  /// Lists a triangle and moves its corner 2 to point 3.
-  void Change(std::int64_t triangle)
+  /// The corner at a point.
+  PieceCorner FindCorner(std::int32_t point) const
   {
-    this->Mesh.List(triangle);
-    this->Mesh.SetPoint({ triangle, 2 }, 3);
+    for (std::int64_t corner = 0; corner < 6; ++corner)
+    {
+      std::int32_t points[3];
+      this->Mesh.GetPoints(corner / 3, points);
+      if (points[corner % 3] == point)
+      {
+        return { corner / 3, static_cast<int>(corner % 3) };
+      }
+    }
+    return { -1, 0 };
   }
 
-  static constexpr int Flat = 0, Other = 1;
+  /// Lists the triangle that has a point, and gives it another point instead.
+  void Replace(std::int32_t point, std::int32_t by)
+  {
+    const PieceCorner corner = this->FindCorner(point);
+    this->Mesh.List(corner.Triangle);
+    this->Mesh.SetPoint(corner, by);
+  }
+
+  double MeasureAll() const { return FindSmallestAngle(this->Mesh, this->Survey, 1); }
+  double Measure() const { return FindSmallestAngleAfterRounds(this->Mesh, this->Survey); }
 
   OwnedMesh<double> Triangles = MakeTwoTriangles();
   std::unique_ptr<PieceGroup> Alone = MakeSingleGroup();
   MeshPiece Piece{ Triangles.View() };
   PieceSurvey Survey = SurveyPieces(Piece, MatchPoints(Piece, *Alone), FlipOptions(), *Alone);
+  std::unique_ptr<FlipEngine> First =
+    MakeThreadEngine(Triangles.View(), FlipOptions(), BuildProgress());
   PieceMesh Mesh{ Piece, MatchPoints(Piece, *Alone), 0, 0 };
 };
 
-TEST_F(PieceQualityTest, AFlatTriangleThatHasChangedDoesNotCount)
+TEST_F(PieceQualityTest, NoTriangleIsListed)
 {
-  const double first = this->FindAngle();
-  this->Change(Flat);
-  const double now = this->FindAngle();
-  EXPECT_GT(now, 10 * first);
-  EXPECT_EQ(now, this->FindAngle(first));
+  EXPECT_NEAR(1.1458, this->MeasureAll(), 1e-4);
+  EXPECT_DOUBLE_EQ(this->MeasureAll(), this->Measure());
 }
 
-TEST_F(PieceQualityTest, TheFirstFlipsMayHaveRoundedItsAngle)
+TEST_F(PieceQualityTest, TheFlattestHasChanged)
 {
-  const double first = this->FindAngle();
-  this->Change(Flat);
-  const double now = this->FindAngle();
-  EXPECT_EQ(now, this->FindAngle(first * (1 - 1e-12)));
-  EXPECT_EQ(now, this->FindAngle(first * (1 + 1e-12)));
+  this->Replace(2, 3);
+  EXPECT_NEAR(30.9638, this->MeasureAll(), 1e-4);
+  EXPECT_DOUBLE_EQ(this->MeasureAll(), this->Measure());
 }
 
-TEST_F(PieceQualityTest, TheSmallestAngleMayBeThatOfATriangleThatIsNotListed)
+TEST_F(PieceQualityTest, AnotherOneHasChanged)
 {
-  const double first = this->FindAngle() * (1 - 1e-12);
-  this->Change(Other);
-  EXPECT_EQ(first, this->FindAngle(first)); // as the first flips have measured it
+  this->Replace(5, 3);
+  EXPECT_NEAR(1.1458, this->MeasureAll(), 1e-4);
+  EXPECT_DOUBLE_EQ(this->MeasureAll(), this->Measure());
 }
 
-TEST_F(PieceQualityTest, OrThatOfATriangleThatHasChanged)
+TEST_F(PieceQualityTest, AnotherOneIsTheFlattestNow)
 {
-  const double first = this->FindAngle();
-  this->Mesh.List(Other);
-  this->Mesh.SetPoint({ Other, 2 }, 0);
-  EXPECT_EQ(this->FindAngle(), this->FindAngle(first));
-  EXPECT_LT(this->FindAngle(first), first);
+  this->Replace(5, 0); // (2, 0), (0, 0), (2.5, 0.3)
+  this->Replace(2, 3);
+  EXPECT_LT(this->MeasureAll(), 10.0);
+  EXPECT_DOUBLE_EQ(this->MeasureAll(), this->Measure());
+}
+
+TEST_F(PieceQualityTest, TheFlattestHasLeft)
+{
+  const std::int64_t flat = this->FindCorner(2).Triangle;
+  this->Mesh.List(flat);
+  this->Mesh.Release({ flat });
+  EXPECT_NEAR(30.9638, this->MeasureAll(), 1e-4);
+  EXPECT_DOUBLE_EQ(this->MeasureAll(), this->Measure());
 }
 
 }
