@@ -378,6 +378,10 @@ void PieceRun::Store(FlippedPiece& flipped) const
   if (this->First)
   {
     const std::int64_t count = this->FirstOrigins[rank + 1] - this->FirstOrigins[rank];
+    // With room for those that have come, or else they would make the vectors move.
+    const std::size_t most = this->Mesh.Triangles.size();
+    flipped.Triangles.reserve(3 * most);
+    flipped.FlipCounts.reserve(most);
     flipped.Triangles.resize(3 * count);
     flipped.FlipCounts.resize(count);
     this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
