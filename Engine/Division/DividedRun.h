@@ -18,14 +18,15 @@ namespace delaunayflip
 
 /// Flips a mesh of this process in pieces.
 ///
-/// First each piece is flipped, in which the edges between pieces, the seam edges, are boundary
-/// edges. Then the triangles around the points of seam edges are flipped as one mesh, a region; and
-/// again those around the points that flips have reached at its border, until there are none. So
-/// every edge is judged after the last flip beside it.
+/// First each piece is flipped by itself. The edges between pieces, the seam edges, are treated as
+/// boundary edges and do not flip. Then the triangles around the points of seam edges, a region,
+/// are flipped as one mesh. If flips reach points at the border of the region, the triangles around
+/// these points are the next region. The run ends when no flip has reached a border. So every edge
+/// is judged after the last flip of a triangle next to it.
 class DividedRun
 {
 public:
-  /// All must live as long as the run.
+  /// All arguments must live as long as the run.
   /// @param flipCounts is set to the number of flips of each triangle slot; or null.
   DividedRun(MeshInPieces& mesh, const FlipOptions& options, std::int32_t* flipCounts,
     const ProgressObserver& progress);
@@ -33,7 +34,7 @@ public:
   PiecesReport Run();
 
 private:
-  /// The share of the time until the first region, about.
+  /// About the share of the time that passes before the first region.
   static constexpr double PiecesShare = 0.9;
 
   // Before the first flip:
@@ -71,8 +72,8 @@ private:
 
   std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.
   PointSet Seam; ///< The points of seam edges before the first flip.
-  std::int64_t Unmatched = 0; ///< Constraints that are no edges.
-  EdgeTotals Seams; ///< What the pieces' reports do not count of the edges between them.
+  std::int64_t Unmatched = 0; ///< Constraints that are not edges of the mesh.
+  EdgeTotals Seams; ///< To be added to the sums of the pieces' reports (EdgeTotals).
   std::vector<std::int64_t> FixedAtSeams; ///< The same for all edges there that stay.
 
   std::vector<std::atomic<double>> Shares; ///< Of the work for each piece that is done.

@@ -10,9 +10,12 @@
 namespace delaunayflip
 {
 
-/// Counts of the edges of a mesh. The counts of pieces, added up, become those of the whole mesh if
-/// one adds the counts of all triangles at seams, and subtracts those of the same triangles piece
-/// by piece: an edge inside a piece cancels out, and a seam edge is counted once.
+/// Counts of the edges of a mesh.
+///
+/// The sum over all pieces counts seam edges wrongly: each is a boundary edge of several pieces. To
+/// correct the sum, add the counts of the triangles at seams, taken as one mesh, and subtract the
+/// counts of the same triangles, taken piece by piece. Then edges inside a piece cancel out, and a
+/// seam edge is counted once.
 struct EdgeTotals
 {
   EdgeCounts Edges;

@@ -25,9 +25,9 @@ class MeshInPieces
 {
 public:
   /// Surveys the mesh as a whole, divides it, and copies its triangles.
-  /// @param triangles where flips change them: the array of the mesh, or another one.
+  /// @param triangles receives the copy, which flips change. May be the mesh's own array.
   /// @param options whose threads are used.
-  /// @throws InvalidMesh, InvalidOptions; then nothing has been copied.
+  /// @throws InvalidMesh, InvalidOptions, both before anything is copied.
   MeshInPieces(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
     const FlipOptions& options, int pieces);
 
@@ -36,18 +36,18 @@ public:
   int GetNumberOfPieces() const { return this->Pieces; }
   const PieceSurvey& GetSurvey() const { return this->Survey; }
   std::int64_t GetUsedPoints() const { return this->UsedPoints; }
-  /// What is wrong with ids and coordinates.
+  /// Defects of point ids and coordinates.
   const std::vector<Defect>& GetDefects() const { return this->Defects; }
   const ThreadBackend& GetThreads() const { return this->Threads; }
 
   SubMesh GetPiece(int piece) const;
-  /// The points that triangles of several pieces have at the moment.
+  /// The points that triangles of several pieces share at the moment.
   PointSet FindSeamPoints() const;
-  /// The triangles at some points.
+  /// The triangles that have one of these points.
   SubMesh GetTrianglesAt(const PointSet& points) const;
-  /// Those triangles of another sub-mesh that belong to a piece.
+  /// The triangles of a sub-mesh that belong to one piece.
   SubMesh GetPieceOf(const SubMesh& part, int piece) const;
-  /// The points of those triangles.
+  /// All points of the triangles that have one of these points.
   PointSet FindPointsAround(const PointSet& points) const;
 
 private:

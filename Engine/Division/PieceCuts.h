@@ -12,24 +12,25 @@
 namespace delaunayflip
 {
 
-/// Cuts between pieces next to each other that have about the same number of triangles: each across
-/// the longest side of what it cuts.
+/// Divides a mesh into pieces with about the same number of triangles by recursive bisection. Each
+/// cut is perpendicular to the axis along which the part is longest.
 ///
-/// Of large meshes they are those of a sample, which depends on the number of triangles only.
+/// The cuts of a large mesh are computed from a sample of its triangles. Which triangles are in the
+/// sample depends only on their number.
 class PieceCuts
 {
 public:
-  /// @param axes of coordinates that matter, ascending.
+  /// @param axes the coordinate axes to cut across, ascending.
   PieceCuts(const TriangleMesh& mesh, const std::vector<int>& axes, int pieces);
 
-  /// The piece of a triangle, 0 to pieces - 1, by its centre.
+  /// The piece, 0 to pieces - 1, in which the centre of a triangle lies.
   int FindPiece(const TriangleMesh& mesh, std::int64_t triangle) const;
 
 private:
   using Center = std::array<double, 3>;
 
-  /// What lies below the value along an axis belongs to the first of two parts. A part is another
-  /// cut or, if negative, the piece ~part.
+  /// Centres whose coordinate is below the value belong to the first of the two parts. A part is
+  /// the index of another cut or, if negative, the piece ~part.
   struct Cut
   {
     int Axis;
@@ -43,7 +44,7 @@ private:
 
   std::vector<int> Axes;
   std::vector<Cut> Cuts;
-  int First; ///< The part that is everything.
+  int First; ///< The part that is the whole mesh.
 };
 
 }

@@ -36,7 +36,7 @@ public:
     return (this->Words.Data()[point / WordBits] & GetBit(point)) != 0;
   }
 
-  /// Whether it has a point of a triangle.
+  /// Whether a point of a triangle is in the set.
   bool Touches(const TriangleArray& triangles, std::int64_t t) const
   {
     return this->Has(triangles.Get(t, 0)) || this->Has(triangles.Get(t, 1)) ||
@@ -49,7 +49,7 @@ public:
 
   // After Number:
   std::int64_t GetSize() const { return this->Size; }
-  /// The number of a point that it has.
+  /// The number of a point of the set.
   std::int32_t GetNumber(std::int64_t point) const
   {
     const std::uint32_t before = this->Words.Data()[point / WordBits] & (GetBit(point) - 1);
@@ -57,7 +57,7 @@ public:
       this->Firsts.Data()[point / WordBits] + __builtin_popcount(before));
   }
 
-  /// Calls visit(point, number) for all its points, in several threads.
+  /// Calls visit(point, number) for all points of the set, in several threads.
   template <typename Visit>
   void ForEach(const ThreadBackend& backend, const Visit& visit) const
   {

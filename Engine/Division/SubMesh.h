@@ -15,7 +15,7 @@
 namespace delaunayflip
 {
 
-/// The numbers below a size for which isIn(number), ascending.
+/// The numbers from 0 to size - 1 for which isIn(number) is true, ascending.
 template <typename IsIn>
 Array<std::int64_t> ListNumbers(std::int64_t size, const IsIn& isIn, const ThreadBackend& backend)
 {
@@ -70,12 +70,12 @@ public:
   /// The id in the mesh of a point.
   std::int64_t GetPointId(std::int64_t number) const { return this->PointOf[number]; }
 
-  /// Fixes the edges between pairs of the mesh's points, as far as both belong to the sub-mesh.
-  /// @param ends two ids of the mesh for each.
+  /// Fixes edges whose two ends are both in the sub-mesh, and ignores the others.
+  /// @param ends of the edges: two point ids of the mesh for each.
   void FixEdges(const std::vector<std::int64_t>& ends);
 
-  /// Flips must not join two of the points that `has`(point of the mesh), unless flips prove to be
-  /// harmless (WholeMesh::SharedPoints).
+  /// Forbids flips that would join two of the points for which `has`(point of the mesh) is true
+  /// (WholeMesh::SharedPoints). There is no need to where no flip can make an edge that exists.
   template <typename Has>
   void GuardPoints(const Has& has)
   {
@@ -84,12 +84,12 @@ public:
       [&](std::int64_t point, std::int32_t number) { this->Shared[number] = has(point) ? 1 : 0; });
   }
 
-  /// Views of the arrays of this object, with the labels of the mesh's triangles.
+  /// Views of the arrays of this object, with the regions and frozen flags of the triangles.
   TriangleMesh View() const;
-  /// Only points, triangles and edges to be fixed.
+  /// The same without regions and frozen flags.
   TriangleMesh ViewWithoutLabels() const;
 
-  /// The ids of the triangles, which may be changed.
+  /// The point ids of the triangles, to be changed by flips.
   MutableTriangleArray GetTriangles()
   {
     return MutableTriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
