@@ -12,7 +12,7 @@
 namespace delaunayflip
 {
 
-/// Groups of constraints, each known by its first one.
+/// Disjoint groups of constraints (union-find). A group is named by its first constraint.
 class ConstraintGroups
 {
 public:

@@ -14,8 +14,8 @@
 namespace delaunayflip
 {
 
-/// Constraints with a flag for each that is to be inserted. Those that are known to be edges come
-/// first.
+/// Constraints, with one flag for each: whether it is to be inserted. Those that are known to be
+/// edges must be added first.
 class ConstraintList
 {
 public:
@@ -30,7 +30,7 @@ public:
     this->ToInsert.push_back(isToInsert ? 1 : 0);
   }
 
-  /// Gives a mesh views of them.
+  /// Gives a mesh views of these constraints.
   TriangleMesh AddTo(TriangleMesh mesh) const
   {
     mesh.ConstraintEdges = this->Ends.data();
@@ -44,7 +44,8 @@ public:
     return std::count(this->ToInsert.begin(), this->ToInsert.end(), static_cast<unsigned char>(1));
   }
 
-  /// Calls visit(from, to) for the edges that the others have become, and for those that stayed.
+  /// Calls visit(from, to) for all constraints of `made`, the mesh after the insertion, except the
+  /// edges that were known before.
   template <typename Visit>
   void ForEachMade(const TriangleMesh& made, const Visit& visit) const
   {

@@ -11,7 +11,7 @@
 namespace delaunayflip
 {
 
-/// A constraint that may cross triangles of several ranks.
+/// A constraint that may cross triangles of several ranks, so that no rank can insert it alone.
 struct FarConstraint
 {
   std::int64_t Ends[2]; ///< Keys.
@@ -23,7 +23,8 @@ struct FarConstraint
 /// A constraint between two points of this rank.
 FarConstraint MakeFarConstraint(const PieceMesh& mesh, std::int64_t from, std::int64_t to);
 
-/// Those of MeshPiece::FarConstraints. All ranks call it together.
+/// The constraints of MeshPiece::FarConstraints, with keys and positions of their ends. All ranks
+/// must call this together.
 /// @throws InvalidMesh for an id that is not a point of its rank.
 std::vector<FarConstraint> LookUpFarConstraints(
   const MeshPiece& piece, const PieceMesh& mesh, PieceGroup& group);

@@ -13,7 +13,8 @@
 namespace delaunayflip
 {
 
-/// Edges of a piece by their marks (EdgeMark, of slot 0), to mark the triangles of another time.
+/// The marks (EdgeMark, of slot 0) of the edges of a piece, by the ends of the edges. So the marks
+/// can be applied again after flips have changed the triangles.
 class MarkedEdges
 {
 public:
@@ -24,7 +25,7 @@ public:
     return this->IsEnd(a) && this->IsEnd(b) ? this->Find(MakePair(a, b)) : 0;
   }
 
-  /// Marks the edges of all triangles; those that had other marks lose them.
+  /// Marks the edges of all triangles. All earlier marks are lost.
   void Apply(PieceTriangles& triangles) const;
 
 private:
@@ -35,10 +36,10 @@ private:
   unsigned char Find(const PointPair& edge) const;
 
   PairMap<unsigned char> Marks;
-  std::vector<unsigned char> Ends; ///< One flag per point: whether it is the end of such an edge.
+  std::vector<unsigned char> Ends; ///< One flag per point: whether it is an end of a marked edge.
 };
 
-/// The edges with three or more triangles, in the order of the triangles.
+/// The edges that three or more triangles share, in the order of the triangles.
 std::vector<PointPair> FindCrowdedEdges(const TriangleArray& triangles);
 
 }

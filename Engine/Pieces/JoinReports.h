@@ -12,22 +12,22 @@
 namespace delaunayflip
 {
 
-/// An iteration of a rank. Iterations of several ranks with the same place in the same round are
-/// one of the whole mesh.
+/// An iteration of one rank. The iterations of all ranks with the same place in the same round
+/// count as one iteration of the whole mesh.
 struct RoundRow
 {
   std::int64_t Round;
-  std::int64_t Place; ///< Among the rank's own of that round; -1: before them, only an angle.
+  std::int64_t Place; ///< Of the iteration in its round; -1: before them, only an angle.
   IterationRecord Record;
 };
 
-/// The sums of the reports of all ranks, the same on all of them. Texts that differ are listed.
+/// Adds up the reports of all ranks. All ranks get the same result. Texts that differ are listed.
 /// @param rows the iterations of this rank, which take the place of report.Iterations.
 FlipReport JoinReports(
   const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group);
 
-/// The same for the reports of all pieces of a mesh, whose iterations are made side by side.
-/// Seconds are the largest. The totals of iterations are left to CountIterations.
+/// The same for the pieces of a mesh of one process. Iterations with the same number are joined.
+/// Each time is the largest of all pieces. Call CountIterations for the totals of the iterations.
 FlipReport JoinReports(const std::vector<FlipReport>& reports);
 
 /// Sums the iterations of a report.

@@ -13,7 +13,7 @@
 namespace delaunayflip
 {
 
-/// Arrays that take the place of the caller's after triangles of a piece have changed.
+/// Arrays that replace the caller's when the triangles of a piece have changed.
 class PieceArrays
 {
 public:
@@ -26,7 +26,8 @@ public:
   void TakeTriangles(const PieceMesh& mesh);
   void TakePoints(const PieceMesh& mesh);
 
-  /// Gives a mesh views of what was taken, and of all constraints, none of which is to be inserted.
+  /// Gives a mesh views of the arrays that were taken, and of all constraints. None of these is to
+  /// be inserted.
   void AddTo(TriangleMesh& mesh) const;
 
 private:

@@ -22,29 +22,31 @@ class ConstraintInsertion;
 class ConstraintList;
 class PieceRegion;
 
-/// The mesh that the first flips start from, and its seams: the caller's or, in planar geometry,
-/// one in which those constraints are edges that are to be inserted.
+/// The mesh that the first flips start from, and its seams. In planar geometry, this is the
+/// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
+/// mesh.
 ///
-/// Each rank first inserts those that stay within its piece. For the others, all triangles that
-/// such a constraint touches are lent to one rank, which inserts it and gives them back.
+/// Each rank first inserts the constraints that stay within its piece. For any other constraint,
+/// all triangles that it touches are lent to one rank, which inserts it and returns the triangles.
 class PieceConstraints
 {
 public:
-  /// All ranks make it together.
-  /// @param mesh before its rounds; receives the triangles.
+  /// All ranks must call this together.
+  /// @param mesh before BeginRounds; receives the changed triangles.
   PieceConstraints(const PieceJob& job, PieceMesh& mesh);
 
   /// Views of the caller's arrays and of arrays of this object.
   const MeshPiece& GetPiece() const { return this->Piece; }
   SeamSurvey& GetSeams() { return this->Seams; }
 
-  /// Whether an observer wanted to stop: of this rank, or while ranks inserted alone of any.
+  /// Whether the observer of this rank wanted to stop; or that of any rank, while ranks inserted
+  /// alone.
   bool HasAborted() const { return this->IsAborted; }
 
-  /// The share of a run that is over then.
+  /// The share of the run that is done after the insertion.
   double GetShare() const { return this->Share; }
 
-  /// Adds what this rank has inserted and refused.
+  /// Adds the constraints that this rank has inserted and refused.
   void AddTo(FlipReport& report) const;
 
 private:
@@ -65,12 +67,13 @@ private:
   PieceJob Job;
   PieceMesh& Mesh;
   MeshPiece Piece;
-  std::vector<FarConstraint> Far; ///< Those that the caller gives as such.
+  std::vector<FarConstraint> Far; ///< MeshPiece::FarConstraints.
   SeamSurvey Seams;
   bool IsAborted = false;
   double Share = 0.0;
-  MarkedEdges Fixed; ///< While constraints are inserted.
-  std::vector<PointPair> Left; ///< Ids: those that this rank cannot insert alone, ascending.
+  MarkedEdges Fixed; ///< The fixed edges while constraints are inserted.
+  std::vector<PointPair>
+    Left; ///< Ids of constraints that this rank cannot insert alone, ascending.
   FlipReport Found; ///< The counts and defects of all insertions.
   PieceArrays Arrays;
 };

@@ -9,7 +9,7 @@
 namespace delaunayflip
 {
 
-/// What a run is given. All must live as long as the run.
+/// The input of a run on one rank. All of it must live as long as the run.
 struct PieceJob
 {
   const MeshPiece& Piece;

@@ -18,7 +18,7 @@
 namespace delaunayflip
 {
 
-/// A triangle on its way to another rank.
+/// A triangle as it is sent to another rank.
 struct TravellingTriangle
 {
   std::int64_t Keys[3];
@@ -30,21 +30,22 @@ struct TravellingTriangle
 
 /// The triangles that a rank has at the moment, and all points that it has ever had.
 ///
-/// Most triangles are never touched by a round. So a triangle is listed in Triangles when it is
-/// needed; until then it stays where the caller, or the engine of the first flips, has it. Before
-/// one changes or leaves, all that share an edge with it are listed.
+/// Most triangles are never touched by a round. So a triangle is *listed*, that is copied to its
+/// place in Triangles, only when it is needed. Until then it stays in the arrays of the caller or
+/// of the engine of the first flips. Before a triangle changes or goes to another rank, all
+/// triangles that share an edge with it are listed.
 class PieceMesh
 {
 public:
-  /// Has the triangles of the caller.
-  /// @param firstOrigin the number of the first of them among those of all ranks.
+  /// Starts with the triangles of the caller, none of them listed.
+  /// @param firstOrigin the number of the first of them among the triangles of all ranks.
   PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
 
-  PieceTriangles Triangles; ///< Some may be empty places (PieceTriangle::HasLeft), or not listed.
+  PieceTriangles Triangles; ///< A place may be empty (HasLeft), or not listed.
 
   bool IsListed(std::int64_t t) const { return this->Listed[t] != 0; }
   bool AreAllListed() const { return this->NumberListed == this->Triangles.size(); }
-  /// Their numbers, ascending.
+  /// The numbers of the listed triangles, ascending.
   std::vector<std::int64_t> FindListed() const;
   void List(std::int64_t t)
   {
@@ -54,44 +55,45 @@ public:
     }
   }
   void ListAll();
-  /// The ids of a triangle that may not be listed.
+  /// The point ids of a triangle, listed or not.
   void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
-  /// The ends of the edge opposite to a corner of such a triangle.
+  /// The ends of the edge opposite to a corner of a triangle, listed or not.
   PointPair GetEdge(std::int64_t t, int slot) const
   {
     std::int32_t points[3];
     this->GetPoints(t, points);
     return MakePair(points[(slot + 1) % 3], points[(slot + 2) % 3]);
   }
-  /// Of the triangles that are not listed, after TakeTriangles(made, marks): as FlipLoop.h has it.
+  /// The largest squared cotangent of the triangles that are not listed, as defined in FlipLoop.h.
+  /// Only after TakeTriangles(made, marks).
   double FindLargestSquaredCotangent() const;
-  /// Takes the triangles that an engine has made of these, in its order, in which neighbours are
-  /// near each other. Lists those at marked edges at the boundary.
-  /// @param made must stay as it is as long as there are triangles that are not listed.
+  /// Takes the result of the first flips, in the order of the engine: triangles near each other in
+  /// the mesh are near each other in memory. Lists the triangles at marked boundary edges.
+  /// @param made must not change as long as there are triangles that are not listed.
   void TakeTriangles(const HostTriangles& made, MarkedEdges marks);
-  /// The same for arrays with a value per triangle. Lists all.
+  /// The same for arrays in the order of the triangles here. Lists all triangles.
   void TakeTriangles(const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks);
-  /// Lists the corners at every point, so that rounds take no time for other triangles. From now on
-  /// triangles change by the functions below only.
+  /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
+  /// without a pass over all. From now on only the functions below may change triangles.
   /// @param listsChanged whether TakeChanged will be called; then all triangles must be listed.
   void BeginRounds(bool listsChanged);
-  /// Closes empty places, and forgets the lists and all marks. Triangles keep their order.
+  /// Removes empty places, the lists of corners and all marks. Triangles keep their order.
   void EndRounds();
   /// Flips the edge opposite to two corners.
   void Flip(const PieceCorner& one, const PieceCorner& other);
   /// Puts another point at a corner. Marks do not change.
   void SetPoint(const PieceCorner& corner, std::int32_t point);
-  /// The triangles that have changed or come since the last call, and those at points that have
-  /// become shared; some more than once.
+  /// The triangles that have changed or arrived since the last call, and those at points that have
+  /// become shared. A triangle may be repeated.
   std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
-  /// Marks an edge as one between ranks.
+  /// Marks the edge opposite to a corner as a seam edge.
   void SetSeam(const PieceCorner& corner);
-  /// Marks it as an inner edge again.
+  /// Removes this mark: both triangles of the edge are on this rank.
   void ClearSeam(const PieceCorner& corner);
-  /// The edges between ranks whose triangles here have changed or come since the last call.
+  /// The seam edges whose triangles here have changed or arrived since the last call.
   std::vector<PieceCorner> TakeNewSeams();
-  /// Those without a triangle here since the last call: keys. Some of them may have one again, and
-  /// some may never have been told.
+  /// The keys of seam edges that have lost their triangle here since the last call. They may
+  /// include edges that have a triangle here again, or that TakeNewSeams has never returned.
   std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
   /// Calls visit(corner) for every corner at a point.
   template <typename Visit>
@@ -104,9 +106,9 @@ public:
         return false;
       });
   }
-  /// Another triangle here at the edge opposite to a corner.
+  /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PieceCorner FindMate(const PieceCorner& corner) const;
-  /// The same, but none if the edge is fixed or between ranks.
+  /// The same, but none if the edge is a fixed edge or a seam edge.
   PieceCorner FindOpenMate(const PieceCorner& corner);
   /// Prefetches the points of a triangle and those opposite to it.
   void PrefetchPoints(std::int64_t triangle) const;
@@ -115,12 +117,12 @@ public:
   bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
   /// One flag per point: whether other ranks may have triangles at it.
   const std::vector<unsigned char>& GetShared() const { return this->Shared; }
-  /// Those points, without an order.
+  /// The shared points, in no particular order.
   const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
 
-  /// No other rank has triangles at these points any more; some may be repeated.
+  /// Notes that no other rank has triangles at these points any more. Points may be repeated.
   void Unshare(const std::vector<std::int32_t>& points);
-  /// Other ranks may have triangles at a point, if it is known here.
+  /// Notes that other ranks may have triangles at a point. Ignores points unknown here.
   void Share(std::int64_t key);
 
   std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
@@ -147,16 +149,16 @@ public:
     return MakePair(this->Keys[pair[0]], this->Keys[pair[1]]);
   }
 
-  /// Removes triangles that go to other ranks. @returns them in their order.
+  /// Removes triangles that go to other ranks. @returns them, in the same order.
   std::vector<TravellingTriangle> Release(const std::vector<std::int64_t>& triangles);
   /// Adds one that comes from another rank. @returns its number here.
   std::int64_t Receive(const TravellingTriangle& triangle);
-  /// Puts one that comes back into the place that it has left.
+  /// Puts a triangle that comes back into its former place.
   void PutBack(std::int64_t place, const TravellingTriangle& triangle);
 
-  /// Points that were not among the caller's, from this id on.
+  /// Points with this id or a larger one came from other ranks.
   std::int64_t GetFirstReceived() const { return this->Given.Count; }
-  /// Which rank has given a point.
+  /// The rank that a point comes from, and its id there.
   PieceOrigin FindOrigin(std::int64_t point) const
   {
     return this->Numbers.FindOrigin(this->Keys[point]);
@@ -192,28 +194,28 @@ private:
   }
   void Join(std::size_t one, std::uint32_t other);
 
-  // Where triangles are that are not listed: with the caller or, if there are records, in these.
+  // Where the triangles are that are not listed: in Made if it has records, otherwise in Caller.
   TriangleArray Caller;
   HostTriangles Made;
   std::int64_t FirstOrigin;
-  HostVector<Past> Pasts; ///< Of the engine's input triangles; empty: they were the caller's.
+  HostVector<Past> Pasts; ///< Of the input of the first flips; empty if that was the caller's.
   MarkedEdges Marks;
   std::vector<unsigned char> Listed; ///< One flag per triangle.
   std::size_t NumberListed = 0;
   bool HasStars = false;
 
-  PointStars Stars; ///< Of listed triangles.
-  /// By corner, 3 * triangle + slot: another one at the same edge, if it has been asked for.
+  PointStars Stars; ///< Of the listed triangles.
+  /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
   RawVector<std::uint32_t> Mates;
   bool ListsChanged = false;
   std::vector<std::int64_t> Changed;
-  std::vector<std::int64_t> MayHaveSeams; ///< New ones: triangles (PieceTriangle::IsNoted).
+  std::vector<std::int64_t> MayHaveSeams; ///< Triangles for TakeNewSeams (PieceTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
   std::vector<unsigned char> Shared;
   std::vector<std::int32_t> SharedPoints;
-  PointArray Given;
-  std::vector<double> Received; ///< Coordinates of the points behind those.
-  PointKeys Numbers; ///< Without what has one value per point.
+  PointArray Given; ///< The caller's points.
+  std::vector<double> Received; ///< Coordinates of the points from other ranks, which follow these.
+  PointKeys Numbers; ///< Without the arrays that have one value per point.
   HostVector<std::int64_t> Keys;
   std::int64_t FirstOwnKey;
   std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.

@@ -12,8 +12,8 @@
 namespace delaunayflip
 {
 
-/// The squared cotangent of the smallest angle of a triangle, as AngleSurvey.h has it.
-/// @param x its corners.
+/// The squared cotangent of the smallest angle of a triangle, as defined in AngleSurvey.h.
+/// @param x the coordinates of its corners.
 double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey);
 
 /// The smallest angle of all triangles of a rank, in degrees; NaN if there is none.
@@ -23,8 +23,8 @@ double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int t
 /// are not listed.
 double FindSmallestAngleAfterRounds(const PieceMesh& mesh, const PieceSurvey& survey);
 
-/// The smallest angle of every triangle of a rank, for FlipOptions::TrackQuality: a session sees
-/// only a region, but its iterations tell the angle of all triangles.
+/// The smallest angle of every triangle of a rank, for FlipOptions::TrackQuality. An iteration of a
+/// round changes few triangles, but reports the smallest angle of all.
 class PieceQuality
 {
 public:

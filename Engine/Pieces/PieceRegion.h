@@ -37,8 +37,9 @@ public:
   /// The region's number of a point, or -1.
   std::int64_t FindPoint(std::int64_t point) const;
 
-  /// Gives the triangles of `mesh`, between BeginRounds and EndRounds, the ids and flips of a run
-  /// on View(). Their marks do not change; EndRounds forgets them.
+  /// Stores the point ids and flip counts that a run on View() has made in the triangles of `mesh`,
+  /// between BeginRounds and EndRounds. The marks of the triangles do not change and may be wrong
+  /// until EndRounds removes them.
   void Store(const std::vector<std::int32_t>& ids, const std::vector<std::int32_t>& flips,
     PieceMesh& mesh) const;
 

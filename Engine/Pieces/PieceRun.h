@@ -25,18 +25,19 @@ namespace delaunayflip
 
 class RoundFlips;
 
-/// A run, as one of its ranks sees it.
+/// The part of one rank in a run.
 ///
-/// First each rank flips its piece, in which the edges between ranks are boundary edges. Then, in
-/// every round, these edges are tested, triangles at bad ones change owner so that the edges become
-/// inner ones, and each rank flips around them. Every round flips at least one bad edge, so the
-/// proof that flips end on one rank holds here too.
+/// First each rank flips its piece, in which the edges between ranks, the seam edges, are boundary
+/// edges. Then rounds follow. In a round, all seam edges are tested; triangles at bad ones move to
+/// the other rank, so that these edges become inner edges; and each rank flips from there on. Every
+/// round flips at least one bad edge, so the proof that flips end on one rank holds here too.
 class PieceRun
 {
 public:
   PieceRun(const PieceJob& job, PointKeys keys);
 
-  /// Makes all rounds; all ranks call it together. @returns the report of the whole mesh.
+  /// Makes the first flips and all rounds. All ranks must call this together.
+  /// @returns the report of the whole mesh.
   PiecesReport Run();
 
   void Store(FlippedPiece& flipped) const;
@@ -69,26 +70,26 @@ private:
   SeamTester Tester;
   WaitingEdges Waiting;
   PieceConstraints Constraints;
-  SeamSurvey Seams; ///< Of the mesh with those constraints.
+  SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
   std::int64_t NumberOfPoints; ///< Of the whole mesh.
-  std::int64_t UsedPoints; ///< Those of triangles.
+  std::int64_t UsedPoints; ///< Points of triangles, in the whole mesh.
 
   // Of this rank:
-  FlipReport Own; ///< Begins as that of the first flips.
+  FlipReport Own; ///< Starts as the report of the first flips.
   std::vector<RoundRow> Rows;
   PieceQuality Quality; ///< Only with FlipOptions::TrackQuality.
   std::vector<RoundRow> Angles; ///< The smallest angle in rounds without iterations.
-  /// The first flips. Has the triangles that are not listed (PieceMesh), if there are any.
+  /// The session of the first flips. Keeps the triangles that are not listed (PieceMesh), if any.
   std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
 
   // Of all ranks:
-  PiecesReport Whole; ///< Its own members; those of FlipReport come at the end.
+  PiecesReport Whole; ///< The members that it inherits from FlipReport are set at the end.
   StopReasonKind WholeStopReason = StopReasonKind::Converged;
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
-  std::int64_t BadSeams = 0; ///< At the end: those that are left, whatever the reason.
-  std::int64_t FoldedSeams = 0; ///< Of these, those whose flip would fold the mesh over.
+  std::int64_t BadSeams = 0; ///< Bad seam edges that are left at the end, for any reason.
+  std::int64_t FoldedSeams = 0; ///< Of these, the ones whose flip would fold the mesh over.
 };
 
 }

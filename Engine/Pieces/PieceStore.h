@@ -12,14 +12,14 @@
 namespace delaunayflip
 {
 
-/// Stores what a rank has in the end, but for FlippedPiece::AreFloats.
+/// Stores the result of a rank, except FlippedPiece::AreFloats.
 /// @param firstOrigins the number of the first triangle of every rank.
-/// @param flipped is empty.
+/// @param flipped must be empty.
 void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
   FlippedPiece& flipped);
 
 /// The same where few triangles are listed (PieceMesh).
-/// @param flipped has the triangles and the flip counts of the first flips in their slots.
+/// @param flipped must have the triangles and the flip counts of the first flips in their slots.
 void StoreListed(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
   FlippedPiece& flipped);
 

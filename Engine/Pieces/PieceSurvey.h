@@ -12,19 +12,20 @@
 namespace delaunayflip
 {
 
-/// What all ranks must decide alike, from the whole mesh.
+/// Decisions that depend on the whole mesh and must be the same on all ranks.
 struct PieceSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   std::string GeometryReason;
   PlaneProjection Projection; ///< For the planar kinds.
-  WholeMesh Whole; ///< The same plane, without flags of points.
-  Defect NearlyHeightField; ///< As that of MeshSurvey.
+  WholeMesh Whole; ///< With the same plane; without SharedPoints.
+  Defect NearlyHeightField; ///< As in MeshSurvey.
   CoordinateRange Range = CoordinateRange::Usual;
-  bool FiltersApply = true; ///< As that of MeshSurvey.
+  bool FiltersApply = true; ///< As in MeshSurvey.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 
-  /// Whether flips could make an edge that exists, on any rank.
+  /// Whether a flip could make an edge that already exists on some rank. Then flips need a guard
+  /// (GuardRound).
   bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
 };
 
@@ -32,7 +33,7 @@ struct PieceSurvey
 PieceSurvey SurveyPieces(
   const MeshPiece& piece, const PointKeys& keys, const FlipOptions& options, PieceGroup& group);
 
-/// The same checks of ids and options on every rank, before anything else is done.
+/// Checks ids and options on every rank, as SurveyPieces does, before anything else is done.
 void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group);
 
 }

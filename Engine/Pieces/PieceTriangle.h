@@ -36,25 +36,25 @@ using PairMap = std::unordered_map<PointPair, Value, PairHash>;
 /// What is known about the edge of a triangle opposite to one of its corners.
 enum EdgeMark : unsigned char
 {
-  FixedMark = 1, ///< It stays for ever.
-  SeamMark = 8 ///< It may flip, and its other triangle is on another rank.
+  FixedMark = 1, ///< The edge never flips.
+  SeamMark = 8 ///< A seam edge: it may flip, and its other triangle is on another rank.
 };
 
-/// What becomes of a triangle in an iteration of a round (RoundFlips).
+/// The state of a triangle in an iteration of a round (RoundFlips).
 enum class TriangleStep : unsigned char
 {
   None,
-  Listed, ///< Its edges will be judged.
-  Visited, ///< They have been.
-  Next ///< They will be in the next iteration.
+  Listed, ///< Its edges will be judged in this iteration.
+  Visited, ///< Its edges have been judged in this iteration.
+  Next ///< Its edges will be judged in the next iteration.
 };
 
-/// A triangle with its marks: bit `slot` of a mark, shifted, is for the edge opposite that corner.
+/// A triangle with its marks. `mark << slot` is the bit for the edge opposite to corner `slot`.
 struct PieceTriangle
 {
   std::int32_t Points[3]; ///< Ids of this rank.
   std::int32_t Flips;
-  std::int64_t Origin; ///< The number of its slot among those of all ranks.
+  std::int64_t Origin; ///< The number of its input slot, counted over all ranks.
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
   bool IsNoted; ///< In the list of triangles that may have new seam edges.
@@ -66,7 +66,7 @@ struct PieceTriangle
   {
     this->Marks &= static_cast<unsigned char>(~(mark << slot));
   }
-  /// The marks of one edge, and back.
+  /// The marks of one edge, shifted to slot 0; SetMarks takes them in the same form.
   unsigned char GetMarks(int slot) const
   {
     return static_cast<unsigned char>((this->Marks >> slot) & (FixedMark | SeamMark));
@@ -83,7 +83,7 @@ struct PieceTriangle
   std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
   std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
   PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
-  /// Whether it has these ends, in any direction.
+  /// Whether the edge opposite to a corner has these ends, in either order.
   bool HasEdge(int slot, std::int32_t a, std::int32_t b) const
   {
     const std::int32_t start = this->GetStart(slot);

@@ -20,7 +20,8 @@
 namespace delaunayflip
 {
 
-/// What makes two points the same: a number, or the bits of three coordinates.
+/// The place of a point: its global number, or the bits of its three coordinates. Points of
+/// different ranks can be the same point only if their places are equal.
 using Place = std::array<std::uint64_t, 3>;
 
 struct PlaceHash
@@ -31,7 +32,7 @@ struct PlaceHash
   }
 };
 
-/// Some places.
+/// A set of places.
 class PlaceSet
 {
 public:
@@ -64,7 +65,7 @@ public:
   }
 
 private:
-  /// A quick hash.
+  /// The cell of a place in the filter, by a quick hash.
   std::size_t GetCell(const Place& place) const
   {
     constexpr std::uint64_t Factor = 0x9e3779b97f4a7c15u;
@@ -73,7 +74,8 @@ private:
   }
 
   std::unordered_set<Place, PlaceHash> Places; ///< Never iterated over: its order varies.
-  std::vector<unsigned char> Filter; ///< One flag per cell; most places are in cells without one.
+  /// One flag per cell: whether the set has places there. Rejects most other places quickly.
+  std::vector<unsigned char> Filter;
 };
 
 struct Box
@@ -101,7 +103,7 @@ struct Box
   }
 };
 
-/// The places of the points of one rank, and what its triangles say of them.
+/// The places of the points of one rank, and how its triangles use these points.
 class PlaceFinder
 {
 public:
@@ -121,17 +123,18 @@ public:
     }
   }
 
-  /// One flag per point.
+  /// One flag per point: whether a triangle has it.
   const std::vector<unsigned char>& GetUsed() const { return this->Used; }
   bool IsUsed(std::int64_t point) const { return this->Used[point] != 0; }
-  /// Whether it matters that other ranks have the point, too.
+  /// Whether the point must be matched with points of other ranks: a triangle has it, or it is the
+  /// end of a constraint.
   bool IsWanted(std::int64_t point) const
   {
     return this->Used[point] != 0 || this->Ends[point] != 0;
   }
 
-  /// Whether the triangles around a point do not close around it, so that it is at the border of
-  /// the piece. Also true where they are wound in different ways.
+  /// Whether a point is at the border of the piece: its triangles do not form a closed fan, or it
+  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
   bool IsAtBorder(std::int64_t point) const
   {
     return this->Fans[point] != 0 || (!this->IsUsed(point) && this->IsWanted(point));
@@ -171,7 +174,7 @@ public:
     return isPlace;
   }
 
-  /// Of the used points; upside down if there are none.
+  /// The bounding box of the used points. If there are none, Lower exceeds Upper.
   Box FindBox() const
   {
     constexpr double Inf = std::numeric_limits<double>::infinity();
@@ -188,7 +191,7 @@ public:
     return box;
   }
 
-  /// Whether a coordinate is NaN, so that the point may be in any box.
+  /// Whether a coordinate is NaN. MayBeIn says yes for such a point and any box.
   bool HasNaN(std::int64_t point) const
   {
     const PointArray& points = this->Piece.Mesh.Points;
@@ -212,7 +215,8 @@ private:
     for (int slot = 0; slot < 3; ++slot)
     {
       this->Used[ids[slot]] = 1;
-      // Around a closed fan every neighbour is the next one once, and once the previous one.
+      // In a closed fan every neighbour follows this corner once and precedes it once: the sum is
+      // 0.
       this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
     }
   }

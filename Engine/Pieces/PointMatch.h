@@ -12,30 +12,32 @@
 namespace delaunayflip
 {
 
-/// One number for every point of the whole mesh: a key. Ranks that have the same point know it by
-/// the same key, which tells a rank that has it from the start, and its id there.
+/// The keys of points. A key is a number that stands for one point of the whole mesh: all ranks
+/// that have the point use the same key. FindOrigin gives a rank that has it from the start, and
+/// its id on that rank.
 struct PointKeys
 {
-  std::vector<std::int64_t> FirstKeys; ///< Of every rank, and at the end the number of all keys.
+  std::vector<std::int64_t> FirstKeys; ///< One per rank, and at the end the number of all keys.
   HostVector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
-  /// One flag per point: whether it is not shared and its triangles form a closed ring around it.
+  /// One flag per point: whether it is not shared and its triangles form a closed fan.
   std::vector<unsigned char> Closed;
 
   // Of the whole mesh:
-  std::int64_t Repeated = 0; ///< Points that a rank before theirs has, too.
+  std::int64_t Repeated = 0; ///< Points of all ranks that a lower rank has, too.
   std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
-  std::int64_t Ambiguous = 0; ///< Coincide with others of their rank, and with one of another.
+  /// Points that coincide with others of their rank and with a point of another rank.
+  std::int64_t Ambiguous = 0;
 
   PieceOrigin FindOrigin(std::int64_t key) const;
 };
 
-/// Finds the points that several ranks have: those with the same number or, without numbers, with
-/// the same coordinates if at least one of them is at the border of a piece. A point without
-/// triangles that is the end of a constraint counts as a border point. Two points with the same
-/// number that are inside their pieces are found if each of them lies in the bounding box of the
-/// other one's rank.
+/// Finds the points that several ranks have: points with the same global number or, without such
+/// numbers, with the same coordinates if at least one of them is at the border of a piece. A point
+/// without triangles that is the end of a constraint counts as a border point. Two points with the
+/// same number that are inside their pieces are found if each of them lies in the bounding box of
+/// the other one's rank.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
 }

@@ -12,21 +12,21 @@
 namespace delaunayflip
 {
 
-/// The corners of triangles at every point of a rank, in lists that are kept up to date, so that a
-/// round takes no time for triangles that it does not change.
+/// The star of every point of a rank: the corners of triangles at the point. The stars are linked
+/// lists that are kept up to date, so a round takes no time for triangles that it does not change.
 class PointStars
 {
 public:
-  /// Begins with empty lists. Others than these triangles and points may come later.
+  /// Begins with empty lists. More triangles and points may be added later.
   /// @param capacity the number of triangles to reserve memory for.
   void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
   /// Adds a corner that is in no list.
   void Add(const PieceCorner& corner, std::int32_t point);
 
-  /// Takes a corner from its list.
+  /// Removes a corner from its list.
   void Remove(const PieceCorner& corner, std::int32_t point);
 
-  /// Calls visit(corner) for those at a point, until it returns true.
+  /// Calls visit(corner) for the corners at a point until visit returns true.
   template <typename Visit>
   void Find(std::int32_t point, const Visit& visit) const
   {
@@ -37,7 +37,8 @@ public:
     }
   }
 
-  /// The same for two points in turn, because one of them may have very many.
+  /// Calls visit(corner) for corners at two points in turn, until it returns true or one of the
+  /// points has no more corners. So a point with very many corners costs no more than the other.
   template <typename Visit>
   void FindAtEither(std::int32_t one, std::int32_t other, const Visit& visit) const
   {

@@ -20,14 +20,14 @@ class QuadJudge
 public:
   QuadJudge(const PieceSurvey& survey, const FlipOptions& options);
 
-  /// @param apqb x, y and z of the points of a quad (EdgeFlip.h's picture).
+  /// @param apqb x, y and z of the points a, p, q and b of a quad (picture in EdgeFlip.h).
   /// @returns Good, Bad or BlockedByShape.
   EdgeState Judge(const double (&apqb)[4][3]) const;
 
-  /// The same for two triangles that run through their edge in opposite directions.
+  /// The same for the two triangles of an edge. They must run through it in opposite directions.
   EdgeState Judge(const SeamSide& one, const SeamSide& other) const;
 
-  /// The same for the edge opposite to two corners.
+  /// The same for the edge that is opposite to both corners.
   EdgeState Judge(const PieceMesh& mesh, const PieceCorner& one, const PieceCorner& other) const;
 
 private:

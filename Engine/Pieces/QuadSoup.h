@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// Coordinates of points, in the precision of the caller's.
+/// Coordinates of points, in the precision of the caller's coordinates.
 class PointList
 {
 public:
@@ -33,7 +33,7 @@ private:
   std::vector<double> Doubles;
 };
 
-/// One of the two triangles of an edge, with what decides whether the edge stays.
+/// One of the two triangles of an edge, with all that decides whether the edge is fixed.
 struct SeamSide
 {
   double Ends[2][3]; ///< Of the edge, in the same order for both triangles.
@@ -43,8 +43,8 @@ struct SeamSide
   std::int32_t Region;
 };
 
-/// Quads that share no points: two triangles each, so that the engine can judge edges whose
-/// triangles are on different ranks, by the same rules as all others.
+/// A mesh of quads that share no points. Each quad has two triangles: those of an edge, which may
+/// come from different ranks. So the engine judges such edges by the same rules as all others.
 class QuadSoup
 {
 public:
@@ -53,8 +53,8 @@ public:
   void Add(const SeamSide& one, const SeamSide& other);
   std::int64_t GetSize() const { return this->Points.GetSize() / 4; }
 
-  /// One flag per quad: whether its edge must stay. Adds why to `counts`, which count these edges
-  /// alone.
+  /// One flag per quad: whether its edge is fixed. Adds these edges, and why they are fixed, to
+  /// `counts`.
   std::vector<unsigned char> FindFixed(EdgeCounts& counts) const;
 
 private:
@@ -67,8 +67,8 @@ private:
   std::vector<unsigned char> Frozen;
 };
 
-/// The options for a part of the whole mesh: the geometry is known, and edges that must stay are
-/// given.
+/// The options for flipping a part of the whole mesh. The geometry has been chosen for the whole
+/// mesh, and the fixed edges must be given.
 FlipOptions GetPartOptions(const PieceSurvey& survey, const FlipOptions& options);
 
 }

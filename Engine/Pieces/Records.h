@@ -12,7 +12,7 @@
 #include <vector>
 
 /// @file
-/// Messages of records: plain structs, which all ranks lay out alike.
+/// Messages made of records: plain structs with the same memory layout on all ranks.
 
 namespace delaunayflip
 {
@@ -50,7 +50,7 @@ RecordLists<Record> UnpackAll(const std::vector<Message>& messages)
   return lists;
 }
 
-/// Sends toRank[r] to rank r. @returns what came from each rank.
+/// Sends toRank[r] to each rank r. @returns the records from each rank.
 template <typename Record>
 RecordLists<Record> ExchangeRecords(PieceGroup& group, const RecordLists<Record>& toRank)
 {
@@ -68,7 +68,7 @@ RecordLists<Record> GatherRecords(PieceGroup& group, const std::vector<Record>& 
   return UnpackAll<Record>(group.Gather(Pack(records)));
 }
 
-/// The sum of a value over all ranks, by operator+= in their order.
+/// The sum of a value over all ranks, by operator+= in the order of the ranks.
 template <typename Value>
 Value SumOverRanks(PieceGroup& group, const Value& value)
 {
@@ -80,7 +80,7 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
   return sum;
 }
 
-/// Scatters the bits of a number.
+/// A hash of a number, whose bits all depend on all bits of the number.
 inline std::uint64_t ScatterBits(std::uint64_t bits)
 {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -88,7 +88,7 @@ inline std::uint64_t ScatterBits(std::uint64_t bits)
   return bits ^ (bits >> 31);
 }
 
-/// The rank that collects what all ranks know about something with this hash.
+/// The home of a point or an edge with this hash: the rank that collects what all ranks know of it.
 inline int GetHome(std::uint64_t hash, const PieceGroup& group)
 {
   return static_cast<int>(hash % static_cast<std::uint64_t>(group.GetSize()));

@@ -13,13 +13,13 @@
 namespace delaunayflip
 {
 
-/// The flips of a rank in a round: edge by edge in the mesh of the rank, from some triangles on and
-/// as far as flips reach, so that other triangles take no time.
+/// The flips of a rank in a round. They are made one by one, starting from some triangles and going
+/// on as long as an edge of a changed triangle is bad. Other triangles take no time.
 class RoundFlips
 {
 public:
-  /// @param needsGuard PieceSurvey::NeedsGuard. Then an edge does not flip if the rank has the edge
-  /// that this would make, or if another rank may have it.
+  /// @param needsGuard PieceSurvey::NeedsGuard. If true, an edge does not flip if this rank has, or
+  /// another rank may have, the edge that the flip would make.
   RoundFlips(PieceMesh& mesh, const QuadJudge& judge, bool needsGuard)
     : Mesh(mesh),
       Rule(judge),
@@ -27,9 +27,9 @@ public:
   {
   }
 
-  /// The edges of a triangle must be judged.
+  /// Adds a triangle whose edges are to be judged.
   void Add(std::int64_t triangle);
-  /// So must those that could not flip while the rank had this edge.
+  /// Adds the triangles of edges that could not flip while the rank had this edge, now gone.
   void AddFreed(std::int32_t from, std::int32_t to);
 
   /// Whether no edge is left to be judged.
@@ -37,12 +37,12 @@ public:
   /// The triangles whose edges will be judged next.
   const std::vector<std::int64_t>& GetNext() const { return this->Next; }
 
-  /// Judges the edges of these triangles and flips those that are bad, but each triangle at most
-  /// once; those that have changed are the next.
-  /// @returns what was done; without Iteration and angle.
+  /// Judges the edges of GetNext() and flips the bad ones, but changes each triangle at most once.
+  /// Triangles that have changed are the next ones.
+  /// @returns the record of the iteration, without its number and the smallest angle.
   IterationRecord Iterate();
 
-  /// Whether an edge of these triangles is bad and may flip.
+  /// Whether an edge of GetNext() is bad and may flip.
   bool HasBad();
 
 private:

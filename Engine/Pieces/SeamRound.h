@@ -12,9 +12,11 @@
 namespace delaunayflip
 {
 
-/// Gives triangles of bad edges to the lower of their ranks in odd rounds, to the higher in even
-/// ones, so that at least one of these edges becomes an inner edge.
-/// @param bad edges of this rank. @param moved receives how many triangles of all ranks moved.
+/// Moves triangles so that at least one bad seam edge becomes an inner edge: both triangles of each
+/// bad edge go to the lower of its two ranks (in odd rounds) or to the higher (in even rounds).
+/// @param bad the bad seam edges of this rank.
+/// @param toLower whether triangles go to the lower ranks.
+/// @param moved receives the number of triangles that have moved, over all ranks.
 /// @returns the triangles of this rank whose edges must now be judged.
 std::vector<std::int64_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
   bool toLower, PieceGroup& group, std::int64_t& moved);

@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// A mark of an edge of a triangle of this rank.
+/// A mark for the edge opposite to a corner of a triangle of this rank.
 struct MarkedCorner
 {
   std::int64_t Triangle;
@@ -22,21 +22,24 @@ struct MarkedCorner
   EdgeMark Mark;
 };
 
-/// The edges with triangles on several ranks, before the first flip. Decided once, for all ranks.
+/// What is known about the edges with triangles on several ranks before the first flip. Decided
+/// once for all ranks.
 struct SeamSurvey
 {
   std::vector<MarkedCorner> Marks;
-  /// Edges that have two triangles here and must stay because of what other ranks know of them.
+  /// Edges that have two triangles here and are fixed because of triangles or constraints of other
+  /// ranks.
   std::vector<PointPair> EdgesToFix;
-  /// The constraint edges of the caller that this rank can match alone.
+  /// The constraints of the caller that this rank can look up alone: two ids for each.
   std::vector<std::int64_t> Constraints;
-  std::vector<unsigned char> ToInsert;
-  /// Constraints between shared points, of all ranks, that are to be inserted: keys, ascending.
+  std::vector<unsigned char> ToInsert; ///< One flag for each of them.
+  /// The constraints of all ranks between shared points that are to be inserted: keys, ascending.
   std::vector<PointPair> Missing;
-  SeamCounts Counts; ///< Of all ranks.
+  SeamCounts Counts; ///< Sums over all ranks.
 };
 
-/// @param piece as job.Piece, or as it has become.
+/// Surveys the seams. All ranks must call this together.
+/// @param piece the caller's piece, or the piece after constraints have been inserted.
 /// @param far more constraints to be inserted.
 SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
   const std::vector<FarConstraint>& far = {});

@@ -14,40 +14,40 @@
 namespace delaunayflip
 {
 
-/// A bad edge between two ranks, as each of them is told.
+/// A bad seam edge, as seen from one of its two ranks.
 struct BadSeam
 {
-  std::int64_t Triangle; ///< The rank's own.
+  std::int64_t Triangle; ///< The triangle of this rank.
   PointPair Ends; ///< Keys.
-  PointPair Opposite; ///< Keys of the points that its flip would join.
+  PointPair Opposite; ///< Keys of the points that the flip would join.
   std::int32_t OtherRank;
 };
 
-/// What a test of all edges between ranks has found.
+/// The result of a test of all seam edges.
 struct SeamTest
 {
-  std::vector<BadSeam> Bad; ///< Of this rank; each is known to both of its ranks.
-  std::int64_t BadOfAll = 0; ///< Edges of all ranks.
-  std::int64_t BlockedOfAll = 0; ///< Bad, but the flip would fold the mesh over.
+  std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
+  std::int64_t BadOfAll = 0; ///< The number of bad seam edges over all ranks, each counted once.
+  std::int64_t BlockedOfAll = 0; ///< Other ones, whose flip would fold the mesh over.
 };
 
-/// Finds the bad edges between ranks that may flip, as far as their shape tells. Remembers the
-/// edges whose home this rank is, so that ranks send only what has changed, and good edges are not
-/// tested again.
+/// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam
+/// edges whose home is this rank. So ranks send only triangles that have changed, and good edges
+/// are not tested again.
 class SeamTester
 {
 public:
-  /// All ranks call it together, after BeginRounds.
+  /// All ranks must call this together, after BeginRounds.
   SeamTest Run(PieceMesh& mesh, const QuadJudge& judge, PieceGroup& group);
 
 private:
-  /// A triangle at an edge.
+  /// One of the two triangles of a seam edge.
   struct Side
   {
-    PointPair Ends; ///< Of the edge: keys.
-    std::int32_t Rank;
-    std::uint32_t Place; ///< In Seams.
-    bool IsToTest; ///< Unless neither side is, the edge is tested.
+    PointPair Ends; ///< Keys of the ends of the edge.
+    std::int32_t Rank; ///< The rank that has the triangle.
+    std::uint32_t Place; ///< The index in Seams.
+    bool IsToTest; ///< The edge is tested if this is true of one of its sides.
   };
 
   struct Found
@@ -64,9 +64,9 @@ private:
   Found Judge(const QuadJudge& judge, int ranks);
   const SeamTriangle& GetSeam(std::size_t side) const { return this->Seams[Sides[side].Place]; }
 
-  std::vector<Side> Sides; ///< Those of an edge next to each other, by rank.
-  std::vector<SeamTriangle> Seams; ///< So that Sides are small.
-  std::vector<std::uint32_t> Free; ///< Places of Seams that may be used again.
+  std::vector<Side> Sides; ///< Sorted by edge, then by rank.
+  std::vector<SeamTriangle> Seams; ///< The triangles of Sides, kept apart so that Sides are small.
+  std::vector<std::uint32_t> Free; ///< Places in Seams that are free.
 };
 
 }

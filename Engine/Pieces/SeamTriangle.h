@@ -13,11 +13,11 @@
 namespace delaunayflip
 {
 
-/// A triangle at an edge whose ends are both shared, as its rank sends it to the edge's home.
+/// A triangle at an edge between two shared points, as its rank sends it to the home of the edge.
 struct SeamTriangle
 {
-  PointPair Ends; ///< Keys.
-  std::int64_t Opposite; ///< A key.
+  PointPair Ends; ///< Keys of the ends of the edge.
+  std::int64_t Opposite; ///< Key of the point opposite to the edge.
   std::int64_t Corner; ///< 3 * triangle + slot of the opposite point, on its rank.
   SeamSide Side;
 
@@ -25,18 +25,18 @@ struct SeamTriangle
   int GetSlot() const { return static_cast<int>(this->Corner % 3); }
 };
 
-/// The triangle at the edge opposite to a slot; it is not frozen and in no region.
+/// The triangle, for its edge opposite to corner `slot`. Takes it as not frozen and in no region.
 SeamTriangle MakeSeamTriangle(const PieceMesh& mesh, std::int64_t triangle, int slot);
 
-/// One that a rank has sent.
+/// A SeamTriangle with the rank that has sent it.
 struct RankedTriangle
 {
-  PointPair Ends; ///< Those of the seam.
+  PointPair Ends; ///< Seam->Ends.
   int Rank;
   const SeamTriangle* Seam;
 };
 
-/// The order by edge and rank.
+/// Orders by edge, then by rank.
 template <typename First, typename Second>
 bool IsBefore(const First& a, const Second& b)
 {
@@ -47,7 +47,7 @@ bool IsBefore(const First& a, const Second& b)
   return a.Ends[1] != b.Ends[1] ? a.Ends[1] < b.Ends[1] : a.Rank < b.Rank;
 }
 
-/// The triangles that all ranks have sent, those of an edge next to each other, by rank.
+/// Sorts the triangles that all ranks have sent by edge, then by rank.
 /// @param lists must live as long as the result.
 std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
 

@@ -12,9 +12,10 @@
 namespace delaunayflip
 {
 
-/// Segments in a plane, and which of them a triangle touches. W is ignored.
+/// Finds the segments in a plane that touch a triangle. W is ignored.
 ///
-/// A tree of bounding boxes. Long segments are cut into parts, so that their boxes are slim.
+/// The segments are in a tree of bounding boxes. Long ones are cut into parts to make the boxes
+/// small.
 class SegmentTree
 {
 public:
@@ -24,8 +25,8 @@ public:
   /// Segments with a coordinate that is NaN or infinite touch nothing.
   explicit SegmentTree(const std::vector<Segment>& segments);
 
-  /// Lists the segments that touch a closed triangle with finite corners, ascending. They are found
-  /// exactly if the triangle has an area; if not, there may be some more near it.
+  /// Lists the segments that touch a closed triangle with finite corners, ascending. The list is
+  /// exact if the triangle has a positive area; otherwise it may have a few more segments nearby.
   void FindTouched(const Triangle& triangle, std::vector<std::int32_t>& touched) const;
 
 private:

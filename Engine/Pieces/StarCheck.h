@@ -14,12 +14,12 @@
 namespace delaunayflip
 {
 
-/// How triangles turn in the plane.
+/// The orientations of triangles in the plane, and a measure of the stars of points.
 struct StarTurns
 {
-  std::int64_t Left = 0, Right = 0, None = 0;
-  /// How often corners at closed points cover the direction +u, around which their triangles turn a
-  /// whole number of times: once for each such point, if its star is simple.
+  std::int64_t Left = 0, Right = 0, None = 0; ///< Triangles that turn left, right, or have no area.
+  /// How many corners at closed points cover the direction +u. The triangles around a closed point
+  /// turn around it a whole number of times. If its star is simple, +u is covered once.
   std::int64_t Covers = 0;
 
   bool AreUniform() const { return this->None == 0 && (this->Left == 0 || this->Right == 0); }
@@ -34,14 +34,14 @@ struct StarTurns
   }
 };
 
-/// @param closed one flag per point: whether its triangles close around it.
+/// @param closed one flag per point: whether its triangles form a closed fan.
 StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
   const unsigned char* closed, const ThreadBackend& threads);
 
-/// Whether all triangles of the whole mesh strictly turn to one side in the plane and those around
-/// every point cover no direction twice. Then no guard is needed (PlanarSurvey::StarsAreSimple);
-/// nor is it for a piece, around whose points there are fewer triangles. All ranks call it
-/// together.
+/// Whether all triangles of the whole mesh strictly turn to the same side in the plane, and the
+/// triangles around every point cover no direction twice. Then flips need no guard
+/// (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a piece, where the star of a
+/// point has some of the same triangles. All ranks must call this together.
 bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
   const ThreadBackend& threads, PieceGroup& group);
 
