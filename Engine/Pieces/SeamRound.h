@@ -12,8 +12,9 @@
 namespace delaunayflip
 {
 
-/// Moves triangles so that at least one bad seam edge becomes an inner edge: both triangles of each
-/// bad edge go to the lower of its two ranks (in odd rounds) or to the higher (in even rounds).
+/// Moves triangles so that at least one bad seam edge becomes an inner edge. The triangles at a bad
+/// edge go to the lower of its two ranks (in odd rounds) or to the higher (in even rounds). A
+/// triangle with several bad edges goes to the lowest (or highest) of their ranks.
 /// @param bad the bad seam edges of this rank.
 /// @param toLower whether triangles go to the lower ranks.
 /// @param moved receives the number of triangles that have moved, over all ranks.
