@@ -14,7 +14,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -32,50 +34,83 @@ struct PlaceHash
   }
 };
 
+/// A set of places that is much smaller than the places, but may claim to have a few others, too (a
+/// Bloom filter with one hash function).
+class PlaceFilter
+{
+public:
+  /// @param size how many places it will get, about.
+  explicit PlaceFilter(std::size_t size)
+  {
+    constexpr std::size_t CellsPerPlace = 16;
+    for (std::size_t words = 1; 64 * this->Words.size() < CellsPerPlace * size; words *= 2)
+    {
+      this->Words.resize(words);
+    }
+  }
+  /// From the words of another one.
+  explicit PlaceFilter(std::vector<std::uint64_t> words)
+    : Words(std::move(words))
+  {
+  }
+
+  const std::vector<std::uint64_t>& GetWords() const { return this->Words; }
+
+  void Add(const Place& place)
+  {
+    const std::size_t cell = this->GetCell(place);
+    this->Words[cell / 64] |= std::uint64_t(1) << cell % 64;
+  }
+  bool MayHave(const Place& place) const
+  {
+    const std::size_t cell = this->GetCell(place);
+    return !this->Words.empty() && (this->Words[cell / 64] >> cell % 64 & 1) != 0;
+  }
+
+private:
+  /// The cell of a place, by a quick hash.
+  std::size_t GetCell(const Place& place) const
+  {
+    constexpr std::uint64_t Factor = 0x9e3779b97f4a7c15u;
+    const std::uint64_t sum = (place[0] * Factor + place[1]) * Factor + place[2];
+    return (sum * Factor >> 32) & (64 * this->Words.size() - 1);
+  }
+
+  std::vector<std::uint64_t> Words; ///< One bit per cell; their number is a power of two, or 0.
+};
+
 /// A set of places.
 class PlaceSet
 {
 public:
   explicit PlaceSet(const RecordLists<Place>& lists)
+    : Filter(CountPlaces(lists))
   {
-    std::size_t size = 0;
-    for (const std::vector<Place>& list : lists)
-    {
-      size += list.size();
-    }
-    this->Places.reserve(size);
-    while (size > 0 && Filter.size() < 16 * size)
-    {
-      this->Filter.resize(std::max<std::size_t>(64, 2 * this->Filter.size()));
-    }
+    this->Places.reserve(CountPlaces(lists));
     for (const std::vector<Place>& list : lists)
     {
       for (const Place& place : list)
       {
         this->Places.insert(place);
-        this->Filter[this->GetCell(place)] = 1;
+        this->Filter.Add(place);
       }
     }
   }
 
   bool Has(const Place& place) const
   {
-    return !this->Filter.empty() && this->Filter[this->GetCell(place)] != 0 &&
-      this->Places.count(place) > 0;
+    return this->Filter.MayHave(place) && this->Places.count(place) > 0;
   }
 
 private:
-  /// The cell of a place in the filter, by a quick hash.
-  std::size_t GetCell(const Place& place) const
+  static std::size_t CountPlaces(const RecordLists<Place>& lists)
   {
-    constexpr std::uint64_t Factor = 0x9e3779b97f4a7c15u;
-    const std::uint64_t sum = (place[0] * Factor + place[1]) * Factor + place[2];
-    return (sum * Factor >> 32) & (this->Filter.size() - 1);
+    return std::accumulate(lists.begin(), lists.end(), std::size_t(0),
+      [](std::size_t sum, const std::vector<Place>& list) { return sum + list.size(); });
   }
 
   std::unordered_set<Place, PlaceHash> Places; ///< Never iterated over: its order varies.
-  /// One flag per cell: whether the set has places there. Rejects most other places quickly.
-  std::vector<unsigned char> Filter;
+  PlaceFilter Filter;
 };
 
 struct Box

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -51,12 +52,15 @@ public:
       Boxes(GatherRecords(group, std::vector<Box>{ finder.FindBox() })),
       Asked(ExchangeRecords(group, this->AskForPlaces()))
   {
-    for (int rank = 0; rank < group.GetSize(); ++rank)
+    RecordLists<std::uint64_t> filters(group.GetSize());
+    for (const int rank : this->ListNear())
     {
-      if (rank != group.GetRank() && this->GetBox(rank).Overlaps(this->GetBox(group.GetRank())))
-      {
-        this->Near.push_back(this->GetBox(rank));
-      }
+      filters[rank] = this->MakeFilter(rank).GetWords();
+    }
+    filters = ExchangeRecords(group, filters);
+    for (const int rank : this->ListNear())
+    {
+      this->Near.push_back({ this->GetBox(rank), PlaceFilter(std::move(filters[rank])) });
     }
   }
 
@@ -77,6 +81,48 @@ public:
   }
 
 private:
+  /// Another rank whose bounding box overlaps that of this one.
+  struct NearRank
+  {
+    Box Bounds;
+    PlaceFilter Numbers; ///< Of its points in the box of this one, if points have numbers.
+  };
+
+  std::vector<int> ListNear() const
+  {
+    std::vector<int> ranks;
+    for (int rank = 0; rank < this->Group.GetSize(); ++rank)
+    {
+      const bool isOther = rank != this->Group.GetRank();
+      if (isOther && this->GetBox(rank).Overlaps(this->GetBox(this->Group.GetRank())))
+      {
+        ranks.push_back(rank);
+      }
+    }
+    return ranks;
+  }
+
+  /// The numbers of the points that are in the box of another rank.
+  PlaceFilter MakeFilter(int rank) const
+  {
+    std::vector<std::int64_t> points;
+    for (std::int64_t i = 0; this->Piece.PointNumbers && i < this->Piece.Mesh.Points.Count; ++i)
+    {
+      if (this->Finder.IsWanted(i) && this->MayBeOn(rank, i))
+      {
+        points.push_back(i);
+      }
+    }
+    PlaceFilter filter(points.size());
+    for (const std::int64_t i : points)
+    {
+      Place place{};
+      this->Finder.FindPlace(i, place);
+      filter.Add(place);
+    }
+    return filter;
+  }
+
   /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
   /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
   /// one rank.
@@ -111,14 +157,15 @@ private:
   bool MayBeShared(std::int64_t point, const Place& place) const
   {
     return this->Finder.IsAtBorder(point) || this->Asked.Has(place) ||
-      (this->Piece.PointNumbers && this->MayBeOnNear(point));
+      (this->Piece.PointNumbers && this->MayBeOnNear(point, place));
   }
 
   /// Sheets that lie on each other may have the same points, with a number that says so.
-  bool MayBeOnNear(std::int64_t point) const
+  bool MayBeOnNear(std::int64_t point, const Place& place) const
   {
     return std::any_of(this->Near.begin(), this->Near.end(),
-             [=](const Box& box) { return this->Finder.MayBeIn(box, point); }) ||
+             [&](const NearRank& rank)
+             { return this->Finder.MayBeIn(rank.Bounds, point) && rank.Numbers.MayHave(place); }) ||
       this->Finder.HasNaN(point);
   }
 
@@ -127,7 +174,7 @@ private:
   PieceGroup& Group;
   RecordLists<Box> Boxes; ///< One per rank.
   PlaceSet Asked; ///< The places that others have asked for.
-  std::vector<Box> Near; ///< Those of other ranks that overlap that of this one.
+  std::vector<NearRank> Near;
 };
 
 struct RankedCandidate
