@@ -54,8 +54,8 @@ public:
 
   /// Takes the registered buffers from OpenGL, which must not use them until Fill() or Unmap(). If
   /// they are taken already, nothing happens. Fill() does this by itself. It takes less time if
-  /// this is called before the session makes its step: then the GPU finishes drawing, and turns
-  /// from OpenGL to CUDA, while the step is being made.
+  /// this is called before the session makes its step: then the GPU finishes drawing, and
+  /// switches from OpenGL to CUDA, while the step is being made.
   /// @throws std::exception; then what the buffers hold is undefined.
   virtual void Map() = 0;
 

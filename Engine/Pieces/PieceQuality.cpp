@@ -12,9 +12,7 @@
 namespace delaunayflip
 {
 
-namespace
-{
-inline double Measure(const double (&x)[3][3], const PieceSurvey& survey)
+double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
 {
   const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
   const Vector3 a{ x[0][0], x[0][1], isFlat ? 0.0 : x[0][2] };
@@ -26,6 +24,8 @@ inline double Measure(const double (&x)[3][3], const PieceSurvey& survey)
                                                             : usual;
 }
 
+namespace
+{
 double Measure(const PieceMesh& mesh, const PieceSurvey& survey, const std::int32_t (&points)[3])
 {
   double x[3][3];
@@ -33,7 +33,7 @@ double Measure(const PieceMesh& mesh, const PieceSurvey& survey, const std::int3
   {
     mesh.GetPosition(points[slot], x[slot]);
   }
-  return Measure(x, survey);
+  return MeasureCotangent(x, survey);
 }
 
 /// -infinity for an empty place.
@@ -66,11 +66,6 @@ struct MeasureStep
     sum += one;
   }
 };
-}
-
-double MeasureCotangent(const double (&x)[3][3], const PieceSurvey& survey)
-{
-  return Measure(x, survey);
 }
 
 double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int threads)

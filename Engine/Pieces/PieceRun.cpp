@@ -378,7 +378,7 @@ void PieceRun::Store(FlippedPiece& flipped) const
   if (this->First)
   {
     const std::int64_t count = this->FirstOrigins[rank + 1] - this->FirstOrigins[rank];
-    // With room for those that have come, or else they would make the vectors move.
+    // With room for the triangles that have come: to append them would else copy the whole arrays.
     const std::size_t most = this->Mesh.Triangles.size();
     flipped.Triangles.reserve(3 * most);
     flipped.FlipCounts.reserve(most);

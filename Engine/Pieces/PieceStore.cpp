@@ -59,7 +59,7 @@ public:
   void StoreListed()
   {
     const auto count = static_cast<std::int64_t>(this->Flipped.FlipCounts.size());
-    this->Flipped.Origins.reserve(this->Flipped.FlipCounts.capacity());
+    this->Flipped.Origins.reserve(this->Mesh.Triangles.size());
     for (std::int64_t slot = 0; slot < count; ++slot)
     {
       this->Flipped.Origins.push_back({ this->Rank, slot });
