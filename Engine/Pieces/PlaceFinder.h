@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_PLACEFINDER_H
 
 #include "HostVector.h"
+#include "NearBoxes.h"
 #include "PieceFlip.h"
 #include "Records.h"
 
@@ -113,31 +114,6 @@ private:
   PlaceFilter Filter;
 };
 
-struct Box
-{
-  double Lower[3], Upper[3];
-
-  bool Holds(const double (&x)[3]) const
-  {
-    bool holds = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
-    }
-    return holds;
-  }
-  bool Overlaps(const Box& other) const
-  {
-    bool overlaps = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      overlaps = overlaps && this->Lower[axis] <= other.Upper[axis] &&
-        other.Lower[axis] <= this->Upper[axis];
-    }
-    return overlaps;
-  }
-};
-
 /// The places of the points of one rank, and how its triangles use these points.
 class PlaceFinder
 {
@@ -226,19 +202,21 @@ public:
     return box;
   }
 
-  /// Whether a coordinate is NaN. MayBeIn says yes for such a point and any box.
-  bool HasNaN(std::int64_t point) const
-  {
-    const PointArray& points = this->Piece.Mesh.Points;
-    return std::isnan(points.Get(point, 0)) || std::isnan(points.Get(point, 1)) ||
-      std::isnan(points.Get(point, 2));
-  }
-
-  bool MayBeIn(const Box& box, std::int64_t point) const
+  /// Calls visit(rank) for every other rank whose box holds a point: for all of them if a
+  /// coordinate is NaN.
+  template <typename Visit>
+  void ForEachNear(std::int64_t point, const NearBoxes& boxes, const Visit& visit) const
   {
     const PointArray& points = this->Piece.Mesh.Points;
     const double x[3] = { points.Get(point, 0), points.Get(point, 1), points.Get(point, 2) };
-    return box.Holds(x) || this->HasNaN(point);
+    if (std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]))
+    {
+      boxes.ForEachOther(visit);
+    }
+    else
+    {
+      boxes.ForEachHolding(x, visit);
+    }
   }
 
 private:

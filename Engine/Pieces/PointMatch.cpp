@@ -41,6 +41,16 @@ struct MatchCounts
   }
 };
 
+std::vector<Box> GatherBoxes(const PlaceFinder& finder, PieceGroup& group)
+{
+  std::vector<Box> boxes;
+  for (const std::vector<Box>& box : GatherRecords(group, std::vector<Box>{ finder.FindBox() }))
+  {
+    boxes.push_back(box.front());
+  }
+  return boxes;
+}
+
 /// Chooses the points of a rank that others may have, too.
 class CandidateFinder
 {
@@ -49,18 +59,19 @@ public:
     : Piece(piece),
       Finder(finder),
       Group(group),
-      Boxes(GatherRecords(group, std::vector<Box>{ finder.FindBox() })),
+      Boxes(GatherBoxes(finder, group), group.GetRank()),
       Asked(ExchangeRecords(group, this->AskForPlaces()))
   {
+    const RecordLists<std::int64_t> near = this->ListNear();
     RecordLists<std::uint64_t> filters(group.GetSize());
-    for (const int rank : this->ListNear())
+    for (std::size_t rank = 0; rank < near.size(); ++rank)
     {
-      filters[rank] = this->MakeFilter(rank).GetWords();
+      filters[rank] = this->MakeFilter(near[rank]).GetWords();
     }
     filters = ExchangeRecords(group, filters);
-    for (const int rank : this->ListNear())
+    for (std::size_t rank = 0; rank < near.size(); ++rank)
     {
-      this->Near.push_back({ this->GetBox(rank), PlaceFilter(std::move(filters[rank])) });
+      this->NoteHits(near[rank], PlaceFilter(std::move(filters[rank])));
     }
   }
 
@@ -81,38 +92,40 @@ public:
   }
 
 private:
-  /// Another rank whose bounding box overlaps that of this one.
-  struct NearRank
+  /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
+  /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
+  /// one rank.
+  RecordLists<Place> AskForPlaces() const
   {
-    Box Bounds;
-    PlaceFilter Numbers; ///< Of its points in the box of this one, if points have numbers.
-  };
-
-  std::vector<int> ListNear() const
-  {
-    std::vector<int> ranks;
-    for (int rank = 0; rank < this->Group.GetSize(); ++rank)
+    RecordLists<Place> questions(this->Group.GetSize());
+    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
     {
-      const bool isOther = rank != this->Group.GetRank();
-      if (isOther && this->GetBox(rank).Overlaps(this->GetBox(this->Group.GetRank())))
+      Place place{};
+      if (this->Finder.IsAtBorder(i) && this->Finder.FindPlace(i, place))
       {
-        ranks.push_back(rank);
+        this->Finder.ForEachNear(
+          i, this->Boxes, [&](int rank) { questions[rank].push_back(place); });
       }
     }
-    return ranks;
+    return questions;
   }
 
-  /// The numbers of the points that are in the box of another rank.
-  PlaceFilter MakeFilter(int rank) const
+  /// If points have numbers, those that lie in the bounding boxes of other ranks.
+  RecordLists<std::int64_t> ListNear() const
   {
-    std::vector<std::int64_t> points;
+    RecordLists<std::int64_t> near(this->Group.GetSize());
     for (std::int64_t i = 0; this->Piece.PointNumbers && i < this->Piece.Mesh.Points.Count; ++i)
     {
-      if (this->Finder.IsWanted(i) && this->MayBeOn(rank, i))
+      if (this->Finder.IsWanted(i))
       {
-        points.push_back(i);
+        this->Finder.ForEachNear(i, this->Boxes, [&](int rank) { near[rank].push_back(i); });
       }
     }
+    return near;
+  }
+
+  PlaceFilter MakeFilter(const std::vector<std::int64_t>& points) const
+  {
     PlaceFilter filter(points.size());
     for (const std::int64_t i : points)
     {
@@ -123,58 +136,35 @@ private:
     return filter;
   }
 
-  /// Asks the ranks whose bounding box holds a border point of this one whether they have it, too.
-  /// It may be inside their piece: where three sheets of a non-manifold mesh meet, two may be on
-  /// one rank.
-  RecordLists<Place> AskForPlaces() const
+  /// Sheets that lie on each other may have the same points, with a number that says so.
+  /// @param filter of the points of another rank.
+  void NoteHits(const std::vector<std::int64_t>& points, const PlaceFilter& filter)
   {
-    RecordLists<Place> questions(this->Group.GetSize());
-    for (std::int64_t i = 0; i < this->Piece.Mesh.Points.Count; ++i)
+    for (const std::int64_t i : points)
     {
       Place place{};
-      if (!this->Finder.IsAtBorder(i) || !this->Finder.FindPlace(i, place))
+      this->Finder.FindPlace(i, place);
+      if (filter.MayHave(place))
       {
-        continue;
-      }
-      for (int rank = 0; rank < this->Group.GetSize(); ++rank)
-      {
-        if (this->MayBeOn(rank, i))
-        {
-          questions[rank].push_back(place);
-        }
+        this->Hits.resize(this->Piece.Mesh.Points.Count);
+        this->Hits[i] = 1;
       }
     }
-    return questions;
-  }
-
-  const Box& GetBox(int rank) const { return this->Boxes[rank].front(); }
-
-  bool MayBeOn(int rank, std::int64_t point) const
-  {
-    return rank != this->Group.GetRank() && this->Finder.MayBeIn(this->GetBox(rank), point);
   }
 
   bool MayBeShared(std::int64_t point, const Place& place) const
   {
-    return this->Finder.IsAtBorder(point) || this->Asked.Has(place) ||
-      (this->Piece.PointNumbers && this->MayBeOnNear(point, place));
-  }
-
-  /// Sheets that lie on each other may have the same points, with a number that says so.
-  bool MayBeOnNear(std::int64_t point, const Place& place) const
-  {
-    return std::any_of(this->Near.begin(), this->Near.end(),
-             [&](const NearRank& rank)
-             { return this->Finder.MayBeIn(rank.Bounds, point) && rank.Numbers.MayHave(place); }) ||
-      this->Finder.HasNaN(point);
+    return this->Finder.IsAtBorder(point) || (!this->Hits.empty() && this->Hits[point] != 0) ||
+      this->Asked.Has(place);
   }
 
   const MeshPiece& Piece;
   const PlaceFinder& Finder;
   PieceGroup& Group;
-  RecordLists<Box> Boxes; ///< One per rank.
+  NearBoxes Boxes;
   PlaceSet Asked; ///< The places that others have asked for.
-  std::vector<NearRank> Near;
+  /// One flag per point, or none: whether another rank may have a point with the same number.
+  std::vector<unsigned char> Hits;
 };
 
 struct RankedCandidate
