@@ -3,11 +3,13 @@
 #include "StarCheck.h"
 
 #include "ExactPredicates.h"
+#include "HostVector.h"
 #include "Records.h"
 #include "StarSurvey.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -20,7 +22,26 @@ struct PlanePlace
 {
   double U, V;
 
+  bool IsEqual(const PlanePlace& other) const { return this->U == other.U && this->V == other.V; }
+
   PlanePoint Get() const { return { this->U, this->V, 0.0 }; }
+};
+
+/// The triangles that a rank has at a shared point.
+struct SharedFan
+{
+  std::int64_t Key; ///< Of the point.
+  /// In a closed fan every neighbour follows a corner once and precedes one once: the sum over all
+  /// ranks is 0.
+  std::uint64_t Sum;
+  PlanePlace At;
+  std::int64_t Covers; ///< As in StarTurns.
+};
+
+struct RankedFan
+{
+  SharedFan Fan;
+  int Rank;
 };
 
 /// A corner of a triangle that turns left, at a point whose triangles do not close around it on
@@ -57,6 +78,7 @@ private:
   }
 };
 
+/// Lists what the ranks must know about the corners at points that are not closed on this rank.
 class WedgeLister
 {
 public:
@@ -67,23 +89,63 @@ public:
       Side(side),
       Keys(keys)
   {
+    for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+    {
+      if (!this->IsClosed(t, 0) || !this->IsClosed(t, 1) || !this->IsClosed(t, 2))
+      {
+        this->Triangles.push_back(t);
+      }
+    }
   }
 
-  /// Those at shared points go to the home of the point; the others stay on this rank.
-  RecordLists<Wedge> List(const PieceGroup& group) const
+  /// The fans of shared points, for the homes of the points.
+  RecordLists<SharedFan> ListFans(const PieceGroup& group) const
   {
-    RecordLists<Wedge> toHome(group.GetSize());
-    for (std::int64_t t = 0; t < this->Mesh.Triangles.Count; ++t)
+    HostVector<std::int32_t> placeOf(this->Keys.Keys.size(), -1);
+    std::vector<SharedFan> fans;
+    for (const std::int64_t t : this->Triangles)
     {
       for (int slot = 0; slot < 3; ++slot)
       {
-        const std::int64_t point = this->Mesh.Triangles.Get(t, slot);
-        if (!this->Keys.Closed[point])
+        const std::int64_t point = this->GetPoint(t, slot);
+        if (this->Keys.Shared[point])
         {
-          const Wedge wedge = this->MakeWedge(t, slot);
-          const int home =
-            this->Keys.Shared[point] ? GetHome(ScatterBits(wedge.Key), group) : group.GetRank();
-          toHome[home].push_back(wedge);
+          if (placeOf[point] < 0)
+          {
+            placeOf[point] = static_cast<std::int32_t>(fans.size());
+            fans.push_back({ this->Keys.Keys[point], 0, this->FindPlace(t, slot), 0 });
+          }
+          this->AddCorner(t, slot, fans[placeOf[point]]);
+        }
+      }
+    }
+    RecordLists<SharedFan> toHome(group.GetSize());
+    for (const SharedFan& fan : fans)
+    {
+      toHome[GetHome(ScatterBits(fan.Key), group)].push_back(fan);
+    }
+    return toHome;
+  }
+
+  /// Wedges at shared points go to the home of the point; the others stay on this rank.
+  /// @param open the keys of the shared points that are not closed in the whole mesh.
+  RecordLists<Wedge> ListWedges(
+    const std::unordered_set<std::int64_t>& open, const PieceGroup& group) const
+  {
+    RecordLists<Wedge> toHome(group.GetSize());
+    for (const std::int64_t t : this->Triangles)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const std::int64_t point = this->GetPoint(t, slot);
+        const std::int64_t key = this->Keys.Keys[point];
+        if (this->Keys.Shared[point] && open.count(key) > 0)
+        {
+          toHome[GetHome(ScatterBits(key), group)].push_back(this->MakeWedge(t, slot));
+        }
+        else if (!this->Keys.Shared[point] && !this->Keys.Closed[point])
+        {
+          toHome[group.GetRank()].push_back(this->MakeWedge(t, slot));
         }
       }
     }
@@ -91,12 +153,38 @@ public:
   }
 
 private:
+  std::int64_t GetPoint(std::int64_t t, int slot) const
+  {
+    return this->Mesh.Triangles.Get(t, slot);
+  }
+  bool IsClosed(std::int64_t t, int slot) const
+  {
+    return this->Keys.Closed[this->GetPoint(t, slot)] != 0;
+  }
+
+  void AddCorner(std::int64_t t, int slot, SharedFan& fan) const
+  {
+    const int next = (slot + 1) % 3;
+    const int previous = (slot + 2) % 3;
+    fan.Sum += this->Scatter(t, next) - this->Scatter(t, previous);
+    // Where a left turn covers +u, its first side goes down and its last up.
+    const PlanePoint apex = this->Project(t, slot);
+    const bool goesUp = StarSurvey::IsUpper(apex, this->Project(t, next));
+    const bool returnsDown = StarSurvey::IsUpper(apex, this->Project(t, previous));
+    fan.Covers += goesUp != returnsDown && returnsDown == (this->Side > 0) ? 1 : 0;
+  }
+
+  std::uint64_t Scatter(std::int64_t t, int slot) const
+  {
+    return ScatterBits(this->Keys.Keys[this->GetPoint(t, slot)]);
+  }
+
   /// The corner at the first side of a wedge.
   int GetFirst(int slot) const { return (slot + (this->Side > 0 ? 1 : 2)) % 3; }
 
   PlanePoint Project(std::int64_t t, int slot) const
   {
-    return this->Plane.Project(this->Mesh.Points, this->Mesh.Triangles.Get(t, slot));
+    return this->Plane.Project(this->Mesh.Points, this->GetPoint(t, slot));
   }
 
   PlanePlace FindPlace(std::int64_t t, int slot) const
@@ -108,7 +196,7 @@ private:
   Wedge MakeWedge(std::int64_t t, int slot) const
   {
     const int first = this->GetFirst(slot);
-    return { this->Keys.Keys[this->Mesh.Triangles.Get(t, slot)], this->FindPlace(t, slot),
+    return { this->Keys.Keys[this->GetPoint(t, slot)], this->FindPlace(t, slot),
       this->FindPlace(t, first), this->FindPlace(t, 3 - slot - first) };
   }
 
@@ -116,13 +204,69 @@ private:
   const PlaneProjection& Plane;
   int Side;
   const PointKeys& Keys;
+  std::vector<std::int64_t> Triangles; ///< Those with a point that is not closed.
 };
+
+/// What a home finds out about shared points.
+struct FanVerdict
+{
+  bool AreApart = true; ///< Whether the triangles at each closed point cover no direction twice.
+  RecordLists<std::int64_t> Open; ///< Keys of points that are not closed, for the ranks with them.
+};
+
+/// Judges the point of some fans, one per rank that has it.
+void JudgeFans(const RankedFan* begin, const RankedFan* end, FanVerdict& verdict)
+{
+  SharedFan sum = begin->Fan;
+  for (const RankedFan* one = begin + 1; one != end; ++one)
+  {
+    sum.Sum += one->Fan.Sum;
+    sum.Covers += one->Fan.Covers;
+    // else ranks disagree about the coordinates
+    verdict.AreApart = verdict.AreApart && one->Fan.At.IsEqual(sum.At);
+  }
+  if (sum.Sum == 0)
+  {
+    verdict.AreApart = verdict.AreApart && sum.Covers == 1;
+    return;
+  }
+  for (const RankedFan* one = begin; one != end; ++one)
+  {
+    verdict.Open[one->Rank].push_back(sum.Key);
+  }
+}
+
+FanVerdict JudgeAllFans(const RecordLists<SharedFan>& lists)
+{
+  std::vector<RankedFan> all;
+  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  {
+    for (const SharedFan& fan : lists[rank])
+    {
+      all.push_back({ fan, static_cast<int>(rank) });
+    }
+  }
+  std::sort(all.begin(), all.end(),
+    [](const RankedFan& a, const RankedFan& b) { return a.Fan.Key < b.Fan.Key; });
+  FanVerdict verdict;
+  verdict.Open.resize(lists.size());
+  for (std::size_t begin = 0; begin < all.size();)
+  {
+    std::size_t end = begin + 1;
+    while (end < all.size() && all[end].Fan.Key == all[begin].Fan.Key)
+    {
+      ++end;
+    }
+    JudgeFans(all.data() + begin, all.data() + end, verdict);
+    begin = end;
+  }
+  return verdict;
+}
 
 /// Whether the wedges at a point cover no direction twice.
 bool AreApart(Wedge* begin, Wedge* end)
 {
-  const auto isElsewhere = [&](const Wedge& wedge)
-  { return wedge.Apex.U != begin->Apex.U || wedge.Apex.V != begin->Apex.V; };
+  const auto isElsewhere = [&](const Wedge& wedge) { return !wedge.Apex.IsEqual(begin->Apex); };
   if (std::any_of(begin, end, isElsewhere))
   {
     return false; // ranks disagree about the coordinates
@@ -216,12 +360,19 @@ bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, cons
     return false;
   }
   const WedgeLister lister(mesh, plane, all.Left > 0 ? 1 : -1, keys);
+  const FanVerdict fans = JudgeAllFans(ExchangeRecords(group, lister.ListFans(group)));
+  std::unordered_set<std::int64_t> open;
+  for (const std::vector<std::int64_t>& list : ExchangeRecords(group, fans.Open))
+  {
+    open.insert(list.begin(), list.end());
+  }
   std::vector<Wedge> wedges;
-  for (const std::vector<Wedge>& list : ExchangeRecords(group, lister.List(group)))
+  for (const std::vector<Wedge>& list : ExchangeRecords(group, lister.ListWedges(open, group)))
   {
     wedges.insert(wedges.end(), list.begin(), list.end());
   }
-  return SumOverRanks(group, std::int64_t(AreAllApart(std::move(wedges)) ? 0 : 1)) == 0;
+  const bool areApart = fans.AreApart && AreAllApart(std::move(wedges));
+  return SumOverRanks(group, std::int64_t(areApart ? 0 : 1)) == 0;
 }
 
 }

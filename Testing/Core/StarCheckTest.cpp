@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <set>
+#include <vector>
 
 /// @file
 /// Whether stars are simple that are divided among ranks, so that flips need no guard.
@@ -19,9 +22,15 @@ namespace
 {
 
 /// Whether all ranks find that no guard is needed.
-bool AreSimple(const OwnedMesh<double>& mesh, const Owners& owners, int ranks)
+/// @param change changes the pieces before.
+bool AreSimple(const OwnedMesh<double>& mesh, const Owners& owners, int ranks,
+  const std::function<void(std::vector<OwnedPiece>&)>& change = {})
 {
-  const std::vector<OwnedPiece> pieces = Divide(mesh.View(), owners, ranks);
+  std::vector<OwnedPiece> pieces = Divide(mesh.View(), owners, ranks);
+  if (change)
+  {
+    change(pieces);
+  }
   FlipOptions options = MakeCanonical();
   options.Geometry = GeometryKind::PlanarXY;
   std::vector<unsigned char> simple(ranks);
@@ -103,6 +112,23 @@ TEST(StarCheck, AStarThatClosesAfterTwoTurnsIsNotSimple)
   mesh.Triangles.back() = 1;
   EXPECT_FALSE(AreSimple(mesh, Deal(mesh, 1), 1));
   EXPECT_FALSE(AreSimple(mesh, Deal(mesh, 2), 2));
+}
+
+/// Two ranks have the star of an inner point, and one of them has the point elsewhere.
+TEST(StarCheck, RanksMustAgreeAboutCoordinates)
+{
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0 };
+  mesh.Triangles = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1 };
+  EXPECT_TRUE(AreSimple(mesh, { 0, 0, 1, 1 }, 2));
+  EXPECT_FALSE(AreSimple(mesh, { 0, 0, 1, 1 }, 2,
+    [](std::vector<OwnedPiece>& pieces)
+    {
+      const std::vector<std::int64_t>& points = pieces[1].PointOf;
+      const auto center = std::find(points.begin(), points.end(), 0) - points.begin();
+      pieces[1].Doubles[3 * center] += 0.125; // along the seam
+      pieces[1].Doubles[3 * center + 1] -= 0.125;
+    }));
 }
 
 TEST(StarCheck, FlatAndTurnedTrianglesNeedAGuard)
