@@ -22,8 +22,8 @@ PieceMesh::PieceMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int6
 {
   keys.Keys.clear();
   keys.Shared.clear();
-  keys.Closed = std::vector<unsigned char>();
-  this->Numbers = std::move(keys);
+  keys.Closed = keys.Used = std::vector<unsigned char>();
+  this->WholeKeys = std::move(keys);
   for (std::int64_t i = 0; i < this->Given.Count; ++i)
   {
     if (this->Keys[i] != this->FirstOwnKey + i)

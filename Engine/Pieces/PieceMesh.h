@@ -119,6 +119,8 @@ public:
   const std::vector<unsigned char>& GetShared() const { return this->Shared; }
   /// The shared points, in no particular order.
   const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
+  /// What is known of the points of all ranks, without the arrays with one value per point.
+  const PointKeys& GetWholeKeys() const { return this->WholeKeys; }
 
   /// Notes that no other rank has triangles at these points any more. Points may be repeated.
   void Unshare(const std::vector<std::int32_t>& points);
@@ -161,7 +163,7 @@ public:
   /// The rank that a point comes from, and its id there.
   PieceOrigin FindOrigin(std::int64_t point) const
   {
-    return this->Numbers.FindOrigin(this->Keys[point]);
+    return this->WholeKeys.FindOrigin(this->Keys[point]);
   }
 
 private:
@@ -215,7 +217,7 @@ private:
   std::vector<std::int32_t> SharedPoints;
   PointArray Given; ///< The caller's points.
   std::vector<double> Received; ///< Coordinates of the points from other ranks, which follow these.
-  PointKeys Numbers; ///< Without the arrays that have one value per point.
+  PointKeys WholeKeys;
   HostVector<std::int64_t> Keys;
   std::int64_t FirstOwnKey;
   std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.

@@ -61,15 +61,15 @@ struct StopCounts
 PieceRun::PieceRun(const PieceJob& job, PointKeys keys)
   : Job(job),
     FirstOrigins(NumberTriangles(job.Piece, job.Group)),
-    Mesh(job.Piece, keys, job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
+    Mesh(job.Piece, std::move(keys), job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
     Judge(job.Survey, job.Options),
     Constraints(Job, Mesh),
     Seams(std::move(Constraints.GetSeams())),
-    NumberOfPoints(keys.FirstKeys.back() - keys.Repeated),
-    UsedPoints(keys.UsedPoints)
+    NumberOfPoints(Mesh.GetWholeKeys().FirstKeys.back() - Mesh.GetWholeKeys().Repeated),
+    UsedPoints(Mesh.GetWholeKeys().UsedPoints)
 {
   this->Whole.SeamEdges = this->Seams.Counts.Seams;
-  this->Whole.AmbiguousPoints = keys.Ambiguous;
+  this->Whole.AmbiguousPoints = this->Mesh.GetWholeKeys().Ambiguous;
 }
 
 //------------------------------------------------------------------------------
