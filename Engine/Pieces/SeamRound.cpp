@@ -3,9 +3,11 @@
 #include "SeamRound.h"
 
 #include "Records.h"
+#include "SeamHalves.h"
 
 #include <algorithm>
-#include <utility>
+#include <optional>
+#include <tuple>
 
 namespace delaunayflip
 {
@@ -17,21 +19,32 @@ struct Move
 {
   std::int64_t Triangle;
   int Receiver;
+  int Giver;
 };
 
-/// Each triangle once, ascending. One that several ranks shall have goes to the lowest of them, or
-/// to the highest.
-std::vector<Move> ChooseReceivers(const std::vector<BadSeam>& bad, bool toLower, int rank)
+/// Each triangle once, ascending.
+std::vector<Move> ChooseReceivers(
+  const PieceMesh& mesh, const std::vector<BadSeam>& bad, const MoveRule& rule, int rank)
 {
+  std::optional<SeamHalves> halves;
+  if (rule.InHalves)
+  {
+    halves.emplace(bad, mesh);
+  }
   std::vector<Move> moves;
   moves.reserve(bad.size());
   for (const BadSeam& seam : bad)
   {
-    moves.push_back(
-      { seam.Triangle, toLower ? std::min(rank, seam.OtherRank) : std::max(rank, seam.OtherRank) });
+    const int other = seam.OtherRank;
+    const bool toLower = rule.ToLower != (halves && halves->IsInSecond(seam));
+    const bool leaves = toLower == (other < rank);
+    moves.push_back({ seam.Triangle, leaves ? other : rank, leaves ? rank : other });
   }
-  const auto place = [=](const Move& move)
-  { return std::make_pair(move.Triangle, toLower ? move.Receiver : -move.Receiver); };
+  const auto place = [&](const Move& move)
+  {
+    const int sign = rule.ToLower ? 1 : -1;
+    return std::make_tuple(move.Triangle, sign * move.Receiver, sign * move.Giver);
+  };
   std::sort(
     moves.begin(), moves.end(), [&](const Move& a, const Move& b) { return place(a) < place(b); });
   moves.erase(std::unique(moves.begin(), moves.end(),
@@ -110,11 +123,11 @@ void TakeIn(PieceMesh& mesh, const RecordLists<TravellingTriangle>& arriving,
 }
 
 std::vector<std::int64_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
-  bool toLower, PieceGroup& group, std::int64_t& moved)
+  const MoveRule& rule, PieceGroup& group, std::int64_t& moved)
 {
   std::vector<std::int64_t> toJudge;
   std::vector<Move> leaving;
-  for (const Move& move : ChooseReceivers(bad, toLower, group.GetRank()))
+  for (const Move& move : ChooseReceivers(mesh, bad, rule, group.GetRank()))
   {
     if (move.Receiver == group.GetRank())
     {

@@ -12,15 +12,26 @@
 namespace delaunayflip
 {
 
-/// Moves triangles so that at least one bad seam edge becomes an inner edge. The triangles at a bad
-/// edge go to the lower of its two ranks (in odd rounds) or to the higher (in even rounds). A
-/// triangle with several bad edges goes to the lowest (or highest) of their ranks.
+/// Which of the two ranks of a bad seam edge gets its triangles.
+struct MoveRule
+{
+  bool ToLower; ///< The lower one, else the higher.
+  /// Only for the first half of the edges between two ranks (SeamHalves); for the second half it is
+  /// the other way round.
+  bool InHalves;
+};
+
+/// Moves triangles so that at least one bad seam edge becomes an inner edge. A triangle with
+/// several bad edges goes to the lowest of their receivers (ToLower), or to the highest; of edges
+/// with the same receiver it obeys the one whose other rank is lowest (or highest).
+///
+/// So take, of all bad edges, those with the lowest receiver, and of these those with the lowest
+/// other rank. Both triangles of each obey it, and it becomes an inner edge.
 /// @param bad the bad seam edges of this rank.
-/// @param toLower whether triangles go to the lower ranks.
 /// @param moved receives the number of triangles that have moved, over all ranks.
 /// @returns the triangles of this rank whose edges must now be judged.
 std::vector<std::int64_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSeam>& bad,
-  bool toLower, PieceGroup& group, std::int64_t& moved);
+  const MoveRule& rule, PieceGroup& group, std::int64_t& moved);
 
 }
 
