@@ -41,8 +41,7 @@ SeamHalves::Cut SeamHalves::FindCut(std::vector<Place> places)
   double most = -1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto [least, greatest] =
-      std::minmax_element(places.begin(), places.end(), compare(axis));
+    const auto [least, greatest] = std::minmax_element(places.begin(), places.end(), compare(axis));
     const double extent = (*greatest)[axis] - (*least)[axis];
     if (extent > most)
     {

@@ -27,10 +27,11 @@
 #include <vector>
 
 /// @file
-/// delaunay-flip-pieces: flips one random bad mesh in pieces, a rank each in a thread of its own,
-/// and prints a line of JSON. Usage: delaunay-flip-pieces [NAME=VALUE ...]
+/// delaunay-flip-pieces: flips one mesh in pieces, a rank each in a thread of its own, and prints a
+/// line of JSON. Usage: delaunay-flip-pieces [NAME=VALUE ...]
 ///
 ///     points=500000   of the mesh
+///     mesh=random     a random bad mesh, the worst there is; or grid: a grid with jitter
 ///     pieces=2        0: undivided
 ///     ranks=1         0: no ranks, but FlipInPieces, which divides the mesh and flips it in place
 ///     threads=1       of each rank
@@ -61,9 +62,9 @@ using Settings = std::map<std::string, std::string>;
 
 Settings ReadSettings(int argc, char** argv)
 {
-  Settings settings{ { "points", "500000" }, { "pieces", "2" }, { "ranks", "1" },
-    { "threads", "1" }, { "surface", "0" }, { "feature", "180" }, { "constraints", "0" },
-    { "net", "0" }, { "devices", "" }, { "runs", "1" } };
+  Settings settings{ { "points", "500000" }, { "mesh", "random" }, { "pieces", "2" },
+    { "ranks", "1" }, { "threads", "1" }, { "surface", "0" }, { "feature", "180" },
+    { "constraints", "0" }, { "net", "0" }, { "devices", "" }, { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string word = argv[i];
@@ -78,21 +79,23 @@ Settings ReadSettings(int argc, char** argv)
   return settings;
 }
 
-/// @param isSurface whether points get heights.
-OwnedMesh<float> MakeMesh(std::int64_t points, bool isSurface)
+OwnedMesh<float> MakeRandomMesh(std::int64_t points)
 {
   // An odd number of tiles per side: pieces must not be cut along tiles, whose borders are good.
   constexpr std::int64_t PointsPerTile = 100000;
   const double tiles = static_cast<double>(points) / static_cast<double>(PointsPerTile);
   const auto side = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))) | 1;
-  OwnedMesh<float> mesh = MakeTiledBadMesh(points, side, 1);
-  for (std::size_t i = 0; i < mesh.Points.size() && isSurface; i += 3)
+  return MakeTiledBadMesh(points, side, 1);
+}
+
+void AddHills(OwnedMesh<float>& mesh)
+{
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
     const double x = mesh.Points[i];
     const double y = mesh.Points[i + 1];
     mesh.Points[i + 2] = static_cast<float>(0.05 * std::sin(20.0 * x) * std::cos(17.0 * y));
   }
-  return mesh;
 }
 
 struct Measure
@@ -306,7 +309,14 @@ Measure FindFastest(const Settings& settings, const Flip& flip)
 
 OwnedMesh<float> MakeMesh(const Settings& settings)
 {
-  return MakeMesh(std::atoll(settings.at("points").c_str()), settings.at("surface") == "1");
+  const std::int64_t points = std::atoll(settings.at("points").c_str());
+  OwnedMesh<float> mesh =
+    settings.at("mesh") == "grid" ? MakeJitteredGrid(points, 1) : MakeRandomMesh(points);
+  if (settings.at("surface") == "1")
+  {
+    AddHills(mesh);
+  }
+  return mesh;
 }
 
 LongConstraints MakeConstraints(const Settings& settings, const OwnedMesh<float>& mesh)

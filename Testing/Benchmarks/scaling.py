@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures how one mesh in pieces scales, by delaunay-flip-pieces.
 
-    scaling.py [--quick] [--gpus 0,1 | --processes PROGRAM2] [--turns N] [--output scaling.json]
-               PROGRAM
+    scaling.py [--quick] [--mesh random|grid] [--gpus 0,1 | --processes PROGRAM2] [--turns N]
+               [--output scaling.json] PROGRAM
 
 Strong scaling: one mesh (20 million points) in 1, 2, 4, 8 and 16 pieces, a rank with one thread
-each, and undivided, with as many threads. Weak scaling: 1.25 million points per piece. With --gpus
+each, and undivided, with as many threads. It is a random bad mesh, the worst there is, or (--mesh
+grid) a grid with jitter. Weak scaling: 1.25 million points per piece. With --gpus
 the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. With
 --processes, and delaunay-flip-processes, strong scaling also with processes of mpirun. All cases
 run once in turn, then again (--turns, 3), so what slows the machine down for a while slows all of
@@ -36,7 +37,7 @@ LATENCY, BANDWIDTH = 5e-6, 10e9
 NODES = 64
 
 
-def plan(sizes, gpus, with_processes):
+def plan(sizes, mesh, gpus, with_processes):
     """Settings of all cases, by name."""
     cases = {}
     devices = [f"devices={gpus}"] if gpus else []
@@ -55,7 +56,7 @@ def plan(sizes, gpus, with_processes):
     if gpus:
         for pieces in (2, 4, 8):
             cases[f"one GPU {pieces}"] = [f"points={sizes['strong']}", f"pieces={pieces}", *first]
-    return cases
+    return {name: [f"mesh={mesh}", *settings] for name, settings in cases.items()}
 
 
 def measure(command, settings):
@@ -159,12 +160,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("--quick", action="store_true", help="small meshes, for two cores")
+    parser.add_argument("--mesh", choices=("random", "grid"), default="random")
     parser.add_argument("--gpus", default="", help="CUDA's numbers, separated by commas")
     parser.add_argument("--processes", help="delaunay-flip-processes")
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--output", default="scaling.json")
     options = parser.parse_args()
-    cases = plan(QUICK if options.quick else FULL, options.gpus, options.processes)
+    cases = plan(QUICK if options.quick else FULL, options.mesh, options.gpus, options.processes)
     runs = run_all(options, cases)
     medians = {name: take_median(case) for name, case in runs.items()}
     cores = len(os.sched_getaffinity(0))

@@ -3,7 +3,9 @@
 #include "GeneratedMeshes.h"
 
 #include <cmath>
+#include <cstddef>
 #include <random>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -159,6 +161,27 @@ OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows)
       AddQuad(mesh, { corner, corner + 1, corner + stride + 1, corner + stride }, false);
     }
   }
+  return mesh;
+}
+
+OwnedMesh<float> MakeJitteredGrid(std::int64_t points, std::uint32_t seed)
+{
+  constexpr double Most = 0.24;
+  const auto side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(points))) - 1;
+  OwnedMesh<double> grid = MakeGridMesh(side, side);
+  std::mt19937 random(seed);
+  OwnedMesh<float> mesh;
+  mesh.Points.reserve(grid.Points.size());
+  for (std::size_t i = 0; i < grid.Points.size(); i += 3)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      const double shift = Most * (2.0 * DrawUnit(random) - 1.0);
+      mesh.Points.push_back(static_cast<float>(grid.Points[i + axis] + shift));
+    }
+    mesh.Points.push_back(0.0f);
+  }
+  mesh.Triangles = std::move(grid.Triangles);
   return mesh;
 }
 

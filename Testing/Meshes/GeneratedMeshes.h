@@ -59,6 +59,11 @@ OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size);
 /// tie or clearly good.
 OwnedMesh<double> MakeGridMesh(std::int32_t columns, std::int32_t rows);
 
+/// A square grid of about `points` points, the squares divided along the same diagonal. Then every
+/// point is moved at random along both axes, by less than a quarter of a square's side, so that no
+/// triangle turns over.
+OwnedMesh<float> MakeJitteredGrid(std::int64_t points, std::uint32_t seed);
+
 /// A latitude-longitude sphere with bad triangles: vertices are moved along their circles at
 /// random, and quads are divided along a random diagonal. It has `rows` circles of `columns` points
 /// between two poles; `columns` >= 3, `rows` >= 1.
