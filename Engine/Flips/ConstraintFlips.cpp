@@ -34,17 +34,17 @@ PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
   {
     return path.Result;
   }
-  for (Rim& rim : path.Pieces)
+  for (Rim& rim : path.Segments)
   {
     if (!this->Straighten(rim))
     {
       return PathResult::Overlaps;
     }
   }
-  for (const Rim& rim : path.Pieces)
+  for (const Rim& rim : path.Segments)
   {
     this->Mesh.Edges.States[EdgeOf(rim.front())] = EdgeState::Fixed;
-    this->Pieces.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
+    this->Segments.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
   }
   return PathResult::Found;
 }
@@ -65,8 +65,8 @@ ConstraintPath ConstraintFlips::FindFreePath(VertexId from, VertexId to)
   return path;
 }
 
-/// Cuts ears off the triangles that a piece of a constraint crosses until their rim is that piece.
-/// A rim that is not straight always has an ear (Documentation/method.md).
+/// Cuts ears off the triangles that a segment of a constraint crosses until their rim is that
+/// segment. A rim that is not straight always has an ear (Documentation/method.md).
 /// @returns false where triangles overlap so that there is none.
 bool ConstraintFlips::Straighten(Rim& rim)
 {

@@ -31,7 +31,7 @@ public:
   PathResult Insert(VertexId from, VertexId to);
 
   /// The ends of the edges that constraints have become, in the order of insertion.
-  const std::vector<std::pair<VertexId, VertexId>>& GetPieces() const { return this->Pieces; }
+  const std::vector<std::pair<VertexId, VertexId>>& GetSegments() const { return this->Segments; }
 
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
 
@@ -53,7 +53,7 @@ private:
   EdgeTableView Table;
   VertexFans Fans;
   std::vector<EdgeId> Fan; ///< Of the ear that is cut.
-  std::vector<std::pair<VertexId, VertexId>> Pieces;
+  std::vector<std::pair<VertexId, VertexId>> Segments;
   std::int64_t Flips = 0;
 };
 

@@ -74,7 +74,7 @@ private:
     const Exits exits = this->FindExits(at);
     if (exits.Along != NoHalfEdge)
     {
-      this->Path.Pieces.push_back({ exits.Along });
+      this->Path.Segments.push_back({ exits.Along });
       return exits.End;
     }
     if (exits.Triangles == 1)
@@ -175,7 +175,7 @@ private:
     {
       return this->Fail(PathResult::Overlaps); // it has passed its end in another layer
     }
-    this->Path.Pieces.push_back(std::move(rim));
+    this->Path.Segments.push_back(std::move(rim));
     return at;
   }
 

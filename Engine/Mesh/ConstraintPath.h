@@ -21,16 +21,16 @@ enum class PathResult
 };
 
 /// The way that a constraint takes through a mesh, vertex by vertex: it begins at one, and wherever
-/// it meets another, a piece of it ends.
+/// it meets another, a segment of it ends.
 struct ConstraintPath
 {
-  /// The left or right rim, depending on how triangles run, of the triangles that a piece crosses:
-  /// half-edges of these triangles, in order, each of which runs towards the piece's start. Of a
-  /// piece that is an edge, either side of it.
+  /// The left or right rim, depending on how triangles run, of the triangles that a segment
+  /// crosses: half-edges of these triangles, in order, each of which runs towards the segment's
+  /// start. Of a segment that is an edge, either side of it.
   using Rim = std::vector<HalfEdgeId>;
 
   PathResult Result = PathResult::Found;
-  std::vector<Rim> Pieces; ///< Where it was found.
+  std::vector<Rim> Segments; ///< Where it was found.
   TriangleId Bar = NoTriangle; ///< Where it IsBarred.
 };
 

@@ -139,7 +139,7 @@ private:
       this->Target.GeometryReason = survey.GeometryReason;
       this->Store(built.Edges, order.View());
     }
-    this->StorePieces(flips, order.View());
+    this->StoreSegments(flips, order.View());
   }
 
   void InsertAll(ConstraintFlips& flips, const SpatialOrderView& order)
@@ -165,9 +165,9 @@ private:
     }
   }
 
-  void StorePieces(const ConstraintFlips& flips, const SpatialOrderView& order)
+  void StoreSegments(const ConstraintFlips& flips, const SpatialOrderView& order)
   {
-    for (const auto& [from, to] : flips.GetPieces())
+    for (const auto& [from, to] : flips.GetSegments())
     {
       this->Target.Edges.push_back(order.GetVertex(from));
       this->Target.Edges.push_back(order.GetVertex(to));
