@@ -3,6 +3,7 @@
 #include "SeamHalves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -30,7 +31,8 @@ SeamHalves::Place SeamHalves::GetPlace(const BadSeam& seam) const
     [&](std::int32_t point) { return this->Mesh.GetKey(point) == seam.Ends[0]; });
   double x[3];
   this->Mesh.GetPosition(*end, x);
-  return { x[0], x[1], x[2] };
+  const auto clean = [](double value) { return std::isnan(value) ? 0.0 : value; };
+  return { clean(x[0]), clean(x[1]), clean(x[2]) };
 }
 
 SeamHalves::Cut SeamHalves::FindCut(std::vector<Place> places)

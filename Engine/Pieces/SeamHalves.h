@@ -39,7 +39,7 @@ private:
     double Median;
   };
 
-  /// Where the end with the lower key is.
+  /// Where the end with the lower key is. A coordinate that is NaN counts as 0.
   Place GetPlace(const BadSeam& seam) const;
   /// @param places of the edges to one other rank.
   static Cut FindCut(std::vector<Place> places);
