@@ -239,7 +239,7 @@ bool PieceRun::MakeRound()
     return false;
   }
   std::int64_t moved = 0;
-  // With a guard the two ranks of a seam may know different edges, and so different halves.
+  // With a guard the two ranks of a seam may try different edges, and so find different halves.
   const MoveRule rule{ this->Whole.Rounds % 2 != 0, !this->Job.Survey.NeedsGuard() };
   const std::vector<std::int64_t> toJudge =
     MoveTriangles(this->Mesh, test.Bad, rule, this->Job.Group, moved);

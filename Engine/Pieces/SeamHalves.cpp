@@ -10,50 +10,56 @@
 namespace delaunayflip
 {
 
-SeamHalves::SeamHalves(const std::vector<BadSeam>& bad, const PieceMesh& mesh)
-  : Mesh(mesh)
+namespace
 {
-  std::unordered_map<int, std::vector<Place>> placesOf;
+/// A coordinate of the place of an edge; NaN counts as 0, because it has no order.
+double GetPlace(const BadSeam& seam, int axis)
+{
+  return std::isnan(seam.Place[axis]) ? 0.0 : seam.Place[axis];
+}
+}
+
+SeamHalves::SeamHalves(const std::vector<BadSeam>& bad)
+{
+  std::unordered_map<int, std::vector<const BadSeam*>> seamsTo;
   for (const BadSeam& seam : bad)
   {
-    placesOf[seam.OtherRank].push_back(this->GetPlace(seam));
+    seamsTo[seam.OtherRank].push_back(&seam);
   }
-  for (auto& [rank, places] : placesOf)
+  for (auto& [rank, seams] : seamsTo)
   {
-    this->Cuts.emplace(rank, FindCut(std::move(places)));
+    this->Cuts.emplace(rank, FindCut(std::move(seams)));
   }
 }
 
-SeamHalves::Place SeamHalves::GetPlace(const BadSeam& seam) const
+bool SeamHalves::IsInSecond(const BadSeam& seam) const
 {
-  const std::int32_t* points = this->Mesh.Triangles[seam.Triangle].Points;
-  const std::int32_t* end = std::find_if(points, points + 3,
-    [&](std::int32_t point) { return this->Mesh.GetKey(point) == seam.Ends[0]; });
-  double x[3];
-  this->Mesh.GetPosition(*end, x);
-  const auto clean = [](double value) { return std::isnan(value) ? 0.0 : value; };
-  return { clean(x[0]), clean(x[1]), clean(x[2]) };
+  const Cut& cut = this->Cuts.at(seam.OtherRank);
+  return GetPlace(seam, cut.Axis) >= cut.Median;
 }
 
-SeamHalves::Cut SeamHalves::FindCut(std::vector<Place> places)
+SeamHalves::Cut SeamHalves::FindCut(std::vector<const BadSeam*> seams)
 {
   const auto compare = [](int axis)
-  { return [axis](const Place& a, const Place& b) { return a[axis] < b[axis]; }; };
+  {
+    return [axis](const BadSeam* a, const BadSeam* b)
+    { return GetPlace(*a, axis) < GetPlace(*b, axis); };
+  };
   int longest = 0;
   double most = -1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto [least, greatest] = std::minmax_element(places.begin(), places.end(), compare(axis));
-    const double extent = (*greatest)[axis] - (*least)[axis];
+    const auto [least, greatest] = std::minmax_element(seams.begin(), seams.end(), compare(axis));
+    const double extent = GetPlace(**greatest, axis) - GetPlace(**least, axis);
     if (extent > most)
     {
       most = extent;
       longest = axis;
     }
   }
-  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-  std::nth_element(places.begin(), middle, places.end(), compare(longest));
-  return { longest, (*middle)[longest] };
+  const auto middle = seams.begin() + static_cast<std::ptrdiff_t>(seams.size() / 2);
+  std::nth_element(seams.begin(), middle, seams.end(), compare(longest));
+  return { longest, GetPlace(**middle, longest) };
 }
 
 }

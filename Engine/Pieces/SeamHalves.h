@@ -3,48 +3,36 @@
 #ifndef DELAUNAYFLIP_SEAMHALVES_H
 #define DELAUNAYFLIP_SEAMHALVES_H
 
-#include "PieceMesh.h"
 #include "SeamTester.h"
 
-#include <array>
 #include <unordered_map>
 #include <vector>
 
 namespace delaunayflip
 {
 
-/// The bad seam edges between two ranks, cut into two halves by their places, so that in each round
-/// either rank gets the triangles of one half and both have edges to flip.
+/// The bad seam edges between every two ranks, divided into two halves by their places. In each
+/// round either rank gets the triangles of one half, so that usually both have edges to flip.
 ///
-/// Both ranks find the same halves, because they know the same bad edges and coordinates.
+/// Both ranks find the same halves, because they have got the same edges and places.
 class SeamHalves
 {
 public:
   /// @param bad the bad seam edges of this rank.
-  SeamHalves(const std::vector<BadSeam>& bad, const PieceMesh& mesh);
+  explicit SeamHalves(const std::vector<BadSeam>& bad);
 
-  /// Whether an edge is in the second half.
-  bool IsInSecond(const BadSeam& seam) const
-  {
-    const Cut& cut = this->Cuts.at(seam.OtherRank);
-    return this->GetPlace(seam)[cut.Axis] >= cut.Median;
-  }
+  bool IsInSecond(const BadSeam& seam) const;
 
 private:
-  using Place = std::array<double, 3>;
-
   struct Cut
   {
     int Axis; ///< Along which the edges extend most.
     double Median;
   };
 
-  /// Where the end with the lower key is. A coordinate that is NaN counts as 0.
-  Place GetPlace(const BadSeam& seam) const;
-  /// @param places of the edges to one other rank.
-  static Cut FindCut(std::vector<Place> places);
+  /// @param seams the edges to one other rank.
+  static Cut FindCut(std::vector<const BadSeam*> seams);
 
-  const PieceMesh& Mesh;
   std::unordered_map<int, Cut> Cuts; ///< By the other rank.
 };
 

@@ -7,29 +7,27 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
+#include <utility>
 
 namespace delaunayflip
 {
 
 namespace
 {
-/// A triangle of this rank and the rank that shall have it.
+/// A triangle of this rank and the rank that gets it.
 struct Move
 {
   std::int64_t Triangle;
   int Receiver;
-  int Giver;
 };
 
 /// Each triangle once, ascending.
-std::vector<Move> ChooseReceivers(
-  const PieceMesh& mesh, const std::vector<BadSeam>& bad, const MoveRule& rule, int rank)
+std::vector<Move> ChooseReceivers(const std::vector<BadSeam>& bad, const MoveRule& rule, int rank)
 {
   std::optional<SeamHalves> halves;
   if (rule.InHalves)
   {
-    halves.emplace(bad, mesh);
+    halves.emplace(bad);
   }
   std::vector<Move> moves;
   moves.reserve(bad.size());
@@ -37,14 +35,10 @@ std::vector<Move> ChooseReceivers(
   {
     const int other = seam.OtherRank;
     const bool toLower = rule.ToLower != (halves && halves->IsInSecond(seam));
-    const bool leaves = toLower == (other < rank);
-    moves.push_back({ seam.Triangle, leaves ? other : rank, leaves ? rank : other });
+    moves.push_back({ seam.Triangle, toLower ? std::min(rank, other) : std::max(rank, other) });
   }
   const auto place = [&](const Move& move)
-  {
-    const int sign = rule.ToLower ? 1 : -1;
-    return std::make_tuple(move.Triangle, sign * move.Receiver, sign * move.Giver);
-  };
+  { return std::make_pair(move.Triangle, rule.ToLower ? move.Receiver : -move.Receiver); };
   std::sort(
     moves.begin(), moves.end(), [&](const Move& a, const Move& b) { return place(a) < place(b); });
   moves.erase(std::unique(moves.begin(), moves.end(),
@@ -61,7 +55,7 @@ void MarkSeams(PieceMesh& mesh, const std::vector<std::int64_t>& leaving)
     for (int slot = 0; slot < 3; ++slot)
     {
       const PieceCorner mate = mesh.FindOpenMate({ t, slot });
-      if (mate.Triangle >= 0) // else the edge is at the boundary
+      if (mate.Triangle >= 0) // else it is a boundary edge, fixed, or a seam edge
       {
         mesh.SetSeam({ t, slot });
         mesh.SetSeam(mate);
@@ -70,7 +64,7 @@ void MarkSeams(PieceMesh& mesh, const std::vector<std::int64_t>& leaving)
   }
 }
 
-/// Takes the marks from edges of a triangle that are inner ones again.
+/// Clears the seam marks of edges of a triangle that are inner edges again.
 void ClearSeams(PieceMesh& mesh, std::int64_t t)
 {
   for (int slot = 0; slot < 3; ++slot)
@@ -127,7 +121,7 @@ std::vector<std::int64_t> MoveTriangles(PieceMesh& mesh, const std::vector<BadSe
 {
   std::vector<std::int64_t> toJudge;
   std::vector<Move> leaving;
-  for (const Move& move : ChooseReceivers(mesh, bad, rule, group.GetRank()))
+  for (const Move& move : ChooseReceivers(bad, rule, group.GetRank()))
   {
     if (move.Receiver == group.GetRank())
     {

@@ -12,21 +12,20 @@
 namespace delaunayflip
 {
 
-/// Which of the two ranks of a bad seam edge gets its triangles.
+/// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
 struct MoveRule
 {
   bool ToLower; ///< The lower one, else the higher.
-  /// Only for the first half of the edges between two ranks (SeamHalves); for the second half it is
-  /// the other way round.
+  /// Whether this holds only for the first half of the edges between two ranks (SeamHalves), and
+  /// for the second half it is the other way round.
   bool InHalves;
 };
 
 /// Moves triangles so that at least one bad seam edge becomes an inner edge. A triangle with
-/// several bad edges goes to the lowest of their receivers (ToLower), or to the highest; of edges
-/// with the same receiver it obeys the one whose other rank is lowest (or highest).
+/// several bad edges goes to the lowest of their receivers (ToLower), or to the highest.
 ///
-/// So take, of all bad edges, those with the lowest receiver, and of these those with the lowest
-/// other rank. Both triangles of each obey it, and it becomes an inner edge.
+/// So take the bad edges with the lowest receiver of all. Both triangles of each go to that rank,
+/// and these edges become inner edges.
 /// @param bad the bad seam edges of this rank.
 /// @param moved receives the number of triangles that have moved, over all ranks.
 /// @returns the triangles of this rank whose edges must now be judged.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamTester.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace delaunayflip
@@ -89,8 +90,10 @@ std::vector<std::size_t> SeamTester::ListToTest() const
 void SeamTester::TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const
 {
   const SeamTriangle& seam = this->GetSeam(one);
-  toRank[this->Sides[one].Rank].push_back({ seam.GetTriangle(), seam.Ends,
-    MakePair(seam.Opposite, this->GetSeam(other).Opposite), this->Sides[other].Rank });
+  BadSeam bad{ seam.GetTriangle(), seam.Ends,
+    MakePair(seam.Opposite, this->GetSeam(other).Opposite), {}, this->Sides[other].Rank };
+  std::copy_n(this->GetSeam(std::min(one, other)).Side.Ends[0], 3, bad.Place);
+  toRank[this->Sides[one].Rank].push_back(bad);
 }
 
 SeamTester::Found SeamTester::Judge(const QuadJudge& judge, int ranks)

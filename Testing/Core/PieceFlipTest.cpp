@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GeneratedMeshes.h"
 #include "PieceTestSupport.h"
+#include "Records.h"
 
 #include <gtest/gtest.h>
 
@@ -136,6 +137,27 @@ TEST_P(RanksTest, TwoSheetsOverTheSamePoints)
     owners[t] = t < first ? owners[t] % half : GetParam() - 1 - owners[t] % half;
   }
   ExpectGoodTriangles(mesh.View(), owners, GetParam(), MakeCanonical());
+}
+
+/// Seen from above. Both ranks of a seam must still find the same halves of its edges.
+TEST_P(RanksTest, RanksMayDisagreeAboutHeights)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 17);
+  std::vector<OwnedPiece> pieces = Divide(mesh.View(), this->Cut(mesh.View()), GetParam());
+  for (std::size_t rank = 0; rank < pieces.size(); ++rank)
+  {
+    for (std::size_t i = 0; i < pieces[rank].PointOf.size(); ++i)
+    {
+      const auto height = ScatterBits(pieces[rank].PointOf[i] + 1000 * rank) % 1000;
+      pieces[rank].Doubles[3 * i + 2] = static_cast<double>(height);
+    }
+  }
+  FlipOptions options = MakeCanonical();
+  options.Geometry = GeometryKind::PlanarXY;
+  const std::vector<PiecesReport> reports = FlipDivided(mesh.View(), pieces, options).Reports;
+  EXPECT_EQ(StopReasonKind::Converged, reports.front().StopReason);
+  EXPECT_EQ(Flip(mesh.View(), options).Report.NonDelaunayBefore, reports.front().NonDelaunayBefore);
+  EXPECT_EQ(0, reports.front().NonDelaunayAfter);
 }
 
 /// After an iteration of the first flips it is the angle of the mesh that is left if all ranks stop

@@ -42,7 +42,9 @@ std::vector<BadSeam> ListSeams(PieceMesh& mesh, int rank)
       if (mesh.IsShared(edge[0]) && mesh.IsShared(edge[1]))
       {
         mesh.SetSeam({ t, slot });
-        bad.push_back({ t, mesh.GetKeys(edge), {}, 1 - rank });
+        const PointPair keys = mesh.GetKeys(edge);
+        bad.push_back({ t, keys, {}, {}, 1 - rank });
+        mesh.GetPosition(mesh.FindPoint(keys[0]), bad.back().Place);
       }
     }
   }
