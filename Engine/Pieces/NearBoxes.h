@@ -62,7 +62,7 @@ public:
   }
 
   /// Calls visit(rank) for every other rank whose box holds a point.
-  /// @param x no NaN.
+  /// @param x must not contain NaN.
   template <typename Visit>
   void ForEachHolding(const double (&x)[3], const Visit& visit) const
   {
@@ -89,7 +89,8 @@ private:
   static constexpr int Slabs = 256;
   static constexpr std::size_t Bits = 64;
 
-  /// Never less for a greater x, so that a box reaches the slabs between those of its ends.
+  /// Never decreases as x grows. So a box reaches the slabs from that of its lower end to that of
+  /// its upper end.
   int FindSlab(int axis, double x) const
   {
     const double slab = (x - this->GetOwn().Lower[axis]) * this->Scale[axis];
@@ -101,7 +102,7 @@ private:
     const Box& box = this->Boxes[rank];
     if (static_cast<int>(rank) == this->Rank || !(box.Lower[axis] <= box.Upper[axis]))
     {
-      return; // or without points
+      return; // its own box, or one without points
     }
     const int last = this->FindSlab(axis, box.Upper[axis]);
     for (int slab = this->FindSlab(axis, box.Lower[axis]); slab <= last; ++slab)
@@ -113,7 +114,7 @@ private:
   std::vector<Box> Boxes;
   int Rank;
   double Scale[3];
-  /// Of every slab: one bit for the box of each rank; with many ranks several share a bit.
+  /// For each slab, one bit per rank whose box reaches it. Beyond 64 ranks, ranks share bits.
   std::array<std::array<std::uint64_t, Slabs>, 3> BoxesAt{};
 };
 

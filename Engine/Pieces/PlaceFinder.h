@@ -167,7 +167,7 @@ public:
     return closed;
   }
 
-  /// @returns whether the point has a place: no coordinate is NaN.
+  /// @returns whether the point has a place: a number, or coordinates without NaN.
   bool FindPlace(std::int64_t point, Place& place) const
   {
     if (this->Piece.PointNumbers)

@@ -14,11 +14,11 @@ namespace delaunayflip
 
 namespace
 {
-/// A point that a rank and another one may have.
+/// A point of one rank that another may have, too.
 struct Candidate
 {
   Place At;
-  std::int64_t Key; ///< The one it has if it is not shared.
+  std::int64_t Key; ///< Its key if it is not shared.
   std::int64_t IsUnused; ///< 0 or 1.
 };
 
@@ -136,7 +136,8 @@ private:
     return filter;
   }
 
-  /// Sheets that lie on each other may have the same points, with a number that says so.
+  /// Notes the points that another rank may have, too, by their numbers. So points that are inside
+  /// both pieces, where sheets lie on each other, are also found.
   /// @param filter of the points of another rank.
   void NoteHits(const std::vector<std::int64_t>& points, const PlaceFilter& filter)
   {
@@ -174,8 +175,8 @@ struct RankedCandidate
 };
 
 /// The candidates of one place. Of points without triangles only one of a rank counts, and none if
-/// the rank has others.
-/// @param begin, end those with triangles first, both by key and so by rank.
+/// the rank has one with triangles.
+/// @param begin, end first those with triangles, then the others; each group by key, hence by rank.
 std::vector<RankedCandidate> ListOfRanks(const RankedCandidate* begin, const RankedCandidate* end)
 {
   std::vector<RankedCandidate> list;
@@ -265,7 +266,7 @@ PointKeys NumberPoints(const MeshPiece& piece, PieceGroup& group)
   return keys;
 }
 
-/// Without numbers on one of the ranks that have points, nobody's numbers mean anything.
+/// Numbers are used only if every rank that has points gives them.
 bool HaveNumbers(const MeshPiece& piece, PieceGroup& group)
 {
   const bool lacksThem = !piece.PointNumbers && piece.Mesh.Points.Count > 0;

@@ -31,11 +31,11 @@ struct PlanePlace
 struct SharedFan
 {
   std::int64_t Key; ///< Of the point.
-  /// In a closed fan every neighbour follows a corner once and precedes one once: the sum over all
-  /// ranks is 0.
+  /// Over its corners: the hash of the next neighbour minus that of the previous one. In a closed
+  /// fan every neighbour is each of these once, so the sum over all ranks is 0.
   std::uint64_t Sum;
   PlanePlace At;
-  std::int64_t Covers; ///< As in StarTurns.
+  std::int64_t Covers; ///< How many of its corners cover the direction +u.
 };
 
 struct RankedFan
@@ -44,14 +44,14 @@ struct RankedFan
   int Rank;
 };
 
-/// A corner of a triangle that turns left, at a point whose triangles do not close around it on
-/// this rank.
+/// A corner, its sides in counterclockwise order, at a point whose triangles do not close around
+/// it in the whole mesh.
 struct Wedge
 {
   std::int64_t Key; ///< Of the point.
   PlanePlace Apex, First, Last;
 
-  /// Whether it has the direction to a place; that to First it has, that to Last not.
+  /// Whether the direction to a place lies in the wedge. That to First does, that to Last does not.
   bool Covers(const PlanePlace& place) const
   {
     const int afterFirst = this->FindTurn(this->First, place);
@@ -78,7 +78,8 @@ private:
   }
 };
 
-/// Lists what the ranks must know about the corners at points that are not closed on this rank.
+/// Lists what the ranks must know about the corners at points that are shared, or whose triangles
+/// do not close around them.
 class WedgeLister
 {
 public:
@@ -210,7 +211,9 @@ private:
 /// What a home finds out about shared points.
 struct FanVerdict
 {
-  bool AreApart = true; ///< Whether the triangles at each closed point cover no direction twice.
+  /// Whether the triangles at each closed point cover no direction twice, and ranks agree about
+  /// the coordinates of points. Else flips need a guard.
+  bool AreApart = true;
   RecordLists<std::int64_t> Open; ///< Keys of points that are not closed, for the ranks with them.
 };
 
@@ -222,7 +225,6 @@ void JudgeFans(const RankedFan* begin, const RankedFan* end, FanVerdict& verdict
   {
     sum.Sum += one->Fan.Sum;
     sum.Covers += one->Fan.Covers;
-    // else ranks disagree about the coordinates
     verdict.AreApart = verdict.AreApart && one->Fan.At.IsEqual(sum.At);
   }
   if (sum.Sum == 0)
@@ -272,7 +274,7 @@ bool AreApart(Wedge* begin, Wedge* end)
     return false; // ranks disagree about the coordinates
   }
   std::sort(begin, end, [](const Wedge& a, const Wedge& b) { return a.IsBefore(b); });
-  // One that covers the first direction of any other covers that of the next.
+  // A wedge that covers the first direction of any other also covers that of the next.
   for (const Wedge* one = begin; one + 1 < end; ++one)
   {
     if (one->Covers(one[1].First))
