@@ -51,38 +51,25 @@ struct PointSum
   std::uint32_t Sum;
 };
 
-struct RankedSum
-{
-  PointSum Point;
-  int Rank;
-};
-
 /// The total of every point goes to the first rank that has it, and 0 to the others.
 RecordLists<PointSum> AddPointSums(const RecordLists<PointSum>& lists)
 {
-  std::vector<RankedSum> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const PointSum& sum : lists[rank])
-    {
-      all.push_back({ sum, static_cast<int>(rank) });
-    }
-  }
+  std::vector<RankedRecord<PointSum>> all = JoinLists(lists);
   std::sort(all.begin(), all.end(),
-    [](const RankedSum& a, const RankedSum& b)
-    { return std::tie(a.Point.Key, a.Rank) < std::tie(b.Point.Key, b.Rank); });
+    [](const RankedRecord<PointSum>& a, const RankedRecord<PointSum>& b)
+    { return std::tie(a.Value.Key, a.Rank) < std::tie(b.Value.Key, b.Rank); });
   for (std::size_t i = all.size(); i-- > 1;)
   {
-    if (all[i].Point.Key == all[i - 1].Point.Key)
+    if (all[i].Value.Key == all[i - 1].Value.Key)
     {
-      all[i - 1].Point.Sum += all[i].Point.Sum;
-      all[i].Point.Sum = 0;
+      all[i - 1].Value.Sum += all[i].Value.Sum;
+      all[i].Value.Sum = 0;
     }
   }
   RecordLists<PointSum> answers(lists.size());
-  for (const RankedSum& sum : all)
+  for (const RankedRecord<PointSum>& sum : all)
   {
-    answers[sum.Rank].push_back(sum.Point);
+    answers[sum.Rank].push_back(sum.Value);
   }
   return answers;
 }

@@ -168,11 +168,7 @@ private:
   std::vector<unsigned char> Hits;
 };
 
-struct RankedCandidate
-{
-  Candidate Point;
-  int Rank;
-};
+using RankedCandidate = RankedRecord<Candidate>;
 
 /// The candidates of one place. Of points without triangles only one of a rank counts, and none if
 /// the rank has one with triangles.
@@ -184,7 +180,7 @@ std::vector<RankedCandidate> ListOfRanks(const RankedCandidate* begin, const Ran
   {
     const bool isKnown = std::any_of(list.begin(), list.end(),
       [=](const RankedCandidate& other) { return other.Rank == one->Rank; });
-    if (one->Point.IsUnused == 0 || !isKnown)
+    if (one->Value.IsUnused == 0 || !isKnown)
     {
       list.push_back(*one);
     }
@@ -199,7 +195,7 @@ void JoinPlace(
 {
   const auto isSameRank = [](const RankedCandidate& a, const RankedCandidate& b)
   { return a.Rank == b.Rank; };
-  if (list.front().Point.IsUnused != 0 || list.front().Rank == list.back().Rank)
+  if (list.front().Value.IsUnused != 0 || list.front().Rank == list.back().Rank)
   {
     return;
   }
@@ -211,39 +207,27 @@ void JoinPlace(
   }
   counts.Repeated += size - 1;
   counts.Used -= std::count_if(list.begin() + 1, list.end(),
-    [](const RankedCandidate& one) { return one.Point.IsUnused == 0; });
+    [](const RankedCandidate& one) { return one.Value.IsUnused == 0; });
   for (const RankedCandidate& one : list)
   {
-    answers[one.Rank].push_back({ one.Point.Key, list.front().Point.Key });
+    answers[one.Rank].push_back({ one.Value.Key, list.front().Value.Key });
   }
 }
 
 /// @returns what each rank must know about its candidates that are shared.
 RecordLists<SharedPoint> JoinCandidates(const RecordLists<Candidate>& lists, MatchCounts& counts)
 {
-  std::vector<RankedCandidate> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const Candidate& candidate : lists[rank])
-    {
-      all.push_back({ candidate, static_cast<int>(rank) });
-    }
-  }
+  std::vector<RankedCandidate> all = JoinLists(lists);
   const auto order = [](const RankedCandidate& a)
-  { return std::tie(a.Point.At, a.Point.IsUnused, a.Point.Key); };
+  { return std::tie(a.Value.At, a.Value.IsUnused, a.Value.Key); };
   std::sort(all.begin(), all.end(),
     [&](const RankedCandidate& a, const RankedCandidate& b) { return order(a) < order(b); });
   RecordLists<SharedPoint> answers(lists.size());
-  for (std::size_t begin = 0; begin < all.size();)
-  {
-    std::size_t end = begin + 1;
-    while (end < all.size() && all[end].Point.At == all[begin].Point.At)
-    {
-      ++end;
-    }
-    JoinPlace(ListOfRanks(all.data() + begin, all.data() + end), answers, counts);
-    begin = end;
-  }
+  ForEachRun(
+    all,
+    [](const RankedCandidate& a, const RankedCandidate& b) { return a.Value.At == b.Value.At; },
+    [&](const RankedCandidate* begin, const RankedCandidate* end)
+    { JoinPlace(ListOfRanks(begin, end), answers, counts); });
   return answers;
 }
 

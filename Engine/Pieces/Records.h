@@ -5,6 +5,8 @@
 
 #include "PieceGroup.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -78,6 +80,42 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
     sum += part.front();
   }
   return sum;
+}
+
+/// A record and the rank that has sent it.
+template <typename Record>
+struct RankedRecord
+{
+  Record Value;
+  int Rank;
+};
+
+/// The records of all ranks in one list.
+template <typename Record>
+std::vector<RankedRecord<Record>> JoinLists(const RecordLists<Record>& lists)
+{
+  std::vector<RankedRecord<Record>> all;
+  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  {
+    for (const Record& record : lists[rank])
+    {
+      all.push_back({ record, static_cast<int>(rank) });
+    }
+  }
+  return all;
+}
+
+/// Calls visit(begin, end) for every run of items that are the same as the first of the run.
+template <typename Item, typename IsSame, typename Visit>
+void ForEachRun(std::vector<Item>& items, const IsSame& isSame, const Visit& visit)
+{
+  for (auto begin = items.begin(); begin != items.end();)
+  {
+    const auto end =
+      std::find_if_not(begin, items.end(), [&](const Item& item) { return isSame(*begin, item); });
+    visit(&*begin, &*begin + (end - begin));
+    begin = end;
+  }
 }
 
 /// A hash of a number, whose bits all depend on all bits of the number.

@@ -38,11 +38,7 @@ struct SharedFan
   std::int64_t Covers; ///< How many of its corners cover the direction +u.
 };
 
-struct RankedFan
-{
-  SharedFan Fan;
-  int Rank;
-};
+using RankedFan = RankedRecord<SharedFan>;
 
 /// A corner, its sides in counterclockwise order, at a point whose triangles do not close around
 /// it in the whole mesh.
@@ -104,22 +100,20 @@ public:
   {
     HostVector<std::int32_t> placeOf(this->Keys.Keys.size(), -1);
     std::vector<SharedFan> fans;
-    for (const std::int64_t t : this->Triangles)
-    {
-      for (int slot = 0; slot < 3; ++slot)
+    this->ForEachCorner(
+      [&](std::int64_t t, int slot, std::int64_t point)
       {
-        const std::int64_t point = this->GetPoint(t, slot);
-        if (this->Keys.Shared[point])
+        if (!this->Keys.Shared[point])
         {
-          if (placeOf[point] < 0)
-          {
-            placeOf[point] = static_cast<std::int32_t>(fans.size());
-            fans.push_back({ this->Keys.Keys[point], 0, this->FindPlace(t, slot), 0 });
-          }
-          this->AddCorner(t, slot, fans[placeOf[point]]);
+          return;
         }
-      }
-    }
+        if (placeOf[point] < 0)
+        {
+          placeOf[point] = static_cast<std::int32_t>(fans.size());
+          fans.push_back({ this->Keys.Keys[point], 0, this->FindPlace(t, slot), 0 });
+        }
+        this->AddCorner(t, slot, fans[placeOf[point]]);
+      });
     RecordLists<SharedFan> toHome(group.GetSize());
     for (const SharedFan& fan : fans)
     {
@@ -134,26 +128,34 @@ public:
     const std::unordered_set<std::int64_t>& open, const PieceGroup& group) const
   {
     RecordLists<Wedge> toHome(group.GetSize());
-    for (const std::int64_t t : this->Triangles)
-    {
-      for (int slot = 0; slot < 3; ++slot)
+    this->ForEachCorner(
+      [&](std::int64_t t, int slot, std::int64_t point)
       {
-        const std::int64_t point = this->GetPoint(t, slot);
         const std::int64_t key = this->Keys.Keys[point];
-        if (this->Keys.Shared[point] && open.count(key) > 0)
+        const bool isShared = this->Keys.Shared[point] != 0;
+        if (isShared ? open.count(key) > 0 : !this->Keys.Closed[point])
         {
-          toHome[GetHome(ScatterBits(key), group)].push_back(this->MakeWedge(t, slot));
+          const int home = isShared ? GetHome(ScatterBits(key), group) : group.GetRank();
+          toHome[home].push_back(this->MakeWedge(t, slot));
         }
-        else if (!this->Keys.Shared[point] && !this->Keys.Closed[point])
-        {
-          toHome[group.GetRank()].push_back(this->MakeWedge(t, slot));
-        }
-      }
-    }
+      });
     return toHome;
   }
 
 private:
+  /// Calls visit(triangle, slot, point) for all corners of the triangles.
+  template <typename Visit>
+  void ForEachCorner(const Visit& visit) const
+  {
+    for (const std::int64_t t : this->Triangles)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        visit(t, slot, this->GetPoint(t, slot));
+      }
+    }
+  }
+
   std::int64_t GetPoint(std::int64_t t, int slot) const
   {
     return this->Mesh.Triangles.Get(t, slot);
@@ -220,12 +222,12 @@ struct FanVerdict
 /// Judges the point of some fans, one per rank that has it.
 void JudgeFans(const RankedFan* begin, const RankedFan* end, FanVerdict& verdict)
 {
-  SharedFan sum = begin->Fan;
+  SharedFan sum = begin->Value;
   for (const RankedFan* one = begin + 1; one != end; ++one)
   {
-    sum.Sum += one->Fan.Sum;
-    sum.Covers += one->Fan.Covers;
-    verdict.AreApart = verdict.AreApart && one->Fan.At.IsEqual(sum.At);
+    sum.Sum += one->Value.Sum;
+    sum.Covers += one->Value.Covers;
+    verdict.AreApart = verdict.AreApart && one->Value.At.IsEqual(sum.At);
   }
   if (sum.Sum == 0)
   {
@@ -240,28 +242,14 @@ void JudgeFans(const RankedFan* begin, const RankedFan* end, FanVerdict& verdict
 
 FanVerdict JudgeAllFans(const RecordLists<SharedFan>& lists)
 {
-  std::vector<RankedFan> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const SharedFan& fan : lists[rank])
-    {
-      all.push_back({ fan, static_cast<int>(rank) });
-    }
-  }
+  std::vector<RankedFan> all = JoinLists(lists);
   std::sort(all.begin(), all.end(),
-    [](const RankedFan& a, const RankedFan& b) { return a.Fan.Key < b.Fan.Key; });
+    [](const RankedFan& a, const RankedFan& b) { return a.Value.Key < b.Value.Key; });
   FanVerdict verdict;
   verdict.Open.resize(lists.size());
-  for (std::size_t begin = 0; begin < all.size();)
-  {
-    std::size_t end = begin + 1;
-    while (end < all.size() && all[end].Fan.Key == all[begin].Fan.Key)
-    {
-      ++end;
-    }
-    JudgeFans(all.data() + begin, all.data() + end, verdict);
-    begin = end;
-  }
+  ForEachRun(
+    all, [](const RankedFan& a, const RankedFan& b) { return a.Value.Key == b.Value.Key; },
+    [&](const RankedFan* begin, const RankedFan* end) { JudgeFans(begin, end, verdict); });
   return verdict;
 }
 
@@ -290,16 +278,9 @@ bool AreAllApart(std::vector<Wedge> wedges)
   std::sort(
     wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) { return a.Key < b.Key; });
   bool areApart = true;
-  for (std::size_t begin = 0; begin < wedges.size() && areApart;)
-  {
-    std::size_t end = begin + 1;
-    while (end < wedges.size() && wedges[end].Key == wedges[begin].Key)
-    {
-      ++end;
-    }
-    areApart = AreApart(wedges.data() + begin, wedges.data() + end);
-    begin = end;
-  }
+  ForEachRun(
+    wedges, [](const Wedge& a, const Wedge& b) { return a.Key == b.Key; },
+    [&](Wedge* begin, Wedge* end) { areApart = areApart && AreApart(begin, end); });
   return areApart;
 }
 

@@ -31,11 +31,11 @@
 /// line of JSON. Usage: delaunay-flip-pieces [NAME=VALUE ...]
 ///
 ///     points=500000   of the mesh
-///     mesh=random     a random bad mesh, the worst there is; or grid: a grid with jitter
+///     mesh=random     a random bad mesh, the worst that we know; or grid: a grid with jitter
 ///     pieces=2        0: undivided
 ///     ranks=1         0: no ranks, but FlipInPieces, which divides the mesh and flips it in place
 ///     threads=1       of each rank
-///     surface=0       1: hills, flipped by opposite angles
+///     surface=0       1: the random mesh gets hills, and is flipped by opposite angles
 ///     feature=180     the feature angle
 ///     constraints=0   so many lines across the whole mesh are inserted
 ///     net=0           1: as many again across these, with a vertex wherever two meet
@@ -310,9 +310,17 @@ Measure FindFastest(const Settings& settings, const Flip& flip)
 OwnedMesh<float> MakeMesh(const Settings& settings)
 {
   const std::int64_t points = std::atoll(settings.at("points").c_str());
-  OwnedMesh<float> mesh =
-    settings.at("mesh") == "grid" ? MakeJitteredGrid(points, 1) : MakeRandomMesh(points);
-  if (settings.at("surface") == "1")
+  const bool isSurface = settings.at("surface") == "1";
+  if (settings.at("mesh") == "grid" && !isSurface)
+  {
+    return MakeJitteredGrid(points, 1);
+  }
+  if (settings.at("mesh") != "random")
+  {
+    throw std::runtime_error("mesh must be random, or grid without surface=1");
+  }
+  OwnedMesh<float> mesh = MakeRandomMesh(points);
+  if (isSurface)
   {
     AddHills(mesh);
   }

@@ -7,13 +7,13 @@
                [--output scaling.json] PROGRAM
 
 Strong scaling: one mesh (20 million points) in 1, 2, 4, 8 and 16 pieces, a rank with one thread
-each, and undivided, with as many threads. It is a random bad mesh, the worst there is, or (--mesh
-grid) a grid with jitter. Weak scaling: 1.25 million points per piece. With --gpus
-the same for pieces on these GPUs, and the undivided mesh on the first and on all of them. With
---processes, and delaunay-flip-processes, strong scaling also with processes of mpirun. All cases
-run once in turn, then again (--turns, 3), so what slows the machine down for a while slows all of
-them; the median of a case counts. Prints a table and what the cost model says of 64 nodes; the JSON
-has every run.
+each, and undivided, with as many threads. It is a random bad mesh, the worst that we know, or
+(--mesh grid) a grid with jitter. Weak scaling: 1.25 million points per piece. With --gpus the same
+for pieces on these GPUs, and the undivided mesh on the first and on all of them. With --processes,
+and delaunay-flip-processes, strong scaling also with processes of mpirun. All cases run once in
+turn, then again (--turns, 3), so what slows the machine down for a while slows all of them; the
+median of a case counts. Prints a table and what the cost model says of 64 nodes; the JSON has every
+run.
 
 of threads: the time of as many threads on the undivided mesh, divided by that of the pieces.
 efficiency: the undivided time, or the weak time of one piece, divided by what ranks x time would be
