@@ -19,7 +19,10 @@ public:
   std::string FindObstacle(vtkDelaunayFlip*) override { return "this build has no CUDA backend"; }
   void Register(const DrawnBuffers&) override {}
   void Release() noexcept override {}
-  double Fill(const FilledMesh&) override { return std::numeric_limits<double>::quiet_NaN(); }
+  void Map() override {}
+  void Unmap() override {}
+  void Fill(const FilledMesh&) override {}
+  double GetSmallestAngle() noexcept override { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
 }
