@@ -29,4 +29,23 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
   return report;
 }
 
+std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank)
+{
+  const std::size_t kept = flipped.FlipCounts.size() - flipped.ReceivedTriangles.size();
+  std::vector<PieceOrigin> origins;
+  origins.reserve(flipped.FlipCounts.size());
+  auto gone = flipped.GoneTriangles.begin();
+  for (std::int64_t slot = 0; origins.size() < kept; ++slot)
+  {
+    if (gone != flipped.GoneTriangles.end() && *gone == slot)
+    {
+      ++gone;
+      continue;
+    }
+    origins.push_back({ rank, slot });
+  }
+  origins.insert(origins.end(), flipped.ReceivedTriangles.begin(), flipped.ReceivedTriangles.end());
+  return origins;
+}
+
 }

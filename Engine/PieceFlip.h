@@ -50,16 +50,21 @@ struct MeshPiece
 /// triangles than before.
 struct FlippedPiece
 {
-  /// Three point ids per triangle. Triangles that the rank has kept come first, in their order.
-  /// Ids from the number of its points on name received points.
-  std::vector<std::int64_t> Triangles;
-  std::vector<PieceOrigin> Origins; ///< Of every triangle: the slot that it was given in.
+  /// Three point ids per triangle: first those that the rank has kept, in their order, then those
+  /// that it has received. Ids from the number of its points on name received points.
+  std::vector<std::int32_t> Triangles;
   std::vector<std::int32_t> FlipCounts; ///< One per triangle.
+  std::vector<std::int64_t> GoneTriangles; ///< Slots of given ones not kept, ascending.
+  std::vector<PieceOrigin> ReceivedTriangles; ///< The slots in which other ranks gave them.
 
   std::vector<PieceOrigin> ReceivedPoints; ///< The points of other ranks that its triangles need.
   std::vector<double> ReceivedCoordinates; ///< x, y and z of each.
   bool AreFloats = true; ///< Whether the points of all ranks have the precision of float.
 };
+
+/// @returns the slot in which every triangle was given.
+/// @param rank the one whose piece this is.
+DELAUNAYFLIP_EXPORT std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank);
 
 /// What happened to the whole mesh; the same on every rank.
 struct PiecesReport : FlipReport
@@ -78,7 +83,8 @@ struct PiecesReport : FlipReport
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
-/// @param flipped receives this rank's piece.
+/// @param flipped receives this rank's piece. What it held before is lost, but its memory is used
+/// again.
 /// @throws on every rank if one fails, with its number: what FlipSession's constructor throws.
 DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,
   PieceGroup& group, FlippedPiece& flipped, const ProgressObserver& progress = {});

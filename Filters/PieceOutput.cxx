@@ -85,25 +85,27 @@ private:
 
 }
 
-PieceOutput::PieceOutput(
-  vtkPolyData* mesh, const TriangleSlots& slots, const FlippedPiece& flipped, int rank)
+PieceOutput::PieceOutput(vtkPolyData* mesh, const TriangleSlots& slots, const FlippedPiece& flipped)
   : Mesh(mesh),
     Slots(slots),
-    Flipped(flipped),
-    NumberOfTriangles(static_cast<vtkIdType>(flipped.Origins.size()))
+    Flipped(flipped)
 {
-  this->ListPolygons(rank);
+  this->ListPolygons();
 }
 
 /// The polygons that stayed, in their order, then those received.
-void PieceOutput::ListPolygons(int rank)
+void PieceOutput::ListPolygons()
 {
-  std::vector<vtkIdType> placeOfSlot(this->Slots.GetTriangles().Count, -1);
-  const std::vector<PieceOrigin>& origins = this->Flipped.Origins;
-  while (this->NumberOfKept < this->NumberOfTriangles && origins[this->NumberOfKept].Rank == rank)
+  constexpr vtkIdType Gone = -1;
+  std::vector<vtkIdType> placeOfSlot(this->Slots.GetTriangles().Count, 0);
+  for (const std::int64_t slot : this->Flipped.GoneTriangles)
   {
-    placeOfSlot[origins[this->NumberOfKept].Id] = this->NumberOfKept;
-    ++this->NumberOfKept;
+    placeOfSlot[slot] = Gone;
+  }
+  vtkIdType kept = 0;
+  for (vtkIdType& place : placeOfSlot)
+  {
+    place = place == Gone ? Gone : kept++;
   }
   for (vtkIdType polygon = 0; polygon < this->Slots.GetNumberOfPolygons(); ++polygon)
   {
@@ -114,28 +116,26 @@ void PieceOutput::ListPolygons(int rank)
       this->Polygons.push_back({ this->Slots.GetCellOfPolygon(polygon), place });
     }
   }
-  for (vtkIdType place = this->NumberOfKept; place < this->NumberOfTriangles; ++place)
+  for (vtkIdType i = 0; i < this->CountReceived(); ++i)
   {
-    this->Polygons.push_back({ -1, place });
+    this->Polygons.push_back({ -1, kept + i });
   }
 }
 
 bool PieceOutput::IsUnchanged() const
 {
   return this->Slots.AreInPlace() && this->CountReceived() == 0 &&
-    this->NumberOfKept == this->Slots.GetTriangles().Count;
+    this->Flipped.GoneTriangles.empty();
 }
 
 void PieceOutput::Store(
   vtkCellData* cellData, bool areDivided, PieceGroup& group, vtkPolyData* output) const
 {
   this->StorePoints(group, output);
-  const std::vector<PieceOrigin> origins(
-    this->Flipped.Origins.begin() + this->NumberOfKept, this->Flipped.Origins.end());
   vtkNew<vtkCellData> received;
   BringTuples(
-    origins, cellData, [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, group,
-    received);
+    this->Flipped.ReceivedTriangles, cellData,
+    [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, group, received);
   DoTogether(group,
     [&]()
     {
@@ -213,7 +213,7 @@ void PieceOutput::StoreCells(vtkPolyData* output) const
     }
     else
     {
-      const std::int64_t* points = this->Flipped.Triangles.data() + 3 * cell.Triangle;
+      const std::int32_t* points = this->Flipped.Triangles.data() + 3 * cell.Triangle;
       polygons->InsertNextCell({ points[0], points[1], points[2] });
     }
   }

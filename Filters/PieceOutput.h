@@ -26,7 +26,7 @@ class PieceOutput
 {
 public:
   /// All must live as long as this object.
-  PieceOutput(vtkPolyData* mesh, const TriangleSlots& slots, const FlippedPiece& flipped, int rank);
+  PieceOutput(vtkPolyData* mesh, const TriangleSlots& slots, const FlippedPiece& flipped);
 
   /// All ranks must call this together.
   /// @param cellData the data of the mesh's cells, perhaps with further arrays.
@@ -49,8 +49,11 @@ private:
     vtkIdType Triangle; ///< Its number in the flipped piece, or -1.
   };
 
-  void ListPolygons(int rank);
-  vtkIdType CountReceived() const { return this->NumberOfTriangles - this->NumberOfKept; }
+  void ListPolygons();
+  vtkIdType CountReceived() const
+  {
+    return static_cast<vtkIdType>(this->Flipped.ReceivedTriangles.size());
+  }
   void StorePoints(PieceGroup& group, vtkPolyData* output) const;
   void StoreCells(vtkPolyData* output) const;
   void StoreCellData(vtkCellData* cellData, vtkCellData* received, vtkPolyData* output) const;
@@ -62,8 +65,6 @@ private:
   vtkPolyData* Mesh;
   const TriangleSlots& Slots;
   const FlippedPiece& Flipped;
-  vtkIdType NumberOfTriangles;
-  vtkIdType NumberOfKept = 0;
   std::vector<OutputCell> Polygons; ///< Of the output.
 };
 

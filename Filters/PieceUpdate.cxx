@@ -147,8 +147,7 @@ private:
       [&]()
       {
         data->ShallowCopy(TakeWholeArrays(this->Mesh));
-        writer.reset(new PieceOutput(
-          this->Mesh, this->Bridge->GetSlots(), this->Flipped, this->Group.GetRank()));
+        writer.reset(new PieceOutput(this->Mesh, this->Bridge->GetSlots(), this->Flipped));
       });
     const bool areDivided = IsOnAnyRank(this->Bridge->GetSlots().DivideCells(), this->Group);
     writer->Store(data, areDivided, this->Group, output);
@@ -186,11 +185,11 @@ private:
       });
     vtkNew<vtkCellData> brought;
     BringTuples(
-      this->Flipped.Origins, given, [](std::int64_t slot) { return static_cast<vtkIdType>(slot); },
-      this->Group, brought);
+      ListOrigins(this->Flipped, this->Group.GetRank()), given,
+      [](std::int64_t slot) { return static_cast<vtkIdType>(slot); }, this->Group, brought);
     const double* first =
       vtkDoubleArray::SafeDownCast(brought->GetArray(AngleBefore))->GetPointer(0);
-    return std::vector<double>(first, first + this->Flipped.Origins.size());
+    return std::vector<double>(first, first + this->Flipped.FlipCounts.size());
   }
 
   void AddAngles(GeometryKind geometry, const PieceOutput& writer, vtkPolyData* output)

@@ -376,7 +376,10 @@ void PieceRun::KeepAngle()
 void PieceRun::Store(FlippedPiece& flipped) const
 {
   const int rank = this->Job.Group.GetRank();
-  flipped = FlippedPiece();
+  FlippedPiece empty;
+  empty.Triangles.swap(flipped.Triangles);
+  empty.FlipCounts.swap(flipped.FlipCounts);
+  flipped = std::move(empty);
   if (this->First)
   {
     const std::int64_t count = this->FirstOrigins[rank + 1] - this->FirstOrigins[rank];

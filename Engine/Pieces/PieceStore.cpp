@@ -34,8 +34,9 @@ public:
   void StoreAll()
   {
     const PieceTriangles& triangles = this->Mesh.Triangles;
+    this->Flipped.Triangles.clear();
+    this->Flipped.FlipCounts.clear();
     this->Flipped.Triangles.reserve(3 * triangles.size());
-    this->Flipped.Origins.reserve(triangles.size());
     this->Flipped.FlipCounts.reserve(triangles.size());
     this->FindPlaces();
     for (std::size_t i = 0; i < this->Own.size(); ++i)
@@ -50,6 +51,10 @@ public:
       {
         this->StoreTriangle(triangles[this->Own[i]]);
       }
+      else
+      {
+        this->Flipped.GoneTriangles.push_back(static_cast<std::int64_t>(i));
+      }
     }
     this->StoreOthers();
   }
@@ -58,13 +63,9 @@ public:
   /// those of other ranks.
   void StoreListed()
   {
-    const auto count = static_cast<std::int64_t>(this->Flipped.FlipCounts.size());
-    this->Flipped.Origins.reserve(this->Mesh.Triangles.size());
-    for (std::int64_t slot = 0; slot < count; ++slot)
-    {
-      this->Flipped.Origins.push_back({ this->Rank, slot });
-    }
-    this->CloseSlots(this->OverwriteSlots());
+    this->Flipped.GoneTriangles = this->OverwriteSlots();
+    RemoveItems(this->Flipped.GoneTriangles, 3, this->Flipped.Triangles);
+    RemoveItems(this->Flipped.GoneTriangles, 1, this->Flipped.FlipCounts);
     this->StoreOthers();
   }
 
@@ -109,13 +110,6 @@ private:
     }
   }
 
-  void CloseSlots(const std::vector<std::int64_t>& gone)
-  {
-    RemoveItems(gone, 3, this->Flipped.Triangles);
-    RemoveItems(gone, 1, this->Flipped.Origins);
-    RemoveItems(gone, 1, this->Flipped.FlipCounts);
-  }
-
   /// Removes items of `size` values by their numbers, which ascend.
   template <typename T>
   static void RemoveItems(
@@ -137,6 +131,8 @@ private:
       [&](std::uint32_t a, std::uint32_t b) { return triangles[a].Origin < triangles[b].Origin; });
     for (const std::uint32_t t : this->Others)
     {
+      this->Flipped.ReceivedTriangles.push_back(
+        FindOrigin(this->FirstOrigins, triangles[t].Origin));
       this->StoreTriangle(triangles[t]);
     }
   }
@@ -168,9 +164,6 @@ private:
 
   void StoreTriangle(const PieceTriangle& triangle)
   {
-    this->Flipped.Origins.push_back(this->IsOwn(triangle)
-        ? PieceOrigin{ this->Rank, triangle.Origin - this->FirstOrigins[this->Rank] }
-        : FindOrigin(this->FirstOrigins, triangle.Origin));
     this->Flipped.FlipCounts.push_back(triangle.Flips);
     for (const std::int32_t point : triangle.Points)
     {
@@ -179,17 +172,17 @@ private:
   }
 
   /// @returns the id that a point has in the result.
-  std::int64_t StorePoint(std::int64_t point)
+  std::int32_t StorePoint(std::int32_t point)
   {
-    const std::int64_t first = this->Mesh.GetFirstReceived();
+    const auto first = static_cast<std::int32_t>(this->Mesh.GetFirstReceived());
     if (point < first)
     {
       return point;
     }
-    std::int64_t& id = this->IdOfReceived[point - first];
+    std::int32_t& id = this->IdOfReceived[point - first];
     if (id < 0)
     {
-      id = first + static_cast<std::int64_t>(this->Flipped.ReceivedPoints.size());
+      id = first + static_cast<std::int32_t>(this->Flipped.ReceivedPoints.size());
       double x[3];
       this->Mesh.GetPosition(point, x);
       this->Flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
@@ -206,7 +199,7 @@ private:
   FlippedPiece& Flipped;
   HostVector<std::uint32_t> Own; ///< Places of the rank's own triangles, by their slots.
   std::vector<std::uint32_t> Others; ///< Places of those of other ranks, in the order of these.
-  std::vector<std::int64_t> IdOfReceived; ///< Ids of received points in the result; -1: not yet.
+  std::vector<std::int32_t> IdOfReceived; ///< Ids of received points in the result; -1: not yet.
 };
 }
 

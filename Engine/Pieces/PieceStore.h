@@ -14,7 +14,7 @@ namespace delaunayflip
 
 /// Stores the result of a rank, except FlippedPiece::AreFloats.
 /// @param firstOrigins the number of the first triangle of every rank.
-/// @param flipped must be empty.
+/// @param flipped must be empty, but for the two arrays with values per triangle.
 void StorePiece(const PieceMesh& mesh, const std::vector<std::int64_t>& firstOrigins, int rank,
   FlippedPiece& flipped);
 

@@ -152,10 +152,11 @@ Measure TakeTime(const Work& work)
 }
 
 #ifdef DELAUNAYFLIP_HAS_MPI
-Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOptions& options)
+/// @param flipped where the result goes; runs after the first use its memory again.
+Measure FlipInProcesses(
+  MpiGroup& group, const OwnPiece& piece, const FlipOptions& options, FlippedPiece& flipped)
 {
   GroupMeter meter;
-  FlippedPiece flipped;
   group.Wait();
   Measure measure = TakeTime(
     [&](Measure& own)
@@ -165,8 +166,8 @@ Measure FlipInProcesses(MpiGroup& group, const OwnPiece& piece, const FlipOption
       group.Wait();
     });
   measure.CpuSeconds = group.Sum(measure.CpuSeconds);
-  const std::uint64_t most = group.PassOn(
-    0, [&](std::uint64_t size) { return std::max<std::uint64_t>(size, flipped.Origins.size()); });
+  const std::uint64_t most = group.PassOn(0,
+    [&](std::uint64_t size) { return std::max<std::uint64_t>(size, flipped.FlipCounts.size()); });
   measure.SetLoad(most, group.GetSize());
   measure.Meter = meter;
   measure.Hash = group.PassOn(measure.Hash,
@@ -204,8 +205,9 @@ Measure FlipInOneProcess(OwnedMesh<float>& mesh, const LongConstraints& constrai
   return measure;
 }
 
-Measure FlipPieces(
-  const std::vector<OwnPiece>& pieces, const FlipOptions& options, const std::vector<int>& devices)
+/// @param flipped where the results go; runs after the first use their memory again.
+Measure FlipPieces(const std::vector<OwnPiece>& pieces, const FlipOptions& options,
+  const std::vector<int>& devices, std::vector<FlippedPiece>& flipped)
 {
   const int ranks = static_cast<int>(pieces.size());
   std::vector<int> turns;
@@ -214,7 +216,7 @@ Measure FlipPieces(
     turns.push_back(rank % static_cast<int>(devices.size()));
   }
   std::vector<GroupMeter> meters(ranks);
-  std::vector<FlippedPiece> flipped(ranks);
+  flipped.resize(ranks);
   Measure measure = TakeTime(
     [&](Measure& sum)
     {
@@ -240,7 +242,7 @@ Measure FlipPieces(
   for (const FlippedPiece& piece : flipped)
   {
     measure.AddToHash(piece.Triangles);
-    most = std::max(most, piece.Origins.size());
+    most = std::max(most, piece.FlipCounts.size());
   }
   measure.SetLoad(most, ranks);
   return measure;
@@ -351,8 +353,9 @@ void Run(Settings settings, MpiGroup& group)
     devices = { devices[group.GetRank() % devices.size()] };
   }
   const FlipOptions options = MakeOptions(settings, devices);
+  FlippedPiece flipped;
   const Measure measure =
-    FindFastest(settings, [&](bool) { return FlipInProcesses(group, piece, options); });
+    FindFastest(settings, [&](bool) { return FlipInProcesses(group, piece, options, flipped); });
   if (group.GetRank() == 0)
   {
     Print(settings, measure);
@@ -369,8 +372,9 @@ void Run(const Settings& settings)
   if (count > 0 && settings.at("ranks") != "0")
   {
     const std::vector<OwnPiece> pieces = DivideMesh(constraints.AddTo(mesh.View()), count);
-    Print(
-      settings, FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices); }));
+    std::vector<FlippedPiece> flipped;
+    Print(settings,
+      FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices, flipped); }));
     return;
   }
   options.Devices = devices;

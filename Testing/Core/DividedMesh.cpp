@@ -145,9 +145,10 @@ void Collect(const TriangleMesh& mesh, const std::vector<OwnedPiece>& pieces, in
 {
   const OwnedPiece& own = pieces[rank];
   const auto given = static_cast<std::int64_t>(own.PointOf.size());
+  const std::vector<PieceOrigin> origins = ListOrigins(flipped, rank);
   for (std::size_t i = 0; i < flipped.Triangles.size(); ++i)
   {
-    const PieceOrigin origin = flipped.Origins[i / 3];
+    const PieceOrigin origin = origins[i / 3];
     const std::int64_t slot = pieces[origin.Rank].SlotOf[origin.Id];
     std::int64_t& id = result.Triangles[3 * slot + i % 3];
     EXPECT_EQ(-1, id) << "triangle " << slot << " comes twice";
@@ -238,7 +239,7 @@ GroupResult FlipDivided(const TriangleMesh& mesh, const std::vector<OwnedPiece>&
   for (int rank = 0; rank < ranks; ++rank)
   {
     Collect(mesh, pieces, rank, flipped[rank], result);
-    result.Sizes.push_back(static_cast<std::int64_t>(flipped[rank].Origins.size()));
+    result.Sizes.push_back(static_cast<std::int64_t>(flipped[rank].FlipCounts.size()));
   }
   EXPECT_EQ(0, std::count(result.Triangles.begin(), result.Triangles.end(), -1)) << "are lost";
   return result;

@@ -30,6 +30,20 @@ std::vector<std::int32_t> MakeStripes(const TriangleMesh& mesh)
   return labels;
 }
 
+/// @param flipped what the ranks' results overwrite.
+std::vector<FlippedPiece> FlipInto(std::vector<FlippedPiece> flipped,
+  const std::vector<OwnedPiece>& pieces, const FlipOptions& options)
+{
+  flipped.resize(pieces.size());
+  RunInThreads(static_cast<int>(pieces.size()),
+    [&](PieceGroup& group)
+    {
+      const int rank = group.GetRank();
+      FlipPiece(pieces[rank].View(true), options, group, flipped[rank]);
+    });
+  return flipped;
+}
+
 class PieceEdgesTest : public RanksTest
 {
 };
@@ -90,6 +104,30 @@ TEST_P(PieceEdgesTest, NumberOfPiecesHasNoEffect)
   const GroupResult found = FlipDivided(mesh.View(), pieces, options);
   EXPECT_EQ(ToTriangleSet(expected.View()), ToTriangleSet(found.View()));
   EXPECT_EQ(expected.Reports.front().TotalFlips, found.Reports.front().TotalFlips);
+}
+
+TEST_P(PieceEdgesTest, AResultIsOverwritten)
+{
+  const OwnedMesh<double> large = MakeRandomBadMeshDouble(2000, 38);
+  const OwnedMesh<double> small = MakeRandomBadMeshDouble(1000, 39);
+  const std::vector<OwnedPiece> before = Divide(large.View(), this->Cut(large.View()), GetParam());
+  const std::vector<OwnedPiece> pieces = Divide(small.View(), this->Cut(small.View()), GetParam());
+  FlipOptions options = MakeCanonical();
+  for (const bool tracks : { false, true }) // whether all triangles are listed in the end
+  {
+    options.TrackQuality = tracks;
+    const std::vector<FlippedPiece> expected = FlipInto({}, pieces, options);
+    const std::vector<FlippedPiece> found =
+      FlipInto(FlipInto({}, before, options), pieces, options);
+    for (int rank = 0; rank < GetParam(); ++rank)
+    {
+      EXPECT_EQ(expected[rank].Triangles, found[rank].Triangles);
+      EXPECT_EQ(expected[rank].FlipCounts, found[rank].FlipCounts);
+      EXPECT_EQ(expected[rank].GoneTriangles, found[rank].GoneTriangles);
+      EXPECT_EQ(expected[rank].ReceivedTriangles.size(), found[rank].ReceivedTriangles.size());
+      EXPECT_EQ(expected[rank].ReceivedCoordinates, found[rank].ReceivedCoordinates);
+    }
+  }
 }
 
 TEST_P(PieceEdgesTest, OneRankHasAll)

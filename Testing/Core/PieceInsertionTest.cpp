@@ -357,7 +357,7 @@ TEST_P(PieceInsertionTest, AnyRankCanStopAll)
         };
         reports[rank] =
           FlipPiece(pieces[rank].View(true), MakeCanonical(), group, flipped, progress);
-        triangles += static_cast<std::int64_t>(flipped.Origins.size());
+        triangles += static_cast<std::int64_t>(flipped.FlipCounts.size());
       });
     ExpectSameOnAllRanks(reports);
     EXPECT_EQ(StopReasonKind::Aborted, reports.front().StopReason) << limit;

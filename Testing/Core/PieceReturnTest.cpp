@@ -76,7 +76,7 @@ void ExpectOwnTriangles(const std::vector<OwnedPiece>& pieces, const Inserted& m
   EXPECT_EQ(StopReasonKind::Aborted, made.Reports.front().StopReason);
   for (std::size_t rank = 0; rank < pieces.size(); ++rank)
   {
-    const std::vector<PieceOrigin>& origins = made.Pieces[rank].Origins;
+    const std::vector<PieceOrigin> origins = ListOrigins(made.Pieces[rank], static_cast<int>(rank));
     ASSERT_EQ(pieces[rank].SlotOf.size(), origins.size());
     for (std::size_t t = 0; t < origins.size(); ++t)
     {
