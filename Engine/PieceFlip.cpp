@@ -29,6 +29,16 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
   return report;
 }
 
+void FlippedPiece::Clear()
+{
+  this->Triangles.clear();
+  this->FlipCounts.clear();
+  this->GoneTriangles.clear();
+  this->ReceivedTriangles.clear();
+  this->ReceivedPoints.clear();
+  this->ReceivedCoordinates.clear();
+}
+
 std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank)
 {
   const std::size_t kept = flipped.FlipCounts.size() - flipped.ReceivedTriangles.size();

@@ -51,18 +51,22 @@ struct MeshPiece
 struct FlippedPiece
 {
   /// Three point ids per triangle: first those that the rank has kept, in their order, then those
-  /// that it has received. Ids from the number of its points on name received points.
+  /// that it has received. An id that is not less than the number of its own points names a
+  /// received point.
   std::vector<std::int32_t> Triangles;
   std::vector<std::int32_t> FlipCounts; ///< One per triangle.
-  std::vector<std::int64_t> GoneTriangles; ///< Slots of given ones not kept, ascending.
-  std::vector<PieceOrigin> ReceivedTriangles; ///< The slots in which other ranks gave them.
+  std::vector<std::int64_t> GoneTriangles; ///< Slots of given ones that left, ascending.
+  std::vector<PieceOrigin> ReceivedTriangles; ///< The slots in which they were given.
 
   std::vector<PieceOrigin> ReceivedPoints; ///< The points of other ranks that its triangles need.
   std::vector<double> ReceivedCoordinates; ///< x, y and z of each.
   bool AreFloats = true; ///< Whether the points of all ranks have the precision of float.
+
+  /// Empties all arrays, but keeps their memory.
+  DELAUNAYFLIP_EXPORT void Clear();
 };
 
-/// @returns the slot in which every triangle was given.
+/// @returns for each triangle, in their order, the rank and the slot in which it was given.
 /// @param rank the one whose piece this is.
 DELAUNAYFLIP_EXPORT std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank);
 
@@ -83,8 +87,8 @@ struct PiecesReport : FlipReport
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
-/// @param flipped receives this rank's piece. What it held before is lost, but its memory is used
-/// again.
+/// @param flipped receives this rank's piece. Its contents are lost, and its memory is used again,
+/// so the piece must not refer to its arrays. What it holds after an exception is undefined.
 /// @throws on every rank if one fails, with its number: what FlipSession's constructor throws.
 DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,
   PieceGroup& group, FlippedPiece& flipped, const ProgressObserver& progress = {});

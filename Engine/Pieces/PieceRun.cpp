@@ -376,10 +376,7 @@ void PieceRun::KeepAngle()
 void PieceRun::Store(FlippedPiece& flipped) const
 {
   const int rank = this->Job.Group.GetRank();
-  FlippedPiece empty;
-  empty.Triangles.swap(flipped.Triangles);
-  empty.FlipCounts.swap(flipped.FlipCounts);
-  flipped = std::move(empty);
+  flipped.Clear();
   if (this->First)
   {
     const std::int64_t count = this->FirstOrigins[rank + 1] - this->FirstOrigins[rank];

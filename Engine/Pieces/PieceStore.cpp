@@ -34,8 +34,6 @@ public:
   void StoreAll()
   {
     const PieceTriangles& triangles = this->Mesh.Triangles;
-    this->Flipped.Triangles.clear();
-    this->Flipped.FlipCounts.clear();
     this->Flipped.Triangles.reserve(3 * triangles.size());
     this->Flipped.FlipCounts.reserve(triangles.size());
     this->FindPlaces();

@@ -82,7 +82,7 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
   return sum;
 }
 
-/// A record and the rank that has sent it.
+/// A record and the rank that sent it.
 template <typename Record>
 struct RankedRecord
 {
@@ -105,14 +105,14 @@ std::vector<RankedRecord<Record>> JoinLists(const RecordLists<Record>& lists)
   return all;
 }
 
-/// Calls visit(begin, end) for every run of items that are the same as the first of the run.
+/// Calls visit(begin, end) for every run of consecutive items that are the same as its first.
 template <typename Item, typename IsSame, typename Visit>
 void ForEachRun(std::vector<Item>& items, const IsSame& isSame, const Visit& visit)
 {
   for (auto begin = items.begin(); begin != items.end();)
   {
-    const auto end =
-      std::find_if_not(begin, items.end(), [&](const Item& item) { return isSame(*begin, item); });
+    const auto end = std::find_if_not(
+      begin + 1, items.end(), [&](const Item& item) { return isSame(*begin, item); });
     visit(&*begin, &*begin + (end - begin));
     begin = end;
   }

@@ -152,7 +152,7 @@ Measure TakeTime(const Work& work)
 }
 
 #ifdef DELAUNAYFLIP_HAS_MPI
-/// @param flipped where the result goes; runs after the first use its memory again.
+/// @param flipped where the result goes; later runs reuse its memory.
 Measure FlipInProcesses(
   MpiGroup& group, const OwnPiece& piece, const FlipOptions& options, FlippedPiece& flipped)
 {
@@ -205,7 +205,7 @@ Measure FlipInOneProcess(OwnedMesh<float>& mesh, const LongConstraints& constrai
   return measure;
 }
 
-/// @param flipped where the results go; runs after the first use their memory again.
+/// @param flipped where the results go; later runs reuse their memory.
 Measure FlipPieces(const std::vector<OwnPiece>& pieces, const FlipOptions& options,
   const std::vector<int>& devices, std::vector<FlippedPiece>& flipped)
 {
