@@ -194,22 +194,16 @@ class StyleChecks(CheckedTree):
         )
 
     def test_long_function(self):
-        lines = "  f();\n" * 60
+        lines = "  f();\n" * 80
         for path, text in (
             ("CUDA/Bad.cuh", f"void Long()\n{{\n{lines}}}\n"),
             ("CUDA/Bad.cu", f"__global__ void Long()\n{{\n{lines}}}\n"),
             ("Testing/Core/TestBad.cpp", f"TEST(Long, OfGoogleTest)\n{{\n{lines}}}\n"),
-            ("Utilities/bad.py", "def long():\n" + "    f()\n" * 60),
+            ("Utilities/bad.py", "def long():\n" + "    f()\n" * 80),
         ):
             with self.subTest(path):
-                short = "".join(f"void f{i}()\n{{\n}}\n" for i in range(20))
-                self.write("CUDA/Short.cpp", short)
                 self.check_notices(["check_functions.py"], path, text, f"{path}:1 ")
                 self.remove(path)
-
-    def test_functions_on_average(self):
-        text = "".join(f"void f{i}()\n{{\n" + "  g();\n" * 40 + "}\n" for i in range(9))
-        self.check_notices(["check_functions.py"], "CUDA/Bad.cpp", text, "the median is 43")
 
     def test_licence(self):
         names = ("Engine/Bad.h", "CUDA/Bad.cuh", "CUDA/Bad.cu", "CMake/Bad.cmake", "Utilities/bad.py")
