@@ -16,7 +16,7 @@ build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-de
   nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev file
-  python3-numpy python3-matplotlib python3-venv valgrind openmpi-bin python3-mpi4py)
+  python3-numpy python3-matplotlib python3-venv valgrind openmpi-bin python3-mpi4py ccache)
 docs=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-copybutton
   python3-numpy)
 proof=(clang llvm libclang-rt-dev python3-clang)

@@ -3,24 +3,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: test.sh [--long|--no-sanitizers]
-# Installs missing packages (Debian), builds everything and runs every test: the whole project in
-# build/, the ParaView plugin in build-paraview/, the engine, the filter and the command under
-# AddressSanitizer and UndefinedBehaviorSanitizer in build-asan/, and the engine under
-# ThreadSanitizer in build-tsan/. The exit status is 0 only if all of them pass; without ParaView the
-# plugin counts as one skipped test.
+# Installs missing packages (Debian), builds and tests: the whole project in build/, the ParaView
+# plugin in build-paraview/, the engine, the filter and the command under AddressSanitizer and
+# UndefinedBehaviorSanitizer in build-asan/, and the engine under ThreadSanitizer in build-tsan/. The
+# exit status is 0 only if all tests pass; without ParaView the plugin counts as one skipped test.
 #
-# Under the sanitizers tests use smaller meshes, a tenth of the size, and fewer cases. --long runs
-# them at full size, which takes hours instead of minutes, and also builds and tests the engine by
-# Clang in build-clang/. --no-sanitizers leaves the two out.
+# Under the sanitizers there are fewer tests, on smaller meshes. --long runs all tests there, at full
+# size, and everywhere also those with the label "long": failing allocations, packages, the
+# documentation's site, the paper's experiments and more fuzzing. It also builds and tests the engine
+# by Clang in build-clang/, and takes hours. --no-sanitizers leaves the two sanitizers out.
 #
-# JOBS in the environment is the number of jobs that run at a time (default 2). ccache is used if it
-# is installed.
+# JOBS in the environment is the number of jobs that run at a time (default 2).
 set -euo pipefail
 
 long=OFF sanitizers=ON timeout=1500 # seconds a test may take
+chosen=(--label-exclude long) flags="-O1 -g1"
 case "$*" in
   "") ;;
-  --long) long=ON timeout=14400 ;;
+  --long) long=ON timeout=14400 chosen=() flags="-O2 -g" ;;
   --no-sanitizers) sanitizers=OFF ;;
   *)
     echo "usage: $0 [--long|--no-sanitizers]" >&2
@@ -33,12 +33,6 @@ jobs=${JOBS:-2}
 passed=0 failed=0 skipped=0
 broken=() absent=()
 export PYTHONDONTWRITEBYTECODE=1
-if command -v ccache >/dev/null; then
-  # Keeps a launcher that the caller has chosen.
-  export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
-  export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
-  export CMAKE_CUDA_COMPILER_LAUNCHER=${CMAKE_CUDA_COMPILER_LAUNCHER-ccache}
-fi
 
 # Usage: check FOLDER [CMAKE_OPTION...] - configures, builds and tests one configuration.
 check()
@@ -59,8 +53,8 @@ configure_build_test()
   shift
   cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 "$@" &&
     "${launcher[@]}" cmake --build "$build" --parallel "$jobs" &&
-    "${launcher[@]}" ctest --test-dir "$build" --output-on-failure --parallel "$jobs" \
-      --no-tests=error --timeout "$timeout" --output-junit "$build/junit.xml"
+    "${launcher[@]}" ctest --test-dir "$build" "${chosen[@]}" --output-on-failure \
+      --parallel "$jobs" --no-tests=error --timeout "$timeout" --output-junit "$build/junit.xml"
 }
 
 # ParaView's packages are downloaded if apt-get can; see get-paraview.sh.
@@ -96,7 +90,7 @@ check_clang()
 check_under_sanitizers()
 {
   # Without NDEBUG, so that the edge mesh is audited after every iteration.
-  check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g" \
+  check build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$flags" \
     -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_RENDERING=OFF \
     -DDELAUNAYFLIP_SANITIZER=address \
     -DDELAUNAYFLIP_LONG_TESTS=$long
@@ -107,7 +101,8 @@ check_under_sanitizers()
     launcher=(setarch --addr-no-randomize)
   fi
   check build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDELAUNAYFLIP_BUILD_TESTING=ON \
-    -DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=thread -DDELAUNAYFLIP_LONG_TESTS=$long
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$flags -DNDEBUG" -DDELAUNAYFLIP_BUILD_VTK=OFF \
+    -DDELAUNAYFLIP_SANITIZER=thread -DDELAUNAYFLIP_LONG_TESTS=$long
   launcher=()
 }
 
@@ -130,6 +125,15 @@ attribute()
 }
 
 "$root/Utilities/install-packages.sh" test
+
+# What several builds compile is compiled once: by the same compiler, from the same absolute paths.
+# Keeps a launcher that the caller has chosen.
+if command -v ccache >/dev/null; then
+  export CCACHE_NOHASHDIR=true CCACHE_BASEDIR=
+  export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
+  export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
+  export CMAKE_CUDA_COMPILER_LAUNCHER=${CMAKE_CUDA_COMPILER_LAUNCHER-ccache}
+fi
 
 launcher=()
 # With a CUDA compiler, builds for one architecture, in a quarter of the time for all; newer GPUs
