@@ -126,10 +126,10 @@ attribute()
 
 "$root/Utilities/install-packages.sh" test
 
-# What several builds compile is compiled once: by the same compiler, from the same absolute paths.
+# What several builds have in common is compiled once, because paths are relative to this checkout.
 # Keeps a launcher that the caller has chosen.
 if command -v ccache >/dev/null; then
-  export CCACHE_NOHASHDIR=true CCACHE_BASEDIR=
+  export CCACHE_NOHASHDIR=true CCACHE_BASEDIR=$root
   export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
   export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
   export CMAKE_CUDA_COMPILER_LAUNCHER=${CMAKE_CUDA_COMPILER_LAUNCHER-ccache}
