@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DividedMesh.h"
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
 #include "Predicates.h"
@@ -366,6 +367,27 @@ TEST(GeometryChoice, AnOceanMayCrossTheAntimeridian)
   }
   ExpectChoice(
     MakeGlobe(99, 20), GeometryKind::Surface, "in x and y 40 of 3960 triangles turn the other way");
+}
+
+TEST(GeometryChoice, IsTheSameInParts)
+{
+  const OwnedMesh<double> globe = MakeGlobe(200, 20);
+  const FlipReport whole = Flip(globe.View()).Report;
+  const auto expectSame = [&](const FlipReport& report)
+  {
+    EXPECT_EQ(whole.GeometryReason, report.GeometryReason);
+    EXPECT_EQ("40 triangles that turn the other way than most", DescribeDefects(report.Defects));
+  };
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  for (const int parts : { 2, 5 })
+  {
+    const Owners owners = DivideBySpace(globe.View(), parts);
+    expectSame(
+      FlipDivided(globe.View(), Divide(globe.View(), owners, parts), options).Reports.back());
+    options.NumberOfPieces = parts;
+    expectSame(Flip(globe.View(), options).Report);
+  }
 }
 
 /// In units in which depths extend hardly ten times as far.
