@@ -69,7 +69,9 @@ void RenewNormal(const PointArray& points, const TriangleSlots& slots, const Out
   std::int64_t oldIds[3];
   ReadOldTriangle(slots.GetTriangles(), triangle, oldIds);
   const std::int64_t ids[3] = { cell.Ids->GetId(0), cell.Ids->GetId(1), cell.Ids->GetId(2) };
-  if (std::equal(ids, ids + 3, oldIds))
+  const auto exists = [&](std::int64_t id) { return id >= 0 && id < points.Count; };
+  const bool exist = std::all_of(oldIds, oldIds + 3, exists); // the input may have been changed
+  if (!exist || std::equal(ids, ids + 3, oldIds))
   {
     return;
   }

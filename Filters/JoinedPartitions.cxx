@@ -8,6 +8,7 @@
 #include "OutputCells.h"
 #include "PieceInput.h"
 #include "PointIds.h"
+#include "PolyDataBridge.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -71,7 +72,7 @@ JoinedPartitions::JoinedPartitions(
   for (vtkSmartPointer<vtkPolyData>& mesh : this->Partitions)
   {
     RequireValidIds(mesh);
-    mesh = DropDuplicateCells(mesh);
+    mesh = DropDuplicateCells(ShareMesh(mesh));
   }
   this->Points = JoinPoints(this->Partitions);
   this->Mesh->SetPoints(this->Points.Points);

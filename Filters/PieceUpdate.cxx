@@ -85,7 +85,7 @@ private:
       [&]()
       {
         input = this->Request.GetInput();
-        this->Mesh = DropDuplicateCells(input);
+        this->Mesh = DropDuplicateCells(ShareMesh(input));
         this->Numbers = ReadPointNumbers(this->Mesh);
       });
     if (IsOnAnyRank(this->Request.Constraints != nullptr, this->Group))

@@ -12,6 +12,7 @@
 #include "UpdatePlan.h"
 #include "WorkProgress.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -26,6 +27,37 @@
 
 namespace delaunayflip
 {
+namespace
+{
+
+/// Cells with arrays of their own, which share the memory of the others and know how much of it
+/// they use.
+vtkSmartPointer<vtkCellArray> ShareCells(vtkCellArray* cells)
+{
+  const auto share = [](vtkDataArray* array)
+  {
+    auto shared = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    shared->ShallowCopy(array);
+    return shared;
+  };
+  auto shared = vtkSmartPointer<vtkCellArray>::New();
+  shared->SetData(share(cells->GetOffsetsArray()), share(cells->GetConnectivityArray()));
+  return shared;
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh)
+{
+  auto shared = vtkSmartPointer<vtkPolyData>::New();
+  shared->ShallowCopy(mesh);
+  shared->SetVerts(ShareCells(mesh->GetVerts()));
+  shared->SetLines(ShareCells(mesh->GetLines()));
+  shared->SetPolys(ShareCells(mesh->GetPolys()));
+  shared->SetStrips(ShareCells(mesh->GetStrips()));
+  return shared;
+}
+
 PolyDataBridge::PolyDataBridge(
   vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings, const UpdatePlan& plan)
   : Mesh(mesh),

@@ -22,6 +22,7 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
@@ -269,11 +270,13 @@ void vtkDelaunayFlip::Flip(
   const bool isRunning =
     storesOnly ? from.CouldContinue : !run->IsStopped() && this->Advance(*run, data.IsLive);
   this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
-  const bool isWhole = this->MeshIsWithheld || run->Store(data.Output);
+  vtkNew<vtkPolyData> result; // which no observer can change
+  const bool isWhole = this->MeshIsWithheld || run->Store(result);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
   this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
-  AddFieldData(*this->Report, data.Output->GetFieldData());
+  AddFieldData(*this->Report, result->GetFieldData());
+  data.Output->ShallowCopy(result);
   this->CanContinue =
     data.IsLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
 }
