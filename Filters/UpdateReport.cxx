@@ -35,11 +35,17 @@ int GetSeverity(StopReasonKind reason)
   return 0;
 }
 
+/// Whether a mesh has a smallest angle: some triangle has no coordinate that is NaN.
+bool HasAngles(const FlipReport& report)
+{
+  return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
+}
+
 /// The smallest angle of a mesh after iteration `row`. A mesh that made fewer iterations keeps its
 /// last angle.
 double GetMinimumAngle(const FlipReport& report, std::size_t row)
 {
-  if (report.Triangles == 0)
+  if (!HasAngles(report))
   {
     return std::numeric_limits<double>::infinity();
   }
@@ -90,13 +96,15 @@ void AddEdges(EdgeCounts& sum, const EdgeCounts& more)
 
 void AddAngles(FlipReport& sum, const FlipReport& more)
 {
-  if (more.Triangles > 0)
+  if (!HasAngles(sum) && more.Triangles > 0)
   {
-    const bool isFirst = sum.Triangles == 0;
-    sum.MinimumAngleBefore = isFirst ? more.MinimumAngleBefore
-                                     : GetSmaller(sum.MinimumAngleBefore, more.MinimumAngleBefore);
-    sum.MinimumAngleAfter =
-      isFirst ? more.MinimumAngleAfter : GetSmaller(sum.MinimumAngleAfter, more.MinimumAngleAfter);
+    sum.MinimumAngleBefore = more.MinimumAngleBefore;
+    sum.MinimumAngleAfter = more.MinimumAngleAfter;
+  }
+  else if (HasAngles(more))
+  {
+    sum.MinimumAngleBefore = std::min(sum.MinimumAngleBefore, more.MinimumAngleBefore);
+    sum.MinimumAngleAfter = std::min(sum.MinimumAngleAfter, more.MinimumAngleAfter);
   }
 }
 
