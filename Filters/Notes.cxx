@@ -53,7 +53,7 @@ std::string Describe(const std::vector<Note>& notes)
   return Join(texts, "; ");
 }
 
-std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit)
+std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance)
 {
   std::string text = DescribeDefects(report.Defects);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
@@ -62,6 +62,11 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit)
     add("stopped by the safety limit of " + std::to_string(report.Iterations.size()) +
       " iterations with " + std::to_string(report.NonDelaunayAfter) +
       " edges left that are not Delaunay");
+  }
+  if (hasTolerance && report.Tolerance == "none")
+  {
+    add("Tolerance has no effect on the in-circle criterion, which is exact; it is for opposite "
+        "angles");
   }
   if (!report.Fallback.empty())
   {

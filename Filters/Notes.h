@@ -22,7 +22,8 @@ struct Note
 std::string Describe(const std::vector<Note>& notes);
 
 /// What to warn the user of, or empty. Reaching a requested iteration limit is not worth a warning.
-std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit);
+/// @param hasTolerance whether the user has set one.
+std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
 
 }
 

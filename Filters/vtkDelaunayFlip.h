@@ -185,7 +185,8 @@ public:
    * tolerance, the largest change of its sum that one unit in the last place of its points'
    * coordinates (float or double) can cause. This tolerance is larger far from the origin and for
    * short edges. With it, a surface that is Delaunay within the precision of its points comes back
-   * bit-identical. Has no effect on the in-circle criterion, which is exact.
+   * bit-identical. Has no effect on the in-circle criterion, which is exact; a warning says so
+   * where another value than -1 is set.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);

@@ -210,7 +210,8 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
     this->DiscardRun(data.Output);
   }
   outcome.Report = *this->Report;
-  outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);
+  outcome.Trouble =
+    DescribeTrouble(outcome.Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
   if (this->Run && outcome.Trouble == std::exchange(this->Run->Warning, outcome.Trouble))
   {
     outcome.Trouble.clear(); // live updates give each warning once
