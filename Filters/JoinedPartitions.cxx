@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "JoinedPartitions.h"
 
-#include "CellAttributes.h"
 #include "FlipError.h"
 #include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "PieceInput.h"
-#include "PointIds.h"
+#include "PointViews.h"
 #include "PolyDataBridge.h"
 
 #include "vtkCellArray.h"

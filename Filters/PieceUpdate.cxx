@@ -12,8 +12,7 @@
 #include "ReportTables.h"
 #include "TriangleAngles.h"
 #include "TupleTransfer.h"
-#include "UpdatePlan.h"
-#include "WorkProgress.h"
+#include "UpdateProgress.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

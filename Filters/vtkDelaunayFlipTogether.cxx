@@ -14,7 +14,7 @@
 #include "PieceInput.h"
 #include "PieceUpdate.h"
 #include "SharedBlocks.h"
-#include "UpdateSummary.h"
+#include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkPolyData.h"
