@@ -10,6 +10,8 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -82,14 +84,24 @@ struct PiecesReport : FlipReport
   std::int64_t AmbiguousPoints = 0;
 };
 
+/// Compares the options of all ranks. Which hardware a rank uses is its own affair: backend,
+/// threads, devices and NumberOfPieces may differ. All ranks of the group must call this together.
+/// @param more names and values of settings of the caller, compared in the same way.
+/// @throws InvalidOptions on every rank if some differ: it names the first of them and two ranks.
+DELAUNAYFLIP_EXPORT void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
+  const std::vector<std::pair<std::string, std::string>>& more = {});
+
 /// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
-/// group must call this together, with the same options. FlipOptions::NumberOfPieces has no effect.
+/// group must call this together, with the same options (see RequireSameOptions).
+/// FlipOptions::NumberOfPieces has no effect. What ranks do at the same time is one iteration, of
+/// which FlipOptions::MaximumIterations are made at most, over all rounds.
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
 /// @param flipped receives this rank's piece. Its contents are lost, and its memory is used again,
 /// so the piece must not refer to its arrays. What it holds after an exception is undefined.
-/// @throws on every rank if one fails, with its number: what FlipSession's constructor throws.
+/// @throws on every rank if one fails, with its number: what FlipSession's constructor and
+/// RequireSameOptions throw.
 DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,
   PieceGroup& group, FlippedPiece& flipped, const ProgressObserver& progress = {});
 

@@ -72,14 +72,50 @@ std::vector<PlaneVector> Project(
   return projected;
 }
 
+/// The sign of the dot product of the normals of two triangles of a quad, those on the diagonal
+/// from vertex `first`. They fold if it is not positive. 0 if one has almost no area or a
+/// coordinate is not finite, so that the sign would mean nothing.
+int CompareNormals(const std::array<SpaceVector, 4>& quad, int first)
+{
+  const auto normal = [&](int second, int third)
+  {
+    std::array<SpaceVector, 3> offsets = { quad[first], quad[second % 4], quad[third % 4] };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      offsets[1][axis] -= offsets[0][axis];
+      offsets[2][axis] -= offsets[0][axis];
+    }
+    return AreaVector(offsets);
+  };
+  const SpaceVector a = normal(first + 1, first + 2), b = normal(first + 2, first + 3);
+  constexpr double Rounding = 1e-14; // of areas, where the longest offset has length 1 to 4
+  const double smaller = std::min(std::abs(a[DominantAxis(a)]), std::abs(b[DominantAxis(b)]));
+  const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  if (!std::isfinite(dot) || smaller < Rounding)
+  {
+    return 0;
+  }
+  return dot > 0.0 ? 1 : -1;
+}
+
+/// Whether the triangles of a quad fold if it is cut along 0-2, and do not if it is along 1-3.
+bool FoldsOnlyAlongFirst(const PointArray& points, const std::int64_t* ids)
+{
+  std::array<SpaceVector, 4> quad;
+  LoadScaledOffsets(points, ids, 4, 3, quad);
+  return CompareNormals(quad, 0) < 0 && CompareNormals(quad, 1) > 0;
+}
+
 /// Cuts triangles off a polygon until three vertices are left. All triangles are triples of
 /// positions in the polygon.
 class PolygonCutter
 {
 public:
-  PolygonCutter(std::vector<PlaneVector> polygon, const ProgressObserver& progress)
+  /// @param folds whether a quad folds along 0-2, but not along 1-3.
+  PolygonCutter(std::vector<PlaneVector> polygon, bool folds, const ProgressObserver& progress)
     : Polygon(std::move(polygon)),
       Count(static_cast<std::int64_t>(this->Polygon.size())),
+      Folds(folds),
       Progress(progress)
   {
   }
@@ -108,12 +144,12 @@ private:
     return Orientation(this->Polygon[a].data(), this->Polygon[b].data(), this->Polygon[c].data());
   }
 
-  /// Uses the other diagonal only if that one is valid and 0-2 is not.
+  /// Uses the other diagonal only if that one is inside and 0-2 is not, or if only 0-2 folds.
   void CutQuad()
   {
     const bool firstIsInside = this->Turn(0, 1, 2) > 0 && this->Turn(0, 2, 3) > 0;
     const bool secondIsInside = this->Turn(1, 2, 3) > 0 && this->Turn(1, 3, 0) > 0;
-    if (secondIsInside && !firstIsInside)
+    if (this->Folds || (secondIsInside && !firstIsInside))
     {
       this->Triangles = { { 0, 1, 3 }, { 1, 2, 3 } };
       return;
@@ -149,6 +185,7 @@ private:
 
   std::vector<PlaneVector> Polygon;
   std::int64_t Count;
+  bool Folds;
   Triples Triangles;
   const ProgressObserver& Progress;
 };
@@ -178,7 +215,8 @@ bool HasArea(const PointArray& points, const std::int64_t ids[3], int first)
 bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
   std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
-  PolygonCutter cutter(Project(points, ids, count), progress);
+  const bool folds = count == 4 && FoldsOnlyAlongFirst(points, ids);
+  PolygonCutter cutter(Project(points, ids, count), folds, progress);
   const Triples cut = cutter.Cut();
   for (const std::array<std::int64_t, 3>& triangle : cut)
   {

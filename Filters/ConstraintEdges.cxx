@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintEdges.h"
 
-#include "PlaceMatch.h"
-#include "PointIds.h"
 #include "PointViews.h"
-#include "WorkProgress.h"
+#include "UpdateProgress.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
@@ -14,10 +12,222 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <numeric>
+#include <vector>
 
 namespace delaunayflip
 {
+
+std::size_t PointPlaces::Hash::operator()(const Bits& bits) const
+{
+  // Coordinates on a lattice differ only in a few high bits: multiply, then fold those down.
+  std::uint64_t hash = 0;
+  for (const std::uint64_t word : bits)
+  {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15u; // 2^64 / golden ratio, odd
+    hash ^= hash >> 32;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+bool PointPlaces::Read(const PointArray& points, std::int64_t point, Bits& bits) const
+{
+  const double largest =
+    this->AsFloats ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double x = points.Get(point, axis);
+    if (!(std::fabs(x) <= largest))
+    {
+      return false;
+    }
+    x = this->AsFloats ? static_cast<double>(static_cast<float>(x)) : x;
+    x = x == 0.0 ? 0.0 : x;
+    std::memcpy(&bits[axis], &x, sizeof(x));
+  }
+  return true;
+}
+
+std::int64_t PointPlaces::Add(const PointArray& points, std::int64_t point)
+{
+  Bits bits;
+  if (!this->Read(points, point, bits))
+  {
+    return this->NumberOfPlaces++;
+  }
+  const auto added = this->Numbers.emplace(bits, this->NumberOfPlaces);
+  this->NumberOfPlaces += added.second ? 1 : 0;
+  return added.first->second;
+}
+
+std::int64_t PointPlaces::Find(const PointArray& points, std::int64_t point) const
+{
+  Bits bits;
+  if (!this->Read(points, point, bits))
+  {
+    return None;
+  }
+  const auto found = this->Numbers.find(bits);
+  return found == this->Numbers.end() ? None : found->second;
+}
+
+namespace
+{
+
+/// Finds, for edges between points of another dataset, the edges of a mesh at the same places.
+///
+/// Coordinates are compared in the lower of the two precisions: float constraints match the double
+/// mesh from which they were made. Where several points of the mesh lie at one place, all pairs of
+/// them that are edges of the mesh match.
+class PlaceMatch
+{
+public:
+  /// @param pairs point ids of `others`.
+  /// @throws RunAborted.
+  PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs, const PointArray& mesh,
+    const ProgressObserver& progress);
+
+  /// Adds pairs of the mesh's points. Some of them may not be edges of the mesh. Pairs with an end
+  /// where the mesh has no point are counted as unmatched.
+  /// @throws RunAborted.
+  void AddEdges(
+    const TriangleArray& triangles, const ProgressObserver& progress, ConstraintEdges& edges) const;
+
+private:
+  void NumberPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
+    const ProgressObserver& progress);
+  void FindPoints(const PointArray& mesh, const ProgressObserver& progress);
+  std::int64_t AddEdgesAt(const std::vector<PointPair>& crowded, const TriangleArray& triangles,
+    const ProgressObserver& progress, std::vector<PointPair>& edges) const;
+  std::int64_t GetPlace(std::int64_t point) const;
+
+  PointPlaces Places;
+  std::vector<PointPair> Wanted; ///< Pairs of places, unique, in the order given.
+  std::vector<std::int64_t> PlaceOfPoint; ///< For every point of the mesh its place, or None.
+  std::vector<std::int64_t> PointsAtPlace; ///< How many points of the mesh lie there.
+  std::vector<std::int64_t> PointOfPlace; ///< The first of them.
+};
+
+PlaceMatch::PlaceMatch(const PointArray& others, const std::vector<PointPair>& pairs,
+  const PointArray& mesh, const ProgressObserver& progress)
+  : Places(others.Floats != nullptr || mesh.Floats != nullptr)
+{
+  this->NumberPlaces(others, pairs, MakePart(progress, 0.0, 0.6));
+  this->FindPoints(mesh, MakePart(progress, 0.6, 1.0));
+}
+
+void PlaceMatch::NumberPlaces(
+  const PointArray& others, const std::vector<PointPair>& pairs, const ProgressObserver& progress)
+{
+  WorkProgress work(MakePart(progress, 0.0, 0.6), static_cast<vtkIdType>(pairs.size()));
+  std::vector<std::int64_t> places(others.Count, PointPlaces::None);
+  const auto number = [&](std::int64_t point)
+  {
+    std::int64_t& place = places[point];
+    place = place == PointPlaces::None ? this->Places.Add(others, point) : place;
+    return place;
+  };
+  std::vector<PointPair> wanted;
+  for (const PointPair& pair : pairs)
+  {
+    const std::int64_t from = number(pair[0]);
+    const std::int64_t to = number(pair[1]);
+    AddPair(from, to, wanted);
+    work.Add();
+  }
+  const std::vector<std::size_t> first = FindFirst(wanted, MakePart(progress, 0.6, 1.0));
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    if (first[i] == i)
+    {
+      this->Wanted.push_back(wanted[i]);
+    }
+  }
+}
+
+void PlaceMatch::FindPoints(const PointArray& mesh, const ProgressObserver& progress)
+{
+  this->PlaceOfPoint.resize(mesh.Count);
+  ForPieces(mesh.Count, progress,
+    [this, &mesh](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        this->PlaceOfPoint[point] = this->Places.Find(mesh, point);
+      }
+    });
+  this->PointsAtPlace.resize(this->Places.GetNumberOfPlaces());
+  this->PointOfPlace.resize(this->Places.GetNumberOfPlaces());
+  for (std::int64_t point = 0; point < mesh.Count; ++point)
+  {
+    const std::int64_t place = this->PlaceOfPoint[point];
+    if (place != PointPlaces::None && this->PointsAtPlace[place]++ == 0)
+    {
+      this->PointOfPlace[place] = point;
+    }
+  }
+}
+
+void PlaceMatch::AddEdges(
+  const TriangleArray& triangles, const ProgressObserver& progress, ConstraintEdges& edges) const
+{
+  std::vector<PointPair> crowded;
+  for (const PointPair& pair : this->Wanted)
+  {
+    const std::int64_t points = this->PointsAtPlace[pair[0]] * this->PointsAtPlace[pair[1]];
+    edges.Unmatched += points == 0 ? 1 : 0;
+    if (points == 1)
+    {
+      AddPair(this->PointOfPlace[pair[0]], this->PointOfPlace[pair[1]], edges.Pairs);
+    }
+    else if (points > 1)
+    {
+      crowded.push_back(pair);
+    }
+  }
+  std::sort(crowded.begin(), crowded.end());
+  edges.Unmatched += this->AddEdgesAt(crowded, triangles, progress, edges.Pairs);
+}
+
+/// Adds the edges of the mesh between pairs of places where several points lie.
+/// @returns how many of the pairs have no edge.
+std::int64_t PlaceMatch::AddEdgesAt(const std::vector<PointPair>& crowded,
+  const TriangleArray& triangles, const ProgressObserver& progress,
+  std::vector<PointPair>& edges) const
+{
+  std::vector<PointPair> found;
+  const std::int64_t sides = crowded.empty() ? 0 : 3 * triangles.Count;
+  WorkProgress work(MakePart(progress, 0.0, 0.7), sides);
+  for (std::int64_t side = 0; side < sides; ++side)
+  {
+    work.Add();
+    const std::int64_t from = triangles.Get(side / 3, side % 3);
+    const std::int64_t to = triangles.Get(side / 3, (side + 1) % 3);
+    const std::int64_t places[2] = { this->GetPlace(from), this->GetPlace(to) };
+    const PointPair pair = { std::min(places[0], places[1]), std::max(places[0], places[1]) };
+    if (std::binary_search(crowded.begin(), crowded.end(), pair))
+    {
+      AddPair(from, to, edges);
+      found.push_back(pair);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  const auto end = std::unique(found.begin(), found.end());
+  return static_cast<std::int64_t>(crowded.size()) - (end - found.begin());
+}
+
+/// Accepts ids out of range, which the engine reports later.
+std::int64_t PlaceMatch::GetPlace(std::int64_t point) const
+{
+  const bool isPoint = point >= 0 && point < static_cast<std::int64_t>(this->PlaceOfPoint.size());
+  return isPoint ? this->PlaceOfPoint[point] : PointPlaces::None;
+}
+
+}
+
 namespace
 {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintsElsewhere.h"
 
-#include "PointPlaces.h"
+#include "ConstraintEdges.h"
 #include "PointViews.h"
 
 #include "vtkPolyData.h"

@@ -54,13 +54,6 @@ bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b
     a.RegionArray == b.RegionArray;
 }
 
-vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* input)
-{
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  mesh->ShallowCopy(input);
-  return mesh;
-}
-
 /// The input, with a copy of its points on request.
 vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
 {

@@ -5,7 +5,7 @@
 
 #include "DelaunayFlip.h"
 #include "PolyDataBridge.h"
-#include "UpdatePlan.h"
+#include "UpdateProgress.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

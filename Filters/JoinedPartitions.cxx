@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "JoinedPartitions.h"
 
-#include "CellAttributes.h"
 #include "FlipError.h"
 #include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "PieceInput.h"
-#include "PointIds.h"
+#include "PointViews.h"
+#include "PolyDataBridge.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -71,7 +71,7 @@ JoinedPartitions::JoinedPartitions(
   for (vtkSmartPointer<vtkPolyData>& mesh : this->Partitions)
   {
     RequireValidIds(mesh);
-    mesh = DropDuplicateCells(mesh);
+    mesh = DropDuplicateCells(ShareMesh(mesh));
   }
   this->Points = JoinPoints(this->Partitions);
   this->Mesh->SetPoints(this->Points.Points);

@@ -2,12 +2,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Notes.h"
 
+#include "FlipError.h"
 #include "FlipReport.h"
 
+#include "vtkDelaunayFlip.h"
+
 #include <algorithm>
+#include <exception>
+#include <new>
+#include <stdexcept>
 
 namespace delaunayflip
 {
+
+FlipFailure ExplainException()
+{
+  try
+  {
+    throw;
+  }
+  catch (const InvalidOptions& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_OPTIONS, error.what() };
+  }
+  catch (const BackendUnavailable& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_BACKEND, error.what() };
+  }
+  catch (const FlipError& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
+  }
+  catch (const std::invalid_argument& error) // of a subclass of the filter
+  {
+    return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, "not enough memory" };
+  }
+  catch (const std::exception& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, error.what() };
+  }
+  catch (...)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, "an exception of unknown type" };
+  }
+}
+
 namespace
 {
 
@@ -53,7 +96,7 @@ std::string Describe(const std::vector<Note>& notes)
   return Join(texts, "; ");
 }
 
-std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit)
+std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance)
 {
   std::string text = DescribeDefects(report.Defects);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
@@ -62,6 +105,11 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit)
     add("stopped by the safety limit of " + std::to_string(report.Iterations.size()) +
       " iterations with " + std::to_string(report.NonDelaunayAfter) +
       " edges left that are not Delaunay");
+  }
+  if (hasTolerance && report.Tolerance == "none")
+  {
+    add("Tolerance has no effect on the in-circle criterion, which is exact; it is for opposite "
+        "angles");
   }
   if (!report.Fallback.empty())
   {

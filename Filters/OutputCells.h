@@ -5,7 +5,12 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
+#include <vector>
+
 class vtkCellArray;
+class vtkCellData;
+class vtkDataArray;
 class vtkPolyData;
 
 namespace delaunayflip
@@ -24,6 +29,42 @@ bool UsesWideIds(vtkPolyData* mesh);
 
 /// The strips of the output: those of the mesh that were not split.
 vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh);
+
+class TriangleSlots;
+struct PointArray;
+
+/// Gives every cell of `output` the cell data of the cell of `mesh` from which it was made. Shares
+/// the arrays if all cells kept their positions; otherwise leaves out those with too few tuples.
+/// Where cells were divided, global ids become pedigree ids, or a plain array if the mesh has
+/// pedigree ids already.
+void PassCellData(vtkPolyData* mesh, const TriangleSlots& slots, vtkPolyData* output);
+
+/// Turns global ids into pedigree ids: when cells are divided, several share an id.
+void DemoteGlobalIds(vtkCellData* data);
+
+/// A copy of the active cell normals, to be changed; null if there are none, or too few.
+vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output);
+
+/// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
+/// normal that pointed against the winding of the old triangle points against that of the new one.
+/// Normals with too few tuples stay as they are.
+void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output);
+
+/// A cell array to be added.
+template <typename ArrayT>
+struct TriangleArrayValues
+{
+  using Value = typename ArrayT::ValueType;
+
+  const char* Name;
+  std::vector<Value> Values; ///< One per triangle of the slots.
+  Value Elsewhere; ///< The value for cells that are not triangles.
+};
+
+/// Adds a cell array to the output. ArrayT: vtkIntArray or vtkDoubleArray.
+template <typename ArrayT>
+void AddTriangleArray(
+  const TriangleArrayValues<ArrayT>& source, const TriangleSlots& slots, vtkPolyData* output);
 
 }
 

@@ -3,7 +3,7 @@
 #include "PieceInput.h"
 
 #include "MalformedArrays.h"
-#include "PointIds.h"
+#include "PointViews.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

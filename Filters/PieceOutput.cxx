@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceOutput.h"
 
-#include "CellAttributes.h"
 #include "MalformedArrays.h"
 #include "OutputCells.h"
 #include "TriangleSlots.h"

@@ -12,8 +12,7 @@
 #include "ReportTables.h"
 #include "TriangleAngles.h"
 #include "TupleTransfer.h"
-#include "UpdatePlan.h"
-#include "WorkProgress.h"
+#include "UpdateProgress.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -85,7 +84,7 @@ private:
       [&]()
       {
         input = this->Request.GetInput();
-        this->Mesh = DropDuplicateCells(input);
+        this->Mesh = DropDuplicateCells(ShareMesh(input));
         this->Numbers = ReadPointNumbers(this->Mesh);
       });
     if (IsOnAnyRank(this->Request.Constraints != nullptr, this->Group))

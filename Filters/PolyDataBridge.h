@@ -8,6 +8,8 @@
 #include "TriangleMesh.h"
 #include "TriangleSlots.h"
 
+#include "vtkSmartPointer.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +21,10 @@ namespace delaunayflip
 
 class FlipSession;
 class UpdatePlan;
+
+/// A shallow copy that keeps as many cells as there are now, whatever observers of the filter
+/// append to the input's cell arrays.
+vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
 
 /// Translates between vtkPolyData and the engine, in both directions; computes nothing. The mesh
 /// must outlive the bridge.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RankSum.h"
 
-#include "UpdateSummary.h"
+#include "UpdateReport.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelCore
 #include "vtkMultiProcessController.h"

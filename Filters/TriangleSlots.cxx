@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TriangleSlots.h"
 
-#include "PointIds.h"
+#include "PointViews.h"
 #include "PolygonSplit.h"
-#include "WorkProgress.h"
+#include "UpdateProgress.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"

@@ -35,11 +35,17 @@ int GetSeverity(StopReasonKind reason)
   return 0;
 }
 
+/// Whether a mesh has a smallest angle: some triangle has no coordinate that is NaN.
+bool HasAngles(const FlipReport& report)
+{
+  return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
+}
+
 /// The smallest angle of a mesh after iteration `row`. A mesh that made fewer iterations keeps its
 /// last angle.
 double GetMinimumAngle(const FlipReport& report, std::size_t row)
 {
-  if (report.Triangles == 0)
+  if (!HasAngles(report))
   {
     return std::numeric_limits<double>::infinity();
   }
@@ -90,13 +96,15 @@ void AddEdges(EdgeCounts& sum, const EdgeCounts& more)
 
 void AddAngles(FlipReport& sum, const FlipReport& more)
 {
-  if (more.Triangles > 0)
+  if (!HasAngles(sum) && more.Triangles > 0)
   {
-    const bool isFirst = sum.Triangles == 0;
-    sum.MinimumAngleBefore = isFirst ? more.MinimumAngleBefore
-                                     : GetSmaller(sum.MinimumAngleBefore, more.MinimumAngleBefore);
-    sum.MinimumAngleAfter =
-      isFirst ? more.MinimumAngleAfter : GetSmaller(sum.MinimumAngleAfter, more.MinimumAngleAfter);
+    sum.MinimumAngleBefore = more.MinimumAngleBefore;
+    sum.MinimumAngleAfter = more.MinimumAngleAfter;
+  }
+  else if (HasAngles(more))
+  {
+    sum.MinimumAngleBefore = std::min(sum.MinimumAngleBefore, more.MinimumAngleBefore);
+    sum.MinimumAngleAfter = std::min(sum.MinimumAngleAfter, more.MinimumAngleAfter);
   }
 }
 
@@ -169,6 +177,53 @@ void UpdateReport::Add(const UpdateReport& other, Timing timing)
 const char* UpdateReport::GetGeometryName() const
 {
   return this->HasMixedGeometry ? "mixed" : ToString(this->GeometryUsed);
+}
+
+namespace
+{
+
+void AddNotes(std::vector<Note>& notes, const std::vector<Note>& more, const std::string& place)
+{
+  for (const Note& note : more)
+  {
+    notes.push_back({ note.Where.empty() ? place : place + ", " + note.Where, note.Text });
+  }
+}
+
+}
+
+void UpdateSummary::AddMesh(const MeshOutcome& mesh, std::int64_t block, const std::string& where)
+{
+  this->Report.Add(mesh.Report, UpdateReport::Timing::InTurn);
+  if (mesh.Failure)
+  {
+    this->Failure = this->Failure == 0 ? mesh.Failure.Kind : this->Failure;
+    this->Errors.push_back({ where, mesh.Failure.Message });
+  }
+  if (!mesh.Trouble.empty())
+  {
+    this->Warnings.push_back({ where, mesh.Trouble });
+  }
+  if (mesh.Report.Triangles > 0)
+  {
+    this->Blocks.push_back(block);
+  }
+}
+
+void UpdateSummary::AddRank(const UpdateSummary& other, int rank)
+{
+  const std::string place = "rank " + std::to_string(rank);
+  this->Report.Add(other.Report, UpdateReport::Timing::AtOnce);
+  this->Failure = this->Failure == 0 ? other.Failure : this->Failure;
+  AddNotes(this->Errors, other.Errors, place);
+  AddNotes(this->Warnings, other.Warnings, place);
+  const std::size_t known = this->Blocks.size();
+  this->Blocks.insert(this->Blocks.end(), other.Blocks.begin(), other.Blocks.end());
+  std::sort(this->Blocks.begin() + known, this->Blocks.end());
+  std::inplace_merge(this->Blocks.begin(), this->Blocks.begin() + known, this->Blocks.end());
+  const auto end = std::unique(this->Blocks.begin(), this->Blocks.end());
+  this->HasSeams = this->HasSeams || other.HasSeams || end != this->Blocks.end();
+  this->Blocks.erase(end, this->Blocks.end());
 }
 
 }

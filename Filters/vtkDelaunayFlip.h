@@ -133,11 +133,14 @@ public:
    * PLANAR_XY if the mesh is a height field over x and y, and either z extends further than both x
    * and y, as with degrees and metres, or 95 % of the area slopes less than 45 degrees. It is a
    * height field if in the projection all triangles, except at most one in 1,000, have area and
-   * turn the same way, and the triangles around any point turn at most once. The slope of a sliver
-   * is that of its steepest edge, because the planes of slivers are steep even in gentle terrain.
+   * turn the same way, and the triangles around any point turn at most once. If z extends more than
+   * ten times as far as x and as y, one in five may have no area, and of the others one in 100 may
+   * turn the other way, as where an ocean crosses 180 degrees; those stay as they are and are
+   * counted in a warning. The slope of a sliver is that of its steepest edge, because the planes of
+   * slivers are steep even in gentle terrain.
    *
-   * SURFACE otherwise. If fewer than one triangle in 100 ruled out a height field, a warning says
-   * so. Choose PLANAR_XY yourself for steeper terrain.
+   * SURFACE otherwise. If no more triangles than that ruled out a height field, a warning says so.
+   * Choose PLANAR_XY yourself for steeper terrain.
    *
    * GetGeometryReason() says why a geometry was used. If SURFACE is used on a height field, chosen
    * by AUTO or by you, and flips turn triangles over in x and y, a warning counts them.
@@ -182,7 +185,8 @@ public:
    * tolerance, the largest change of its sum that one unit in the last place of its points'
    * coordinates (float or double) can cause. This tolerance is larger far from the origin and for
    * short edges. With it, a surface that is Delaunay within the precision of its points comes back
-   * bit-identical. Has no effect on the in-circle criterion, which is exact.
+   * bit-identical. Has no effect on the in-circle criterion, which is exact; a warning says so
+   * where another value than -1 is set.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);

@@ -10,10 +10,11 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "MalformedArrays.h"
+#include "PieceFlip.h"
 #include "PieceInput.h"
 #include "PieceUpdate.h"
 #include "SharedBlocks.h"
-#include "UpdateSummary.h"
+#include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkPolyData.h"
@@ -104,6 +105,14 @@ UpdateSummary vtkDelaunayFlip::FlipTogether(
     this->Run.reset();
     *this->Report = UpdateReport();
     this->CanContinue = false;
+    const auto write = [](bool value) { return value ? "on" : "off"; };
+    RequireSameOptions(this->GetOptions(), told,
+      { { "RegionArray", this->RegionArray }, { "Triangulate", write(this->Triangulate) },
+        { "LinesAsConstraints", write(this->LinesAsConstraints) },
+        { "InsertLines", write(this->InsertLines) },
+        { "InsertConstraints", write(this->InsertConstraints) },
+        { "GenerateFlipCount", write(this->GenerateFlipCount) },
+        { "GenerateQuality", write(this->GenerateQuality) } });
     UpdateGroup blocks(told);
     summary = this->FlipPieces(input, constraints, output, blocks);
   };
@@ -164,7 +173,8 @@ void vtkDelaunayFlip::FlipShared(const SharedMesh& mesh, PieceGroup& group, Upda
     update = PieceUpdate();
   }
   outcome.Report = update.Report;
-  outcome.Trouble = DescribeTrouble(update.Report, this->MaximumIterations >= 0);
+  outcome.Trouble =
+    DescribeTrouble(update.Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
   summary.AddMesh(outcome, 0, mesh.Name);
   if (update.AmbiguousPoints > 0)
   {

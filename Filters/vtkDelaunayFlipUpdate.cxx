@@ -8,24 +8,29 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipRun.h"
-#include "HostProgram.h"
 #include "PieceGroup.h"
 #include "RankSum.h"
 #include "ReportTables.h"
-#include "TimedAdvance.h"
-#include "UpdateSummary.h"
-#include "VersionDifferences.h"
+#include "UpdateReport.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
+#include "vtkVersionMacros.h"
+#if defined(DELAUNAYFLIP_PARAVIEW)
+#include "vtkProcessModule.h"
+#endif
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <string>
 #include <utility>
@@ -42,6 +47,63 @@ struct vtkDelaunayFlip::Resumption
 
 namespace
 {
+
+// What depends on the version of VTK, and on ParaView.
+
+/// Whether `filter` was asked to abort, directly or, from VTK 9.3 on, through a filter upstream.
+/// After a direct request the filter keeps its output, which the executive would otherwise empty.
+bool IsAbortRequested(vtkAlgorithm* filter)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  const bool aborted = filter->CheckAbort();
+  if (filter->GetAbortExecute())
+  {
+    filter->SetAbortOutput(false);
+  }
+  return aborted;
+#else
+  return filter->GetAbortExecute() != 0;
+#endif
+}
+
+/// Ends a request to abort with the update that obeyed it. From VTK 9.3 on the executive does not,
+/// and all later updates would be aborted too.
+void ForgetAbortRequest(vtkAlgorithm* filter) { filter->SetAbortExecute(0); }
+
+/// Whether the filter runs in ParaView's pvbatch, where nobody watches the mesh improve, and
+/// scripts and state files expect the final mesh.
+bool IsBatchProgram()
+{
+#if defined(DELAUNAYFLIP_PARAVIEW)
+  return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH;
+#else
+  return false;
+#endif
+}
+
+/// Calls FlipSession::Advance for as many iterations as fit into `seconds`, at least one.
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
+  const ProgressObserver& progress)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto getElapsed = [start]()
+  { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  double elapsed = 0.0;
+  double iterations = 1.0;
+  bool isRunning = false;
+  do
+  {
+    const double before = elapsed;
+    isRunning = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
+    elapsed = getElapsed();
+    // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
+    // take longer than those before, so batches grow slowly.
+    const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
+    iterations = std::min(fitting, 2.0 * iterations);
+  } while (isRunning && iterations >= 1.0);
+  return isRunning;
+}
 
 /// Sets a flag while it lives.
 class FlagScope
@@ -209,7 +271,8 @@ MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
     this->DiscardRun(data.Output);
   }
   outcome.Report = *this->Report;
-  outcome.Trouble = DescribeTrouble(outcome.Report, this->MaximumIterations >= 0);
+  outcome.Trouble =
+    DescribeTrouble(outcome.Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
   if (this->Run && outcome.Trouble == std::exchange(this->Run->Warning, outcome.Trouble))
   {
     outcome.Trouble.clear(); // live updates give each warning once
@@ -269,11 +332,13 @@ void vtkDelaunayFlip::Flip(
   const bool isRunning =
     storesOnly ? from.CouldContinue : !run->IsStopped() && this->Advance(*run, data.IsLive);
   this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
-  const bool isWhole = this->MeshIsWithheld || run->Store(data.Output);
+  vtkNew<vtkPolyData> result; // which no observer can change
+  const bool isWhole = this->MeshIsWithheld || run->Store(result);
   // Not before: a GPU may fail while its result is fetched.
   *this->Report = UpdateReport(run->GetReport());
   this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
-  AddFieldData(*this->Report, data.Output->GetFieldData());
+  AddFieldData(*this->Report, result->GetFieldData());
+  data.Output->ShallowCopy(result);
   this->CanContinue =
     data.IsLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
 }

@@ -36,6 +36,9 @@
  * on every process; only rank 0 has the table of iterations and gives messages. GetNumberOfRounds()
  * tells how often pieces were flipped and the edges between them tested. AbortExecute on any
  * process stops all of them. If one process fails, the update fails on all, with the same message.
+ * It fails if properties differ between processes, and names one; only those of the hardware may
+ * (Backend, NumberOfThreads, DeviceId, Devices, NumberOfPieces). MaximumIterations limits those of
+ * all rounds together, where what processes do at the same time is one iteration.
  *
  * @warning
  * With several processes LiveUpdate is off, with a warning. Every process must have an input, of

@@ -7,6 +7,7 @@
 #include "HostDevice.h"
 
 #include <cstdint>
+#include <string>
 
 /// @file
 /// Counts of defects of the input, on either backend.
@@ -60,7 +61,7 @@ private:
 };
 
 inline Defect MakeDefect(
-  const char* what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
+  const std::string& what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
 {
   Defect defect{ what, sample.Count, {}, ids };
   for (int i = 0; i < IdSample::Kept && i < sample.Count; ++i)

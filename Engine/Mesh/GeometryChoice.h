@@ -22,7 +22,8 @@ namespace delaunayflip
 {
 
 /// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
-inline bool IsHigherThanWide(const BoundingBox& box)
+/// @param times how many times as high, at least.
+inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
 {
   // Half of each number where the box is so wide that its extent would overflow. The halves of the
   // smallest numbers would be rounded.
@@ -30,7 +31,7 @@ inline bool IsHigherThanWide(const BoundingBox& box)
     { box.Upper[0], box.Upper[1], box.Upper[2], -box.Lower[0], -box.Lower[1], -box.Lower[2] });
   const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
   const auto extent = [&](int axis) { return unit * box.Upper[axis] - unit * box.Lower[axis]; };
-  return extent(2) > extent(0) && extent(2) > extent(1);
+  return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
 /// How many percent of the area slope less than 45 degrees, rounded down; 0 without area.
@@ -52,11 +53,17 @@ inline TurnCounts CountTurns(const TurnSums& sums)
   return counts;
 }
 
-/// "12 of 30000 triangles".
+/// "12 of 30000 triangles turn the other way and 7 have no area".
 inline std::string DescribeStrays(const TurnCounts& turns)
 {
-  return std::to_string(turns.GetStrays()) + " of " + std::to_string(turns.Triangles) +
-    " triangles";
+  const std::string all = " of " + std::to_string(turns.Triangles) + " triangles";
+  const std::string flat = std::to_string(turns.Flat);
+  if (turns.Others == 0)
+  {
+    return flat + all + " have no area";
+  }
+  return std::to_string(turns.Others) + all + " turn the other way" +
+    (turns.Flat > 0 ? " and " + flat + " have no area" : "");
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
@@ -151,11 +158,14 @@ private:
   {
     const TurnSums sums = heights.SumTurns();
     this->Survey.Turns = CountTurns(sums);
+    const TurnCounts& turns = this->Survey.Turns;
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
+    // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
+    const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
     const int gentle = GetGentlePercent(sums);
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
-    if (!this->Survey.Turns.AreUniform())
+    if (!turns.AreUniform() && !mayStray)
     {
       this->RefuseStrays(sums);
     }
@@ -175,7 +185,7 @@ private:
   {
     const TurnCounts& turns = this->Survey.Turns;
     return "a height field over x and y" +
-      (turns.GetStrays() > 0 ? " but for " + DescribeStrays(turns) : std::string());
+      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
   }
 
   void RefuseStrays(const TurnSums& sums)
@@ -184,8 +194,7 @@ private:
     this->Take(GeometryKind::Surface,
       turns.Side == 0
         ? "no triangle has area in x and y"
-        : DescribeStrays(turns) + " turn the other way in x and y or have no area there" +
-          (turns.AreNearlyUniform() ? Advice : ""));
+        : "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
     this->WarnOfStrays(sums);
   }
 
@@ -195,12 +204,17 @@ private:
     const TurnCounts& turns = this->Survey.Turns;
     if (turns.GetStrays() > 0 && turns.AreNearlyUniform())
     {
-      IdSample strays = turns.Side > 0 ? sums.Right : sums.Left;
-      strays += sums.Flat;
-      this->Survey.NearlyHeightField = MakeDefect(
-        "triangles that turn the other way in x and y or have no area there, so the mesh, "
-        "nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
-        strays);
+      const bool areTurned = turns.Others > 0;
+      std::string what = areTurned ? "triangles that turn the other way in x and y"
+                                   : "triangles that have no area in x and y";
+      if (areTurned && turns.Flat > 0)
+      {
+        what += ", and " + std::to_string(turns.Flat) + " that have no area there";
+      }
+      this->Survey.NearlyHeightField = MakeDefect(what +
+          ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
+          "planar-xy",
+        !areTurned ? sums.Flat : (turns.Side > 0 ? sums.Right : sums.Left));
     }
   }
 

@@ -70,10 +70,11 @@ struct TurnCounts
 
   /// Whether all triangles, except at most one in 1,000, turn to one side.
   bool AreUniform() const { return this->Side != 0 && 1000 * this->GetStrays() <= this->Triangles; }
-  /// Whether all do, except fewer than one in 100.
+  /// Whether all with area do, except at most one in 100; at most one in five has none.
   bool AreNearlyUniform() const
   {
-    return this->Side != 0 && 100 * this->GetStrays() < this->Triangles;
+    return this->Side != 0 && 100 * this->Others <= this->Triangles - this->Flat &&
+      5 * this->Flat <= this->Triangles;
   }
   std::int64_t GetStrays() const { return this->Others + this->Flat; }
 };

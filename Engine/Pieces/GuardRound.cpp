@@ -170,7 +170,7 @@ void WaitingEdges::Find(PieceMesh& mesh, const QuadJudge& judge)
 }
 
 GuardRound WaitingEdges::Flip(
-  PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group)
+  PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip)
 {
   DoTogether(group, [&]() { this->Find(mesh, judge); });
   std::vector<Question> questions;
@@ -185,6 +185,10 @@ GuardRound WaitingEdges::Flip(
   const PairMap<PointPair> granted = GrantFlips(mesh, questions, group);
   GuardRound round;
   round.FreeOfAll = static_cast<std::int64_t>(granted.size());
+  if (!mayFlip)
+  {
+    return round;
+  }
   const std::unordered_set<std::int64_t> changed = FlipGranted(mesh, this->Bad, granted, round);
   // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
   const auto mustStay = [&](const BadSeam& seam)

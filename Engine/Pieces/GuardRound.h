@@ -40,7 +40,9 @@ public:
   /// Flips waiting edges of `mesh` as far as the guard allows. Removes from `test` the seam edges
   /// whose flip would make an edge that exists or that another flip makes, and those whose triangle
   /// has just changed. All ranks must call this together.
-  GuardRound Flip(PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group);
+  /// @param mayFlip if false, it only finds how many edges may flip.
+  GuardRound Flip(
+    PieceMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip);
 
 private:
   void Find(PieceMesh& mesh, const QuadJudge& judge);

@@ -45,11 +45,13 @@ std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& gr
 /// How many ranks have stopped, and why.
 struct StopCounts
 {
+  std::int64_t Iterations = 0; ///< Since the last count; the most that a rank has made.
   std::int64_t Aborted = 0, Limited = 0;
   std::int64_t Uncounted = 0; ///< Stopped before the edges were counted.
 
   StopCounts& operator+=(const StopCounts& part)
   {
+    this->Iterations = std::max(this->Iterations, part.Iterations);
     this->Aborted += part.Aborted;
     this->Limited += part.Limited;
     this->Uncounted += part.Uncounted;
@@ -202,10 +204,13 @@ MarkedEdges PieceRun::MarkEdges(const TriangleMesh& mesh)
 bool PieceRun::MayGoOn()
 {
   StopCounts own;
+  own.Iterations = static_cast<std::int64_t>(this->Rows.size() - this->EarlierRows);
+  this->EarlierRows = this->Rows.size();
   own.Aborted = this->StopReason == StopReasonKind::Aborted ? 1 : 0;
   own.Limited = this->StopReason == StopReasonKind::IterationLimit ? 1 : 0;
   own.Uncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0 ? 1 : 0;
   const StopCounts all = SumOverRanks(this->Job.Group, own);
+  this->Iterations += all.Iterations;
   this->IsCounted = all.Uncounted == 0;
   if (all.Aborted > 0)
   {
@@ -231,11 +236,17 @@ bool PieceRun::MakeRound()
   waiting.FreeOfAll = test.BadOfAll;
   if (this->Job.Survey.NeedsGuard() && mayGoOn)
   {
-    waiting = this->Waiting.Flip(this->Mesh, this->Judge, test, this->Job.Group);
+    waiting =
+      this->Waiting.Flip(this->Mesh, this->Judge, test, this->Job.Group, !this->IsAtLimit());
     this->KeepFlips(waiting.Flipped);
   }
   if (!mayGoOn || waiting.FreeOfAll == 0)
   {
+    return false;
+  }
+  if (this->IsAtLimit())
+  {
+    this->WholeStopReason = StopReasonKind::IterationLimit;
     return false;
   }
   std::int64_t moved = 0;
@@ -315,12 +326,21 @@ void PieceRun::KeepIteration(IterationRecord row, const std::vector<std::int64_t
   this->KeepRow(row);
 }
 
-/// How many iterations this rank may make in all.
+/// Whether all ranks together have made as many iterations as they may. What they do in a round at
+/// the same time is one iteration.
+bool PieceRun::IsAtLimit() const
+{
+  const std::int64_t most = this->Job.Options.MaximumIterations;
+  return most >= 0 && this->Iterations >= most;
+}
+
+/// How many rows of this rank there may be at the end of the round.
 std::int64_t PieceRun::GetIterationLimit() const
 {
   if (this->Job.Options.MaximumIterations >= 0)
   {
-    return this->Job.Options.MaximumIterations;
+    return static_cast<std::int64_t>(this->EarlierRows) + this->Job.Options.MaximumIterations -
+      this->Iterations;
   }
   const auto triangles = static_cast<std::int64_t>(this->Mesh.Triangles.size());
   return static_cast<std::int64_t>(this->Rows.size()) + triangles + SafetyMargin;

@@ -53,6 +53,7 @@ private:
   void FlipAround(const std::vector<std::int64_t>& toJudge, const GuardRound& waiting);
   void Flip(RoundFlips& flips);
   std::int64_t GetIterationLimit() const;
+  bool IsAtLimit() const;
   void KeepRows(const FlipReport& report);
   void KeepIteration(IterationRecord row, const std::vector<std::int64_t>& changed);
   void KeepRow(const IterationRecord& row);
@@ -82,11 +83,13 @@ private:
   /// The session of the first flips. Keeps the triangles that are not listed (PieceMesh), if any.
   std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;
+  std::size_t EarlierRows = 0; ///< Rows of earlier rounds.
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
 
   // Of all ranks:
   PiecesReport Whole; ///< The members that it inherits from FlipReport are set at the end.
   StopReasonKind WholeStopReason = StopReasonKind::Converged;
+  std::int64_t Iterations = 0; ///< Of earlier rounds.
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
   std::int64_t BadSeams = 0; ///< Bad seam edges that are left at the end, for any reason.
   std::int64_t FoldedSeams = 0; ///< Of these, the ones whose flip would fold the mesh over.

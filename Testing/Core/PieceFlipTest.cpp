@@ -223,6 +223,105 @@ TEST_P(RanksTest, SmallestAngleAfterEveryIterationOnASurface)
   }
 }
 
+/// What ranks do at the same time is one iteration.
+TEST_P(RanksTest, IterationsAreLimitedOverAllRounds)
+{
+  for (const bool isPlanar : { true, false })
+  {
+    const OwnedMesh<double> mesh =
+      isPlanar ? MakeRandomBadMeshDouble(300, 17) : MakeBadSphere(20, 10, 3);
+    const std::vector<OwnedPiece> pieces =
+      Divide(mesh.View(), this->Scatter(mesh.View()), GetParam());
+    FlipOptions options = isPlanar ? MakeCanonical() : MakeOnSurface();
+    const auto all = static_cast<std::int64_t>(
+      FlipDivided(mesh.View(), pieces, options).Reports.front().Iterations.size());
+    for (const std::int64_t most :
+      { std::int64_t(0), std::int64_t(1), std::int64_t(2), all - 1, all })
+    {
+      options.MaximumIterations = most;
+      const std::vector<PiecesReport> reports = FlipDivided(mesh.View(), pieces, options).Reports;
+      ExpectSameOnAllRanks(reports);
+      EXPECT_EQ(most, static_cast<std::int64_t>(reports.front().Iterations.size()));
+      EXPECT_EQ(most < all ? StopReasonKind::IterationLimit : StopReasonKind::Converged,
+        reports.front().StopReason)
+        << most << " of " << all;
+    }
+  }
+}
+
+/// The error that all ranks give if the last one has other options.
+std::string FindDifference(
+  int ranks, const FlipOptions& options, const FlipOptions& different, bool areSettings = false)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(50, 17);
+  const std::vector<OwnedPiece> pieces =
+    Divide(mesh.View(), DivideBySpace(mesh.View(), ranks), ranks);
+  std::vector<std::string> errors(ranks);
+  RunInThreads(ranks,
+    [&](PieceGroup& group)
+    {
+      const int rank = group.GetRank();
+      const bool isLast = rank + 1 == ranks;
+      FlippedPiece flipped;
+      try
+      {
+        RequireSameOptions(
+          FlipOptions(), group, { { "Name", areSettings && isLast ? "b" : "a" }, { "Other", "" } });
+        FlipPiece(pieces[rank].View(true), isLast ? different : options, group, flipped);
+      }
+      catch (const InvalidOptions& error)
+      {
+        errors[rank] = error.what();
+      }
+    });
+  EXPECT_EQ(ranks, std::count(errors.begin(), errors.end(), errors.front()));
+  return errors.front();
+}
+
+TEST_P(RanksTest, OptionsThatDifferAreAnError)
+{
+  if (GetParam() == 1)
+  {
+    return;
+  }
+  const std::string end = std::to_string(GetParam() - 1) + "; set it to the same on all ranks";
+  const FlipOptions options = MakeCanonical();
+  const auto expect = [&](const FlipOptions& different, const std::string& text)
+  { EXPECT_EQ("rank 0: " + text + end, FindDifference(GetParam(), options, different)); };
+  FlipOptions different = options;
+  different.Geometry = GeometryKind::Surface;
+  different.Tolerance = 0.5; // the first difference counts
+  expect(different, "Geometry is 'auto' on rank 0, but 'surface' on rank ");
+  different.Geometry = options.Geometry;
+  expect(different, "Tolerance is '-1' on rank 0, but '0.5' on rank ");
+  different = options;
+  different.Criterion = CriterionKind::OppositeAngles;
+  expect(different, "Criterion is 'in-circle' on rank 0, but 'opposite-angles' on rank ");
+  different = options;
+  different.TieRule = TieRuleKind::Keep;
+  expect(different, "TieRule is 'canonical' on rank 0, but 'keep' on rank ");
+  different = options;
+  different.FeatureAngle = 0.1;
+  expect(different, "FeatureAngle is '30' on rank 0, but '0.1' on rank ");
+  different = options;
+  different.MaximumIterations = 7;
+  expect(different, "MaximumIterations is '-1' on rank 0, but '7' on rank ");
+  different = options;
+  different.TrackQuality = true;
+  expect(different, "TrackQuality is 'off' on rank 0, but 'on' on rank ");
+  EXPECT_EQ("Name is 'a' on rank 0, but 'b' on rank " + end,
+    FindDifference(GetParam(), options, options, true));
+}
+
+TEST_P(RanksTest, HardwareMayDiffer)
+{
+  FlipOptions different = MakeCanonical();
+  different.NumberOfThreads = 2;
+  different.NumberOfPieces = 3;
+  different.Backend = BackendKind::Threads;
+  EXPECT_EQ("", FindDifference(GetParam(), MakeCanonical(), different));
+}
+
 INSTANTIATE_TEST_SUITE_P(Pieces, RanksTest, testing::Values(1, 2, 3, 4, 7, 16), NameRanks);
 
 }

@@ -120,6 +120,42 @@ TEST(SplitPolygon, CutsAConcaveQuadInside)
   ExpectTilesEverywhere({ { 0, 0 }, { 2, 1 }, { 4, 0 }, { 2, 8 } });
 }
 
+/// A narrow gable of two slopes of 63 degrees along one diagonal; gentle along the other.
+std::vector<double> MakeGable(double scale, double height = 2.0)
+{
+  std::vector<double> quad = { 0, 4, 0, -1, 0, height, 0, -4, 0, 1, 0, height };
+  for (double& coordinate : quad)
+  {
+    coordinate *= scale;
+  }
+  return quad;
+}
+
+TEST(SplitPolygon, CutsAQuadWhereItDoesNotFold)
+{
+  for (const double scale : { 1.0, -1.0, 0x1p-1070, 1e-200, 1e200, 4e307 })
+  {
+    std::vector<double> quad = MakeGable(scale);
+    EXPECT_EQ((Ids{ 0, 1, 3, 1, 2, 3 }), Split(quad)) << scale;
+    std::rotate(quad.begin(), quad.begin() + 3, quad.end());
+    EXPECT_EQ((Ids{ 0, 1, 2, 0, 2, 3 }), Split(quad)) << scale;
+  }
+  EXPECT_EQ((Ids{ 0, 1, 3, 1, 2, 3 }), Split(MakeGable(1.0, 1.0))) << "a right angle";
+  EXPECT_EQ((Ids{ 0, 1, 2, 0, 2, 3 }), Split(MakeGable(1.0, 0.99)));
+}
+
+/// Both diagonals fold, or there are no normals to speak of.
+TEST(SplitPolygon, CutsFromTheFirstVertexIfFoldsDecideNothing)
+{
+  const Ids first = { 0, 1, 2, 0, 2, 3 };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double height : { 9.0, infinity, -infinity, std::nan("") })
+  {
+    EXPECT_EQ(first, Split(MakeGable(1.0, height))) << height;
+  }
+  EXPECT_EQ(first, Split({ 0, 0, 0, 1, 0, 0, 1, 1e-20, 0, 0, 1e-20, 1e-40 }));
+}
+
 TEST(SplitPolygon, CutsAQuadWithAStraightVertexWithoutEmptyTriangles)
 {
   ExpectTilesEverywhere({ { 0, 0 }, { 2, 0 }, { 4, 0 }, { 2, 8 } });

@@ -114,6 +114,32 @@ TEST(VtkDelaunayFlip, CellsOfTooFewPointsPass)
   EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>({ 0, 1, 2, 3, 4, 5, 6 }));
 }
 
+TEST(VtkDelaunayFlip, StripsOfTooFewPointsPassAlone)
+{
+  for (const bool triangulate : { false, true })
+  {
+    auto mesh = MakeMesh(Grid, {});
+    mesh->SetStrips(MakeCells({ { 1, 2 }, { 3 }, {} }));
+    AddNumbers(mesh->GetCellData(), "Number", 3, 5);
+    WatchedFilter filter(mesh);
+    filter->SetTriangulate(triangulate);
+    auto output = RunCleanly(filter);
+    EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
+    EXPECT_EQ(GetCells(output->GetStrips()), Cells({ { 1, 2 }, { 3 }, {} }));
+    EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>({ 5, 6, 7 }));
+    EXPECT_TRUE(filter->GetConverged());
+  }
+}
+
+TEST(VtkDelaunayFlip, AQuadThatFoldsIsSplitTheOtherWay)
+{
+  auto mesh =
+    MakeMesh({ { 0, 4, 0 }, { -1, 0, 2 }, { 0, -4, 0 }, { 1, 0, 2 } }, { { 0, 1, 2, 3 } });
+  WatchedFilter filter(mesh);
+  filter->SetMaximumIterations(0);
+  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
+}
+
 TEST(VtkDelaunayFlip, TriangulateOffKeepsOtherCells)
 {
   // The rhombus with a quad below its left side and a strip above its right side.

@@ -187,6 +187,21 @@ TEST(Composite, TheAngleIsTheSmallestOfAllBlocks)
   EXPECT_NEAR(GetRow(filter.Get(), "MinimumAngle", 4), smallest, 1e-9);
 }
 
+TEST(Composite, ABlockWithoutAnglesDoesNotCount)
+{
+  const auto nowhere = MakeMesh({ { NAN, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
+  const auto getAngle = [](const Blocks& blocks)
+  {
+    CompositeFilter filter(blocks);
+    filter.Update();
+    return GetRow(filter.Get(), "MinimumAngle", 0);
+  };
+  const double expected = getAngle(MakeBlocks({ MakeRhombus() }));
+  EXPECT_LT(0.0, expected);
+  EXPECT_EQ(getAngle(MakeBlocks({ nowhere, MakeRhombus(), nowhere })), expected);
+  EXPECT_EQ(getAngle(MakeBlocks({ MakeRhombus(), nowhere })), expected);
+}
+
 TEST(Composite, GeometriesMayBeMixed)
 {
   auto blocks = MakeBlocks({ MakeBadPlane(), MakeBadSphere() });

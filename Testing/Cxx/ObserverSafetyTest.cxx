@@ -11,6 +11,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
+#include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPoints.h"
 #include "vtkTable.h"
@@ -157,6 +158,51 @@ TEST(ObserverSafety, InputsMayBeEmptied)
     });
 }
 
+TEST(ObserverSafety, OutputsMayBeEmptied)
+{
+  for (const bool live : { false, true })
+  {
+    WatchedFilter expected(MakeBadPlane());
+    expected->GenerateQualityOn();
+    expected->SetLiveUpdate(live);
+    const Cells cells = GetCells(expected.Run()->GetPolys());
+    WatchedFilter filter(MakeBadPlane());
+    filter->GenerateQualityOn();
+    filter->GenerateFlipCountOn();
+    filter->SetLiveUpdate(live);
+    EXPECT_TRUE(
+      FlipDespite(filter, [&]() { filter->GetOutputDataObject(0)->Initialize(); }) == cells);
+    vtkPolyData* output = filter->GetOutput();
+    vtkDataArray* angles = output->GetCellData()->GetArray("vtkDelaunayFlipAngleAfter");
+    EXPECT_EQ(angles->GetNumberOfTuples(), output->GetNumberOfCells());
+  }
+}
+
+/// To cells that are copied; those that are viewed in place must not change.
+TEST(ObserverSafety, CellsMayBeAppended)
+{
+  for (const bool live : { false, true })
+  {
+    WatchedFilter expected(MakeQuads());
+    expected->SetLiveUpdate(live);
+    const Cells cells = GetCells(expected.Run()->GetPolys());
+    const auto mesh = MakeQuads();
+    mesh->SetLines(vtkNew<vtkCellArray>()); // not the one that all meshes without lines share
+    WatchedFilter filter(mesh);
+    filter->SetLiveUpdate(live);
+    filter->GenerateQualityOn();
+    const auto append = [&]()
+    {
+      for (int i = 0; i < 1000; ++i)
+      {
+        mesh->GetPolys()->InsertNextCell({ 0, 1, 2, 3 });
+        mesh->GetLines()->InsertNextCell({ 0, 1 });
+      }
+    };
+    EXPECT_TRUE(FlipDespite(filter, append) == cells);
+  }
+}
+
 TEST(ObserverSafety, OutputsMayBeReplaced)
 {
   ExpectUnharmed(
@@ -272,6 +318,31 @@ TEST(SharedArrays, CellsAddedToTheInputAreNotInTheOutput)
   EXPECT_TRUE(output->GetPolys()->IsValid());
   EXPECT_EQ(GetCells(output->GetPolys()), cells);
   EXPECT_NE(output->GetPolys()->GetOffsetsArray(), mesh->GetPolys()->GetOffsetsArray());
+}
+
+/// Without being marked as modified.
+TEST(SharedArrays, IdsOfTheInputOfALiveRunMayBeOverwritten)
+{
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh->GetNumberOfCells());
+  normals->Fill(1.0);
+  mesh->GetCellData()->SetNormals(normals);
+  LiveFilter filter(mesh);
+  filter->GenerateQualityOn();
+  filter.Run();
+  vtkDataArray* ids = mesh->GetPolys()->GetConnectivityArray();
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+  {
+    ids->SetComponent(i, 0, i % 2 == 0 ? 1e9 : -1e9);
+  }
+  filter->Advance();
+  filter.Run();
+  filter->GenerateQualityOff();
+  filter->Advance();
+  filter.RunToTheEnd();
+  EXPECT_NE(filter->GetFailure(), vtkDelaunayFlip::FAILURE_OTHER) << filter->GetErrorMessage();
 }
 
 TEST(SharedArrays, CellsAddedToTheInputOfALiveRunBeginItAnew)

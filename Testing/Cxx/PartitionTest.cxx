@@ -319,6 +319,20 @@ TEST(Partitions, KeepArraysThatOthersLack)
   EXPECT_EQ(points.back(), 0); // of a point that the other partition had
 }
 
+/// As a partition may have that got no part of the mesh.
+TEST(Partitions, MayHaveCellsWithoutPoints)
+{
+  vtkNew<vtkPolyData> empty;
+  empty->SetPolys(MakeCells({ {}, {} }));
+  AddNumbers(empty->GetCellData(), "Number", 2, 3);
+  PartitionFilter filter({ MakeRhombus(), empty });
+  const Parts parts = filter.UpdateCleanly();
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+  EXPECT_TRUE(HasEdge(parts[0], 1, 3));
+  EXPECT_EQ(GetCells(parts[1]->GetPolys()), Cells({ {}, {} }));
+  EXPECT_EQ(GetNumbers(parts[1]->GetCellData(), "Number"), std::vector<int>({ 3, 4 }));
+}
+
 TEST(Partitions, DropDuplicateGhosts)
 {
   const auto mesh = MakeBadMesh();

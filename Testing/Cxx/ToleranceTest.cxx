@@ -5,6 +5,7 @@
 #include "FilterTestSupport.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkSphereSource.h"
 
@@ -55,4 +56,37 @@ TEST(VtkDelaunayFlip, SmallToleranceFlipsWhatRoundingMade)
   filter->SetTolerance(1e-9);
   RunCleanly(filter);
   EXPECT_GT(filter->GetTotalFlips(), 10000);
+}
+
+/// Also if it is the same for several blocks, and in every step of a live run.
+TEST(VtkDelaunayFlip, AToleranceWithoutEffectIsWarnedOfOnce)
+{
+  const std::string expected = "Tolerance has no effect on the in-circle criterion";
+  for (const bool isLive : { false, true })
+  {
+    WatchedFilter filter(MakeRhombus());
+    filter->SetTolerance(0.0);
+    filter->SetLiveUpdate(isLive);
+    for (int i = 0; i < 3; ++i)
+    {
+      filter.Run();
+      filter->Advance();
+    }
+    ASSERT_EQ(filter.GetWarnings().size(), 1u);
+    EXPECT_TRUE(Holds(filter.GetWarnings()[0], expected)) << filter.GetWarnings()[0];
+  }
+  WatchedFilter blocks;
+  vtkNew<vtkMultiBlockDataSet> two;
+  two->SetBlock(0, MakeRhombus());
+  two->SetBlock(1, MakeRhombus());
+  blocks->SetInputDataObject(two);
+  blocks->SetTolerance(0.5);
+  blocks->Update();
+  ASSERT_EQ(blocks.GetWarnings().size(), 1u);
+  EXPECT_TRUE(Holds(blocks.GetWarnings()[0], "block 1, block 2: " + expected))
+    << blocks.GetWarnings()[0];
+  WatchedFilter filter(MakeRhombus());
+  filter->SetTolerance(0.5);
+  filter->SetCriterionToOppositeAngles();
+  RunCleanly(filter);
 }

@@ -75,6 +75,22 @@ def run_failure(rank, wrong):
     return facts, said
 
 
+def run_different(rank, name, values):
+    """One rank has another value of an option than the others."""
+    points, triangles = rank_meshes.make_random(200)
+    owners = rank_meshes.divide(points, triangles, RANKS, "space")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    flip, said = flip_piece(piece, {name: values[RANK == rank]})
+    errors = WORLD.allgather(flip.GetErrorMessage())
+    require(len(set(errors)) == 1, f"different messages: {errors}")
+    facts = describe(flip, said)
+    getattr(flip, "Set" + name)(values[0])
+    flip.Modified()  # on all ranks
+    flip.UpdatePiece(RANK, RANKS, 0)
+    facts["then"] = flip.GetStopReasonAsString()
+    return facts, said
+
+
 def run_abort(rank):
     points, triangles = rank_meshes.make_random(2000)
     owners = rank_meshes.divide(points, triangles, RANKS, "space")

@@ -85,6 +85,17 @@ class Failures(RanksTest):
         facts = flip_on(2, "failure", rank=0, wrong="regions")
         self.assertIn('no cell array named "missing"', facts["error"])
 
+    def test_options_that_differ(self):
+        for name, values in (("GenerateQuality", (0, 1)), ("RegionArray", ("", "slot")),
+                             ("Geometry", (0, 3)), ("Tolerance", (-1.0, 0.5)),
+                             ("MaximumIterations", (-1, 1))):
+            with self.subTest(name):
+                facts = flip_on(3, "different", rank=1, name=name, values=values)
+                self.assertTrue(facts["error"].startswith(f"rank 0: {name} is '"), facts)
+                self.assertIn("on rank 0, but '", facts["error"])
+                self.assertIn("on rank 1; ", facts["error"])
+                self.assertEqual((len(facts["said"]), facts["then"]), (1, "converged"))
+
     def test_any_rank_stops_all(self):
         for rank in (0, 2):
             with self.subTest(rank):

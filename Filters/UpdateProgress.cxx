@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "UpdatePlan.h"
-
-#include "WorkProgress.h"
+#include "UpdateProgress.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WorkProgress_h
-#define WorkProgress_h
+#ifndef UpdateProgress_h
+#define UpdateProgress_h
 
 #include "FlipReport.h"
 
@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <utility>
+
+class vtkPolyData;
 
 namespace delaunayflip
 {
@@ -93,6 +95,50 @@ void ForPieces(vtkIdType count, const ProgressObserver& progress, const Work& wo
     vtkSMPTools::For(begin, std::min(begin + ItemsBetweenCalls, count), work);
   }
 }
+
+/// What an update has to do, as far as it takes time.
+struct UpdateWork
+{
+  vtkPolyData* Mesh;
+  vtkPolyData* Constraints; ///< Or null.
+  bool LinesAreConstraints;
+  bool HasRegions;
+  bool IsWarm; ///< Fixed edges of the first mesh have to be found, too.
+  bool WantsAngles;
+};
+
+/// Turns the progress of each part of an update into that of the whole. The parts follow each other
+/// in the order below; each gets the share of the time that it is expected to take.
+class UpdatePlan
+{
+public:
+  /// @param observer may be empty.
+  UpdatePlan(const UpdateWork& work, ProgressObserver observer);
+
+  ProgressObserver ForFixedEdges() const { return this->MakePartUpTo(FixedEdges); }
+  ProgressObserver ForPolygons() const { return this->MakePartUpTo(Polygons); }
+  ProgressObserver ForConstraints() const { return this->MakePartUpTo(Constraints); }
+  ProgressObserver ForRegions() const { return this->MakePartUpTo(Regions); }
+  ProgressObserver ForSession() const { return this->MakePartUpTo(Session); }
+  ProgressObserver ForOutput() const { return this->MakePartUpTo(Output); }
+
+private:
+  enum Part
+  {
+    FixedEdges,
+    Polygons,
+    Constraints,
+    Regions,
+    Session,
+    Output,
+    NumberOfParts
+  };
+
+  ProgressObserver MakePartUpTo(Part part) const;
+
+  ProgressObserver Observer;
+  double Ends[NumberOfParts];
+};
 
 }
 
