@@ -74,6 +74,7 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
     CheckPieces(piece, options, told);
     FlipOptions own = options;
     own.NumberOfPieces = 1; // a session of several does not know what other ranks have
+    own.TrackQuality = false;
     PointKeys keys = MatchPoints(piece, told);
     const PieceSurvey survey = SurveyPieces(piece, keys, own, told);
     PieceRun run({ piece, own, survey, told, progress }, std::move(keys));

@@ -33,19 +33,15 @@ struct MeshPiece
 {
   /// Regions must have the same labels on all ranks. Any rank that has both ends of a constraint
   /// edge may give it, even if none of its triangles has them. Several ranks may give the same one.
-  /// Constraints that are to be inserted may cross triangles of any rank. Where they cross each
-  /// other, those come first that a rank can insert alone; the others follow in the order of ranks
-  /// and, on each rank, in its own order.
+  /// A constraint that is to be inserted becomes an edge if it stays within the piece of one rank;
+  /// otherwise it counts as unmatched. Where flips could make an edge that another rank has, as
+  /// where triangles overlap or have no area, no rank inserts any. So insert constraints before the
+  /// mesh is divided.
   TriangleMesh Mesh;
 
   /// One number per point, the same for a point on all ranks that have it; or null. If no rank has
   /// numbers, points at the borders of pieces are the same if their coordinates are equal.
   const std::int64_t* PointNumbers = nullptr;
-
-  /// More constraint edges, to be inserted after those of Mesh; their ends may be points of any
-  /// rank. Two ends for each edge, or null. Any rank may give them.
-  const PieceOrigin* FarConstraints = nullptr;
-  std::int64_t NumberOfFarConstraints = 0;
 };
 
 /// The piece of one rank after a run. Triangles change owner, so that it may have more or fewer
@@ -93,8 +89,9 @@ DELAUNAYFLIP_EXPORT void RequireSameOptions(const FlipOptions& options, PieceGro
 
 /// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
 /// group must call this together, with the same options (see RequireSameOptions).
-/// FlipOptions::NumberOfPieces has no effect. What ranks do at the same time is one iteration, of
-/// which FlipOptions::MaximumIterations are made at most, over all rounds.
+/// FlipOptions::NumberOfPieces and TrackQuality have no effect: the smallest angle is known before
+/// the first iteration and after the last. What ranks do at the same time is one iteration, of which
+/// FlipOptions::MaximumIterations are made at most, over all rounds.
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.

@@ -214,7 +214,7 @@ void WholeSession::MeasureEnd()
 void WholeSession::UpdateDefects()
 {
   this->Report.Defects = this->Engine->GetInputReport().Defects;
-  this->Insertion.AddTo(this->Report.Defects);
+  AddDefects(this->Insertion.GetRefused(), this->Report.Defects);
   const Defect turned = this->IsRunning() ? Defect() : this->Engine->FindTurnedTriangles();
   if (turned.Count > 0)
   {

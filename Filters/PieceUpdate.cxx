@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceUpdate.h"
 
-#include "ConstraintsElsewhere.h"
 #include "DelaunayFlip.h"
 #include "MalformedArrays.h"
 #include "PieceFlip.h"
 #include "PieceInput.h"
 #include "PieceOutput.h"
+#include "PointPlaces.h"
 #include "PointViews.h"
 #include "ReportTables.h"
 #include "TriangleAngles.h"
@@ -23,7 +23,9 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -33,6 +35,50 @@ namespace
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* AngleBefore = "vtkDelaunayFlipAngleBefore";
 constexpr const char* AngleAfter = "vtkDelaunayFlipAngleAfter";
+
+/// How many constraint edges have two ends that no rank has together; all ranks get the same.
+/// @param constraints those of all ranks (GatherConstraints). @param mesh this rank's.
+std::int64_t CountElsewhere(vtkPolyData* constraints, const TriangleMesh& mesh, PieceGroup& group)
+{
+  std::vector<double> storage;
+  const PointArray ends = ViewPoints(constraints, storage);
+  PointPlaces own(ends.Floats != nullptr || mesh.Points.Floats != nullptr);
+  PointPlaces all(false); // the same on all ranks
+  std::vector<std::int64_t> placeOf;
+  std::vector<std::int64_t> placeOfAll;
+  for (std::int64_t i = 0; i < ends.Count; ++i)
+  {
+    placeOf.push_back(own.Add(ends, i));
+    placeOfAll.push_back(all.Add(ends, i));
+  }
+  std::vector<bool> isHere(own.GetNumberOfPlaces());
+  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
+  {
+    const std::int64_t place = own.Find(mesh.Points, point);
+    if (place != PointPlaces::None)
+    {
+      isHere[place] = true;
+    }
+  }
+  Message areHere; // one flag per constraint
+  for (std::int64_t i = 0; i < ends.Count; i += 2)
+  {
+    areHere.push_back(isHere[placeOf[i]] && isHere[placeOf[i + 1]] ? 1 : 0);
+  }
+  const std::vector<Message> flags = group.Gather(areHere);
+  std::set<std::pair<std::int64_t, std::int64_t>> elsewhere;
+  for (std::int64_t i = 0; i < ends.Count / 2; ++i)
+  {
+    const bool isAnywhere =
+      std::any_of(flags.begin(), flags.end(), [i](const Message& one) { return one[i] != 0; });
+    const auto places = std::minmax(placeOfAll[2 * i], placeOfAll[2 * i + 1]);
+    if (!isAnywhere && places.first != places.second)
+    {
+      elsewhere.insert(places);
+    }
+  }
+  return static_cast<std::int64_t>(elsewhere.size());
+}
 
 /// The update of one rank.
 class PieceUpdater
@@ -54,10 +100,10 @@ public:
       nothing.Report.StopReason = StopReasonKind::Converged;
       return nothing;
     }
-    this->FindElsewhere();
     const MeshPiece piece{ this->Bridge->GetMesh(),
-      this->Numbers.empty() ? nullptr : this->Numbers.data(), this->Elsewhere.Ends.data(),
-      static_cast<std::int64_t>(this->Elsewhere.Ends.size()) / 2 };
+      this->Numbers.empty() ? nullptr : this->Numbers.data() };
+    const std::int64_t elsewhere =
+      this->Constraints ? CountElsewhere(this->Constraints, piece.Mesh, this->Group) : 0;
     const PiecesReport report =
       FlipPiece(piece, this->Request.Options, this->Group, this->Flipped, this->Request.Progress);
     PieceUpdate update;
@@ -65,7 +111,7 @@ public:
     update.Report.Rounds = report.Rounds;
     update.Report.MovedTriangles = report.MovedTriangles;
     update.AmbiguousPoints = report.AmbiguousPoints;
-    this->AddElsewhere(update.Report);
+    this->AddElsewhere(elsewhere, update.Report);
     this->Store(report.GeometryUsed, output);
     AddFieldData(update.Report, output->GetFieldData());
     return update;
@@ -113,28 +159,17 @@ private:
     this->Bridge->RequireValidIds();
   }
 
-  /// The constraints that cross from rank to rank go to the engine if they are to be inserted.
-  void FindElsewhere()
+  void AddElsewhere(std::int64_t count, UpdateReport& report) const
   {
-    if (this->Constraints)
+    report.UnmatchedConstraints += count;
+    if (count > 0)
     {
-      this->Elsewhere =
-        FindConstraintsElsewhere(this->Constraints, this->Bridge->GetMesh(), this->Group);
-    }
-    if (!this->Request.Settings.InsertConstraints)
-    {
-      this->Elsewhere.Unmatched += this->Elsewhere.Count;
-      this->Elsewhere.Ends.clear();
-    }
-  }
-
-  void AddElsewhere(UpdateReport& report) const
-  {
-    report.UnmatchedConstraints += this->Elsewhere.Unmatched;
-    if (this->Elsewhere.Unmatched > 0)
-    {
-      report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
-        this->Elsewhere.Unmatched, {}, DefectIds::Points });
+      const bool isBetween = this->Request.Settings.InsertConstraints && this->Group.GetSize() > 1;
+      report.Defects.push_back({ isBetween
+          ? "constraint edges of the second input whose two ends no rank has together: insert "
+            "constraints before the mesh is divided"
+          : "constraint edges of the second input that the mesh does not have",
+        count, {}, DefectIds::Points });
     }
   }
 
@@ -211,7 +246,6 @@ private:
   std::vector<std::int64_t> Numbers;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Of all ranks, or null.
   std::unique_ptr<PolyDataBridge> Bridge;
-  ConstraintsElsewhere Elsewhere;
   FlippedPiece Flipped;
 };
 

@@ -21,9 +21,10 @@
  * is meant. A warning counts them; global ids made before the mesh is cut avoid it. Duplicate
  * ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on any process,
  * all or in part; they are matched by coordinates. The ends of lines (LinesAsConstraints) are
- * points of the process that has them, if need be without cells. In planar geometry both are
- * inserted across the pieces of all processes. If two cross, those within one piece come first,
- * the rest in the order of processes.
+ * points of the process that has them, if need be without cells. Constraints that are edges stay,
+ * wherever they are. In planar geometry a process inserts those that lie within its piece. Others
+ * count as unmatched, with a warning: insert constraints before the mesh is divided. Where
+ * triangles overlap or have no area, several processes insert none.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
@@ -41,8 +42,8 @@
  * all rounds together, where what processes do at the same time is one iteration.
  *
  * @warning
- * With several processes LiveUpdate is off, with a warning. Every process must have an input, of
- * the same kind.
+ * With several processes LiveUpdate is off, with a warning, and TrackQuality has no effect. Every
+ * process must have an input, of the same kind.
  *
  * @sa
  * vtkDelaunayFlip

@@ -3,11 +3,8 @@
 #ifndef DELAUNAYFLIP_PIECECONSTRAINTS_H
 #define DELAUNAYFLIP_PIECECONSTRAINTS_H
 
-#include "ConstraintLoan.h"
-#include "FarConstraints.h"
-#include "FixedPairs.h"
+#include "ConstraintInsertion.h"
 #include "FlipReport.h"
-#include "PieceArrays.h"
 #include "PieceJob.h"
 #include "PieceMesh.h"
 #include "SeamSurvey.h"
@@ -18,16 +15,13 @@
 namespace delaunayflip
 {
 
-class ConstraintInsertion;
-class ConstraintList;
-class PieceRegion;
-
 /// The mesh that the first flips start from, and its seams. In planar geometry, this is the
 /// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
 /// mesh.
 ///
-/// Each rank first inserts the constraints that stay within its piece. For any other constraint,
-/// all triangles that it touches are lent to one rank, which inserts it and returns the triangles.
+/// Each rank inserts the constraints that stay within its piece. Of those between shared points,
+/// which several ranks may have, it tries all whose two points it has. A constraint that no rank
+/// inserts counts as unmatched, once. Where flips need a guard, ranks insert nothing.
 class PieceConstraints
 {
 public:
@@ -39,8 +33,7 @@ public:
   const MeshPiece& GetPiece() const { return this->Piece; }
   SeamSurvey& GetSeams() { return this->Seams; }
 
-  /// Whether the observer of this rank wanted to stop; or that of any rank, while ranks inserted
-  /// alone.
+  /// Whether an observer of any rank has stopped the insertion.
   bool HasAborted() const { return this->IsAborted; }
 
   /// The share of the run that is done after the insertion.
@@ -50,32 +43,24 @@ public:
   void AddTo(FlipReport& report) const;
 
 private:
-  struct OwnWork;
-
   void Run();
-  ConstraintInsertion Insert(const TriangleMesh& mesh, double end);
-  void InsertOwn(OwnWork& own);
-  void LeaveMissing(const TriangleMesh& mesh);
-  bool IsLeft(const PointPair& ends) const;
-  std::vector<FarConstraint> ListLeft() const;
-  void Keep(const OwnWork& own);
-  void AddEdge(std::int64_t from, std::int64_t to);
-  void InsertFar(const std::vector<FarConstraint>& constraints);
-  std::vector<std::int64_t> InsertFar(const InsertionTask& task);
-  ConstraintList ListFar(const std::vector<FarConstraint>& constraints, const PieceRegion& region);
+  ConstraintInsertion Insert(const TriangleMesh& mesh);
+  void Count(const ConstraintInsertion& insertion, std::vector<char> fates);
+  void Keep(const ConstraintInsertion& insertion, const TriangleMesh& mesh, std::int64_t known);
 
   PieceJob Job;
   PieceMesh& Mesh;
   MeshPiece Piece;
-  std::vector<FarConstraint> Far; ///< MeshPiece::FarConstraints.
   SeamSurvey Seams;
   bool IsAborted = false;
   double Share = 0.0;
-  MarkedEdges Fixed; ///< The fixed edges while constraints are inserted.
-  std::vector<PointPair>
-    Left; ///< Ids of constraints that this rank cannot insert alone, ascending.
-  FlipReport Found; ///< The counts and defects of all insertions.
-  PieceArrays Arrays;
+  std::int64_t Inserted = 0;
+  std::int64_t Flips = 0;
+  std::vector<RefusedConstraint> Refused; ///< Those that this rank counts.
+
+  // What Piece views:
+  std::vector<std::int64_t> Constraints;
+  std::vector<std::int32_t> Ids;
 };
 
 }

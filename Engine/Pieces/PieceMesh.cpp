@@ -217,26 +217,6 @@ void PieceMesh::BeginRounds(bool listsChanged)
   }
 }
 
-void PieceMesh::EndRounds()
-{
-  const auto hasLeft = [](const PieceTriangle& triangle) { return triangle.HasLeft; };
-  this->Triangles.erase(
-    std::remove_if(this->Triangles.begin(), this->Triangles.end(), hasLeft), this->Triangles.end());
-  for (PieceTriangle& triangle : this->Triangles)
-  {
-    triangle.Marks = 0;
-    triangle.IsNoted = false;
-  }
-  this->Listed.assign(this->Triangles.size(), 1);
-  this->NumberListed = this->Triangles.size();
-  this->Stars = PointStars();
-  this->HasStars = false;
-  this->Mates = RawVector<std::uint32_t>();
-  this->Changed.clear();
-  this->MayHaveSeams.clear();
-  this->LostSeams.clear();
-}
-
 void PieceMesh::NoteChange(std::int64_t t)
 {
   if (this->ListsChanged)
@@ -302,17 +282,6 @@ void PieceMesh::Flip(const PieceCorner& one, const PieceCorner& other)
     ++this->Triangles[changed].Flips;
     this->NoteSeams(changed);
     this->NoteChange(changed);
-  }
-}
-
-void PieceMesh::SetPoint(const PieceCorner& corner, std::int32_t point)
-{
-  std::int32_t& place = this->Triangles[corner.Triangle].Points[corner.Slot];
-  if (place != point)
-  {
-    this->Stars.Remove(corner, place);
-    this->Stars.Add(corner, point);
-    place = point;
   }
 }
 
@@ -484,12 +453,6 @@ std::int64_t PieceMesh::Receive(const TravellingTriangle& packed)
   this->Listed.push_back(1);
   ++this->NumberListed;
   this->Mates.resize(this->Mates.size() + 3, Unknown);
-  this->PutBack(t, packed);
-  return t;
-}
-
-void PieceMesh::PutBack(std::int64_t t, const TravellingTriangle& packed)
-{
   PieceTriangle& triangle = this->Triangles[t];
   for (int slot = 0; slot < 3; ++slot)
   {
@@ -500,29 +463,9 @@ void PieceMesh::PutBack(std::int64_t t, const TravellingTriangle& packed)
   triangle.Origin = packed.Origin;
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
-  triangle.HasLeft = false;
   this->NoteSeams(t);
   this->NoteChange(t);
-}
-
-void PieceMesh::Share(std::int64_t key)
-{
-  const std::int64_t point = this->FindPoint(key);
-  if (point >= 0)
-  {
-    this->SharePoint(static_cast<std::int32_t>(point));
-  }
-}
-
-void PieceMesh::Unshare(const std::vector<std::int32_t>& points)
-{
-  for (const std::int32_t point : points)
-  {
-    this->Shared[point] = 0;
-  }
-  this->SharedPoints.erase(std::remove_if(this->SharedPoints.begin(), this->SharedPoints.end(),
-                             [this](std::int32_t point) { return !this->IsShared(point); }),
-    this->SharedPoints.end());
+  return t;
 }
 
 void PieceMesh::SharePoint(std::int32_t point)

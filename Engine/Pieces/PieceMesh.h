@@ -77,12 +77,8 @@ public:
   /// without a pass over all. From now on only the functions below may change triangles.
   /// @param listsChanged whether TakeChanged will be called; then all triangles must be listed.
   void BeginRounds(bool listsChanged);
-  /// Removes empty places, the lists of corners and all marks. Triangles keep their order.
-  void EndRounds();
   /// Flips the edge opposite to two corners.
   void Flip(const PieceCorner& one, const PieceCorner& other);
-  /// Puts another point at a corner. Marks do not change.
-  void SetPoint(const PieceCorner& corner, std::int32_t point);
   /// The triangles that have changed or arrived since the last call, and those at points that have
   /// become shared. A triangle may be repeated.
   std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
@@ -122,11 +118,6 @@ public:
   /// What is known of the points of all ranks, without the arrays with one value per point.
   const PointKeys& GetWholeKeys() const { return this->WholeKeys; }
 
-  /// Notes that no other rank has triangles at these points any more. Points may be repeated.
-  void Unshare(const std::vector<std::int32_t>& points);
-  /// Notes that other ranks may have triangles at a point. Ignores points unknown here.
-  void Share(std::int64_t key);
-
   std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
   std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
   /// The id of a key here, or -1.
@@ -155,8 +146,6 @@ public:
   std::vector<TravellingTriangle> Release(const std::vector<std::int64_t>& triangles);
   /// Adds one that comes from another rank. @returns its number here.
   std::int64_t Receive(const TravellingTriangle& triangle);
-  /// Puts a triangle that comes back into its former place.
-  void PutBack(std::int64_t place, const TravellingTriangle& triangle);
 
   /// Points with this id or a larger one came from other ranks.
   std::int64_t GetFirstReceived() const { return this->Given.Count; }

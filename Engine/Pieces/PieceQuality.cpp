@@ -85,40 +85,4 @@ double FindSmallestAngleAfterRounds(const PieceMesh& mesh, const PieceSurvey& su
   return ToDegrees(largest);
 }
 
-void PieceQuality::Update(const PieceMesh& mesh, const PieceSurvey& survey)
-{
-  this->Cotangents.resize(mesh.Triangles.size());
-  for (std::size_t t = 0; t < this->Cotangents.size(); ++t)
-  {
-    this->Cotangents[t] = Measure(mesh, survey, static_cast<std::int64_t>(t));
-  }
-}
-
-void PieceQuality::Update(
-  const PieceMesh& mesh, const PieceSurvey& survey, const std::vector<std::int64_t>& triangles)
-{
-  this->Cotangents.resize(mesh.Triangles.size(), -INFINITY);
-  for (const std::int64_t t : triangles)
-  {
-    this->Cotangents[t] = Measure(mesh, survey, t);
-  }
-}
-
-double PieceQuality::FindSmallest(
-  const PieceMesh& mesh, const std::vector<std::int64_t>& omitted) const
-{
-  double largest = -INFINITY;
-  auto next = omitted.begin();
-  for (std::size_t t = 0; t < this->Cotangents.size(); ++t)
-  {
-    const bool isOmitted = next != omitted.end() && *next == static_cast<std::int64_t>(t);
-    next += isOmitted ? 1 : 0;
-    if (!isOmitted && !mesh.Triangles[t].HasLeft)
-    {
-      largest = std::max(largest, this->Cotangents[t]);
-    }
-  }
-  return ToDegrees(largest);
-}
-
 }

@@ -23,26 +23,6 @@ double FindSmallestAngle(const PieceMesh& mesh, const PieceSurvey& survey, int t
 /// are not listed.
 double FindSmallestAngleAfterRounds(const PieceMesh& mesh, const PieceSurvey& survey);
 
-/// The smallest angle of every triangle of a rank, for FlipOptions::TrackQuality. An iteration of a
-/// round changes few triangles, but reports the smallest angle of all.
-class PieceQuality
-{
-public:
-  /// Measures all triangles.
-  void Update(const PieceMesh& mesh, const PieceSurvey& survey);
-
-  /// Measures triangles that have changed or come.
-  void Update(
-    const PieceMesh& mesh, const PieceSurvey& survey, const std::vector<std::int64_t>& triangles);
-
-  /// The smallest angle in degrees; NaN if there is none.
-  /// @param omitted triangles, ascending.
-  double FindSmallest(const PieceMesh& mesh, const std::vector<std::int64_t>& omitted = {}) const;
-
-private:
-  std::vector<double> Cotangents; ///< Squared, one per place; some may be missing at the end.
-};
-
 }
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "PieceRegion.h"
+#include "PieceQuality.h"
 #include "QuadSoup.h"
 
 #include <algorithm>
@@ -48,25 +48,56 @@ void PieceRun::CountRest()
   this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
   if (this->HasBlocked)
   {
-    this->Mesh.ListAll();
-    const PieceRegion all(this->Mesh, this->Job.Survey);
-    FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
-    none.MaximumIterations = 0;
-    const FlipSession session(all.View(), none);
-    const FlipReport& report = session.GetReport();
-    this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
-    this->Own.BlockedByShape = report.BlockedByShape;
-    this->Own.BlockedByEdge = report.BlockedByEdge;
+    this->CountBad();
   }
+}
+
+/// The bad edges that are left on this rank.
+void PieceRun::CountBad()
+{
+  this->Mesh.ListAll();
+  PointList points(this->Job.Survey.IsFloat);
+  points.Reserve(this->Mesh.GetNumberOfPoints());
+  for (std::int64_t i = 0; i < this->Mesh.GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    this->Mesh.GetPosition(i, x);
+    points.Add(x);
+  }
+  std::vector<std::int32_t> ids;
+  std::vector<std::int64_t> fixed;
+  for (const PieceTriangle& triangle : this->Mesh.Triangles)
+  {
+    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
+    {
+      ids.push_back(triangle.Points[slot]);
+      if (triangle.Has(FixedMark, slot))
+      {
+        fixed.insert(fixed.end(), { triangle.GetStart(slot), triangle.GetEnd(slot) });
+      }
+    }
+  }
+  TriangleMesh mesh;
+  mesh.Points = points.View();
+  mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
+  mesh.ConstraintEdges = fixed.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(fixed.size()) / 2;
+  mesh.Whole = this->Job.Survey.Whole;
+  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
+  FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
+  none.MaximumIterations = 0;
+  const FlipSession session(mesh, none);
+  const FlipReport& report = session.GetReport();
+  this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
+  this->Own.BlockedByShape = report.BlockedByShape;
+  this->Own.BlockedByEdge = report.BlockedByEdge;
 }
 
 PiecesReport PieceRun::MakeReport()
 {
   const SeamCounts& seams = this->Seams.Counts;
   PiecesReport report = this->Whole;
-  std::vector<RoundRow> rows = this->Rows;
-  rows.insert(rows.end(), this->Angles.begin(), this->Angles.end());
-  static_cast<FlipReport&>(report) = JoinReports(this->Own, rows, this->Job.Group);
+  static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
   report.Points = this->NumberOfPoints;
   report.Edges = this->IsCounted ? seams.AddTo(report.Edges) : EdgeCounts();
   report.EulerCharacteristic =
@@ -80,7 +111,7 @@ PiecesReport PieceRun::MakeReport()
   report.GeometryUsed = this->Job.Survey.Geometry;
   report.GeometryReason = this->Job.Survey.GeometryReason;
   report.StopReason = this->WholeStopReason;
-  if (!report.Iterations.empty() && !this->Job.Options.TrackQuality)
+  if (!report.Iterations.empty())
   {
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
   }
@@ -91,7 +122,7 @@ PiecesReport PieceRun::MakeReport()
 void PieceRun::AddDefects(FlipReport& report) const
 {
   const SeamCounts& seams = this->Seams.Counts;
-  const Defect onSurface{ ConstraintInsertion::OnSurface, seams.MissingToInsert, {},
+  const Defect onSurface{ Describe(Refusal::OnSurface), seams.MissingToInsert, {},
     DefectIds::PointPairs };
   const Defect missing{ "constraint edges that are not edges of the mesh",
     seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };

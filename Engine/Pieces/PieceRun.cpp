@@ -133,18 +133,13 @@ void PieceRun::KeepFirst(const TriangleMesh& mesh)
   this->StopReason = this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->StopReason;
   const bool haveChanged = this->Mesh.AreAllListed(); // by constraints
   this->TakeFirst(this->MarkEdges(mesh));
-  if (haveChanged || this->Job.Survey.NeedsGuard() || this->Job.Options.TrackQuality)
+  if (haveChanged || this->Job.Survey.NeedsGuard())
   {
     this->Mesh.ListAll();
   }
   if (this->Mesh.AreAllListed())
   {
     this->First.reset();
-  }
-  if (this->Job.Options.TrackQuality)
-  {
-    this->Quality.Update(this->Mesh, this->Job.Survey);
-    this->KeepAngle();
   }
   if (this->Job.Group.GetSize() > 1)
   {
@@ -256,10 +251,6 @@ bool PieceRun::MakeRound()
     MoveTriangles(this->Mesh, test.Bad, rule, this->Job.Group, moved);
   this->Whole.MovedTriangles += moved;
   DoTogether(this->Job.Group, [&]() { this->FlipAround(toJudge, waiting); });
-  if (this->Job.Options.TrackQuality)
-  {
-    this->KeepAngle();
-  }
   return true;
 }
 
@@ -284,12 +275,7 @@ void PieceRun::Flip(RoundFlips& flips)
 {
   const StopWatch watch;
   const double rounds = static_cast<double>(this->Whole.Rounds);
-  const bool tracks = this->Job.Options.TrackQuality;
   const std::int64_t limit = this->GetIterationLimit();
-  if (tracks)
-  {
-    this->Quality.Update(this->Mesh, this->Job.Survey, flips.GetNext());
-  }
   while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
   {
     if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
@@ -303,27 +289,15 @@ void PieceRun::Flip(RoundFlips& flips)
     }
     else
     {
-      this->KeepIteration(flips.Iterate(), flips.GetNext());
+      const IterationRecord row = flips.Iterate();
+      this->HasBlocked = this->HasBlocked || row.Blocked > 0;
+      if (row.Flipped > 0) // else it has found that nothing is left to do
+      {
+        this->KeepRow(row);
+      }
     }
   }
   this->Own.FlipSeconds += watch.GetSeconds();
-}
-
-/// @param changed the triangles that have changed.
-void PieceRun::KeepIteration(IterationRecord row, const std::vector<std::int64_t>& changed)
-{
-  this->HasBlocked = this->HasBlocked || row.Blocked > 0;
-  if (row.Flipped == 0)
-  {
-    return; // it has found that nothing is left to do
-  }
-  row.MinimumAngle = NaN;
-  if (this->Job.Options.TrackQuality)
-  {
-    this->Quality.Update(this->Mesh, this->Job.Survey, changed);
-    row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
-  }
-  this->KeepRow(row);
 }
 
 /// Whether all ranks together have made as many iterations as they may. What they do in a round at
@@ -349,19 +323,20 @@ std::int64_t PieceRun::GetIterationLimit() const
 //------------------------------------------------------------------------------
 void PieceRun::KeepRows(const FlipReport& report)
 {
-  for (IterationRecord row : report.Iterations)
+  for (const IterationRecord& row : report.Iterations)
   {
-    row.MinimumAngle = this->Job.Options.TrackQuality ? row.MinimumAngle : NaN;
     this->KeepRow(row);
   }
   this->HasBlocked = this->HasBlocked || report.NonDelaunayAfter > 0;
   this->StopReason = report.StopReason;
 }
 
+/// The smallest angle of a row is not that of the whole mesh.
 void PieceRun::KeepRow(const IterationRecord& row)
 {
   const bool isNext = !this->Rows.empty() && this->Rows.back().Round == this->Whole.Rounds;
   this->Rows.push_back({ this->Whole.Rounds, isNext ? this->Rows.back().Place + 1 : 0, row });
+  this->Rows.back().Record.MinimumAngle = NaN;
 }
 
 /// Edges that were flipped outside of a session, all at once.
@@ -371,24 +346,7 @@ void PieceRun::KeepFlips(std::int64_t flipped)
   {
     IterationRecord row;
     row.Tested = row.NonDelaunay = row.Flipped = flipped;
-    row.MinimumAngle = NaN;
-    if (this->Job.Options.TrackQuality)
-    {
-      this->Quality.Update(this->Mesh, this->Job.Survey);
-      row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
-    }
     this->KeepRow(row);
-  }
-}
-
-/// For the other ranks' iterations, if this one had none in the round.
-void PieceRun::KeepAngle()
-{
-  if (this->Rows.empty() || this->Rows.back().Round != this->Whole.Rounds)
-  {
-    IterationRecord row;
-    row.MinimumAngle = this->Quality.FindSmallest(this->Mesh);
-    this->Angles.push_back({ this->Whole.Rounds, -1, row });
   }
 }
 

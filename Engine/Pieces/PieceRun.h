@@ -10,7 +10,6 @@
 #include "PieceConstraints.h"
 #include "PieceJob.h"
 #include "PieceMesh.h"
-#include "PieceQuality.h"
 #include "QuadJudge.h"
 #include "SeamRound.h"
 #include "SeamSurvey.h"
@@ -55,12 +54,11 @@ private:
   std::int64_t GetIterationLimit() const;
   bool IsAtLimit() const;
   void KeepRows(const FlipReport& report);
-  void KeepIteration(IterationRecord row, const std::vector<std::int64_t>& changed);
   void KeepRow(const IterationRecord& row);
   void KeepFlips(std::int64_t flipped);
-  void KeepAngle();
   bool Tell(double share) const;
   void CountRest();
+  void CountBad();
   PiecesReport MakeReport();
   void AddDefects(FlipReport& report) const;
 
@@ -78,8 +76,6 @@ private:
   // Of this rank:
   FlipReport Own; ///< Starts as the report of the first flips.
   std::vector<RoundRow> Rows;
-  PieceQuality Quality; ///< Only with FlipOptions::TrackQuality.
-  std::vector<RoundRow> Angles; ///< The smallest angle in rounds without iterations.
   /// The session of the first flips. Keeps the triangles that are not listed (PieceMesh), if any.
   std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;

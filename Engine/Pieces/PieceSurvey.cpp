@@ -141,20 +141,6 @@ void CheckIds(const TriangleMesh& mesh, const ThreadBackend& backend)
   }
 }
 
-/// Ids are checked by the ranks that have the points.
-void CheckFarConstraints(const MeshPiece& piece, const PieceGroup& group)
-{
-  for (std::int64_t i = 0; i < 2 * piece.NumberOfFarConstraints; ++i)
-  {
-    const PieceOrigin& end = piece.FarConstraints[i];
-    if (end.Rank < 0 || end.Rank >= group.GetSize())
-    {
-      throw InvalidMesh("constraint edge " + std::to_string(i / 2) + " names a point of rank " +
-          std::to_string(end.Rank) + ", but ranks are 0 to " + std::to_string(group.GetSize() - 1),
-        -1, end.Id);
-    }
-  }
-}
 }
 
 void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group)
@@ -174,7 +160,6 @@ void CheckPieces(const MeshPiece& piece, const FlipOptions& options, PieceGroup&
       {
         CheckConstraint(piece.Mesh, i / 2, static_cast<int>(i % 2));
       }
-      CheckFarConstraints(piece, group);
       CheckIds(piece.Mesh, backend);
     });
 }

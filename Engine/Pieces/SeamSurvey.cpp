@@ -125,22 +125,14 @@ void TakeAnswers(const RecordLists<SeamAnswer>& lists, const PieceMesh& mesh, Se
 }
 }
 
-SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
-  const std::vector<FarConstraint>& far)
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh)
 {
   PieceGroup& group = job.Group;
   SeamSurvey seams;
   const RecordLists<SeamTriangle> triangles =
     ExchangeRecords(group, ListSeamTriangles(piece, mesh, group));
-  RecordLists<SharedConstraint> toHome = DivideConstraints(piece.Mesh, mesh, seams, group);
-  for (const FarConstraint& one : far)
-  {
-    if (one.Ends[0] != one.Ends[1])
-    {
-      toHome[GetHomeOf(one.GetKeys(), group)].push_back({ one.GetKeys(), 1 });
-    }
-  }
-  const RecordLists<SharedConstraint> constraints = ExchangeRecords(group, toHome);
+  const RecordLists<SharedConstraint> constraints =
+    ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
   SeamVerdict verdict;
   DoTogether(
     group, [&]() { verdict = JudgeSeams(triangles, constraints, job.Survey, job.Options); });

@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_SEAMSURVEY_H
 #define DELAUNAYFLIP_SEAMSURVEY_H
 
-#include "FarConstraints.h"
 #include "PieceJob.h"
 #include "PieceMesh.h"
 #include "SeamJudge.h"
@@ -40,9 +39,7 @@ struct SeamSurvey
 
 /// Surveys the seams. All ranks must call this together.
 /// @param piece the caller's piece, or the piece after constraints have been inserted.
-/// @param far more constraints to be inserted.
-SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh,
-  const std::vector<FarConstraint>& far = {});
+SeamSurvey SurveySeams(const PieceJob& job, const MeshPiece& piece, const PieceMesh& mesh);
 
 }
 

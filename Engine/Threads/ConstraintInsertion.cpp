@@ -10,8 +10,7 @@
 #include "ThreadBackend.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <iterator>
 
 namespace delaunayflip
 {
@@ -33,36 +32,23 @@ void Tell(const ProgressObserver& progress, double share)
   }
 }
 
-/// Why constraints cannot be inserted.
-enum class Refusal
-{
-  Leaves,
-  Crosses,
-  Overlaps,
-  Surface
+/// By Refusal.
+constexpr const char* Reasons[] = {
+  "constraint edges that cannot be inserted because they leave the mesh",
+  "constraint edges that cannot be inserted because they leave the part of the mesh that a rank "
+  "has: insert constraints across ranks before the mesh is divided",
+  "constraint edges that cannot be inserted because they cross edges that stay",
+  "constraint edges that cannot be inserted where triangles overlap or points coincide",
+  "constraint edges that ranks cannot insert because triangles overlap or have no area: insert "
+  "constraints before the mesh is divided",
+  "constraint edges that are not edges of the mesh and cannot be inserted on a surface"
 };
-
-const char* Describe(Refusal refusal)
-{
-  switch (refusal)
-  {
-    case Refusal::Leaves:
-      return ConstraintInsertion::LeavesMesh;
-    case Refusal::Crosses:
-      return "constraint edges that cannot be inserted because they cross edges that stay";
-    case Refusal::Overlaps:
-      return "constraint edges that cannot be inserted where triangles overlap or points coincide";
-    case Refusal::Surface:
-      break;
-  }
-  return ConstraintInsertion::OnSurface;
-}
 
 Refusal ToRefusal(PathResult result)
 {
   return result == PathResult::LeavesMesh
-    ? Refusal::Leaves
-    : (result == PathResult::CrossesFixedEdge ? Refusal::Crosses : Refusal::Overlaps);
+    ? Refusal::LeavesMesh
+    : (result == PathResult::CrossesFixedEdge ? Refusal::CrossesFixedEdge : Refusal::MeetsOverlap);
 }
 }
 
@@ -90,18 +76,16 @@ public:
     const MeshInput input{ this->Mesh, this->Mesh };
     const MeshSurvey survey = BuildMeshSurvey(input, this->Options.Geometry, this->Backend);
     this->KeepOthers();
-    if (survey.Geometry == GeometryKind::Surface)
-    {
-      for (const std::int64_t constraint : this->Missing.First)
-      {
-        this->Refuse(constraint, Refusal::Surface);
-      }
-    }
-    else
+    const bool isOnSurface = survey.Geometry == GeometryKind::Surface;
+    if (!isOnSurface && !this->Mesh.Whole.SharedPoints)
     {
       this->Flip(input, survey);
+      return;
     }
-    this->NameRefused();
+    for (const std::int64_t constraint : this->Missing.First)
+    {
+      this->Refuse(constraint, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);
+    }
   }
 
 private:
@@ -197,29 +181,7 @@ private:
   void Refuse(std::int64_t constraint, Refusal refusal)
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
-    Defect& defect = this->Refused[static_cast<std::size_t>(refusal)];
-    constexpr std::int64_t Named = 3;
-    if (defect.Count++ < Named)
-    {
-      defect.FirstIds.insert(defect.FirstIds.end(), ends, ends + 2);
-    }
-    if (refusal == Refusal::Leaves)
-    {
-      this->Target.Leaving.insert(this->Target.Leaving.end(), ends, ends + 2);
-    }
-  }
-
-  void NameRefused()
-  {
-    for (std::size_t i = 0; i < this->Refused.size(); ++i)
-    {
-      if (this->Refused[i].Count > 0)
-      {
-        this->Refused[i].What = Describe(static_cast<Refusal>(i));
-        this->Refused[i].Ids = DefectIds::PointPairs;
-        this->Target.Refused.push_back(this->Refused[i]);
-      }
-    }
+    this->Target.Refused.push_back({ { ends[0], ends[1] }, refusal });
   }
 
   ConstraintInsertion& Target;
@@ -228,8 +190,29 @@ private:
   const ProgressObserver& Progress;
   const ThreadBackend Backend;
   MissingConstraints Missing;
-  std::array<Defect, 4> Refused;
 };
+
+const char* Describe(Refusal refusal) { return Reasons[static_cast<std::size_t>(refusal)]; }
+
+void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defect>& defects)
+{
+  for (std::size_t i = 0; i < std::size(Reasons); ++i)
+  {
+    Defect defect{ Reasons[i], 0, {}, DefectIds::PointPairs };
+    for (const RefusedConstraint& one : refused)
+    {
+      constexpr std::int64_t Named = 3;
+      if (one.Why == static_cast<Refusal>(i) && defect.Count++ < Named)
+      {
+        defect.FirstIds.insert(defect.FirstIds.end(), std::begin(one.Ends), std::end(one.Ends));
+      }
+    }
+    if (defect.Count > 0)
+    {
+      defects.push_back(defect);
+    }
+  }
+}
 
 ConstraintInsertion::ConstraintInsertion(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
@@ -238,14 +221,6 @@ ConstraintInsertion::ConstraintInsertion(
   {
     ConstraintInserter(*this, mesh, options, progress).Run();
   }
-}
-
-std::vector<std::int64_t> ConstraintInsertion::TakeLeaving()
-{
-  const auto leaves = [](const Defect& defect) { return defect.What == LeavesMesh; };
-  this->Refused.erase(
-    std::remove_if(this->Refused.begin(), this->Refused.end(), leaves), this->Refused.end());
-  return std::exchange(this->Leaving, {});
 }
 
 TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
@@ -280,16 +255,8 @@ void ConstraintInsertion::AddTo(FlipReport& report) const
   report.GeometryReason = this->HasFlips() ? this->GeometryReason : report.GeometryReason;
   report.InsertedConstraints = this->Inserted;
   report.ConstraintFlips = this->Flips;
-  for (const Defect& defect : this->Refused)
-  {
-    report.UnmatchedConstraints += defect.Count;
-  }
-  this->AddTo(report.Defects);
-}
-
-void ConstraintInsertion::AddTo(std::vector<Defect>& defects) const
-{
-  defects.insert(defects.end(), this->Refused.begin(), this->Refused.end());
+  report.UnmatchedConstraints += static_cast<std::int64_t>(this->Refused.size());
+  AddDefects(this->Refused, report.Defects);
 }
 
 void ConstraintInsertion::AddFlipCounts(std::int32_t* counts) const

@@ -15,20 +15,35 @@
 namespace delaunayflip
 {
 
+/// Why a constraint is not inserted.
+enum class Refusal : char
+{
+  LeavesMesh,
+  LeavesPart, ///< Of the mesh that a rank has; then it may leave the mesh, too.
+  CrossesFixedEdge,
+  MeetsOverlap,
+  NeedsGuard, ///< Flips might make edges that other ranks have (WholeMesh::SharedPoints).
+  OnSurface
+};
+
+struct RefusedConstraint
+{
+  std::int64_t Ends[2]; ///< Point ids.
+  Refusal Why;
+};
+
+/// The text of a defect.
+const char* Describe(Refusal refusal);
+
+/// Adds a defect for every reason, which names the first constraints.
+void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defect>& defects);
+
 /// The mesh that iterations start from: the caller's mesh, in planar geometry after insertion of
 /// the constraints that the caller wants inserted. It is always made on the host, so that it is the
 /// same for all backends.
 class ConstraintInsertion
 {
 public:
-  /// The defect of constraints that leave the mesh.
-  static constexpr const char* LeavesMesh =
-    "constraint edges that cannot be inserted because they leave the mesh";
-
-  /// The defect of constraints that are not edges of a surface.
-  static constexpr const char* OnSurface =
-    "constraint edges that are not edges of the mesh and cannot be inserted on a surface";
-
   /// For a mesh without constraints to be inserted.
   ConstraintInsertion() = default;
 
@@ -37,9 +52,10 @@ public:
   ConstraintInsertion(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
 
-  /// Takes the constraints that leave the mesh out of the refused ones, because the mesh may
-  /// continue on other ranks. @returns two point ids for each, in the caller's order.
-  std::vector<std::int64_t> TakeLeaving();
+  std::int64_t GetNumberInserted() const { return this->Inserted; }
+  std::int64_t GetNumberOfFlips() const { return this->Flips; }
+  /// In the caller's order.
+  const std::vector<RefusedConstraint>& GetRefused() const { return this->Refused; }
 
   /// About the share of a run that an insertion takes, because it builds an edge mesh of its own.
   static constexpr double ShareOfRun = 0.3;
@@ -59,7 +75,6 @@ public:
 
   /// Adds what the report of a run that starts from GetMesh() lacks.
   void AddTo(FlipReport& report) const;
-  void AddTo(std::vector<Defect>& defects) const;
 
   /// Adds, for each triangle slot, the number of flips of the insertion that changed it.
   void AddFlipCounts(std::int32_t* counts) const;
@@ -76,8 +91,7 @@ private:
   std::string GeometryReason;
   std::int64_t Inserted = 0;
   std::int64_t Flips = 0;
-  std::vector<Defect> Refused;
-  std::vector<std::int64_t> Leaving; ///< Two points for each.
+  std::vector<RefusedConstraint> Refused;
 };
 
 }

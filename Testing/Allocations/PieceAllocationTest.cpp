@@ -121,8 +121,8 @@ TEST(PieceAllocations, OfAPlaneFailOnce)
   FailEach(ViewAll(pieces), options);
 }
 
-/// Within each piece, from the failing rank through another one, and between two other ranks.
-TEST(PieceAllocations, OfConstraintsAcrossPiecesFailOnce)
+/// Within each piece, and from it into others.
+TEST(PieceAllocations, OfConstraintsFailOnce)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(24, 1);
   const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), Ranks);
@@ -137,9 +137,6 @@ TEST(PieceAllocations, OfConstraintsAcrossPiecesFailOnce)
     view.Mesh.NumberOfConstraintEdges = 3;
     view.Mesh.ConstraintsToInsert = toInsert.data();
   }
-  const std::vector<PieceOrigin> far = { { 0, 3 }, { 2, 4 }, { Failing, 5 }, { 2, 2 } };
-  views[Failing].FarConstraints = far.data();
-  views[Failing].NumberOfFarConstraints = 2;
   FlipOptions options;
   options.TieRule = TieRuleKind::Canonical;
   FailEach(views, options);

@@ -3,7 +3,6 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
-#include "LongConstraints.h"
 #include "Machine.h"
 #include "MeshDivision.h"
 #include "MeteredGroup.h"
@@ -37,8 +36,6 @@
 ///     threads=1       of each rank
 ///     surface=0       1: the random mesh gets hills, and is flipped by opposite angles
 ///     feature=180     the feature angle
-///     constraints=0   so many lines across the whole mesh are inserted
-///     net=0           1: as many again across these, with a vertex wherever two meet
 ///     devices=        CUDA's numbers of GPUs, separated by commas: the ranks use them in turn, and
 ///                     the undivided mesh is on all of them
 ///     runs=1          the fastest is printed
@@ -64,7 +61,7 @@ Settings ReadSettings(int argc, char** argv)
 {
   Settings settings{ { "points", "500000" }, { "mesh", "random" }, { "pieces", "2" },
     { "ranks", "1" }, { "threads", "1" }, { "surface", "0" }, { "feature", "180" },
-    { "constraints", "0" }, { "net", "0" }, { "devices", "" }, { "runs", "1" } };
+    { "devices", "" }, { "runs", "1" } };
   for (int i = 1; i < argc; ++i)
   {
     const std::string word = argv[i];
@@ -181,13 +178,12 @@ Measure FlipInProcesses(
 }
 #else
 /// Undivided, or in pieces without ranks.
-Measure FlipInOneProcess(OwnedMesh<float>& mesh, const LongConstraints& constraints,
-  const FlipOptions& options, bool isLast)
+Measure FlipInOneProcess(OwnedMesh<float>& mesh, const FlipOptions& options, bool isLast)
 {
   std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
   std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
   const MutableTriangleArray triangles(ids.data(), mesh.NumberOfTriangles());
-  const TriangleMesh given = constraints.AddTo(mesh.View());
+  const TriangleMesh given = mesh.View();
   Measure measure = TakeTime(
     [&](Measure& own)
     {
@@ -257,8 +253,7 @@ std::string DescribeCounts(const Measure& measure)
        << ", \"flip_seconds\": " << report.FlipSeconds << ", \"triangles\": " << report.Triangles
        << ", \"flips\": " << report.TotalFlips << ", \"rounds\": " << report.Rounds
        << ", \"moved\": " << report.MovedTriangles << ", \"seam_edges\": " << report.SeamEdges
-       << ", \"load\": " << measure.Load << ", \"inserted\": " << report.InsertedConstraints
-       << ", \"bytes_sent\": " << measure.Meter.BytesSent
+       << ", \"load\": " << measure.Load << ", \"bytes_sent\": " << measure.Meter.BytesSent
        << ", \"exchanges\": " << measure.Meter.Exchanges
        << ", \"gathers\": " << measure.Meter.Gathers << ", \"backend\": \"" << report.Backend
        << "\", \"hash\": \"" << std::hex << measure.Hash << "\", \"set\": \"" << measure.Set
@@ -329,18 +324,11 @@ OwnedMesh<float> MakeMesh(const Settings& settings)
   return mesh;
 }
 
-LongConstraints MakeConstraints(const Settings& settings, const OwnedMesh<float>& mesh)
-{
-  const int lines = std::atoi(settings.at("constraints").c_str());
-  return settings.at("net") == "1" ? MakeNet(mesh, lines) : MakeLines(mesh, lines);
-}
-
 #ifdef DELAUNAYFLIP_HAS_MPI
 OwnPiece MakePiece(const Settings& settings, const MpiGroup& group)
 {
   const OwnedMesh<float> mesh = MakeMesh(settings);
-  const LongConstraints constraints = MakeConstraints(settings, mesh);
-  return std::move(DivideMesh(constraints.AddTo(mesh.View()), group.GetSize())[group.GetRank()]);
+  return std::move(DivideMesh(mesh.View(), group.GetSize())[group.GetRank()]);
 }
 
 void Run(Settings settings, MpiGroup& group)
@@ -365,13 +353,12 @@ void Run(Settings settings, MpiGroup& group)
 void Run(const Settings& settings)
 {
   OwnedMesh<float> mesh = MakeMesh(settings);
-  const LongConstraints constraints = MakeConstraints(settings, mesh);
   const int count = std::atoi(settings.at("pieces").c_str());
   const std::vector<int> devices = ParseDevices(settings.at("devices"));
   FlipOptions options = MakeOptions(settings, devices);
   if (count > 0 && settings.at("ranks") != "0")
   {
-    const std::vector<OwnPiece> pieces = DivideMesh(constraints.AddTo(mesh.View()), count);
+    const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), count);
     std::vector<FlippedPiece> flipped;
     Print(settings,
       FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices, flipped); }));
@@ -380,8 +367,7 @@ void Run(const Settings& settings)
   options.Devices = devices;
   options.NumberOfPieces = count;
   Print(settings,
-    FindFastest(
-      settings, [&](bool isLast) { return FlipInOneProcess(mesh, constraints, options, isLast); }));
+    FindFastest(settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, isLast); }));
 }
 #endif
 

@@ -204,8 +204,6 @@ MeshPiece OwnedPiece::View(bool withNumbers) const
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   piece.PointNumbers = withNumbers ? this->PointOf.data() : nullptr;
-  piece.FarConstraints = this->FarConstraints.data();
-  piece.NumberOfFarConstraints = static_cast<std::int64_t>(this->FarConstraints.size()) / 2;
   return piece;
 }
 

@@ -34,7 +34,6 @@ struct OwnedPiece
   std::vector<std::int64_t> SlotOf; ///< The same for triangles.
   std::vector<std::int64_t> Constraints;
   std::vector<unsigned char> ToInsert; ///< One flag per constraint, or empty.
-  std::vector<PieceOrigin> FarConstraints;
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Frozen;
 

@@ -135,10 +135,9 @@ TEST_P(PieceEdgesTest, AResultIsOverwritten)
   const OwnedMesh<double> other = MakeRandomBadMeshDouble(1000, 39);
   const std::vector<OwnedPiece> large = Divide(one.View(), this->Cut(one.View()), GetParam());
   const std::vector<OwnedPiece> small = Divide(other.View(), this->Cut(other.View()), GetParam());
-  FlipOptions options = MakeCanonical();
-  for (const bool tracks : { false, true }) // whether all triangles are listed in the end
+  for (const FlipOptions& options : { MakeCanonical(), MakeOnSurface() })
   {
-    options.TrackQuality = tracks;
+    // On the surface all triangles are listed in the end.
     const std::vector<FlippedPiece> first = FlipInto({}, large, options);
     const std::vector<FlippedPiece> second = FlipInto(first, small, options);
     ExpectSamePieces(FlipInto({}, small, options), second);

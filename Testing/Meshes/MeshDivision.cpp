@@ -32,9 +32,7 @@ public:
 
   std::vector<OwnPiece> Divide(int pieces)
   {
-    this->IsGiven.assign(this->Mesh.NumberOfConstraintEdges, 0);
     this->Cut({ this->Order.data(), this->Order.data() + this->Order.size() }, pieces);
-    this->AddFarConstraints();
     return std::move(this->Pieces);
   }
 
@@ -110,7 +108,6 @@ private:
         piece.Frozen.push_back(this->Mesh.FrozenTriangles[t]);
       }
     }
-    this->AddConstraints(piece);
   }
 
   std::int32_t AddPoint(std::int64_t point, OwnPiece& piece)
@@ -130,56 +127,9 @@ private:
     return local;
   }
 
-  /// Those whose points the piece has.
-  void AddConstraints(OwnPiece& piece)
-  {
-    for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      const std::int32_t a = this->Local[this->Mesh.ConstraintEdges[2 * i]];
-      const std::int32_t b = this->Local[this->Mesh.ConstraintEdges[2 * i + 1]];
-      if (a >= 0 && b >= 0)
-      {
-        const unsigned char* insert = this->Mesh.ConstraintsToInsert;
-        piece.Constraints.insert(piece.Constraints.end(), { a, b });
-        piece.ToInsert.push_back(insert ? insert[i] : 0);
-        this->IsGiven[i] = 1;
-      }
-    }
-  }
-
-  void AddFarConstraints()
-  {
-    for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      if (this->IsGiven[i] == 0 && this->Mesh.ConstraintsToInsert &&
-        this->Mesh.ConstraintsToInsert[i] != 0)
-      {
-        const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
-        this->Pieces.front().FarConstraints.push_back(this->FindPoint(ends[0]));
-        this->Pieces.front().FarConstraints.push_back(this->FindPoint(ends[1]));
-      }
-    }
-  }
-
-  /// In the first piece that has it.
-  PieceOrigin FindPoint(std::int64_t point) const
-  {
-    for (std::size_t rank = 0; rank < this->Pieces.size(); ++rank)
-    {
-      const std::vector<std::int64_t>& points = this->Pieces[rank].PointOf;
-      const auto found = std::find(points.begin(), points.end(), point);
-      if (found != points.end())
-      {
-        return { static_cast<std::int32_t>(rank), found - points.begin() };
-      }
-    }
-    return { 0, -1 }; // no piece has it, so no run can take it
-  }
-
   const TriangleMesh& Mesh;
   std::vector<std::int64_t> Order;
   std::vector<std::int32_t> Local; ///< The id of every point in the current piece, or -1.
-  std::vector<unsigned char> IsGiven; ///< One flag per constraint.
   std::vector<OwnPiece> Pieces;
 };
 }
@@ -193,14 +143,9 @@ MeshPiece OwnPiece::View() const
                                       : PointArray(this->Doubles.data(), points);
   mesh.Triangles =
     TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->SlotOf.size()));
-  mesh.ConstraintEdges = this->Constraints.data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->ToInsert.size());
-  mesh.ConstraintsToInsert = this->ToInsert.data();
   mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
   mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
   piece.PointNumbers = this->PointOf.data();
-  piece.FarConstraints = this->FarConstraints.data();
-  piece.NumberOfFarConstraints = static_cast<std::int64_t>(this->FarConstraints.size()) / 2;
   return piece;
 }
 

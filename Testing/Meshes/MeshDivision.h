@@ -19,9 +19,6 @@ struct OwnPiece
   std::vector<std::int32_t> Triangles;
   std::vector<std::int64_t> PointOf; ///< The id in the mesh, by the piece's own.
   std::vector<std::int64_t> SlotOf; ///< The same for triangles.
-  std::vector<std::int64_t> Constraints;
-  std::vector<unsigned char> ToInsert;
-  std::vector<PieceOrigin> FarConstraints;
   std::vector<std::int32_t> Regions;
   std::vector<unsigned char> Frozen;
 
@@ -30,9 +27,7 @@ struct OwnPiece
 };
 
 /// Divides a mesh with valid ids into pieces of about the same number of triangles, next to each
-/// other: by cuts across the longest side of what is to be divided. Constraints go to all pieces
-/// that have both of their ends; if none has, and they are to be inserted, to the first piece, as
-/// far ones.
+/// other: by cuts across the longest side of what is to be divided. Constraints are left out.
 std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, int pieces);
 
 }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases of constraints that are inserted across ranks."""
+"""The cases of constraints that ranks insert."""
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -20,14 +20,24 @@ def cross(points, one, other):
     return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
 
 
-def draw_pairs(points, count):
-    """Pairs of points whose segments do not cross each other."""
-    random, pairs = np.random.default_rng(5), []
-    while len(pairs) < count:
-        pair = random.integers(0, len(points), 2)
-        if pair[0] != pair[1] and not any(cross(points, pair, other) for other in pairs):
+def draw_pairs(points, triangles, owners, count, are_within):
+    """Other diagonals of quads, which do not cross each other: those of two triangles of one rank,
+    or of two ranks."""
+    opposite, quads, pairs = {}, [], []
+    for triangle, owner in zip(triangles, owners):
+        for i in range(3):
+            edge = frozenset((triangle[i - 2], triangle[i - 1]))
+            if edge in opposite:
+                other, other_owner = opposite[edge]
+                if (owner == other_owner) == are_within:
+                    quads.append((np.array(sorted(edge)), np.array([triangle[i], other])))
+            opposite[edge] = triangle[i], owner
+    for place in np.random.default_rng(5).permutation(len(quads)):
+        edge, pair = quads[place]
+        if len(pairs) < count and cross(points, edge, pair) and not any(
+                cross(points, pair, known) for known in pairs):
             pairs.append(pair)
-    return np.array(pairs)
+    return np.array(pairs, int).reshape(-1, 2)
 
 
 def make_lattice(side):
@@ -104,9 +114,12 @@ def run_alone(points, triangles, pairs, options, regions):
     return flip
 
 
-def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, regions=False):
+def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, regions=False,
+                     across=()):
+    """Compares with a run of one process that has no constraints across ranks."""
     options = {"TieRule": 1, "NumberOfThreads": 1, "RegionArray": "region" if regions else ""}
-    flip = set_options(make_case(points, triangles, pairs, kind, given, ids, regions), options)
+    whole = np.r_[pairs, across] if len(across) else pairs
+    flip = set_options(make_case(points, triangles, whole, kind, given, ids, regions), options)
     said = listen(flip)
     flip.UpdatePiece(RANK, RANKS, 0)
     facts = describe_all(flip)
@@ -132,17 +145,24 @@ def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, r
     return facts, said
 
 
-def run_inserted(count, pairs, **arguments):
-    """Random constraints that do not cross each other."""
+def run_inserted(count, pairs, across, kind, **arguments):
+    """Random constraints that do not cross each other, within ranks and across them."""
     points, triangles = rank_meshes.make_random(count)
-    return compare_inserted(points, triangles, draw_pairs(points, pairs), **arguments)
+    owners = rank_meshes.divide(points, triangles, RANKS, kind)
+    within = draw_pairs(points, triangles, owners, pairs, True)
+    between = draw_pairs(points, triangles, owners, across, False)
+    facts, said = compare_inserted(
+        points, triangles, within, kind, across=between, **arguments)
+    return {**facts, "across": len(between)}, said
 
 
-def run_lattice(side, pairs, kind, given="rank 0"):
+def run_lattice(side, pairs, kind, given="rank 0", across=()):
     """Constraints of a lattice, as places in it: x, y, x, y."""
     points, triangles = make_lattice(side)
-    ends = np.array([(side * x + y, side * u + v) for x, y, u, v in pairs])
-    return compare_inserted(points, triangles, ends, kind, given)
+
+    def find(places):
+        return np.array([(side * x + y, side * u + v) for x, y, u, v in places])
+    return compare_inserted(points, triangles, find(pairs), kind, given, across=find(across))
 
 
 def run_ring(side):
@@ -151,6 +171,7 @@ def run_ring(side):
     middle = points[triangles].mean(1)
     keep = np.abs(middle[:, :2] - (side - 1) / 2).max(1) > 1
     last = len(points) - 1
-    pairs = np.array([(0, last), (side + 2, last - 1), (1, 2 * side + 2), (0, last + 1)])
+    pairs = np.array([(0, last), (side + 2, last - 1), (0, last + 1)])
     points = np.r_[points, [[-5.0, 0.5, 0.0]]]
-    return compare_inserted(points, triangles[keep], pairs, "space")
+    return compare_inserted(points, triangles[keep], np.array([(1, side + 3)]), "space",
+                            across=pairs)

@@ -113,7 +113,7 @@ def run_track_quality():
     piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
     flip, _ = flip_piece(piece, {"TrackQuality": True, "TieRule": 1})
     alone = flip_alone(points, triangles, {"TieRule": 1})
-    facts = {}
+    facts = {"iterations": flip.GetNumberOfIterations()}
     for name, one in (("angles", flip), ("angles alone", alone)):
         column = one.GetOutput().GetFieldData().GetArray("DelaunayFlip:MinimumAngle")
         values = [column.GetValue(i) for i in range(column.GetNumberOfValues())]
