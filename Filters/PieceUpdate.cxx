@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceUpdate.h"
 
+#include "ConstraintEdges.h"
 #include "DelaunayFlip.h"
 #include "MalformedArrays.h"
 #include "PieceFlip.h"
 #include "PieceInput.h"
 #include "PieceOutput.h"
-#include "PointPlaces.h"
 #include "PointViews.h"
 #include "ReportTables.h"
 #include "TriangleAngles.h"

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: draw_paraview.sh [FOLDER] - takes the README's pictures of ParaView's client into FOLDER
+# Usage: draw_paraview.sh [FOLDER] - takes the documentation's pictures of ParaView's client into FOLDER
 # (default: Documentation/images), on a virtual display. Needs the plugin (preset paraview, in
 # build-paraview/) and python3-pyqt5 or, for ParaViews with Qt 6, python3-pyqt6, to find the client's
 # widgets.

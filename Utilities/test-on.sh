@@ -5,7 +5,7 @@
 # Usage: test-on.sh 12|13|testing [OPTION_OF_test.sh]
 # Copies this checkout into a minimal Debian of that release and runs demo.sh, build-plugin.sh and
 # test.sh there, as on a new machine; then makes a Debian package, installs it in another minimal
-# Debian and runs it. Prints a line for the README's table of releases at the end. Exit status 0: all
+# Debian and runs it. Prints a line for robustness.md's table of releases at the end. Exit status 0: all
 # of it succeeded. Needs root, debootstrap and ca-certificates.
 #
 # The Debian is made once and kept, with the build folders in it, so that the next run only rebuilds.

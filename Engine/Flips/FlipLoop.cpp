@@ -19,7 +19,7 @@ constexpr std::int64_t ChunkIterations = 12;
 /// A chunk of 2^16 triangles takes 3 MB, with its edges and points. Meshes that would have only a
 /// few chunks have smaller ones, so that more threads have work: 16 threads then flip a random bad
 /// mesh of 100,000 points in 11 ms instead of 25; a GPU takes the same time as before
-/// (Documentation/performance.md).
+/// (Documentation/notebook/performance.md).
 int FindChunkBits(std::int64_t triangles)
 {
   constexpr int Most = 16, Fewest = 14;

@@ -26,7 +26,7 @@ enum class BuildStep
 
 /// The share of a run's time, 0 to 1, that has passed after a step, on one thread. The build is 0.4
 /// to 1 of a run in the plane and 0.65 to 1 on surfaces, which need a guard
-/// (Documentation/performance.md).
+/// (Documentation/notebook/performance.md).
 inline double GetShareOfRun(GeometryKind geometry, BuildStep step)
 {
   constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.43, 0.45, 0.50 };

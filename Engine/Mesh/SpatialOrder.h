@@ -147,7 +147,7 @@ struct TriangleKey
 /// Sorts the vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in
 /// planar geometry, 128^3 on surfaces) and the triangles by the rank of their first vertex. So the
 /// triangles of a star are together: iterations within chunks then do 51 instead of 43 of 100 flips
-/// of the random bad mesh of 5 M points (Documentation/performance.md).
+/// of the random bad mesh of 5 M points (Documentation/notebook/performance.md).
 template <typename Backend>
 SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
 {

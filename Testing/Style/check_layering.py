@@ -4,8 +4,8 @@
 """Usage: check_layering.py ROOT
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
-Engine/CMakeLists.txt gives both, then CUDA/, then the other files at the root of Engine/. Above the
-engine: CInterface, Filters, FiltersParallel, Rendering and Command see its public headers, Plugin
+Engine/CMakeLists.txt gives both, with CUDA/ below the last room, then the other files at the root of
+Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering and Command see its public headers, Plugin
 the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
 """
 
@@ -18,7 +18,7 @@ from source_tree import CPP_SUFFIXES, finish, list_files, read
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 PUBLIC = "the engine's public headers"
-CHOICE = "Engine"  # the files at its root, except the public headers
+ROOT = "Engine"  # the files at its root, except the public headers
 
 # Layers above the engine, and what they may include.
 ABOVE = {
@@ -44,7 +44,8 @@ class Layers:
     def __init__(self, root):
         self.public = set(read_list(root, "delaunayflip_engine_headers"))
         rooms = read_list(root, "delaunayflip_engine_rooms")
-        self.floors = [PUBLIC, *(f"Engine/{room}" for room in rooms), "CUDA", CHOICE]
+        floors = [f"Engine/{room}" for room in rooms]
+        self.floors = [PUBLIC, *floors[:-1], "CUDA", floors[-1], ROOT]
 
     def of(self, path):
         folder, name = os.path.split(path)

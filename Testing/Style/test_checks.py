@@ -19,7 +19,7 @@ LICENCE = (
 ENGINE = (
     LICENCE.replace("//", "#")
     + "set(delaunayflip_engine_headers # the public ones\n  DelaunayFlip.h\n  FlipOptions.h)\n"
-    + "set(delaunayflip_engine_rooms Geometry Mesh Flips)\n"
+    + "set(delaunayflip_engine_rooms Geometry Mesh Flips Session)\n"
 )
 
 WIDE = 30 * "wide "
@@ -33,7 +33,7 @@ CLEAN = {
     "Engine/CMakeLists.txt": ENGINE,
     "Engine/FlipOptions.h": LICENCE + "#include <vector>\n",
     "Engine/Mesh/EdgeMesh.h": LICENCE + '#include "FlipOptions.h"\n// printf("%d") prints\n',
-    "Engine/EngineChoice.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
+    "Engine/Session/WholeSession.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
     "CUDA/Team.cuh": LICENCE + '#include "EdgeMesh.h"\n',
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
     "Testing/Core/TestEdgeMesh.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
@@ -162,14 +162,14 @@ class StyleChecks(CheckedTree):
             "the engine includes cuda_gl_interop.h of OpenGL",
         )
 
-    def test_cuda_below_the_choice_of_a_backend(self):
+    def test_cuda_below_the_session(self):
         for path in ("CUDA/Bad.cuh", "CUDA/Bad.cu"):
             with self.subTest(path):
                 self.check_notices(
                     ["check_layering.py"],
                     path,
-                    '#include "EngineChoice.h"\n',
-                    "CUDA includes EngineChoice.h of Engine",
+                    '#include "WholeSession.h"\n',
+                    "CUDA includes WholeSession.h of Engine/Session",
                 )
                 self.remove(path)
 

@@ -4,19 +4,22 @@
 #define DELAUNAYFLIP_WHOLESESSION_H
 
 #include "ConstraintInsertion.h"
-#include "EngineChoice.h"
-#include "FlipLoop.h"
+#include "FlipEngine.h"
 #include "RunProgress.h"
 #include "SessionWork.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 
 namespace delaunayflip
 {
 
-/// Makes a loop from the whole mesh, and a report from its iterations.
+/// Flips the whole mesh on one backend, and reports its iterations. BackendKind::Auto uses a GPU if
+/// there is one and the mesh is large enough. If the GPU fails, at any time, the CPU repeats what
+/// was done, with the same bits, and continues.
 class WholeSession : public SessionWork
 {
 public:
@@ -40,7 +43,13 @@ protected:
   bool TryToStoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) override;
 
 private:
-  static FlipOptions Check(const CallerMesh& mesh, const FlipOptions& options);
+  /// What an engine is made from.
+  struct EngineInput
+  {
+    CallerMesh Mesh; ///< With the constraints inserted.
+    FlipOptions Options;
+    BuildProgress Progress;
+  };
 
   /// Calls work(), and forgets all when an observer stops it before there is a mesh to show for it:
   /// while one is built, or while the CPU repeats what a GPU has lost.
@@ -61,15 +70,30 @@ private:
     }
   }
 
-  // The beginning: SessionBuild.cpp.
+  /// Calls work(engine), and calls it again on the CPU if the GPU fails.
+  /// @throws BackendUnavailable with BackendKind::CUDA.
+  template <typename Work>
+  auto OnEngine(const Work& work)
+  {
+    try
+    {
+      const std::unique_ptr<DeviceScope> current = this->Engine->MakeCurrent();
+      return work(*this->Engine);
+    }
+    catch (const BackendUnavailable& error)
+    {
+      this->FallBack(error);
+    }
+    return work(*this->Engine);
+  }
+
   void Build();
-  void BuildEngine(const ProgressObserver& tell);
+  void BuildEngine();
   CallerMesh InsertConstraints(const ProgressObserver& tell);
-  void DetectFirst();
+  void MakeEngine();
+  void FallBack(const BackendUnavailable& error);
   void Reset();
 
-  // Iterations: SessionRun.cpp.
-  void Run(std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress);
   bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
   std::int64_t GetIterationLimit() const;
   void Resume();
@@ -77,17 +101,18 @@ private:
   void Detected(const StepCounts& found);
   void Keep(const IterationCounts& counts, double seconds);
   void Tell(const FlipObserver& observer, std::size_t first);
-  void Tell(const ProgressObserver& progress);
   void MeasureEnd();
-  void UpdateDefects();
   double MeasureAngle();
 
   FlipOptions Options;
   ConstraintInsertion Insertion; ///< The engine starts from its arrays.
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
-  std::optional<ChosenEngine> Engine; ///< None if its build was aborted.
+  std::optional<EngineInput> Input; ///< None if the build was aborted.
+  std::unique_ptr<FlipEngine> Engine; ///< None if the build was aborted.
+  std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
   RunProgress Progress;
-  StepCounts Found; ///< The counts of the last Detect.
+  StepCounts Found; ///< The counts of the last detection.
+  bool HasDetected = false; ///< Whether the engine has made the first detection.
   FlipReport Report;
   bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
 };
