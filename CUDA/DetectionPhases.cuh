@@ -146,9 +146,12 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
       }
     });
   counts.AddTo<Rule>(team);
-  if (worklist.IsAny(counts.Uncertain))
+  if constexpr (Rule::MayBeUncertain)
   {
-    ResolveUncertain(loop, worklist, team);
+    if (worklist.IsAny(counts.Uncertain))
+    {
+      ResolveUncertain(loop, worklist, team);
+    }
   }
 }
 

@@ -67,9 +67,12 @@ __device__ void DetectAndList(
     });
   counts.AddTo<Rule>(team);
   team.Warn(counts.Uncertain || list.HasOverflown());
-  if (worklist.IsAny(counts.Uncertain))
+  if constexpr (Rule::MayBeUncertain)
   {
-    ResolveUncertain(loop, worklist, team);
+    if (worklist.IsAny(counts.Uncertain))
+    {
+      ResolveUncertain(loop, worklist, team);
+    }
   }
 }
 

@@ -4,8 +4,8 @@
 #define DELAUNAYFLIP_HOSTDEVICE_H
 
 /// @file
-/// Macros that let both backends compile the same functions. Such functions use only + - * / and
-/// sqrt, and the compiler must not fuse these.
+/// Macros that let both backends compile the same functions. Such functions use only + - * /, sqrt
+/// and the exact scalbn and ilogb, and the compiler must not fuse these.
 
 #if defined(__CUDACC__)
 #define DELAUNAYFLIP_HOST_DEVICE __host__ __device__

@@ -124,6 +124,7 @@ struct PlanarRule
 {
   static constexpr bool Tilted = Components == 3;
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
+  static constexpr bool MayBeUncertain = true; ///< Whether Judge may leave it to JudgeExactly.
   static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
   const Real* Coordinates; ///< Components numbers per vertex.
@@ -188,15 +189,6 @@ private:
   }
 };
 
-/// For small functions that are called seldom. On the CPU they would take registers from the loop
-/// around them, so they are not inlined. A device has enough registers, and would have to pass the
-/// arguments of a call in memory.
-#if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
-#define DELAUNAYFLIP_NO_INLINE_ON_HOST __attribute__((noinline))
-#else
-#define DELAUNAYFLIP_NO_INLINE_ON_HOST
-#endif
-
 /// Three coordinates of every vertex, and the tolerance of the opposite-angle test on them.
 template <typename Real>
 struct AnglePoints
@@ -239,20 +231,20 @@ struct AnglePoints
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsWide(const Quad& quad) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool IsWide(const Quad& quad) const
   {
     return delaunayflip::IsWide(this->Range, this->Get(quad));
   }
 
   /// These load the points again. As separate functions they take no registers from the test of the
   /// many edges that do not need them.
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool IsNoise(
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool IsNoise(
     const Quad& quad, double excess) const
   {
     return delaunayflip::IsNoise(this->Get(quad), this->Tolerance.Precision, excess);
   }
 
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool ExceedsPiWide(const Quad& quad) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool ExceedsPiWide(const Quad& quad) const
   {
     return delaunayflip::ExceedsPiWide(this->Get(quad), this->Tolerance);
   }
@@ -263,6 +255,7 @@ private:
 struct PlanarAngleRule : AnglePoints<double>
 {
   static constexpr bool MayBlock = true;
+  static constexpr bool MayBeUncertain = true;
   static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
@@ -292,6 +285,7 @@ struct SurfaceRule : AnglePoints<Real>
 {
   using AnglePoints<Real>::Get;
   static constexpr bool MayBlock = true;
+  static constexpr bool MayBeUncertain = false;
   static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
@@ -312,7 +306,7 @@ struct SurfaceRule : AnglePoints<Real>
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE_ON_HOST bool FoldsOverWide(const Quad& quad) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool FoldsOverWide(const Quad& quad) const
   {
     return delaunayflip::FoldsOverWide(this->Get(quad));
   }

@@ -56,31 +56,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsWide(CoordinateRange range, const QuadPoi
         HasTinyComponent(quad.B - quad.A)));
 }
 
-/// `number` times 2^exponent, infinite or 0 where that is too large or too small.
-DELAUNAYFLIP_HOST_DEVICE inline double TimesPowerOfTwo(double number, int exponent)
-{
-  constexpr double Up = 0x1p256, Down = 0x1p-256;
-  constexpr int Most = 2200; // from the smallest number to the largest one
-  exponent = exponent < -Most ? -Most : (exponent > Most ? Most : exponent);
-  for (; exponent >= 256; exponent -= 256)
-  {
-    number *= Up;
-  }
-  for (; exponent <= -256; exponent += 256)
-  {
-    number *= Down;
-  }
-  for (; exponent > 0; --exponent)
-  {
-    number *= 2.0;
-  }
-  for (; exponent < 0; ++exponent)
-  {
-    number *= 0.5;
-  }
-  return number;
-}
-
 DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator*(double factor, const Vector3& a)
 {
   return { factor * a.X, factor * a.Y, factor * a.Z };
@@ -108,27 +83,6 @@ struct WideVector
   DELAUNAYFLIP_HOST_DEVICE double GetLength() const { return Length(this->Vector); }
 };
 
-/// The exponent of the power of two that is at most `number`, which is positive and finite.
-DELAUNAYFLIP_HOST_DEVICE inline int FloorOfLog2(double number)
-{
-  int exponent = 0;
-  for (int step = 512; step > 0; step /= 2)
-  {
-    const double power = TimesPowerOfTwo(1.0, step);
-    // Twice, because the smallest number is 2^-1074.
-    for (int i = 0; i < 2 && number * power < 2.0; ++i, exponent -= step)
-    {
-      number *= power;
-    }
-    if (number >= power)
-    {
-      number /= power;
-      exponent += step;
-    }
-  }
-  return exponent;
-}
-
 /// A finite vector times 2^exponent. A component may be too small for its new size. It is rounded
 /// only once, so that the result is the same for a vector of twice the length.
 DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(const Vector3& vector, int exponent = 0)
@@ -138,10 +92,10 @@ DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(const Vector3& vector, int e
   {
     return { vector, 0 };
   }
-  const int own = FloorOfLog2(largest);
-  const double half = TimesPowerOfTwo(1.0, own < 0 ? -own / 2 : -own);
-  const double rest = own < 0 ? TimesPowerOfTwo(1.0, -own - -own / 2) : 1.0;
-  return { rest * (half * vector), exponent + own };
+  const int own = std::ilogb(largest);
+  return { { std::scalbn(vector.X, -own), std::scalbn(vector.Y, -own),
+             std::scalbn(vector.Z, -own) },
+    exponent + own };
 }
 
 /// b - a. The difference of two finite numbers may be infinite, that of their halves may not.
@@ -162,7 +116,7 @@ DELAUNAYFLIP_HOST_DEVICE inline WideVector Add(const WideVector& a, const WideVe
   const bool isLonger = a.Exponent > b.Exponent || !(LargestComponent(b.Vector) > 0.0);
   const WideVector longer = isLonger && LargestComponent(a.Vector) > 0.0 ? a : b;
   const WideVector other = isLonger && LargestComponent(a.Vector) > 0.0 ? b : a;
-  const double factor = TimesPowerOfTwo(1.0, other.Exponent - longer.Exponent);
+  const double factor = std::scalbn(1.0, other.Exponent - longer.Exponent);
   return MakeWide(longer.Vector + factor * other.Vector, longer.Exponent);
 }
 
@@ -193,14 +147,14 @@ DELAUNAYFLIP_HOST_DEVICE inline AngleSum SumWide(const WideLegs& legs)
   const WideVector atA = Cross(legs.AP, legs.AQ), atB = Cross(legs.BP, legs.BQ);
   const int exponentA = atA.Exponent - legs.AP.Exponent - legs.AQ.Exponent;
   const int exponentB = atB.Exponent - legs.BP.Exponent - legs.BQ.Exponent;
-  return AngleSum(Dot(legs.AP.Vector, legs.AQ.Vector), TimesPowerOfTwo(atA.GetLength(), exponentA),
-    Dot(legs.BP.Vector, legs.BQ.Vector), TimesPowerOfTwo(atB.GetLength(), exponentB));
+  return AngleSum(Dot(legs.AP.Vector, legs.AQ.Vector), std::scalbn(atA.GetLength(), exponentA),
+    Dot(legs.BP.Vector, legs.BQ.Vector), std::scalbn(atB.GetLength(), exponentB));
 }
 
 /// The length of a divided by that of b.
 DELAUNAYFLIP_HOST_DEVICE inline double DivideLengths(const WideVector& a, const WideVector& b)
 {
-  return TimesPowerOfTwo(a.GetLength() / b.GetLength(), a.Exponent - b.Exponent);
+  return std::scalbn(a.GetLength() / b.GetLength(), a.Exponent - b.Exponent);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline WideVector FindLonger(const WideVector& a, const WideVector& b)
@@ -270,8 +224,8 @@ DELAUNAYFLIP_HOST_DEVICE inline void BringNearOne(Vector3& a, Vector3& b, Vector
   const WideVector ab = Subtract(b, a), ac = Subtract(c, a);
   const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
   a = {};
-  b = TimesPowerOfTwo(1.0, ab.Exponent - exponent) * ab.Vector;
-  c = TimesPowerOfTwo(1.0, ac.Exponent - exponent) * ac.Vector;
+  b = std::scalbn(1.0, ab.Exponent - exponent) * ab.Vector;
+  c = std::scalbn(1.0, ac.Exponent - exponent) * ac.Vector;
 }
 
 /// LargestSquaredCotangent of SurfaceAngles.h.
@@ -285,7 +239,7 @@ DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangentWide(
   const WideVector ab = Subtract(b, a), ac = Subtract(c, a), bc = Subtract(c, b);
   const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
   const auto scaled = [exponent](const WideVector& edge)
-  { return TimesPowerOfTwo(1.0, edge.Exponent - exponent) * edge.Vector; };
+  { return std::scalbn(1.0, edge.Exponent - exponent) * edge.Vector; };
   const Vector3 x = scaled(ab), y = scaled(ac), z = scaled(bc);
   const Vector3 normal = Cross(x, y);
   return LargestSquaredCotangent(Dot(x, y), -Dot(x, z), Dot(y, z), Dot(normal, normal));
