@@ -226,6 +226,13 @@ class OtherData(BadFileTest):
             self.assertIn("note: points.vtk: contains no triangles", result.stderr)
             self.assertEqual(read_mesh(self.path("out" + extension)).GetNumberOfPoints(), 2)
 
+    def test_nothing_at_all(self):
+        write_mesh(make_mesh([], []), self.path("none.vtk"))
+        for extension in (".vtk", ".vtp", ".ply", ".stl", ".obj"):
+            self.succeed("none.vtk", "out" + extension)
+            self.succeed("out" + extension, "again.vtk")
+            self.assertEqual(read_mesh(self.path("again.vtk")).GetNumberOfPoints(), 0)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
