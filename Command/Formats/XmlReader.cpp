@@ -121,6 +121,11 @@ private:
         : name == "Points" || name == "PointData"
         ? this->GetCount(piece, "NumberOfPoints", 0)
         : this->GetCount(piece, ("NumberOf" + name).c_str(), 0);
+      if (this->Announced.count("NumberOf" + name) && part->GetNumberOfNestedElements() > 0 &&
+        !piece->GetAttribute(("NumberOf" + name).c_str()))
+      {
+        this->File.Fail("Piece has no NumberOf" + name + ", but an element " + name);
+      }
       for (vtkXMLDataElement* array : Children(part))
       {
         this->CheckArray(array, AttributeOf(array, "Name") == "connectivity" ? 0 : tuples);

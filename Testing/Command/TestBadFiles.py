@@ -165,6 +165,8 @@ class LostByVtk(BadFileTest):
             end = good.index("</DataArray>", begin) + len("</DataArray>")
             yield "NumberOfPolys", good[:begin] + good[end:]
             yield "NumberOfPolys", good.replace(good[begin:end], good[begin:end].replace(array, "x"))
+        for kind, count in (("Points", 16), ("Polys", 18)):
+            yield f"NumberOf{kind}", good.replace(f' NumberOf{kind}="{count}"', "")
         for kind in ("Lines", "Verts", "Strips"):
             yield f"NumberOf{kind}", good.replace(f'NumberOf{kind}="0"', f'NumberOf{kind}="2"')
         for mode in ("Binary", "Appended"):
