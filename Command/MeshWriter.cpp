@@ -73,6 +73,7 @@ void WriteXml(
   writer->AddObserver(vtkCommand::ProgressEvent, progress);
   writer->SetDataModeToBinary(); // inline: Debian's ParaView 5.11 fails on appended data
   writer->SetHeaderTypeToUInt64();
+  writer->SetCompressorTypeToLZ4(); // a fifth of zlib's time, for files half as large again
   SetXmlInput(writer, mesh);
   Run(writer.Get(), path, messages);
 }
