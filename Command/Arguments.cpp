@@ -64,6 +64,14 @@ CLI::Validator WholeNumber(std::int64_t low, std::int64_t high, const std::strin
   return CLI::Validator(check, "");
 }
 
+/// An empty name would count as an option that is not given.
+CLI::Validator FileName()
+{
+  const auto check = [](std::string& text)
+  { return text.empty() ? std::string("the name of the file is empty") : std::string(); };
+  return CLI::Validator(check, "");
+}
+
 void AddMethodOptions(CLI::App& app, FlipOptions& flip)
 {
   AddChoice<GeometryKind>(app, "--geometry", flip.Geometry,
@@ -95,10 +103,12 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
 
 void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 {
-  app.add_option("--constraints", arguments.Constraints,
-    "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if it "
-    "has the same points; otherwise points are matched by their coordinates. In the plane, edges "
-    "that the input does not have are inserted by flips");
+  app
+    .add_option("--constraints", arguments.Constraints,
+      "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
+      "it has the same points; otherwise points are matched by their coordinates. In the plane, "
+      "edges that the input does not have are inserted by flips")
+    ->check(FileName());
   app.add_flag("!--no-insert-constraints", arguments.InsertConstraints,
     "Do not insert edges of --constraints");
   app.add_flag(
@@ -161,8 +171,10 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
   app.add_flag("--quality", arguments.Quality,
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk, .vtp and .ply)");
-  app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
-  app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)");
+  app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)")
+    ->check(FileName());
+  app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)")
+    ->check(FileName());
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
 }
@@ -178,6 +190,11 @@ void CheckDistinct(const std::string& first, const std::string& second)
 /// Checks that involve more than one option.
 void CheckTogether(Arguments& arguments)
 {
+  if (arguments.IgnoreLines && arguments.InsertLines)
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      "--insert-lines and --ignore-lines contradict each other; give one of them");
+  }
   arguments.InputFormat = FormatOf(arguments.Input);
   arguments.OutputFormat = FormatOf(arguments.Output);
   if (!arguments.Constraints.empty())
@@ -215,8 +232,11 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
   app.add_option("INPUT", arguments.Input, "The mesh to read: .vtk, .vtp, .ply, .stl or .obj")
-    ->required();
-  app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
+    ->required()
+    ->check(FileName());
+  app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")
+    ->required()
+    ->check(FileName());
   AddMethodOptions(app, arguments.Flip);
   AddConstraintOptions(app, arguments);
   AddRunOptions(app, arguments);

@@ -11,8 +11,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <iostream>
 #include <regex>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -85,9 +88,21 @@ CollectingWindow* Window()
 /// On a terminal, first erases a progress bar.
 void PrintLine(const std::string& line)
 {
-  std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << line << std::endl;
+  std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << WithoutControls(line) << std::endl;
 }
 
+}
+
+std::string WithoutControls(const std::string& text)
+{
+  std::string safe;
+  for (const char letter : text)
+  {
+    char code[8];
+    std::snprintf(code, sizeof(code), "\\x%02x", static_cast<unsigned char>(letter));
+    safe += std::iscntrl(static_cast<unsigned char>(letter)) ? code : std::string(1, letter);
+  }
+  return safe;
 }
 
 void PrintError(const std::string& message) { PrintLine("error: " + message); }
@@ -103,13 +118,9 @@ VTKMessages::VTKMessages()
   vtkOutputWindow::SetInstance(window);
 }
 
-void VTKMessages::PrintWarnings()
+std::vector<std::string> VTKMessages::TakeWarnings()
 {
-  for (const std::string& warning : Window()->Warnings)
-  {
-    PrintWarning(warning);
-  }
-  Window()->Warnings.clear();
+  return std::exchange(Window()->Warnings, {});
 }
 
 std::string VTKMessages::TakeErrors()

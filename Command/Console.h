@@ -12,6 +12,10 @@
 namespace delaunayflip
 {
 
+/// The text with control characters, which names of files and arrays may have, as \x1b and the
+/// like: a terminal would act on them. The functions below do this.
+std::string WithoutControls(const std::string& text);
+
 void PrintError(const std::string& message);
 void PrintWarning(const std::string& message);
 void PrintNote(const std::string& message);
@@ -22,14 +26,14 @@ class VTKMessages
 public:
   VTKMessages();
 
-  /// Prints the warnings since the last call, one line each.
-  void PrintWarnings();
+  /// The warnings since the last call.
+  std::vector<std::string> TakeWarnings();
 
   /// The errors since the last call, joined, or an empty string.
   std::string TakeErrors();
 
   /// The errors and warnings since the last call, joined, or an empty string. Leaves out warnings
-  /// that the file has a newer version than VTK knows; PrintWarnings prints these.
+  /// that the file has a newer version than VTK knows; TakeWarnings returns these.
   std::string TakeProblems();
 };
 

@@ -23,7 +23,9 @@ std::string ExplainFailedWrite(const std::string& path)
     return "; the disk is full";
   }
   rlimit limit = {};
-  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+  const std::uintmax_t size = std::filesystem::file_size(path, error); // VTK may have removed it
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+    (error || size >= limit.rlim_cur))
   {
     return "; the size of files is limited to " +
       Counted(static_cast<std::int64_t>(limit.rlim_cur), "byte") + " here";

@@ -5,7 +5,6 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
-#include "DiskSpace.h"
 #include "FormatLosses.h"
 #include "JobPlan.h"
 #include "MeshReader.h"
@@ -20,10 +19,12 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <limits>
+#include <regex>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -96,6 +97,15 @@ ExitCode ToExitCode(int failure)
   }
 }
 
+/// The filter's message with options of the command for properties of the filter.
+std::string WithOptions(const std::string& message)
+{
+  static const std::regex region("\\bRegionArray\\b");
+  static const std::regex tolerance("\\bTolerance\\b");
+  return std::regex_replace(
+    std::regex_replace(message, region, "--region-array"), tolerance, "--tolerance");
+}
+
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
 {
   auto* filter = vtkDelaunayFlip::SafeDownCast(caller);
@@ -121,12 +131,11 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    this->InputFile = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
-    this->Input = this->InputFile.Mesh;
+    this->Input = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
     if (!this->Settings.Constraints.empty())
     {
       this->Constraints =
-        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat).Mesh;
+        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat);
     }
     this->Run.ReadSeconds = SecondsSince(start);
     if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
@@ -150,23 +159,25 @@ public:
     }
     this->Filter->Update();
     this->Bar.Clear();
-    this->Messages.PrintWarnings();
+    for (const std::string& warning : this->Messages.TakeWarnings())
+    {
+      this->Warn(WithOptions(warning));
+    }
     this->ThrowErrors();
     this->TakeReport();
+    this->WarnOfTolerance();
   }
 
   void Write()
   {
     const auto start = Clock::now();
     this->Bar.Begin(1.0, "writing " + this->Settings.Output);
-    FileMesh file;
-    file.CopiesOf = this->InputFile.CopiesOf;
-    vtkPolyData* const mesh = file.Mesh;
+    vtkNew<vtkPolyData> mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
     // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
-    this->WriteOutput(file);
+    this->WriteOutput(mesh);
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
     const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
@@ -180,13 +191,15 @@ public:
   {
     if (this->Files.Statistics)
     {
-      WriteText(*this->Files.Statistics,
-        [this](std::ostream& stream) { WriteCsv(this->Run.Flip, stream); });
+      std::ostringstream text;
+      WriteCsv(this->Run.Flip, text);
+      this->Files.Statistics->Write(text.str());
     }
     if (this->Files.Report)
     {
-      WriteText(
-        *this->Files.Report, [this](std::ostream& stream) { WriteJson(this->Run, stream); });
+      std::ostringstream text;
+      WriteJson(this->Run, text);
+      this->Files.Report->Write(text.str());
     }
     if (!this->Settings.Quiet)
     {
@@ -201,20 +214,41 @@ public:
   }
 
 private:
-  FileMesh ReadFile(const std::string& path, MeshFormat format)
+  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
   {
     this->Bar.Begin(this->Plan.Read, "reading " + path);
-    const FileMesh file = ReadMesh(path, format, RepeatedPoints::Merge, this->Messages);
+    const FileMesh file = ReadMesh(path, format, this->Messages);
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
     {
-      PrintWarning(warning);
+      this->Warn(warning);
     }
     for (const std::string& note : file.Notes)
     {
       this->Note(note);
     }
-    return file;
+    return file.Mesh;
+  }
+
+  void Warn(const std::string& warning)
+  {
+    PrintWarning(warning);
+    this->Run.Warnings.push_back(warning);
+  }
+
+  /// Unless the filter has said it.
+  void WarnOfTolerance()
+  {
+    const std::vector<std::string>& said = this->Run.Warnings;
+    const bool isSaid = std::any_of(said.begin(), said.end(),
+      [](const std::string& warning) { return warning.find("tolerance") != std::string::npos; });
+    const FlipReport& report = this->Run.Flip;
+    if (this->Settings.Flip.Tolerance >= 0.0 && report.Triangles > 0 && !isSaid &&
+      report.Tolerance == "none")
+    {
+      this->Warn("--tolerance has no effect, since the in-circle test is exact; it is for surfaces "
+                 "and for --criterion opposite-angles");
+    }
   }
 
   void Note(const std::string& note) const
@@ -233,7 +267,7 @@ private:
       const int failure = this->Filter->GetFailure();
       const bool isNamed = failure != vtkDelaunayFlip::FAILURE_OTHER;
       throw CommandError(ToExitCode(failure),
-        this->Settings.Input + (isNamed ? ": " : ": cannot be flipped: ") + errors);
+        this->Settings.Input + (isNamed ? ": " : ": cannot be flipped: ") + WithOptions(errors));
     }
   }
 
@@ -250,11 +284,11 @@ private:
     }
   }
 
-  void WriteOutput(const FileMesh& file)
+  void WriteOutput(vtkPolyData* mesh)
   {
     try
     {
-      WriteMesh(file, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
+      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
         [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
     }
     catch (const CommandError& error)
@@ -264,25 +298,11 @@ private:
     }
   }
 
-  template <typename Function>
-  static void WriteText(const PendingFile& file, const Function& write)
-  {
-    std::ofstream stream(file.GetTemporary(), std::ios::binary);
-    write(stream);
-    stream.close();
-    if (!stream)
-    {
-      throw CommandError(ExitCode::BadFile,
-        file.GetTarget() + ": cannot be written" + ExplainFailedWrite(file.GetTemporary()));
-    }
-  }
-
   const Arguments& Settings;
   OutputFiles& Files;
   VTKMessages Messages;
   ProgressBar Bar;
   JobPlan Plan;
-  FileMesh InputFile;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkNew<vtkDelaunayFlip> Filter;

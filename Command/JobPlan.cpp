@@ -9,7 +9,7 @@ namespace
 {
 
 // Times per triangle, relative to building the edges of a badly triangulated terrain and flipping
-// them. Writing includes reading the file back. Compressing .vtp files takes longest.
+// them. Writing includes reading the file back.
 constexpr double Flips = 4.0;
 
 double GetReadCost(MeshFormat format)
@@ -38,7 +38,7 @@ double GetWriteCost(MeshFormat format)
     case MeshFormat::STL:
       return 1.6;
     case MeshFormat::VTP:
-      return 20.0;
+      return 8.0;
     case MeshFormat::OBJ:
       break;
   }

@@ -19,8 +19,7 @@ namespace delaunayflip
 namespace
 {
 
-FileMesh ReadFormat(
-  const InputFile& file, MeshFormat format, RepeatedPoints repeated, VTKMessages& messages)
+FileMesh ReadFormat(const InputFile& file, MeshFormat format, VTKMessages& messages)
 {
   switch (format)
   {
@@ -31,22 +30,21 @@ FileMesh ReadFormat(
     case MeshFormat::PLY:
       return ReadPly(file);
     case MeshFormat::STL:
-      return ReadStl(file, repeated);
+      return ReadStl(file);
     default:
-      return ReadObj(file, repeated);
+      return ReadObj(file);
   }
 }
 
 }
 
-FileMesh ReadMesh(
-  const std::string& path, MeshFormat format, RepeatedPoints repeated, VTKMessages& messages)
+FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages)
 {
   const InputFile file(path);
   const ReadingLimits limits(file.GetBytes().size());
   try
   {
-    return ReadFormat(file, format, repeated, messages);
+    return ReadFormat(file, format, messages);
   }
   catch (const std::bad_alloc&)
   {

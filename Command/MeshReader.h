@@ -15,11 +15,8 @@ class VTKMessages;
 
 /// Reads a surface mesh. Call this in a child process: a corrupt file may crash VTK's reader, or
 /// ReadingLimits may end the process.
-/// @param repeated what to do with repeated points: .stl repeats points for every triangle, .obj
-/// often for texture coordinates and normals
 /// @throws CommandError (BadFile) that names the file and the reason.
-FileMesh ReadMesh(
-  const std::string& path, MeshFormat format, RepeatedPoints repeated, VTKMessages& messages);
+FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages);
 
 }
 

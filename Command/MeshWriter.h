@@ -8,10 +8,11 @@
 #include <functional>
 #include <string>
 
+class vtkPolyData;
+
 namespace delaunayflip
 {
 
-struct FileMesh;
 class VTKMessages;
 
 /// Called with the share that has been written, 0 .. 1, if writing the format takes long.
@@ -21,8 +22,8 @@ using WriteObserver = std::function<void(double)>;
 /// that it is complete, because the writers of some formats do not notice a full disk. Call this in
 /// a child process: VTK's readers may crash on an incomplete file.
 /// @throws CommandError (BadFile) with the reason.
-void WriteMesh(const FileMesh& file, const std::string& path, MeshFormat format,
-  VTKMessages& messages, const WriteObserver& tell);
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
+  const WriteObserver& tell);
 
 }
 

@@ -23,11 +23,11 @@ struct OutputFiles
   {
     if (!arguments.Statistics.empty())
     {
-      this->Statistics.emplace(arguments.Statistics);
+      this->Statistics.emplace(arguments.Statistics, true);
     }
     if (!arguments.Report.empty())
     {
-      this->Report.emplace(arguments.Report);
+      this->Report.emplace(arguments.Report, true);
     }
   }
 

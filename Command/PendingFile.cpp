@@ -3,6 +3,7 @@
 #include "PendingFile.h"
 
 #include "CommandError.h"
+#include "DiskSpace.h"
 #include "FollowLinks.h"
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -81,10 +83,36 @@ void CopyOwner(const std::string& from, const std::string& to)
   chmod(to.c_str(), status.st_mode & (isOwned ? 07777 : 0777));
 }
 
+/// The number of the open file of this process that a path such as /dev/stdout or /dev/fd/3 leads
+/// to; -1 if it leads elsewhere.
+int FindOpenFile(const std::string& target)
+{
+  std::error_code error;
+  fs::path file = fs::absolute(target, error);
+  constexpr int most = 40; // the limit of Linux for links
+  for (int links = 0; links < most; ++links)
+  {
+    const std::string folder = fs::weakly_canonical(file.parent_path(), error).string();
+    const std::string name = file.filename().string();
+    const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+    if (isNumber && (folder == "/dev/fd" || folder == "/proc/" + std::to_string(getpid()) + "/fd"))
+    {
+      return std::atoi(name.c_str());
+    }
+    if (!fs::is_symlink(fs::symlink_status(file, error)))
+    {
+      break;
+    }
+    file = file.parent_path() / fs::read_symlink(file, error);
+  }
+  return -1;
 }
 
-PendingFile::PendingFile(const std::string& target)
-  : Target(target)
+}
+
+PendingFile::PendingFile(const std::string& target, bool mayBeStream)
+  : Target(target),
+    OpenFile(FindOpenFile(target))
 {
   const fs::path resolved = FollowLinks(target);
   std::error_code error;
@@ -93,13 +121,18 @@ PendingFile::PendingFile(const std::string& target)
   {
     Fail(target, error.message());
   }
-  if (fs::exists(status) && !fs::is_regular_file(status))
+  const bool isStream = this->OpenFile >= 0 || (fs::exists(status) && !fs::is_regular_file(status));
+  if (isStream && (!mayBeStream || fs::is_directory(status)))
   {
     Fail(target, "it exists and is not a regular file");
   }
   if (fs::exists(status) && access(resolved.c_str(), W_OK) != 0)
   {
     Fail(target, std::strerror(errno));
+  }
+  if (isStream)
+  {
+    return;
   }
   this->Resolved = resolved.string();
   this->Temporary = MakeUnused(resolved, MakeEmpty);
@@ -120,8 +153,32 @@ PendingFile::~PendingFile()
   }
 }
 
+void PendingFile::Write(const std::string& text) const
+{
+  const std::string& path = this->Temporary.empty() ? this->Target : this->Temporary;
+  const int file = this->OpenFile >= 0 ? dup(this->OpenFile) : open(path.c_str(), O_WRONLY);
+  std::size_t done = 0;
+  ssize_t size = file < 0 ? -1 : 1;
+  while (size > 0 && done < text.size())
+  {
+    size = write(file, text.data() + done, text.size() - done);
+    done += size > 0 ? static_cast<std::size_t>(size) : 0;
+  }
+  const int problem = errno;
+  if (file < 0 || close(file) != 0 || done < text.size())
+  {
+    Fail(this->Target,
+      std::strerror(problem) +
+        (this->Temporary.empty() ? std::string() : ExplainFailedWrite(path)));
+  }
+}
+
 void PendingFile::Commit()
 {
+  if (this->Temporary.empty())
+  {
+    return;
+  }
   CopyOwner(this->Resolved, this->Temporary);
   // Some file systems allow no second name for the old file; then Undo cannot bring it back.
   this->Backup = MakeUnused(
@@ -136,6 +193,10 @@ void PendingFile::Commit()
 
 void PendingFile::Undo()
 {
+  if (this->Resolved.empty())
+  {
+    return;
+  }
   if (this->HadNone)
   {
     unlink(this->Resolved.c_str());

@@ -47,6 +47,7 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["stop_reason"] = ToString(flip.StopReason);
   json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
     { "flip", flip.FlipSeconds }, { "write", run.WriteSeconds } };
+  json["warnings"] = run.Warnings;
   stream << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 

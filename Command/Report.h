@@ -6,6 +6,8 @@
 #include "FlipReport.h"
 
 #include <ostream>
+#include <string>
+#include <vector>
 
 /// @file
 /// The reports on a run: JSON, CSV and a summary.
@@ -19,6 +21,7 @@ struct RunReport
   FlipReport Flip;
   double ReadSeconds = 0.0;
   double WriteSeconds = 0.0;
+  std::vector<std::string> Warnings;
 };
 
 /// One JSON object; numbers that are not finite become null.

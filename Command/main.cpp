@@ -130,7 +130,7 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
     files.Commit();
     if (!arguments.Quiet)
     {
-      std::cout << "wrote           " << arguments.Output << std::endl;
+      std::cout << "wrote           " << WithoutControls(arguments.Output) << std::endl;
     }
   }
   return outcome.ExitCode;

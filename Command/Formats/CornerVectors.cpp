@@ -8,7 +8,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
@@ -60,104 +59,35 @@ void ForEachCorner(vtkCellArray* cells, const Function& visit)
   }
 }
 
-/// Finds a point for every corner: one at the same place with the same texture coordinates.
-class SeamSplitter
+/// Vectors of groups of corners: of the corners at a point, or of those of a polygon.
+struct GroupVectors
 {
-public:
-  SeamSplitter(vtkPolyData* mesh, const CornerVectors& texture)
-    : Mesh(mesh),
-      Texture(texture),
-      OfPoint(mesh->GetNumberOfPoints(), None),
-      Copies(mesh->GetNumberOfPoints(), None),
-      Originals(mesh->GetNumberOfPoints())
+  template <typename Function>
+  GroupVectors(
+    vtkPolyData* mesh, const CornerVectors& vectors, vtkIdType size, const Function& groupOf)
+    : OfGroup(size, None)
   {
-  }
-
-  /// The number of new points.
-  vtkIdType Split()
-  {
-    vtkCellArray* polys = this->Mesh->GetPolys();
-    std::vector<vtkIdType> points;
-    points.reserve(this->Texture.OfCorner.size());
-    ForEachCorner(polys,
-      [this, &points](std::size_t corner, vtkIdType, vtkIdType point)
-      { points.push_back(this->FindPoint(point, this->Texture.OfCorner[corner])); });
-    vtkNew<vtkIdTypeArray> connectivity;
-    connectivity->SetNumberOfValues(static_cast<vtkIdType>(points.size()));
-    std::copy(points.begin(), points.end(), connectivity->GetPointer(0));
-    vtkNew<vtkCellArray> split;
-    vtkNew<vtkIdTypeArray> offsets;
-    offsets->DeepCopy(polys->GetOffsetsArray());
-    split->SetData(offsets, connectivity);
-    this->Mesh->SetPolys(split);
-    this->CopyPoints();
-    return static_cast<vtkIdType>(this->CopyOf.size());
-  }
-
-  const std::vector<std::int64_t>& GetTextureOfPoints() const { return this->OfPoint; }
-  const std::vector<vtkIdType>& GetCopies() const { return this->CopyOf; }
-
-private:
-  vtkIdType FindPoint(vtkIdType point, std::int64_t texture)
-  {
-    while (!this->Texture.Agree(this->OfPoint[point], texture))
-    {
-      if (this->Copies[point] == None)
+    std::vector<bool> differs(size);
+    ForEachCorner(mesh->GetPolys(),
+      [&](std::size_t corner, vtkIdType cell, vtkIdType point)
       {
-        this->Copies[point] = this->AddCopy(point);
-      }
-      point = this->Copies[point];
-    }
-    this->OfPoint[point] = this->OfPoint[point] == None ? texture : this->OfPoint[point];
-    return point;
+        const vtkIdType group = groupOf(cell, point);
+        std::int64_t& known = this->OfGroup[group];
+        const std::int64_t own = vectors.OfCorner[corner];
+        differs[group] = differs[group] || !vectors.Agree(known, own);
+        known = known == None ? own : known;
+      });
+    this->Differing = std::count(differs.begin(), differs.end(), true);
   }
 
-  vtkIdType AddCopy(vtkIdType point)
-  {
-    this->CopyOf.push_back(point < this->Originals ? point : this->CopyOf[point - this->Originals]);
-    this->OfPoint.push_back(None);
-    this->Copies.push_back(None);
-    return static_cast<vtkIdType>(this->OfPoint.size()) - 1;
-  }
-
-  void CopyPoints()
-  {
-    vtkDataArray* points = this->Mesh->GetPoints()->GetData();
-    vtkPointData* data = this->Mesh->GetPointData();
-    for (const vtkIdType point : this->CopyOf)
-    {
-      points->InsertNextTuple(point, points);
-      for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-      {
-        data->GetAbstractArray(i)->InsertNextTuple(point, data->GetAbstractArray(i));
-      }
-    }
-  }
-
-  vtkPolyData* Mesh;
-  const CornerVectors& Texture;
-  std::vector<std::int64_t> OfPoint; ///< The number of each point's texture coordinates.
-  std::vector<std::int64_t> Copies; ///< The next point at the same place.
-  std::vector<vtkIdType> CopyOf; ///< The originals of the points after the first `Originals`.
-  vtkIdType Originals;
+  std::vector<std::int64_t> OfGroup;
+  std::int64_t Differing = 0; ///< Groups whose corners have different vectors.
 };
 
-/// The vector of each of `size` groups of corners, or nothing if corners within a group disagree.
-template <typename Function>
-std::vector<std::int64_t> GroupVectors(
-  vtkPolyData* mesh, const CornerVectors& vectors, vtkIdType size, const Function& groupOf)
+GroupVectors VectorsOfPoints(vtkPolyData* mesh, const CornerVectors& vectors)
 {
-  std::vector<std::int64_t> ofGroup(size, None);
-  bool agree = true;
-  ForEachCorner(mesh->GetPolys(),
-    [&](std::size_t corner, vtkIdType cell, vtkIdType point)
-    {
-      std::int64_t& known = ofGroup[groupOf(cell, point)];
-      const std::int64_t own = vectors.OfCorner[corner];
-      agree = agree && vectors.Agree(known, own);
-      known = known == None ? own : known;
-    });
-  return agree ? ofGroup : std::vector<std::int64_t>();
+  return { mesh, vectors, mesh->GetNumberOfPoints(),
+    [](vtkIdType, vtkIdType point) { return point; } };
 }
 
 }
@@ -173,33 +103,31 @@ bool CornerVectors::Agree(std::int64_t first, std::int64_t second) const
 
 void AttachTexture(FileMesh& file, const std::string& name, const CornerVectors& texture)
 {
-  SeamSplitter splitter(file.Mesh, texture);
-  const vtkIdType copies = splitter.Split();
-  file.CopiesOf = splitter.GetCopies();
-  file.Mesh->GetPointData()->SetTCoords(
-    Gathered("TCoords", texture, splitter.GetTextureOfPoints()));
-  if (copies > 0)
+  const GroupVectors ofPoints = VectorsOfPoints(file.Mesh, texture);
+  if (ofPoints.Differing == 0)
   {
-    file.Notes.push_back(name + ": repeated " + Counted(copies, "point") +
-      " along seams of the texture; edges there stay");
+    file.Mesh->GetPointData()->SetTCoords(Gathered("TCoords", texture, ofPoints.OfGroup));
+    return;
   }
+  file.Warnings.push_back(name +
+    ": left out its texture coordinates: " + Counted(ofPoints.Differing, "point") +
+    (ofPoints.Differing == 1 ? " has" : " have") + " several of them (on a seam of the texture)");
 }
 
 void AttachNormals(FileMesh& file, const std::string& name, const CornerVectors& normals)
 {
-  const auto ofPoints = GroupVectors(file.Mesh, normals, file.Mesh->GetNumberOfPoints(),
-    [](vtkIdType, vtkIdType point) { return point; });
-  if (!ofPoints.empty())
+  const GroupVectors ofPoints = VectorsOfPoints(file.Mesh, normals);
+  if (ofPoints.Differing == 0)
   {
-    file.Mesh->GetPointData()->SetNormals(Gathered("Normals", normals, ofPoints));
+    file.Mesh->GetPointData()->SetNormals(Gathered("Normals", normals, ofPoints.OfGroup));
     return;
   }
-  const auto ofCells = GroupVectors(file.Mesh, normals, file.Mesh->GetNumberOfPolys(),
+  const GroupVectors ofCells(file.Mesh, normals, file.Mesh->GetNumberOfPolys(),
     [](vtkIdType cell, vtkIdType) { return cell; });
   // Cell data are in the order verts, lines, polygons.
-  if (!ofCells.empty() && file.Mesh->GetNumberOfPolys() == file.Mesh->GetNumberOfCells())
+  if (ofCells.Differing == 0 && file.Mesh->GetNumberOfPolys() == file.Mesh->GetNumberOfCells())
   {
-    file.Mesh->GetCellData()->SetNormals(Gathered("Normals", normals, ofCells));
+    file.Mesh->GetCellData()->SetNormals(Gathered("Normals", normals, ofCells.OfGroup));
     return;
   }
   file.Notes.push_back(name +

@@ -29,9 +29,8 @@ struct CornerVectors
   bool Agree(std::int64_t first, std::int64_t second) const;
 };
 
-/// Turns texture coordinates into point data. On a seam of the texture, the corners at a point have
-/// different coordinates; such a point is repeated at the end of the points. So edges on seams
-/// become boundary edges, which never flip. A note says how many points were repeated.
+/// Turns texture coordinates into point data. If corners at a point have different ones, as on a
+/// seam of the texture, leaves them out, with a warning: points are never split.
 void AttachTexture(FileMesh& file, const std::string& name, const CornerVectors& texture);
 
 /// Turns normals into point data if all corners of each point agree, into data of the polygons if

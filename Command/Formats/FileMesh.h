@@ -18,26 +18,6 @@ struct FileMesh
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
   std::vector<std::string> Notes; ///< What reading changed or left out, one line each.
   std::vector<std::string> Warnings; ///< What may be wrong with the file.
-  /// The originals of the last points, which were repeated along seams of the texture.
-  std::vector<vtkIdType> CopiesOf;
-
-  vtkIdType GetNumberOfOriginals() const
-  {
-    return this->Mesh->GetNumberOfPoints() - static_cast<vtkIdType>(this->CopiesOf.size());
-  }
-
-  vtkIdType OriginalOf(vtkIdType point) const
-  {
-    const vtkIdType originals = this->GetNumberOfOriginals();
-    return point < originals ? point : this->CopiesOf[point - originals];
-  }
-};
-
-/// What a reader does with points that a format repeats.
-enum class RepeatedPoints
-{
-  Keep,
-  Merge
 };
 
 }

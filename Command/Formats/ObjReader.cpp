@@ -3,8 +3,6 @@
 #include "ObjReader.h"
 
 #include "CornerVectors.h"
-#include "Counted.h"
-#include "MergePoints.h"
 #include "ObjParser.h"
 
 #include <vtkCellArray.h>
@@ -147,19 +145,9 @@ void NoteUnknown(FileMesh& file, const std::string& name, const ObjContent& cont
   }
 }
 
-void MergeRepeated(FileMesh& file, const std::string& name)
-{
-  const vtkIdType merged = MergeCoincidentPoints(file.Mesh);
-  if (merged > 0)
-  {
-    file.Notes.push_back(name + ": merged " + Counted(merged, "point") +
-      " that coincide (the file repeats them for texture coordinates and normals)");
-  }
 }
 
-}
-
-FileMesh ReadObj(const InputFile& input, RepeatedPoints repeated)
+FileMesh ReadObj(const InputFile& input)
 {
   ObjContent content = ParseObj(input);
   FileMesh file;
@@ -172,10 +160,6 @@ FileMesh ReadObj(const InputFile& input, RepeatedPoints repeated)
   AttachLabels(file.Mesh, content);
   AttachColors(file.Mesh, content);
   NoteUnknown(file, input.GetName(), content);
-  if (repeated == RepeatedPoints::Merge && content.Textures.size() + content.Normals.size() > 0)
-  {
-    MergeRepeated(file, input.GetName());
-  }
   if (!content.Faces.Textures.empty())
   {
     AttachTexture(file, input.GetName(), MakeTexture(content));

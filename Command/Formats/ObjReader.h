@@ -16,11 +16,8 @@ namespace delaunayflip
 /// GroupIds, ObjectIds and SmoothingIds. Each is an index into the names in the field data
 /// MaterialNames, GroupNames, ObjectNames or SmoothingNames, or -1 before the first name. The field
 /// data also have MaterialLibraries. Lines with other keywords are left out, with a note.
-///
-/// Files with texture coordinates or normals often repeat vertices because of them; `repeated` says
-/// whether vertices at the same place are merged.
 /// @throws CommandError (BadFile) with the file, the line and the reason.
-FileMesh ReadObj(const InputFile& file, RepeatedPoints repeated);
+FileMesh ReadObj(const InputFile& file);
 
 }
 

@@ -8,6 +8,7 @@
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkStringArray.h>
 
 #include <algorithm>
@@ -21,21 +22,17 @@ namespace
 class ObjFileWriter
 {
 public:
-  ObjFileWriter(const FileMesh& file, const std::string& path)
-    : File(file),
-      Mesh(file.Mesh),
-      Plan(file.Mesh),
+  ObjFileWriter(vtkPolyData* mesh, const std::string& path)
+    : Mesh(mesh),
+      Plan(mesh),
       Out(path)
   {
-    if (!this->Plan.Texture)
-    {
-      this->File.CopiesOf.clear();
-    }
     this->Current.fill(-1);
   }
 
   void Write()
   {
+    this->Out.Add("# written by delaunay-flip\n");
     for (vtkIdType i = 0; this->Plan.Libraries && i < this->Plan.Libraries->GetNumberOfValues();
          ++i)
     {
@@ -99,7 +96,7 @@ private:
   {
     vtkDataArray* const colors = this->Plan.Colors;
     const double most = colors && colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
-    for (vtkIdType point = 0; point < this->File.GetNumberOfOriginals(); ++point)
+    for (vtkIdType point = 0; point < this->Mesh->GetNumberOfPoints(); ++point)
     {
       this->Out.Add("v");
       this->AddVector(this->Mesh->GetPoints()->GetData(), point, 3);
@@ -143,7 +140,7 @@ private:
       for (vtkIdType corner = 0; corner < size; ++corner)
       {
         this->Out.Add(" ");
-        this->Out.AddNumber(std::int64_t(this->File.OriginalOf(points[corner]) + 1));
+        this->Out.AddNumber(std::int64_t(points[corner] + 1));
         if (isFace)
         {
           this->AddCorner(points[corner], kind.Begin + i);
@@ -196,7 +193,6 @@ private:
     }
   }
 
-  FileMesh File;
   vtkPolyData* Mesh;
   ObjPlan Plan;
   std::vector<std::int64_t> TextureNumbers;
@@ -207,6 +203,6 @@ private:
 
 }
 
-void WriteObj(const FileMesh& file, const std::string& path) { ObjFileWriter(file, path).Write(); }
+void WriteObj(vtkPolyData* mesh, const std::string& path) { ObjFileWriter(mesh, path).Write(); }
 
 }

@@ -3,15 +3,16 @@
 #ifndef DELAUNAYFLIP_OBJWRITER_H
 #define DELAUNAYFLIP_OBJWRITER_H
 
-#include "FileMesh.h"
+#include <string>
+
+class vtkPolyData;
 
 namespace delaunayflip
 {
 
-/// Writes points, lines, polygons and verts, and what ObjPlan holds. Points that were repeated for
-/// a texture become one vertex again.
+/// Writes points, lines, polygons and verts, and what ObjPlan holds.
 /// @throws CommandError (BadFile).
-void WriteObj(const FileMesh& file, const std::string& path);
+void WriteObj(vtkPolyData* mesh, const std::string& path);
 
 }
 

@@ -66,7 +66,7 @@ private:
       this->ParseProperty();
     }
     else if (keyword != "comment" && keyword != "obj_info" && keyword != "end_header" &&
-      !keyword.empty())
+      keyword != "Created" /* by Open Asset Import Library */ && !keyword.empty())
     {
       this->Cursor.Fail("not a line of a PLY header");
     }

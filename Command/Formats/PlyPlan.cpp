@@ -74,8 +74,9 @@ bool IsColor(vtkDataSetAttributes* data, vtkDataArray* array)
 {
   const std::string name = array->GetName() ? array->GetName() : "";
   const int components = array->GetNumberOfComponents();
-  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4) &&
-    (array == data->GetScalars() || name == "RGB" || name == "RGBA");
+  const bool isScalars = array == data->GetScalars() && array->GetDataType() == VTK_UNSIGNED_CHAR;
+  return (components == 3 && (isScalars || name == "RGB")) ||
+    (components == 4 && (isScalars || name == "RGBA"));
 }
 
 /// A name must be one word.

@@ -11,6 +11,7 @@
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <limits>
@@ -50,29 +51,19 @@ void ForEachCell(vtkCellArray* cells, const Function& visit)
 class PlyFileWriter
 {
 public:
-  PlyFileWriter(const FileMesh& file, const std::string& path)
-    : Mesh(file.Mesh),
-      Points(file),
-      Vertices(PlanPlyVertices(file.Mesh)),
-      Faces(PlanPlyFaces(file.Mesh)),
+  PlyFileWriter(vtkPolyData* mesh, const std::string& path)
+    : Mesh(mesh),
+      Vertices(PlanPlyVertices(mesh)),
+      Faces(PlanPlyFaces(mesh)),
       Out(path)
   {
-    vtkDataArray* const texture = this->Mesh->GetPointData()->GetTCoords();
-    if (!file.CopiesOf.empty() && texture && texture->GetNumberOfComponents() == 2)
-    {
-      this->MoveToCorners(texture);
-    }
-    else
-    {
-      this->Points.CopiesOf.clear();
-    }
     const vtkIdType longest = this->Mesh->GetPolys()->GetMaxCellSize();
-    this->CountType = longest * (this->Texture ? 2 : 1) < 256 ? PlyType::UInt8 : PlyType::Int32;
+    this->CountType = longest < 256 ? PlyType::UInt8 : PlyType::Int32;
   }
 
   void Write()
   {
-    if (this->Points.GetNumberOfOriginals() > std::numeric_limits<std::int32_t>::max())
+    if (this->Mesh->GetNumberOfPoints() > std::numeric_limits<std::int32_t>::max())
     {
       throw CommandError(ExitCode::BadFile, "more points than this file format can number");
     }
@@ -84,15 +75,6 @@ public:
   }
 
 private:
-  void MoveToCorners(vtkDataArray* texture)
-  {
-    this->Texture = texture;
-    auto& properties = this->Vertices.Properties;
-    properties.erase(std::remove_if(properties.begin(), properties.end(),
-                       [texture](const PlyOutput& output) { return output.Array == texture; }),
-      properties.end());
-  }
-
   vtkIdType CountEdges() const
   {
     vtkIdType edges = 0;
@@ -128,7 +110,7 @@ private:
   void WriteHeader()
   {
     this->Out.Add("ply\nformat binary_little_endian 1.0\ncomment written by delaunay-flip\n");
-    this->AddElement("vertex", this->Points.GetNumberOfOriginals());
+    this->AddElement("vertex", this->Mesh->GetNumberOfPoints());
     for (const char* axis : { "x", "y", "z" })
     {
       this->AddProperty(FloatTypeOf(this->Mesh->GetPoints()->GetData()), axis);
@@ -136,10 +118,6 @@ private:
     this->AddProperties(this->Vertices);
     this->AddElement("face", this->Mesh->GetNumberOfPolys());
     this->AddList(PlyType::Int32, "vertex_indices");
-    if (this->Texture)
-    {
-      this->AddList(FloatTypeOf(this->Texture), "texcoord");
-    }
     this->AddProperties(this->Faces);
     if (const vtkIdType edges = this->CountEdges())
     {
@@ -164,16 +142,13 @@ private:
     }
   }
 
-  void AddVertex(vtkIdType point)
-  {
-    this->Out.AddBytes(static_cast<std::int32_t>(this->Points.OriginalOf(point)));
-  }
+  void AddVertex(vtkIdType point) { this->Out.AddBytes(static_cast<std::int32_t>(point)); }
 
   void WriteVertices()
   {
     vtkDataArray* const coordinates = this->Mesh->GetPoints()->GetData();
     const PlyType type = FloatTypeOf(coordinates);
-    for (vtkIdType point = 0; point < this->Points.GetNumberOfOriginals(); ++point)
+    for (vtkIdType point = 0; point < this->Mesh->GetNumberOfPoints(); ++point)
     {
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -191,25 +166,8 @@ private:
       {
         this->AddValue(this->CountType, static_cast<double>(size));
         std::for_each(points, points + size, [this](vtkIdType point) { this->AddVertex(point); });
-        if (this->Texture)
-        {
-          this->AddTexture(size, points);
-        }
         this->AddValues(this->Faces, cell++);
       });
-  }
-
-  void AddTexture(vtkIdType size, const vtkIdType* points)
-  {
-    this->AddValue(this->CountType, static_cast<double>(2 * size));
-    for (vtkIdType corner = 0; corner < size; ++corner)
-    {
-      for (int component = 0; component < 2; ++component)
-      {
-        this->AddValue(
-          FloatTypeOf(this->Texture), this->Texture->GetComponent(points[corner], component));
-      }
-    }
   }
 
   void WriteEdges()
@@ -226,10 +184,8 @@ private:
   }
 
   vtkPolyData* Mesh;
-  FileMesh Points;
   PlyPlan Vertices;
   PlyPlan Faces;
-  vtkDataArray* Texture = nullptr; ///< Where the corners have their own; else null.
   PlyType CountType = PlyType::UInt8; ///< Of lists.
   OutputBuffer Out;
 };
@@ -247,6 +203,6 @@ PlyPlan PlanPlyFaces(vtkPolyData* mesh)
     { "vertex_indices", "vertex_index", "texcoord" });
 }
 
-void WritePly(const FileMesh& file, const std::string& path) { PlyFileWriter(file, path).Write(); }
+void WritePly(vtkPolyData* mesh, const std::string& path) { PlyFileWriter(mesh, path).Write(); }
 
 }

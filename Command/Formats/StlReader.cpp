@@ -255,7 +255,7 @@ void RequireText(const InputFile& file)
 
 }
 
-FileMesh ReadStl(const InputFile& file, RepeatedPoints repeated)
+FileMesh ReadStl(const InputFile& file)
 {
   FileMesh result;
   if (IsBinary(file))
@@ -267,10 +267,7 @@ FileMesh ReadStl(const InputFile& file, RepeatedPoints repeated)
     RequireText(file);
     StlText(file).Read(result.Mesh);
   }
-  if (repeated == RepeatedPoints::Merge)
-  {
-    MergeCoincidentPoints(result.Mesh);
-  }
+  MergeCoincidentPoints(result.Mesh);
   return result;
 }
 

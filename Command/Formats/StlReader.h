@@ -18,7 +18,7 @@ namespace delaunayflip
 /// The format repeats the points for every triangle; `repeated` says whether points at the same
 /// place are merged.
 /// @throws CommandError (BadFile) that names the file, the line and the reason.
-FileMesh ReadStl(const InputFile& file, RepeatedPoints repeated);
+FileMesh ReadStl(const InputFile& file);
 
 }
 

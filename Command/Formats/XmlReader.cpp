@@ -11,10 +11,14 @@
 #include <vtkObjectFactory.h>
 #include <vtkPoints.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
 #include <vtkXMLFileReadTester.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <vector>
 
 namespace delaunayflip
@@ -40,7 +44,8 @@ std::string AttributeOf(vtkXMLDataElement* element, const char* name)
   return value ? value : "";
 }
 
-/// Checks the elements of a file before VTK trusts them.
+/// Checks the elements of a file before VTK trusts them, and afterwards what VTK made of them: on a
+/// damaged element it gives up a part of the mesh, or all of it, and says nothing.
 class XmlCheck
 {
 public:
@@ -70,7 +75,27 @@ public:
     }
   }
 
+  void Compare(vtkPolyData* mesh)
+  {
+    this->CompareCount("NumberOfPoints", mesh->GetNumberOfPoints());
+    this->CompareCount("NumberOfVerts", mesh->GetNumberOfVerts());
+    this->CompareCount("NumberOfLines", mesh->GetNumberOfLines());
+    this->CompareCount("NumberOfStrips", mesh->GetNumberOfStrips());
+    this->CompareCount("NumberOfPolys", mesh->GetNumberOfPolys());
+  }
+
 private:
+  void CompareCount(const char* name, vtkIdType found)
+  {
+    const double announced = this->Announced[name];
+    if (announced != static_cast<double>(found))
+    {
+      this->File.Fail("Piece has " + std::string(name) + "=\"" +
+        std::to_string(static_cast<vtkIdType>(std::min(announced, 9e18))) + "\", but " +
+        std::to_string(found) + " can be read (an array is damaged or missing)");
+    }
+  }
+
   void CheckFieldData(vtkXMLDataElement* fieldData)
   {
     for (vtkXMLDataElement* array : Children(fieldData))
@@ -82,9 +107,12 @@ private:
   void CheckPiece(vtkXMLDataElement* piece)
   {
     double cells = 0;
-    for (const char* kind : { "Verts", "Lines", "Strips", "Polys" })
+    for (const char* kind : { "Points", "Verts", "Lines", "Strips", "Polys" })
     {
-      cells += this->GetCount(piece, ("NumberOf" + std::string(kind)).c_str(), 0);
+      const std::string name = "NumberOf" + std::string(kind);
+      const double count = this->GetCount(piece, name.c_str(), 0);
+      this->Announced[name] += count;
+      cells += name == "NumberOfPoints" ? 0 : count;
     }
     for (vtkXMLDataElement* part : Children(piece))
     {
@@ -93,6 +121,11 @@ private:
         : name == "Points" || name == "PointData"
         ? this->GetCount(piece, "NumberOfPoints", 0)
         : this->GetCount(piece, ("NumberOf" + name).c_str(), 0);
+      if (this->Announced.count("NumberOf" + name) && part->GetNumberOfNestedElements() > 0 &&
+        !piece->GetAttribute(("NumberOf" + name).c_str()))
+      {
+        this->File.Fail("Piece has no NumberOf" + name + ", but an element " + name);
+      }
       for (vtkXMLDataElement* array : Children(part))
       {
         this->CheckArray(array, AttributeOf(array, "Name") == "connectivity" ? 0 : tuples);
@@ -141,6 +174,7 @@ private:
 
   const InputFile& File;
   double Growth = 1.0;
+  std::map<std::string, double> Announced; ///< The counts of all pieces, by attribute.
 };
 
 /// VTK's reader, after the check, with numbers as text read by TextCursor.
@@ -156,10 +190,18 @@ public:
     this->SetFileName(file.GetPath().c_str());
   }
 
+  void CheckOutput()
+  {
+    if (this->Checks)
+    {
+      this->Checks->Compare(this->GetOutput());
+    }
+  }
+
 protected:
   int ReadVTKFile(vtkXMLDataElement* root) override
   {
-    XmlCheck(*this->File).Check(root);
+    this->Checks.emplace(*this->File).Check(root);
     return this->Superclass::ReadVTKFile(root);
   }
 
@@ -171,8 +213,11 @@ protected:
     if (!IsText(element) || !numbers || numbers->GetDataType() == VTK_BIT || !fits ||
       array->GetName() == std::string("vtkGhostLevels")) // which VTK converts
     {
-      return this->Superclass::ReadArrayValues(
-        element, arrayIndex, array, startIndex, numValues, type);
+      const int done =
+        this->Superclass::ReadArrayValues(element, arrayIndex, array, startIndex, numValues, type);
+      this->RequireEnd(element,
+        done && numbers && numValues > 0 && this->HasMore(element, startIndex + numValues));
+      return done;
     }
     TextCursor cursor = this->FindText(element);
     switch (numbers->GetDataType())
@@ -180,11 +225,40 @@ protected:
       vtkTemplateMacro(ReadNumbers(
         cursor, static_cast<VTK_TT*>(numbers->GetVoidPointer(arrayIndex)), startIndex, numValues));
     }
+    cursor.SkipSpace();
+    this->RequireEnd(element, !cursor.IsAtEnd());
     array->Modified();
     return 1;
   }
 
 private:
+  /// Whether a binary array has another value after its first `count`.
+  bool HasMore(vtkXMLDataElement* element, vtkIdType count)
+  {
+    int type = 0;
+    vtkTypeInt64 offset = 0;
+    double value = 0.0;
+    if (!element->GetWordTypeAttribute("type", type) || type == VTK_BIT || IsText(element))
+    {
+      return false;
+    }
+    return element->GetScalarAttribute("offset", offset)
+      ? this->XMLParser->ReadAppendedData(offset, &value, count, 1, type) > 0
+      : this->XMLParser->ReadInlineData(element, 0, &value, count, 1, type) > 0;
+  }
+
+  /// Data of cells are read in parts, of verts, lines, strips and polygons, so they may have more;
+  /// so are field data.
+  void RequireEnd(vtkXMLDataElement* element, bool hasMore) const
+  {
+    const std::string parent = element->GetParent()->GetName();
+    if (hasMore && parent != "CellData" && parent != "FieldData")
+    {
+      this->File->Fail("array '" + AttributeOf(element, "Name") + "' of the element " + parent +
+        " has more values than the file says (corrupt)");
+    }
+  }
+
   static bool IsText(vtkXMLDataElement* element)
   {
     // VTK tries the first value of an empty array too.
@@ -216,6 +290,7 @@ private:
   }
 
   const InputFile* File = nullptr;
+  std::optional<XmlCheck> Checks;
 };
 
 vtkStandardNewMacro(CheckedXmlReader);
@@ -254,6 +329,7 @@ FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
   {
     file.Fail("cannot be read: " + (problems.empty() ? "it contains no mesh" : problems));
   }
+  reader->CheckOutput();
   if (!result.Mesh->GetPoints())
   {
     const vtkNew<vtkPoints> none;

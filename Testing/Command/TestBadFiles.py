@@ -144,6 +144,56 @@ class Corrupt(BadFileTest):
                 self.refuse(name, str(bad))
 
 
+class LostByVtk(BadFileTest):
+    """VTK's reader of .vtp gives up a part of these, or all, and reports nothing."""
+
+    def damaged(self):
+        """Damaged files, each with the attribute of Piece that shows it."""
+        path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
+        with open(path, encoding="ascii") as file:
+            good = file.read()
+        words = '<FieldData><Array type="String" Name="w" format="ascii" {}>104 101 abc 0</Array></FieldData>'
+        field = "<PolyData>\n" + words.format('NumberOfTuples="1"')
+        yield "NumberOfPoints", good.replace("<PolyData>", field)
+        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="19"')
+        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="17"')
+        yield "NumberOfPoints", good.replace('NumberOfPoints="16"', 'NumberOfPoints="17"')
+        polys = good.index("<Polys>")
+        for array in ("connectivity", "offsets"):
+            begin = good.index(f'Name="{array}"', polys)
+            begin = good.rindex("<DataArray", 0, begin)
+            end = good.index("</DataArray>", begin) + len("</DataArray>")
+            yield "NumberOfPolys", good[:begin] + good[end:]
+            yield "NumberOfPolys", good.replace(good[begin:end], good[begin:end].replace(array, "x"))
+        for kind, count in (("Points", 16), ("Polys", 18)):
+            yield f"NumberOf{kind}", good.replace(f' NumberOf{kind}="{count}"', "")
+        for kind in ("Lines", "Verts", "Strips"):
+            yield f"NumberOf{kind}", good.replace(f'NumberOf{kind}="0"', f'NumberOf{kind}="2"')
+        for mode in ("Binary", "Appended"):
+            for compressor in ("None", "LZ4"):
+                settings = {f"SetDataModeTo{mode}": (), f"SetCompressorTypeTo{compressor}": ()}
+                write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), **settings)
+                with open(path, encoding="latin-1") as file:
+                    binary = file.read()
+                for kind, count in (("Polys", 18), ("Points", 16)):
+                    for wrong in (count - 1, count + 1):
+                        old, new = (f'NumberOf{kind}="{n}"' for n in (count, wrong))
+                        self.assertIn(old, binary)
+                        yield f"NumberOf{kind}", binary.replace(old, new)
+
+    def test_is_refused(self):
+        for attribute, content in self.damaged():
+            with self.subTest(attribute):
+                before = content.encode("latin-1")
+                self.write("mesh.vtp", before)
+                self.refuse("mesh.vtp")
+                self.fail_with(3, "mesh.vtp", "mesh.vtp", naming=["mesh.vtp"])
+                with open(self.path("mesh.vtp"), "rb") as file:
+                    self.assertEqual(file.read(), before)
+                good = write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk"))
+                self.fail_with(3, good, "out.vtk", "--constraints", "mesh.vtp", naming=["mesh.vtp"])
+
+
 class OtherData(BadFileTest):
     def test_other_legacy_type(self):
         self.write(
@@ -177,6 +227,13 @@ class OtherData(BadFileTest):
             result = self.succeed("points.vtk", "out" + extension)
             self.assertIn("note: points.vtk: contains no triangles", result.stderr)
             self.assertEqual(read_mesh(self.path("out" + extension)).GetNumberOfPoints(), 2)
+
+    def test_nothing_at_all(self):
+        write_mesh(make_mesh([], []), self.path("none.vtk"))
+        for extension in (".vtk", ".vtp", ".ply", ".stl", ".obj"):
+            self.succeed("none.vtk", "out" + extension)
+            self.succeed("out" + extension, "again.vtk")
+            self.assertEqual(read_mesh(self.path("again.vtk")).GetNumberOfPoints(), 0)
 
 
 if __name__ == "__main__":

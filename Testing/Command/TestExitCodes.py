@@ -70,6 +70,17 @@ class WrongUsage(CommandTest):
         self.refuse("anonical", *canonical, "--criterion", "opposite-angles")
         self.refuse("anonical", *canonical, mesh=self.tetrahedron)
         self.refuse("lane", "--geometry", "planar", mesh=self.surface)
+        self.refuse("--insert-lines", "--ignore-lines", "--insert-lines")
+
+    def test_empty_names(self):
+        self.fail_with(2, "", "out.vtk", naming=["INPUT", "empty"])
+        self.fail_with(2, self.planar, "", naming=["OUTPUT", "empty"])
+        for option in ("--constraints", "--statistics", "--report"):
+            self.refuse("empty", option, "")
+            self.refuse(option, option, "")
+
+    def test_options_are_named_as_options(self):
+        self.refuse("--region-array", "--region-array", "none")
 
     def test_one_name_for_two_files(self):
         self.refuse("out.vtk", "--report", "./out.vtk")
@@ -97,11 +108,13 @@ class BadFile(CommandTest):
 
     def test_nothing_is_written_when_one_file_cannot_be(self):
         self.fail_with(3, self.mesh, "out.vtk", "--report", "none/r", naming=["none/r"])
-        # A pipe: special files must not be replaced by regular ones.
-        os.mkfifo(self.path("pipe"))
-        self.fail_with(3, self.mesh, "out.vtk", "--statistics", "pipe", naming=["pipe"])
-        self.assertEqual(sorted(os.listdir(self.folder)), ["mesh.vtk", "pipe"])
-        self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode))
+        # A pipe: a mesh is read back after writing, and special files must not be replaced.
+        os.mkfifo(self.path("pipe.vtk"))
+        self.fail_with(3, self.mesh, "pipe.vtk", naming=["pipe.vtk", "regular file"])
+        os.symlink("/dev/stdout", self.path("stdout.vtk"))
+        self.fail_with(3, self.mesh, "stdout.vtk", naming=["stdout.vtk", "regular file"])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["mesh.vtk", "pipe.vtk", "stdout.vtk"])
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe.vtk")).st_mode))
 
 
 class Success(CommandTest):

@@ -235,24 +235,17 @@ class RepeatedPoints(CommandTest):
                 "vn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\nvn .6 .6 .6\n"
                 "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
             )
-        self.assertNotIn("merged", self.succeed("in.obj", "out.vtk").stderr)
         report = self.report("in.obj", "out.vtk")
         counts = [report[key] for key in ("points", "edges", "boundary_edges")]
         self.assertEqual(counts, [4, 6, 0])
 
-    def test_obj_that_repeats_its_vertices(self):
-        """As some programs write it, with a vertex for every normal."""
+    def test_obj_keeps_vertices_that_it_repeats(self):
+        """As some programs write it, with a vertex for every normal: the edge is a boundary."""
         with open(self.path("in.obj"), "w", encoding="ascii") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\n")
             file.write("f 1//1 2//1 3//1\nf 4//2 5//2 6//2\n")
-        self.assertIn("in.obj: merged 2 points", self.succeed("in.obj", "out.vtk").stderr)
-        self.assertEqual(triangles_of(read_mesh(self.path("out.vtk"))), [(0, 1, 2), (1, 3, 2)])
-
-    def test_obj_without_keeps_coincident_points(self):
-        text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 5 6\n"
-        with open(self.path("in.obj"), "w", encoding="ascii") as file:
-            file.write(text)
-        self.assertEqual(self.report("in.obj", "out.vtk")["points"], 6)
+        self.assertEqual(self.succeed("in.obj", "out.vtk").stderr, "")
+        self.assertEqual(triangles_of(read_mesh(self.path("out.vtk"))), [(0, 1, 2), (3, 4, 5)])
 
     def test_collapsed_stl_triangle_stays(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 1)], [(0, 1, 2), (1, 1, 3)])

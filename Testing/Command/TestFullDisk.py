@@ -6,7 +6,7 @@ import os
 import resource
 import unittest
 
-from CommandTesting import FORMATS, CommandTest, bumpy_grid, write_mesh
+from CommandTesting import FORMATS, CommandTest, bumpy_grid, make_mesh, write_mesh
 
 
 class FullDisk(CommandTest):
@@ -51,6 +51,14 @@ class FullDisk(CommandTest):
     def test_new_mesh(self):
         for extension in FORMATS:
             self.refuse(5000, "new" + extension, naming="new" + extension)
+
+    def test_a_limit_is_not_blamed_for_other_errors(self):
+        path = write_mesh(make_mesh([(0, 0, 0)] * 3, [(0, 1, 2), (0, 1)]), self.path("in.vtk"))
+        result = self.run_command(
+            path, "out.obj",
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 20, 1 << 20)))
+        self.assertEqual(result.returncode, 3)
+        self.assertRegex(result.stderr, "polygon 1 has 2 points.*can hold it\n$")
 
     def test_report_and_statistics(self):
         self.succeed(self.mesh, "out.stl", "--report", "report.json")

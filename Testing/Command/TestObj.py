@@ -36,21 +36,35 @@ class Texture(ObjTest):
         expected = [(0, 0), (1, 0), (1, 1), (0, 1)]
         self.assertEqual(tuples_of(mesh.GetPointData().GetTCoords()), expected)
 
-    def test_seam_repeats_points_and_is_not_flipped(self):
-        """Two triangles whose common edge would flip, but is a seam."""
+    def test_of_seams_is_left_out(self):
+        """Two triangles whose common edge flips, although it is a seam."""
         points = "v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nv 9 9 0\n"
         texture = "vt 0 0\nvt .5 0\nvt .25 .1\nvt .5 1\nvt 1 1\nvt .75 .9\n"
-        seam, said = self.read(points + texture + "f 1/1 2/2 3/3\nf 2/5 1/4 4/6\n")
-        self.assertIn("a.obj: repeated 2 points along seams of the texture", said)
-        expected = [(0, 0, 0), (4, 0, 0), (2, 1, 0), (2, -1, 0), (9, 9, 0), (4, 0, 0), (0, 0, 0)]
-        self.assertEqual(points_of(seam), expected)
-        self.assertEqual(triangles_of(seam), [(0, 1, 2), (5, 6, 3)])
-        coordinates = tuples_of(seam.GetPointData().GetTCoords())
-        used = [(0, 0), (0.5, 0), (0.25, 0.1), (0.75, 0.9), (1, 1), (0.5, 1)]
-        self.assertEqual(coordinates[:4] + coordinates[5:], used)
-        self.assertTrue(all(map(math.isnan, coordinates[4])), "the unused point has none")
-        whole, _ = self.read(points + texture + "f 1/1 2/2 3/3\nf 2/2 1/1 4/6\n")
+        for faces, textured in (("f 1/1 2/2 3/3\nf 2/5 1/4 4/6\n", 2), ("f 1/1 2/2 3/3\nf 2/2 1/4 4/6\n", 1)):
+            seam, said = self.read(points + texture + faces)
+            self.assertRegex(said, f"^warning: a.obj: left out its texture coordinates: {textured} point")
+            self.assertIsNone(seam.GetPointData().GetTCoords())
+            self.assertEqual(seam.GetNumberOfPoints(), 5)
+            self.assertEqual(sorted(map(sorted, triangles_of(seam))), [[0, 2, 3], [1, 2, 3]])
+        whole, said = self.read(points + texture + "f 1/1 2/2 3/3\nf 2/2 1/1 4/6\n")
+        self.assertEqual(said, "")
         self.assertEqual(sorted(map(sorted, triangles_of(whole))), [[0, 2, 3], [1, 2, 3]])
+        self.assertTrue(math.isnan(whole.GetPointData().GetTCoords().GetTuple(4)[0]), "unused")
+
+    def test_closed_surface_of_seams_stays_closed(self):
+        """A tetrahedron of which every triangle has its own texture: its bad edge must not flip."""
+        self.write("a.obj", "v -2 0 0\nv 2 0 0\nv 0 -1 .1\nv 0 1 .1\n"
+                   + "".join(f"vt {i / 16} {i % 5 / 5}\n" for i in range(12))
+                   + "f 1/1 3/2 2/3\nf 1/4 2/5 4/6\nf 2/7 3/8 4/9\nf 1/10 4/11 3/12\n")
+        for name in ("out.obj", "out.ply", "out.vtp"):
+            report = self.report("a.obj", name, "--geometry", "surface", "--feature-angle", 180)
+            keys = ("points", "edges", "boundary_edges", "non_manifold_edges", "total_flips",
+                    "non_delaunay_before", "non_delaunay_after", "blocked_by_edge")
+            self.assertEqual([report[key] for key in keys], [4, 6, 0, 0, 0, 1, 1, 1])
+            self.succeed(name, "again.vtp")
+            self.assertEqual(
+                {frozenset(cell) for cell in triangles_of(read_mesh(self.path("again.vtp")))},
+                {frozenset(cell) for cell in ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3))})
 
     def test_is_written_whatever_the_materials(self):
         text = "mtllib m.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" + SQUARE

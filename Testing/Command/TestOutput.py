@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the command prints."""
 
+import re
 import unittest
 
 from CommandTesting import (
@@ -73,6 +74,14 @@ class Messages(CommandTest):
             result.stderr, rf"^warning: {turned} triangles that flips in space have turned over"
         )
         self.assertEqual(self.succeed(path, "out.vtk", "--geometry", "planar-xy").stderr, "")
+
+    def test_control_characters_are_escaped(self):
+        for name in ("no\x1b[31mred\n.vtk", "tab\t.xyz", "x\x7f.vtp"):
+            text = self.run_command(name, "out.vtk").stderr
+            escaped = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in name)
+            self.assertRegex(text, rf"^error: {re.escape(escaped)}: .*\n$")
+        name = write_mesh(worst_case(4), self.path("o\x1b.vtk"))
+        self.assertIn("o\\x1b.vtk\n", self.succeed(name, name).stdout)
 
     def test_warnings_are_single_lines(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 2), (0, 0, 1)])

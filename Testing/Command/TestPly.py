@@ -180,20 +180,32 @@ class Properties(PlyTest):
             self.assertEqual(tuples_of(cells.GetArray("RGB")), [(1, 2, 3), (4, 5, 6)])
             self.assertEqual(tuples_of(cells.GetArray("region")), [(77,), (88,)])
 
+    def test_colors_of_any_type_keep_their_names(self):
+        for kind in ("ushort", "float"):
+            for colors in (["red", "green", "blue"], ["red", "green", "blue", "alpha"]):
+                properties = [f"{kind} {color}" for color in colors]
+                vertices = ("vertex", XYZ + properties, [(*p, *([7] * len(colors))) for p in SQUARE])
+                faces = ("face", INDICES + properties, [([0, 1, 2], *([9] * len(colors)))])
+                self.write("a.ply", make_ply("ascii", vertices, faces))
+                self.assertEqual(self.succeed("a.ply", "out.ply").stderr, "")
+                with open(self.path("out.ply"), "rb") as file:
+                    head = file.read().split(b"end_header")[0].decode().splitlines()
+                for text in properties:
+                    self.assertEqual(head.count("property " + text), 2, head)
+
     def test_texture_of_corners(self):
         face = ["list uchar float texcoord", "list uchar int vertex_index"]
-        for mesh, said in self.read_all(
-            ("vertex", XYZ, SQUARE),
-            (
-                "face",
-                face,
-                [([0, 0, 1, 0, 1, 1], [0, 1, 2]), ([0, 0, 0.5, 1, 0, 1], [0, 2, 3]), ([], [3, 2, 1])],
-            ),
-        ):
-            self.assertIn("repeated 1 point along seams", said)
-            self.assertEqual(points_of(mesh)[4:], [(1, 1, 0)])
-            coordinates = tuples_of(mesh.GetPointData().GetTCoords())
-            self.assertEqual(coordinates, [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 1)])
+        first, last = ([0, 0, 1, 0, 1, 1], [0, 1, 2]), ([], [3, 2, 1])
+        for middle, fits in ([0, 0, 1, 1, 0, 1], True), ([0, 0, 0.5, 1, 0, 1], False):
+            rows = [first, (middle, [0, 2, 3]), last]
+            for mesh, said in self.read_all(("vertex", XYZ, SQUARE), ("face", face, rows)):
+                self.assertEqual(points_of(mesh), SQUARE)
+                coordinates = mesh.GetPointData().GetTCoords()
+                if fits:
+                    self.assertEqual(tuples_of(coordinates), [(0, 0), (1, 0), (1, 1), (0, 1)])
+                else:
+                    self.assertIsNone(coordinates)
+                    self.assertIn("warning: a.ply: left out its texture coordinates: 1 point", said)
         self.refuse_all(
             (("vertex", XYZ, SQUARE), ("face", face, [([0, 0, 1, 0], [0, 1, 2])])), "face 0"
         )
@@ -226,6 +238,12 @@ class Heads(PlyTest):
             self.assertIn(old, good)
             self.write("a.ply", good.replace(old, new))
             self.refuse("a.ply", f"line {line}:")
+
+    def test_the_line_of_an_importer(self):
+        """Open Asset Import Library writes it without the word comment, and VTK reads it."""
+        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+        self.write("a.ply", good.replace(b"comment made", b"Created by a test,"))
+        self.assertEqual(self.succeed("a.ply", "out.ply").stderr, "")
 
     def test_what_is_missing(self):
         good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))

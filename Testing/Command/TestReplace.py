@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How existing files are replaced: links are followed, owners stay, all files change or none."""
 
+import json
 import os
 import stat
 import subprocess
@@ -58,6 +59,46 @@ class Links(ReplaceTest):
             os.symlink("both", self.path(name))
         arguments = (self.mesh, "out.vtk", "--report", "report.json")
         self.fail_with(2, *arguments, naming=["report.json", "same file"])
+
+
+class Streams(ReplaceTest):
+    """A report to a stream is added to it; nothing is replaced."""
+
+    def test_to_a_file_behind_stdout(self):
+        for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"):
+            if name == "link":
+                os.symlink("/dev/stdout", self.path(name))
+            for flags in ("ab", "r+b"):
+                self.write("log", "before\n")
+                with open(self.path("log"), flags) as log:
+                    log.seek(0, os.SEEK_END)
+                    inode = os.fstat(log.fileno()).st_ino
+                    code = subprocess.run(
+                        command_line("mesh.vtk", "out.vtk", "--report", name),
+                        cwd=self.folder, stdout=log, check=False,
+                    ).returncode  # fmt: skip
+                self.assertEqual(code, 0)
+                self.assertEqual(os.stat(self.path("log")).st_ino, inode)
+                text = self.content("log").decode()
+                self.assertRegex(text, r"(?s)^before\n{\n.*\n}\nmesh  .*wrote +out.vtk\n$")
+
+    def test_to_a_pipe(self):
+        for name in ("/dev/stdout", "/dev/stderr"):
+            result = self.succeed("mesh.vtk", "out.vtk", "--report", name, "--quiet")
+            text = result.stdout if name == "/dev/stdout" else result.stderr
+            self.assertEqual(json.loads(text)["triangles"], 50)
+        os.mkfifo(self.path("pipe"))
+        with subprocess.Popen(command_line("mesh.vtk", "out.vtk", "--statistics", "pipe"),
+                              cwd=self.folder, stdout=subprocess.DEVNULL) as process:  # fmt: skip
+            with open(self.path("pipe"), encoding="ascii") as pipe:
+                self.assertRegex(pipe.read(), "^Iteration,Tested")
+            self.assertEqual(process.wait(60), 0)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode))
+
+    def test_that_cannot_be_written(self):
+        self.fail_with(3, "mesh.vtk", "out.vtk", "--report", "/dev/full", naming=["/dev/full", "space"])
+        self.assertFalse(os.path.exists(self.path("out.vtk")))
+        self.succeed("mesh.vtk", "out.vtk", "--report", "/dev/null")
 
 
 @unittest.skipIf(os.geteuid() != 0, "only root may give files away")

@@ -27,7 +27,7 @@ KEYS = [
     *("total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape", "blocked_by_edge"),
     *("min_angle_before_deg", "min_angle_after_deg"),
-    *("converged", "stop_reason", "seconds"),
+    *("converged", "stop_reason", "seconds", "warnings"),
 ]
 COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"
 
@@ -53,6 +53,30 @@ class Report(CommandTest):
         self.assertEqual(list(report["seconds"]), ["read", "build", "flip", "write"])
         for seconds in report["seconds"].values():
             self.assertGreaterEqual(seconds, 0.0)
+
+    def test_warnings(self):
+        mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 0, 1)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        arguments = (path, "out.vtk", "--report", "r.json", "--tolerance", 0.1, "--quiet")
+        said = [line.removeprefix("warning: ") for line in self.succeed(*arguments).stderr.splitlines()]
+        report = self.report(*arguments[:2], "--tolerance", 0.1)
+        self.assertEqual(report["warnings"], said)
+        self.assertEqual(sum("olerance" in warning for warning in said), 1, said)
+        self.assertEqual(len(said), 2, said)
+        with open(self.path("in.obj"), "w", encoding="ascii") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 2/1\n")
+        (texture, _) = self.report("in.obj", "out.vtk")["warnings"]
+        self.assertIn("in.obj: left out its texture coordinates: 1 point", texture)
+
+    def test_tolerance_is_only_warned_of_without_effect(self):
+        path = write_mesh(bumpy_grid(6, 0), self.path("in.vtk"))
+        for arguments, count in (
+            (("--tolerance", -1), 0),
+            (("--tolerance", 0), 1),
+            (("--tolerance", 0.1, "--criterion", "opposite-angles"), 0),
+            (("--tolerance", 0.1, "--geometry", "surface"), 0),
+        ):
+            self.assertEqual(len(self.report(path, "out.vtk", *arguments)["warnings"]), count)
 
     def test_worst_case(self):
         report = self.report(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk")

@@ -199,55 +199,6 @@ def vtk_float(value):
     return array.GetValue(0)
 
 
-SEAM = (
-    "v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nv 9 9 0\n"
-    "vt 0 0\nvt .5 0\nvt .25 .1\nvt .5 1\nvt 1 1\nvt .75 .9\nf 1/1 2/2 3/3\nf 2/5 1/4 4/6\n"
-)
-
-
-class Seams(WriterTest):
-    """Points that the reader repeats along texture seams become one vertex in the file again."""
-
-    def corners(self, name):
-        """Positions and texture coordinates of the corners of each triangle."""
-        self.succeed(name, "corners.vtp")
-        mesh = read_mesh(self.path("corners.vtp"))
-        texture = mesh.GetPointData().GetTCoords()
-        return [
-            [mesh.GetPoint(i) + texture.GetTuple(i) for i in triangle]
-            for triangle in triangles_of(mesh)
-        ]
-
-    def test_in_obj(self):
-        self.write("in.obj", SEAM)
-        self.succeed("in.obj", "out.obj")
-        vertices = [line for line in self.text("out.obj").splitlines() if line.startswith("v ")]
-        self.assertEqual(len(vertices), 5)
-        self.assertEqual(self.corners("out.obj"), self.corners("in.obj"))
-        self.assertEqual(self.corners("in.obj")[1][0], (4, 0, 0, 1, 1))
-
-    def test_in_ply(self):
-        self.write("in.obj", SEAM)
-        self.succeed("in.obj", "out.ply")
-        self.assertIn("element vertex 5\n", self.text("out.ply"))
-        self.assertEqual(self.corners("out.ply"), self.corners("in.obj"))
-        self.succeed("out.ply", "again.ply")
-        self.assertEqual(self.text("out.ply"), self.text("again.ply"))
-        plain = self.read_plainly("out.ply")
-        self.assertEqual(plain.GetNumberOfPoints(), 7)
-
-    def test_in_other_formats_points_stay_repeated(self):
-        self.write("in.obj", SEAM)
-        self.succeed("in.obj", "out.vtp")
-        self.assertEqual(read_mesh(self.path("out.vtp")).GetNumberOfPoints(), 7)
-
-    def test_texture_that_is_no_number(self):
-        self.write("in.obj", SEAM.replace("vt 1 1\n", "vt nan 1\n"))
-        for name in ("out.obj", "out.ply"):
-            self.succeed("in.obj", name)
-            self.assertEqual(len(self.corners(name)), 2)
-
-
 class Obj(WriterTest):
     def round_trip(self, text):
         """The mesh of an .obj, and the mesh of the file that the command makes from it."""
@@ -345,6 +296,21 @@ class Obj(WriterTest):
 
 
 class Xml(WriterTest):
+    def test_strings_with_zero_bytes_are_refused(self):
+        """VTK's reader crashes on what its writer makes of them."""
+        for add, size in (("GetFieldData", 5), ("GetPointData", 9), ("GetCellData", 8)):
+            mesh = bumpy_grid(3, 0)
+            words = make_values("vtkStringArray", "words", [("a",)] * size)
+            getattr(mesh, add)().AddArray(words)
+            source = write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=())
+            self.succeed(source, "out.vtp")
+            with open(source, encoding="ascii") as file:
+                text = file.read()
+            self.write("in.vtk", text.replace("\na\n", "\na%00b\n", 1))
+            self.fail_with(3, "in.vtk", "new.vtp", naming=["new.vtp", "words", "zero byte", ".vtk"])
+            self.succeed("in.vtk", "out.vtk")
+            self.assertIn("a\0b", self.text("out.vtk"))
+
     def test_ids_of_any_type(self):
         """VTK's writer crashes on pedigree ids that are strings; its reader fails on other types."""
         for kind in ("vtkStringArray", "vtkDoubleArray", "vtkUnsignedCharArray", "vtkIntArray"):

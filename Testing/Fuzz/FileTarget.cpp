@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +17,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 
 /// @file
@@ -24,8 +26,9 @@
 ///
 /// Whatever the file contains, the command must end by itself with one of the exit codes in its
 /// help. If it fails, it must say what is wrong and with which file, and keep an earlier output. It
-/// must never change the input or leave other files behind. If it succeeds, it must be able to read
-/// its output, which is tried in one of four cases.
+/// must never change the input or leave other files behind. If it succeeds, the output must have as
+/// many points, verts and lines as the header of the input says, and no fewer polygons; and it must
+/// be able to read its output, which is tried in one of four cases.
 
 /// Command/main.cpp's main.
 int RunCommand(int argc, char** argv);
@@ -200,12 +203,106 @@ void ExpectFailure(const fs::path& folder, const FileCase& drawn, const std::str
   }
 }
 
+/// How many of each a file has; -1: not known.
+struct FileCounts
+{
+  std::int64_t Points = -1, Verts = -1, Lines = -1, Faces = -1;
+};
+
+/// The sum of the numbers that follow a word, as `pattern` says.
+std::int64_t SumOf(const std::string& bytes, const std::string& pattern)
+{
+  const std::regex numbers(pattern);
+  std::int64_t sum = 0;
+  for (std::sregex_iterator found(bytes.begin(), bytes.end(), numbers), end; found != end; ++found)
+  {
+    sum += std::atoll((*found)[1].str().c_str());
+  }
+  return sum;
+}
+
+std::int64_t CountLines(const std::string& bytes, const std::string& beginning)
+{
+  const std::regex lines("(^|\n)[ \t]*" + beginning);
+  return std::distance(
+    std::sregex_iterator(bytes.begin(), bytes.end(), lines), std::sregex_iterator());
+}
+
+FileCounts CountInXml(const std::string& bytes)
+{
+  const auto sum = [&bytes](const char* kind)
+  { return SumOf(bytes, std::string("<Piece [^>]*NumberOf") + kind + "=\"([0-9]+)\""); };
+  return { sum("Points"), sum("Verts"), sum("Lines"), sum("Strips") + sum("Polys") };
+}
+
+/// From version 5 on, the number of offsets, which is one more, follows the word.
+FileCounts CountInLegacy(const std::string& bytes)
+{
+  const bool hasOffsets = bytes.find("OFFSETS") != std::string::npos;
+  const auto count = [&](const char* kind)
+  {
+    const std::int64_t number = SumOf(bytes, std::string("\n") + kind + " ([0-9]+) [0-9]+\n");
+    return hasOffsets && number > 0 ? number - 1 : number;
+  };
+  return { SumOf(bytes, "\nPOINTS ([0-9]+) "), count("VERTICES"), count("LINES"),
+    count("POLYGONS") + count("TRIANGLE_STRIPS") };
+}
+
+FileCounts CountsOf(const std::string& bytes, const std::string& format)
+{
+  if (format == "vtp")
+  {
+    return CountInXml(bytes);
+  }
+  if (format == "vtk")
+  {
+    return CountInLegacy(bytes);
+  }
+  if (format == "ply")
+  {
+    const std::string head = bytes.substr(0, bytes.find("end_header"));
+    return { SumOf(head, "\nelement vertex ([0-9]+)"), -1, -1,
+      SumOf(head, "\nelement face ([0-9]+)") };
+  }
+  if (format == "obj")
+  {
+    const bool isContinued = bytes.find('\\') != std::string::npos;
+    return isContinued ? FileCounts()
+                       : FileCounts{ CountLines(bytes, "v[ \t]"), CountLines(bytes, "p[ \t]"),
+                           CountLines(bytes, "l[ \t]"), CountLines(bytes, "f[ \t]") };
+  }
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, bytes.data() + 80, bytes.size() > 84 ? sizeof(triangles) : 0);
+  const bool isBinary = bytes.size() == 84 + 50 * static_cast<std::size_t>(triangles);
+  return { -1, -1, -1, isBinary ? triangles : CountLines(bytes, "facet") };
+}
+
+void ExpectSameCounts(const FileCounts& in, const FileCounts& out)
+{
+  const auto compare = [](const char* what, std::int64_t before, std::int64_t after)
+  {
+    if (before >= 0 && after >= 0 && before != after)
+    {
+      Fail(std::string("of ") + std::to_string(before) + " " + what + " only " +
+        std::to_string(after) + " are in the output");
+    }
+  };
+  compare("points", in.Points, out.Points);
+  compare("verts", in.Verts, out.Verts);
+  compare("lines", in.Lines, out.Lines);
+  compare("polygons", in.Faces, std::min(in.Faces, out.Faces)); // they become triangles
+}
+
+std::string FormatOf(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+
 void ExpectSuccess(const fs::path& folder, const FileCase& drawn)
 {
   if (!fs::exists(folder / drawn.Output) || ReadFile(folder / drawn.Output) == EarlierOutput)
   {
     Fail("writes nothing and says that all is well");
   }
+  ExpectSameCounts(CountsOf(drawn.Bytes, FormatOf(drawn.Input)),
+    CountsOf(ReadFile(folder / drawn.Output), FormatOf(drawn.Output)));
   if (drawn.IsReadAgain && Run(folder, drawn.Output, "again.vtk") != 0)
   {
     Fail("cannot read what it wrote: " + ReadFile(folder / "text"));
