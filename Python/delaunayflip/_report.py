@@ -26,8 +26,8 @@ class Report:
     total_flips: int
     total_excluded: int
     total_blocked: int
-    non_delaunay_before: int  #: Bad edges of the input.
-    non_delaunay_after: int  #: Bad edges left, flippable or blocked.
+    non_delaunay_before: int  #: Bad edges of the input; -1 if the run was aborted before the test.
+    non_delaunay_after: int  #: Bad edges left, flippable or blocked; -1 as before.
     blocked_by_shape: int  #: Of these, those whose flip would fold the mesh over.
     blocked_by_edge: int  #: And those whose flip would create an edge that exists.
     edges: int
@@ -61,4 +61,6 @@ def from_struct(struct: _library.Report) -> Report:
         values[name] = value.decode(errors="replace") if isinstance(value, bytes) else value
     values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
     values["geometry_used"] = _library.GEOMETRIES[struct.geometry_used]
+    if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
+        values["non_delaunay_before"] = values["non_delaunay_after"] = -1
     return Report(**values)

@@ -41,7 +41,7 @@ class Totals:
         """For a mesh with triangles. `unmatched`: the number of constraints without points in the
         mesh, which the engine did not get."""
         totals = cls(report.stop_reason)
-        totals.counts = {name: getattr(report, name) for name in totals.counts}
+        totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}
         totals.counts["unmatched_constraints"] += unmatched
         totals.texts = {name: getattr(report, name) for name in totals.texts}
         totals.geometry_used = report.geometry_used

@@ -2,13 +2,14 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: run.sh [engine|files] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
+# Usage: run.sh [engine|files|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J processes
 # (default: all cores), a thousand per process. The engine (default) is built in build-fuzz/ with
 # AddressSanitizer, UndefinedBehaviorSanitizer and the leak check; the command, which gets mutated
-# files, is built in build-fuzz-files/ without them. Results are kept in results/ there: after a
-# stop, run the script again to continue. The exit status is 0 only if no case failed. To run one
-# case again and print its mesh or file:
+# files, is built in build-fuzz-files/ without them; the library for Python, whose functions get
+# arrays of all layouts (fuzz_arrays.py), in build-fuzz-arrays/. Results are kept in results/ there:
+# after a stop, run the script again to continue. The exit status is 0 only if no case failed. To run
+# one case again and print its mesh, file or arrays:
 #
 #   build-fuzz/bin/delaunay-flip-fuzz-engine --seed S --first CASE --cases 1 --print
 #
@@ -24,7 +25,7 @@ fail_usage()
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    engine | files) target=$1 ;;
+    engine | files | arrays) target=$1 ;;
     --cases | --seed | --jobs | --libfuzzer)
       [ $# -ge 2 ] || fail_usage
       case "$1" in
@@ -46,6 +47,9 @@ options=(-DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address)
 if [ "$target" = files ]; then
   build=$root/build-fuzz-files
   options=(-DDELAUNAYFLIP_BUILD_VTK=ON)
+elif [ "$target" = arrays ]; then
+  build=$root/build-fuzz-arrays
+  options=(-DDELAUNAYFLIP_BUILD_VTK=OFF)
 fi
 results=$build/results
 mkdir -p "$results"
@@ -74,7 +78,11 @@ if [ "$seconds" -gt 0 ]; then
 fi
 
 program=${FUZZ_PROGRAM:-$build/bin/delaunay-flip-fuzz-$target}
-if [ -z "${FUZZ_PROGRAM:-}" ]; then
+if [ "$target" = arrays ] && [ -z "${FUZZ_PROGRAM:-}" ]; then
+  program=$root/Testing/Fuzz/fuzz_arrays.py
+  build_target DelaunayFlipC "${options[@]}"
+  export PATH=/usr/bin:$PATH PYTHONPATH=$build/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1
+elif [ -z "${FUZZ_PROGRAM:-}" ]; then
   build_target "delaunay-flip-fuzz-$target" "${options[@]}"
 fi
 
