@@ -114,9 +114,9 @@ class Mesh:
             self.to_insert = numpy.full(len(edges), flags, dtype=numpy.uint8)
             self.struct.constraints_to_insert = address(self.to_insert)
         count = self.struct.number_of_triangles
-        for name, rows in (("triangles", count), ("constraints", len(edges))):
-            if rows and self.struct.number_of_points == 0:
-                raise InvalidMesh(f"{name} name points, but there are no points", 0)
+        for name, ids in (("triangles", self.triangles), ("constraints", edges)):
+            if len(ids) and self.struct.number_of_points == 0:
+                raise InvalidMesh(f"{name} name points, but there are no points", 0, int(ids[0, 0]))
         if regions is not None:
             self.regions = _per_triangle("regions", regions, numpy.int32, count)
             self.struct.regions = address(self.regions)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """VTK's arrays and cells as NumPy arrays, without a copy if possible."""
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
     vtkBitArray, vtkDataArray, vtkIdList, vtkTypeInt32Array, vtkTypeInt64Array)
 from vtkmodules.vtkCommonDataModel import vtkCellArray
@@ -15,7 +15,8 @@ def view(array):
     if not array.HasStandardMemoryLayout() or isinstance(array, vtkBitArray):
         array = copy(array)
     if array.GetNumberOfValues() == 0:
-        return numpy.empty((0,) + (array.GetNumberOfComponents(),) * (array.GetNumberOfComponents() > 1))
+        width = array.GetNumberOfComponents()
+        return numpy.empty((0, width) if width > 1 else 0, get_numpy_array_type(array.GetDataType()))
     return vtk_to_numpy(array)
 
 

@@ -35,6 +35,7 @@ class Totals:
         self.iterations = numpy.empty(0, dtype=ITERATION)
         self.minimum_angle_after = numpy.inf
         self.has_triangles = False
+        self.has_angles = False  #: Some triangle has no coordinate that is NaN.
 
     @classmethod
     def of_run(cls, report, iterations, unmatched):
@@ -48,6 +49,7 @@ class Totals:
         totals.iterations = iterations
         totals.minimum_angle_after = report.minimum_angle_after
         totals.has_triangles = True
+        totals.has_angles = not numpy.isnan(report.minimum_angle_before)
         return totals
 
     @property
@@ -66,8 +68,11 @@ class Totals:
             self.geometry_used = other.geometry_used
         elif other.geometry_used not in ("auto", self.geometry_used):
             self.geometry_used = "mixed"
-        self.minimum_angle_after = numpy.minimum(self.minimum_angle_after, other.minimum_angle_after)
+        if other.has_angles:
+            self.minimum_angle_after = numpy.minimum(
+                self.minimum_angle_after, other.minimum_angle_after)
         self.has_triangles = self.has_triangles or other.has_triangles
+        self.has_angles = self.has_angles or other.has_angles
         self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
 
     def get_geometry(self):
@@ -113,26 +118,31 @@ def _add_text(data, name, text):
 
 
 def _join_iterations(a, b):
-    """Adds row by row. A mesh that made fewer iterations keeps its last angle."""
+    """Adds row by row. A mesh that made fewer iterations keeps its last angle; one without angles
+    does not count."""
     rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
-    rows["minimum_angle"] = numpy.inf
+    rows["minimum_angle"] = numpy.inf if a.has_angles or b.has_angles else numpy.nan
     for totals in (a, b):
         known = len(totals.iterations)
-        angles = numpy.full(len(rows), totals.minimum_angle_after)
-        angles[:known] = totals.iterations["minimum_angle"]
-        rows["minimum_angle"] = numpy.minimum(rows["minimum_angle"], angles)
+        if totals.has_angles:
+            angles = numpy.full(len(rows), totals.minimum_angle_after)
+            angles[:known] = totals.iterations["minimum_angle"]
+            rows["minimum_angle"] = numpy.minimum(rows["minimum_angle"], angles)
         for name in set(ITERATION.names) - {"iteration", "minimum_angle"}:
             rows[name][:known] += totals.iterations[name]
     rows["iteration"] = numpy.arange(1, len(rows) + 1)
     return rows
 
 
-def describe_trouble(defects, report, has_asked_for_limit):
+def describe_trouble(defects, report, options):
     """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
     texts = [defects] if defects else []
-    if report.stop_reason == "iteration limit" and not has_asked_for_limit:
+    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
         texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
                      f"with {report.non_delaunay_after} edges left that are not Delaunay")
+    if options["tolerance"] >= 0 and report.tolerance == "none":
+        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                     "opposite angles")
     if report.fallback:
         texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
     return "; ".join(texts)

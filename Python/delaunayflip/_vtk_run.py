@@ -133,9 +133,8 @@ class Run:
     def describe_trouble(self):
         """The text of a warning, or ""."""
         report = self._session.report
-        has_limit = self._request.options["maximum_iterations"] >= 0
         defects = self._current.describe_defects(report.defects, self._start is not None)
-        return describe_trouble(defects, report, has_limit)
+        return describe_trouble(defects, report, self._request.options)
 
 
 def _stamp(request):

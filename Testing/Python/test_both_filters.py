@@ -367,6 +367,34 @@ class Same(unittest.TestCase):
             told = self.expect_same(join(parts), mistake)
             self.assertIn(error, told["errors"][0])
 
+    def test_cells_without_points(self):
+        """Strips, polygons, lines and verts of no, one or two points are kept as they are."""
+        for short in ([()], [(0,), (1, 2)], [(), (1, 2), (3,)]):
+            for place, name in enumerate(("SetVerts", "SetLines", "SetPolys", "SetStrips"), 1):
+                mesh = make_rhombus()
+                mesh.SetPolys(make_cells([]))
+                getattr(mesh, name)(make_cells(short))
+                told = self.expect_same(mesh)
+                self.assertEqual(told["errors"], [])
+                self.assertEqual(told["meshes"][0][place][0], short)
+                part = vtkPolyData()
+                getattr(part, name)(make_cells([()]))
+                self.expect_same(join([*cut_triangles(make_bad_mesh(), 2), part]))
+
+    def test_blocks_without_angles(self):
+        nowhere = make_bad_mesh()
+        vtk_to_numpy(nowhere.GetPoints().GetData())[:] = math.nan
+        for meshes in ((nowhere, make_bad_mesh()), (make_bad_mesh(), nowhere)):
+            blocks = vtkMultiBlockDataSet()
+            for i, mesh in enumerate(meshes):
+                blocks.SetBlock(i, mesh)
+            told = Watched(blocks, PythonFilter)
+            told.filter.TrackQualityOn()
+            told.filter.Update()
+            angles = told.filter.GetIterations().GetColumnByName("MinimumAngle")
+            self.assertGreater(angles.GetNumberOfValues(), 3)
+            self.assertTrue(numpy.isfinite(vtk_to_numpy(angles)).all())
+
     def test_partitions_with_short_arrays(self):
         parts = cut_triangles(make_bad_mesh(), 3)
         for data in (parts[0].GetCellData(), parts[2].GetCellData(), parts[2].GetPointData()):
