@@ -85,7 +85,7 @@ def _per_triangle(name, values, kind, count):
     return converted
 
 
-def _as_flags(name, values, *shapes):
+def as_flags(name, values, *shapes):
     """True or false, or numbers that are 0 or not, of one of these shapes."""
     values = _as_array(name, values)
     if values.shape not in shapes:
@@ -106,7 +106,7 @@ class Mesh:
         _library.library().delaunayflip_mesh_init(self.struct)
         self._take(points, triangles)
         edges = as_ids("constraints", [] if constraints is None else constraints, 2)
-        flags = _as_flags("insert_constraints", insert_constraints, (), (len(edges),))
+        flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
         if constraints is not None:
             self.constraints = _convert(edges, numpy.int64)
             self.struct.constraint_edges = address(self.constraints)
@@ -121,7 +121,7 @@ class Mesh:
             self.regions = _per_triangle("regions", regions, numpy.int32, count)
             self.struct.regions = address(self.regions)
         if frozen is not None:
-            self.frozen = _as_flags("frozen", frozen, (count,)).astype(numpy.uint8)
+            self.frozen = as_flags("frozen", frozen, (count,)).astype(numpy.uint8)
             self.struct.frozen_triangles = address(self.frozen)
         if triangle_numbers is not None:
             self.numbers = _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count)

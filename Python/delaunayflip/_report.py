@@ -6,6 +6,19 @@ import typing
 
 from . import _library
 
+# What VTK's field data and tables tell, by their names.
+FIELD_PREFIX = "DelaunayFlip:"
+COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
+           "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
+           "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
+          "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
+          "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
+          "ConstraintEdges": "constraint_edges",
+          "UnmatchedConstraintEdges": "unmatched_constraints",
+          "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
+TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
+
 
 @dataclasses.dataclass(frozen=True)
 class Report:
@@ -64,3 +77,17 @@ def from_struct(struct: _library.Report) -> Report:
     if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
         values["non_delaunay_before"] = values["non_delaunay_after"] = -1
     return Report(**values)
+
+
+def describe_trouble(defects, report, options):
+    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
+    texts = [defects] if defects else []
+    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
+        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
+    if options["tolerance"] >= 0 and report.tolerance == "none":
+        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                     "opposite angles")
+    if report.fallback:
+        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+    return "; ".join(texts)

@@ -7,7 +7,7 @@ from vtkmodules.vtkCommonCore import (
     vtkBitArray, vtkDataArray, vtkIdList, vtkTypeInt32Array, vtkTypeInt64Array)
 from vtkmodules.vtkCommonDataModel import vtkCellArray
 
-from ._errors import InvalidMesh
+from . import _surface
 
 
 def view(array):
@@ -43,58 +43,21 @@ def make_ids(values):
     return ids
 
 
+def read_surface(mesh):
+    return _surface.Surface(mesh, view)
+
+
+def read_cells(array, what, first):
+    return _surface.read_cells(array, what, first, view)
+
+
 def view_points(mesh):
     """The coordinates, (n, 3) float32 or float64."""
-    if mesh.GetNumberOfPoints() == 0:
-        return numpy.empty((0, 3))
-    data = mesh.GetPoints().GetData()
-    if data.GetNumberOfComponents() != 3:
-        raise InvalidMesh(f"Points must have 3 coordinates, not {data.GetNumberOfComponents()}.")
-    points = view(data)
-    return points if points.dtype in (numpy.float32, numpy.float64) else points.astype(float)
+    return read_surface(mesh).points
 
 
-class Cells:
-    """A vtkCellArray: ids `corners[offsets[i]:offsets[i + 1]]` are the points of cell i."""
-
-    def __init__(self, array, what, first):
-        """`what` is the word for the cells in messages, `first` the number of the first one.
-
-        Raises:
-            InvalidMesh: Offsets and connectivity contradict each other.
-        """
-        self.array, self.what, self.first = array, what, first
-        if not array.IsValid():
-            raise InvalidMesh(
-                f"The offsets and the connectivity of the cell array of {what} {first} and the "
-                "following ones contradict each other.", first)
-        self.count = array.GetNumberOfCells()
-        self.offsets = view(array.GetOffsetsArray()) if self.count else numpy.zeros(1, dtype=int)
-        self.corners = view(array.GetConnectivityArray()) if self.count else numpy.zeros(0, dtype=int)
-
-    @property
-    def sizes(self):
-        return numpy.diff(self.offsets)
-
-    def are_triangles(self):
-        return len(self.corners) == 3 * self.count and bool((self.sizes == 3).all())
-
-    def require_points(self, count):
-        """Raises InvalidMesh if a cell names a point that does not exist."""
-        wrong = numpy.flatnonzero((self.corners < 0) | (self.corners >= count))
-        if len(wrong):
-            cell = int(numpy.searchsorted(self.offsets, wrong[0], side="right")) - 1
-            raise name_out_of_range(
-                self.what, self.first + cell, int(self.corners[wrong[0]]), count)
-
-    def is_wide(self):
-        return self.array.GetConnectivityArray().GetDataTypeSize() == 8
-
-
-def name_out_of_range(what, cell, point, count):
-    return InvalidMesh(
-        f"Invalid mesh: {what} {cell} names point {point}, but there are {count} points, numbered "
-        "from 0.", cell, point)
+def is_wide(cells):
+    return cells.GetConnectivityArray().GetDataTypeSize() == 8
 
 
 def new_cells(sizes, wide):

@@ -7,9 +7,11 @@ from vtkmodules.vtkCommonCore import VTK_FLOAT, vtkAbstractArray, vtkDataArray, 
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
 
 from ._errors import InvalidOptions
-from ._vtk_arrays import Cells, make, make_ids, new_cells, view, view_points
-from ._vtk_constraints import list_other_pairs
-from ._vtk_mesh import demote_global_ids, gather, take_whole_arrays, take_whole_point_arrays
+from ._constraints import list_other_pairs
+from ._vtk_arrays import (
+    is_wide, make, make_ids, new_cells, read_cells, read_surface, view, view_points)
+from ._surface import Surface
+from ._vtk_mesh import demote_global_ids, take_whole_arrays, take_whole_point_arrays
 from ._vtk_points import PartitionPoints
 from ._vtk_regions import find_ghosts, is_wrong_ghost_array
 
@@ -194,7 +196,7 @@ def join_constraints(sources):
         named = constraints if constraints.GetNumberOfPoints() else mesh
         if named is not None:
             points = view_points(named)
-            edges.append(points[list_other_pairs(constraints, len(points))].reshape(-1, 3))
+            edges.append(points[list_other_pairs(read_surface(constraints), len(points))].reshape(-1, 3))
             are_floats = are_floats and named.GetPoints().GetDataType() == VTK_FLOAT
     if sum(map(len, edges)) == 0:
         return None
@@ -212,7 +214,7 @@ def _list_cells(mesh):
     """Verts, lines, polygons and strips: the order of cell ids."""
     lists, first = [], 0
     for array in (mesh.GetVerts(), mesh.GetLines(), mesh.GetPolys(), mesh.GetStrips()):
-        lists.append(Cells(array, "cell", first))
+        lists.append(read_cells(array, "cell", first))
         first += lists[-1].count
     return lists
 
@@ -225,7 +227,7 @@ def _set_cells(mesh, arrays):
 def _take_cells(cells, owners, k):
     """(sizes, corners) of the cells of partition k."""
     chosen = numpy.flatnonzero(owners[cells.first:cells.first + cells.count] == k)
-    return cells.sizes[chosen], gather(cells, chosen)
+    return cells.sizes[chosen], cells.gather(chosen)
 
 
 def _list_new(corners, local):
@@ -254,10 +256,10 @@ def _take_some(mesh, chosen):
     taken.SetPoints(mesh.GetPoints())
     taken.GetPointData().ShallowCopy(mesh.GetPointData())
     taken.GetFieldData().ShallowCopy(mesh.GetFieldData())
-    for cells in _list_cells(mesh):
+    for kind, cells in zip(Surface.KINDS, _list_cells(mesh)):
         own = chosen[(chosen >= cells.first) & (chosen < cells.first + cells.count)] - cells.first
-        array, corners = new_cells(cells.sizes[own], cells.is_wide())
-        corners[:] = gather(cells, own)
+        array, corners = new_cells(cells.sizes[own], is_wide(getattr(mesh, "Get" + kind)()))
+        corners[:] = cells.gather(own)
         arrays.append(array)
     _set_cells(taken, arrays)
     whole = take_whole_arrays(mesh)

@@ -5,8 +5,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkPoints
 
-from ._vtk_arrays import Cells, view, view_points
-from ._vtk_slots import split_strips
+from ._surface import split_strips
+from ._vtk_arrays import read_cells, view, view_points
 
 
 class PartitionPoints:
@@ -89,14 +89,14 @@ def _find_use(mesh):
     count = mesh.GetNumberOfPoints()
     of_polygon = numpy.zeros(count, dtype=bool)
     fans = numpy.zeros(count, dtype=numpy.uint64)
-    polygons = Cells(mesh.GetPolys(), "cell", 0)
-    strips = split_strips(Cells(mesh.GetStrips(), "cell", 0))
+    polygons = read_cells(mesh.GetPolys(), "cell", 0)
+    strips = split_strips(read_cells(mesh.GetStrips(), "cell", 0))
     for corners, offsets in ((polygons.corners, polygons.offsets),
                              (strips.ravel(), 3 * numpy.arange(len(strips) + 1))):
         of_polygon[corners] = True
         _add_corners(fans, corners.astype(numpy.int64), offsets)
     used = of_polygon.copy()
-    used[Cells(mesh.GetLines(), "cell", 0).corners] = True
+    used[read_cells(mesh.GetLines(), "cell", 0).corners] = True
     return used, of_polygon, (fans != 0) | ~of_polygon
 
 

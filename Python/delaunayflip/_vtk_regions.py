@@ -7,9 +7,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 
 from . import _vtk_arrays
 from ._errors import InvalidOptions
-
-_GHOST = (vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.REFINEDCELL
-          | vtkDataSetAttributes.HIDDENCELL)
+from ._surface import number_tuples
 
 
 def label_cells(mesh, name):
@@ -24,19 +22,9 @@ def label_cells(mesh, name):
     if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
         raise InvalidOptions(
             f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
-    values = _number_tuples(array) if isinstance(array, vtkDataArray) else _number_texts(array)
-    return values.astype(numpy.int32)
-
-
-def _number_tuples(array):
-    values = _vtk_arrays.view(array).reshape(array.GetNumberOfTuples(), -1)
-    if values.dtype.kind == "f":
-        values = values + values.dtype.type(0)  # -0 becomes 0
-        values[numpy.isnan(values)] = numpy.nan  # all NaN are equal
-    values = numpy.ascontiguousarray(values)
-    width = values.shape[1] * values.itemsize
-    return numpy.unique(values.view(numpy.dtype((numpy.void, width))).ravel(),
-                        return_inverse=True)[1].ravel()
+    if isinstance(array, vtkDataArray):
+        return number_tuples(_vtk_arrays.view(array))
+    return _number_texts(array)
 
 
 def _number_texts(array):
@@ -61,17 +49,6 @@ def find_ghosts(mesh):
     not ignored."""
     array = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
     return None if array is None or is_wrong_ghost_array(array) else _vtk_arrays.view(array)
-
-
-def find_frozen(mesh, slots):
-    """(m,) whether the edges of a triangle stay, or None if no triangle's edges have to."""
-    values = find_ghosts(mesh)
-    if values is None:
-        return slots.frozen
-    padded = numpy.zeros(max(mesh.GetNumberOfCells(), len(values)), dtype=numpy.uint8)
-    padded[:len(values)] = values
-    are_ghosts = (padded[slots.cells] & _GHOST) != 0
-    return are_ghosts if slots.frozen is None else are_ghosts | slots.frozen
 
 
 def describe_malformed_arrays(mesh, short_points, short_cells):

@@ -6,19 +6,9 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkStringArray
 
 from . import _library
+from ._report import COLUMNS, COUNTS, FIELD_PREFIX, TEXTS
 from ._session import ITERATION
 
-FIELD_PREFIX = "DelaunayFlip:"
-_COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
-            "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
-            "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
-_COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
-           "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
-           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
-           "ConstraintEdges": "constraint_edges",
-           "UnmatchedConstraintEdges": "unmatched_constraints",
-           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
-_TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
 _MOST = 3  # places named per text, and texts
 
@@ -29,8 +19,8 @@ class Totals:
 
     def __init__(self, stop_reason="not started"):
         self.stop_reason = stop_reason
-        self.counts = dict.fromkeys(_COUNTS.values(), 0)
-        self.texts = dict.fromkeys(_TEXTS.values(), "")
+        self.counts = dict.fromkeys(COUNTS.values(), 0)
+        self.texts = dict.fromkeys(TEXTS.values(), "")
         self.geometry_used = "auto"
         self.iterations = numpy.empty(0, dtype=ITERATION)
         self.minimum_angle_after = numpy.inf
@@ -84,7 +74,7 @@ class Totals:
 
     def add_columns(self, prefix, data):
         """One array per column, with a value per iteration."""
-        for name, field in _COLUMNS.items():
+        for name, field in COLUMNS.items():
             values = numpy.ascontiguousarray(self.iterations[field])
             kind = VTK_ID_TYPE if values.dtype.kind == "i" else None
             _add(data, prefix + name, numpy_to_vtk(values, deep=True, array_type=kind))
@@ -93,10 +83,10 @@ class Totals:
         """The totals first: ParaView lists no field data when the first array is empty."""
         _add_number(data, "Converged", numpy.int32(self.converged))
         _add_text(data, "StopReason", self.stop_reason)
-        for name, count in _COUNTS.items():
+        for name, count in COUNTS.items():
             _add_number(data, name, self.counts[count], VTK_ID_TYPE)
         _add_text(data, "GeometryUsed", self.geometry_used)
-        for name, text in _TEXTS.items():
+        for name, text in TEXTS.items():
             _add_text(data, name, self.texts[text])
         self.add_columns(FIELD_PREFIX, data)
 
@@ -132,20 +122,6 @@ def _join_iterations(a, b):
             rows[name][:known] += totals.iterations[name]
     rows["iteration"] = numpy.arange(1, len(rows) + 1)
     return rows
-
-
-def describe_trouble(defects, report, options):
-    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
-    texts = [defects] if defects else []
-    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
-        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
-                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
-    if options["tolerance"] >= 0 and report.tolerance == "none":
-        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
-                     "opposite angles")
-    if report.fallback:
-        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
-    return "; ".join(texts)
 
 
 def describe(notes):

@@ -8,11 +8,11 @@ import typing
 import numpy
 
 from . import _vtk_arrays
-from ._errors import InvalidMesh
-from ._session import Session
-from ._vtk_mesh import MeshInput, Settings
+from ._report import describe_trouble
+from ._surface import Settings
+from ._vtk_mesh import MeshInput
 from ._vtk_plan import Plan
-from ._vtk_report import Totals, describe_trouble
+from ._vtk_report import Totals
 from ._vtk_warm import keeps_geometry, make_start
 
 
@@ -57,12 +57,7 @@ class Run:
         if self._start is not None:
             arguments = self._start.change_arguments(arguments)
             options = self._start.change_options(options)
-        try:
-            return Session(progress=progress, **arguments, **options)
-        except InvalidMesh as error:
-            slots = self._input.slots  # name the cell, not the triangle
-            raise _vtk_arrays.name_out_of_range(
-                "cell", int(slots.cells[error.cell]), error.point, len(self._input.points)) from None
+        return self._input.open(progress=progress, **{**arguments, **options})
 
     def prepare(self, request):
         """The run for another update: this one if nothing that affects its result has changed; a
@@ -117,13 +112,9 @@ class Run:
             False when the observer stopped it; then there are no angles.
         """
         self._current.store(self._session, output)
-        if counts:
-            self._current.store_flip_counts(self._session, output)
-        if angles:
-            if not self._plan.part("output")(0.0):
-                return False
-            self._current.store_angles(self._session, output)
-        return True
+        is_whole = not angles or self._plan.part("output")(0.0)
+        self._current.store_numbers(self._session, output, counts, angles and is_whole)
+        return is_whole
 
     def get_totals(self):
         unmatched = self._input.constraints.unmatched

@@ -8,8 +8,8 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
 
 from . import _errors, _library, _vtk_blocks
 from ._session import ITERATION
+from ._surface import Settings
 from ._vtk_block_mesh import BlockMesh
-from ._vtk_mesh import Settings
 from ._vtk_report import Totals, describe
 from ._vtk_run import Request, Run
 
