@@ -19,9 +19,10 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. There are two differences: in
-    a parallel run each rank reports on its own piece; and in a live run, points that were marked
-    as modified but have not changed do not count as moved.
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. It leaves out live updates, and
+    with them warm starts: all flips are made at once, with a warning. Partitions of a dataset are
+    flipped one by one, and so are the pieces of parallel ranks, which report on their own piece:
+    edges between them stay, with a warning.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """
@@ -31,8 +32,6 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         self._values = {item.name: item.default for item in PROPERTIES}
         self._is_at_work = False
         self._interrupt = None
-        self._run = None  # of a live update
-        self._can_continue = True
         self._update = Update(self)
         for name, value in properties.items():
             setattr(self, _require_property(name), value)
@@ -162,22 +161,16 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return self.GetOutputDataObject(1)
 
     def Advance(self):
-        continues = self.GetLiveUpdate() and self._can_continue
-        if continues:
-            self.Modified()
-        return continues
+        return False  # for live updates, which this class does not have
 
     def Step(self):
-        return self.Advance()
+        return False
 
     def Restart(self):
-        self._run = None
-        self._can_continue = True
         self.Modified()
 
     def GetNeedsUpdate(self):
-        is_under_way = self._run is not None and self._update.totals.stop_reason == "running"
-        return is_under_way and not self.GetPaused() and self.Advance()
+        return False
 
     def ReleaseDeviceMemory(self):
         _library.release_cuda_memory()

@@ -1,42 +1,45 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts a vtkPolyData to the engine's arrays, and back."""
-from vtkmodules.vtkCommonCore import VTK_INT_MAX
-from vtkmodules.vtkCommonDataModel import vtkCellArray
+import numpy
+from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import (
+    VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList, vtkTypeInt32Array,
+    vtkTypeInt64Array)
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
-from . import _vtk_arrays, _vtk_regions
-from ._surface import FlipInput
-from ._vtk_arrays import is_wide, make, make_ids, new_cells, read_surface, view
+from ._errors import InvalidOptions
+from ._surface import FlipInput, Surface, number_tuples
 
 
 class MeshInput(FlipInput):
-    """Arrays for a Session, and the parts of the input that the output needs. `copy_points`: the
-    points may be moved in place while the session lives."""
+    """Arrays for a Session, and the parts of the input that the output needs."""
 
-    def __init__(self, mesh, others, settings, plan, copy_points=False):
+    def __init__(self, mesh, others, settings, progress):
         self.mesh = mesh.NewInstance()
         self.mesh.ShallowCopy(mesh)
-        surface = read_surface(mesh)
-        if copy_points:
-            surface.points = surface.points.copy()
-        others = read_surface(others) if others is not None else None
-        super().__init__(surface, others, settings, plan.part("polygons"))
+        others = _read(others) if others is not None else None
+        super().__init__(_read(mesh), others, settings, progress)
         if settings.region_array:
-            self.regions = _vtk_regions.label_cells(mesh, settings.region_array)[self.slots.cells]
-        self.freeze(_vtk_regions.find_ghosts(mesh))
+            self.regions = _label_cells(mesh, settings.region_array)[self.slots.cells]
+        ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+        if ghosts is not None and not _find_ghost_fault(ghosts):
+            self.freeze(_view(ghosts))
 
-    def describe_defects(self, of_engine, is_warm):
-        """The text of a warning: the engine's, then those about this input's arrays. A warm start
-        does not say again what the first run has said of constraints."""
-        texts = [of_engine] if of_engine else []
-        texts += [] if is_warm else self.describe_unmatched()
-        passed = "passed unchanged"
-        texts += _vtk_regions.describe_malformed_arrays(
-            self.mesh, passed, passed if self.slots.in_place else "left out")
-        return "; ".join(texts)
+    def list_defects(self):
+        """Texts of a warning about the input's constraints and arrays."""
+        mesh, passed = self.mesh, "passed unchanged"
+        texts = self.describe_unmatched()
+        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+                                 passed if self.slots.in_place else "left out")
+        name = vtkDataSetAttributes.GhostArrayName()
+        ghosts = mesh.GetCellData().GetAbstractArray(name)
+        fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
+        return texts + ([f'1 ghost array {fault} ignored: "{name}"'] if fault else [])
 
-    def store(self, session, output):
-        """Writes the current mesh."""
+    def store(self, session, output, counts, angles):
+        """Writes the current mesh, with the requested cell arrays."""
         mesh = self.mesh
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
@@ -47,12 +50,16 @@ class MeshInput(FlipInput):
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(output)
         self._pass_normals(session, output)
+        for name, values in self.list_numbers(session, counts, angles):
+            array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            output.GetCellData().AddArray(array)
 
     def _build_polygons(self, session):
         mesh = self.mesh
         given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
-        wide = is_wide(given) or 3 * len(self.slots.triangles) > VTK_INT_MAX
-        cells, corners = new_cells(self.polygon_sizes, wide)
+        wide = _is_wide(given) or 3 * len(self.slots.triangles) > VTK_INT_MAX
+        cells, corners = _new_cells(self.polygon_sizes, wide)
         self.fill_polygons(session, corners)
         return cells
 
@@ -60,9 +67,7 @@ class MeshInput(FlipInput):
         strips, chosen = self.mesh.GetStrips(), self.slots.kept_strips - self.slots.strips.first
         if len(chosen) == strips.GetNumberOfCells():
             return strips
-        if len(chosen) == 0:
-            return vtkCellArray()
-        cells, corners = new_cells(self.slots.strips.sizes[chosen], is_wide(strips))
+        cells, corners = _new_cells(self.slots.strips.sizes[chosen], _is_wide(strips))
         corners[:] = self.slots.strips.gather(chosen)
         return cells
 
@@ -71,51 +76,110 @@ class MeshInput(FlipInput):
         if self.slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
             return
+        whole = vtkDataSetAttributes()  # without arrays that are too short
+        whole.ShallowCopy(self.mesh.GetCellData())
+        for i in reversed(range(whole.GetNumberOfArrays())):
+            if whole.GetAbstractArray(i).GetNumberOfTuples() < self.mesh.GetNumberOfCells():
+                whole.RemoveArray(i)
         sources = self.cell_sources
-        whole = take_whole_arrays(self.mesh)
         data.CopyAllOn()
         data.CopyAllocate(whole, len(sources))
-        data.CopyData(whole, make_ids(sources), make_ids(range(len(sources))))
-        if self.slots.divides_cells:
-            demote_global_ids(data)
+        data.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
+        ids = data.GetGlobalIds()
+        if self.slots.divides_cells and ids is not None:  # several cells share an id
+            data.SetActiveAttribute(-1, data.GLOBALIDS)
+            if data.GetPedigreeIds() is None:
+                data.SetPedigreeIds(ids)
 
     def _pass_normals(self, session, output):
         shared = output.GetCellData().GetNormals()
         if (shared is None or shared.GetNumberOfComponents() != 3
                 or shared.GetNumberOfTuples() < output.GetNumberOfCells()):
             return
-        normals = _vtk_arrays.copy(shared)
-        self.renew_normals(view(normals), session.triangles)
+        normals = _copy(shared)
+        self.renew_normals(_view(normals), session.triangles)
         output.GetCellData().SetNormals(normals)
 
-    def store_numbers(self, session, output, counts, angles):
-        for name, values in self.list_numbers(session, counts, angles):
-            output.GetCellData().AddArray(make(name, values))
+
+def _read(mesh):
+    """The arrays are copies: observers may change the input during the run."""
+    return Surface(mesh, lambda array: _view(array).copy())
 
 
-def take_whole_arrays(mesh):
-    """The cell data without arrays that are too short."""
-    return _take_arrays(mesh.GetCellData(), mesh.GetNumberOfCells())
+def _view(array):
+    """The values of a vtkDataArray, (n,) or (n, components)."""
+    if not array.HasStandardMemoryLayout() or isinstance(array, vtkBitArray):
+        array = _copy(array)
+    if array.GetNumberOfValues() == 0:
+        width = array.GetNumberOfComponents()
+        return numpy.empty((0, width) if width > 1 else 0, get_numpy_array_type(array.GetDataType()))
+    return vtk_to_numpy(array)
 
 
-def take_whole_point_arrays(mesh):
-    """The point data without arrays that are too short."""
-    return _take_arrays(mesh.GetPointData(), mesh.GetNumberOfPoints())
+def _copy(array):
+    """A deep copy in contiguous memory, of the same type (bits become bytes)."""
+    kind = VTK_UNSIGNED_CHAR if isinstance(array, vtkBitArray) else array.GetDataType()
+    plain = vtkDataArray.CreateDataArray(kind)
+    plain.DeepCopy(array)
+    return plain
 
 
-def _take_arrays(data, tuples):
-    whole = data.NewInstance()
-    whole.ShallowCopy(data)
-    for i in reversed(range(whole.GetNumberOfArrays())):
-        if whole.GetAbstractArray(i).GetNumberOfTuples() < tuples:
-            whole.RemoveArray(i)
-    return whole
+def _make_ids(values):
+    ids = vtkIdList()
+    ids.SetNumberOfIds(len(values))
+    for place, value in enumerate(values):
+        ids.SetId(place, int(value))
+    return ids
 
 
-def demote_global_ids(data):
-    """Global ids become pedigree ids: where cells are divided, several share an id."""
-    ids = data.GetGlobalIds()
-    if ids is not None:
-        data.SetActiveAttribute(-1, data.GLOBALIDS)
-        if data.GetPedigreeIds() is None:
-            data.SetPedigreeIds(ids)
+def _is_wide(cells):
+    return cells.GetConnectivityArray().GetDataTypeSize() == 8
+
+
+def _new_cells(sizes, wide):
+    """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
+    kind = vtkTypeInt64Array if wide else vtkTypeInt32Array
+    offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
+    offsets.SetNumberOfValues(len(sizes) + 1)
+    _view(offsets)[0] = 0
+    _view(offsets)[1:] = ends
+    corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
+    cells = vtkCellArray()
+    cells.SetData(offsets, corners)
+    return cells, _view(cells.GetConnectivityArray())
+
+
+def _label_cells(mesh, name):
+    """One int32 label per cell; cells with equal tuples in the array have equal labels.
+
+    Raises:
+        InvalidOptions: There is no such array, or it does not have one tuple per cell.
+    """
+    array = mesh.GetCellData().GetAbstractArray(name)
+    if array is None:
+        raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+    if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
+        raise InvalidOptions(
+            f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
+    if isinstance(array, vtkDataArray):
+        return number_tuples(_view(array))
+    texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
+    return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
+
+
+def _find_ghost_fault(ghosts):
+    """Why a ghost array is ignored, or ""."""
+    if ghosts.GetDataType() != VTK_UNSIGNED_CHAR:
+        return "that is not of type unsigned char"
+    return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
+
+
+def _describe_short(data, tuples, kind, fate):
+    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+    names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
+    if not names:
+        return []
+    listed = ", ".join(f'"{name}"' for name in names[:3])
+    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
+    word = "array" if len(names) == 1 else "arrays"
+    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}{more}"]

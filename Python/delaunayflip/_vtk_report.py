@@ -28,15 +28,15 @@ class Totals:
         self.has_angles = False  #: Some triangle has no coordinate that is NaN.
 
     @classmethod
-    def of_run(cls, report, iterations, unmatched):
-        """For a mesh with triangles. `unmatched`: the number of constraints without points in the
-        mesh, which the engine did not get."""
+    def of_run(cls, session, data):
+        """Of a session for `data`, a FlipInput with triangles."""
+        report = session.report
         totals = cls(report.stop_reason)
         totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}
-        totals.counts["unmatched_constraints"] += unmatched
+        totals.counts["unmatched_constraints"] += data.constraints.unmatched
         totals.texts = {name: getattr(report, name) for name in totals.texts}
         totals.geometry_used = report.geometry_used
-        totals.iterations = iterations
+        totals.iterations = session.iterations
         totals.minimum_angle_after = report.minimum_angle_after
         totals.has_triangles = True
         totals.has_angles = not numpy.isnan(report.minimum_angle_before)
