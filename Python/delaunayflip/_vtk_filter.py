@@ -78,8 +78,8 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return status
 
     def get_mesh(self, data):
-        """An input, or a block of it, as a mesh, the same object while it is the same; None if it is
-        not a surface. Subclasses that accept more than vtkPolyData override this."""
+        """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
+        more than vtkPolyData override this."""
         return data if isinstance(data, vtkPolyData) else None
 
     def FillInputPortInformation(self, port, info):

@@ -76,15 +76,7 @@ class MeshInput(FlipInput):
         if self.slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
             return
-        whole = vtkDataSetAttributes()  # without arrays that are too short
-        whole.ShallowCopy(self.mesh.GetCellData())
-        for i in reversed(range(whole.GetNumberOfArrays())):
-            if whole.GetAbstractArray(i).GetNumberOfTuples() < self.mesh.GetNumberOfCells():
-                whole.RemoveArray(i)
-        sources = self.cell_sources
-        data.CopyAllOn()
-        data.CopyAllocate(whole, len(sources))
-        data.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
+        copy_cell_data(self.mesh, self.cell_sources, data)
         ids = data.GetGlobalIds()
         if self.slots.divides_cells and ids is not None:  # several cells share an id
             data.SetActiveAttribute(-1, data.GLOBALIDS)
@@ -99,6 +91,21 @@ class MeshInput(FlipInput):
         normals = _copy(shared)
         self.renew_normals(_view(normals), session.triangles)
         output.GetCellData().SetNormals(normals)
+
+
+def copy_cell_data(mesh, sources, target):
+    """Copies the tuples of the source cells. Returns the arrays that are too short for that, and are
+    left out."""
+    whole, short = vtkDataSetAttributes(), []
+    whole.ShallowCopy(mesh.GetCellData())
+    for i in reversed(range(whole.GetNumberOfArrays())):
+        if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
+            short.append(whole.GetAbstractArray(i))
+            whole.RemoveArray(i)
+    target.CopyAllOn()
+    target.CopyAllocate(whole, len(sources))
+    target.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
+    return short
 
 
 def _read(mesh):
