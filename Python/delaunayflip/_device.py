@@ -79,7 +79,7 @@ class _Numba:
     @staticmethod
     def as_contiguous(array):
         if not array.is_c_contiguous():
-            raise ValueError("points and triangles of Numba must be contiguous, row by row")
+            raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
     @staticmethod
