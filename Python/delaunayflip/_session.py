@@ -11,16 +11,11 @@ import numpy
 from . import _arrays, _device, _library, _report
 from ._observers import Observers
 from ._options import check_integer, make_options
+from ._report import ITERATION
 from ._types import Array, Numbers, OnIteration, Options, Progress
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-#: The columns of an iteration, as a NumPy structure.
-ITERATION = numpy.dtype(
-    [(name, "f8" if kind is ctypes.c_double else "i8") for name, kind in _library.Iteration._fields_]
-)
-
 
 class Session:
     """Flips a mesh step by step.

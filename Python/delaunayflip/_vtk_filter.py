@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
+from ._vtk_mesh import add_arrays
 from ._vtk_properties import PROPERTIES, add_properties, add_snake_case
 from ._vtk_update import Failure, Update, explain
 
@@ -131,7 +132,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         finally:
             self._is_at_work = False
         self._update = update
-        update.totals.add_columns("", table.GetRowData())
+        add_arrays(table.GetRowData(), "", update.totals.list_columns())
         update.tell(self._tell)
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1

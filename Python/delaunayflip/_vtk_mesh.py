@@ -4,8 +4,8 @@
 import numpy
 from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
-    VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList, vtkTypeInt32Array,
-    vtkTypeInt64Array)
+    VTK_ID_TYPE, VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList,
+    vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
 from ._errors import InvalidOptions
@@ -50,10 +50,7 @@ class MeshInput(FlipInput):
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(output)
         self._pass_normals(session, output)
-        for name, values in self.list_numbers(session, counts, angles):
-            array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
-            array.SetName(name)
-            output.GetCellData().AddArray(array)
+        add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
 
     def _build_polygons(self, session):
         mesh = self.mesh
@@ -91,6 +88,20 @@ class MeshInput(FlipInput):
         normals = _copy(shared)
         self.renew_normals(_view(normals), session.triangles)
         output.GetCellData().SetNormals(normals)
+
+
+def add_arrays(data, prefix, arrays):
+    """`arrays`: (name, values, a number or a text) of each."""
+    for name, values in arrays:
+        if isinstance(values, str):
+            array = vtkStringArray()
+            array.InsertNextValue(values)
+        else:
+            values = numpy.atleast_1d(values)
+            kind = VTK_ID_TYPE if values.dtype == numpy.int64 else None
+            array = numpy_to_vtk(values, deep=True, array_type=kind)
+        array.SetName(prefix + name)
+        data.AddArray(array)
 
 
 def copy_cell_data(mesh, sources, target):

@@ -11,11 +11,9 @@ from vtkmodules.vtkCommonDataModel import (
     vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGridAMR)
 
 from . import _errors, _library
-from ._report import describe_trouble
-from ._session import ITERATION
+from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
 from ._surface import Settings
-from ._vtk_mesh import MeshInput
-from ._vtk_report import Totals, describe
+from ._vtk_mesh import MeshInput, add_arrays
 
 #: The shares of a mesh's update after which polygons are split, and edges flipped.
 _SPLIT, _FLIPPED = 0.1, 0.9
@@ -185,7 +183,7 @@ class Update:
             report, self.totals = session.report, Totals.of_run(session, data)
         if not is_whole:
             self.totals.stop_reason = "aborted"
-        self.totals.add_field_data(output.GetFieldData())
+        add_arrays(output.GetFieldData(), FIELD_PREFIX, self.totals.list_fields())
         defects = [report.defects] if report.defects else []
         return describe_trouble("; ".join(defects + data.list_defects()), report, options)
 

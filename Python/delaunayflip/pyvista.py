@@ -22,7 +22,7 @@ import pyvista
 from ._errors import InvalidOptions
 from ._flip import smallest_angles as _angles_of_arrays
 from ._options import check_integer
-from ._report import COLUMNS, COUNTS, FIELD_PREFIX, TEXTS, describe_trouble
+from ._report import FIELD_PREFIX, Totals, describe_trouble
 from ._surface import FlipInput, Settings, Slots, Surface, number_tuples
 from ._types import Array, Criterion, Geometry, TieRule
 
@@ -263,8 +263,9 @@ class _Run:
         left_out = self._pass_cell_data(made)
         for name, values in self._input.list_numbers(self.session, flip_counts, quality):
             made.cell_data[name] = values
+        for name, value in Totals.of_run(self.session, self._input).list_fields():
+            made.field_data[FIELD_PREFIX + name] = value if numpy.ndim(value) else [value]
         report = self.session.report
-        self._add_field_data(made.field_data, report)
         notes = [report.defects] if report.defects else []
         notes += [*self._input.describe_unmatched(), *left_out]
         trouble = describe_trouble("; ".join(notes), report, self._options)
@@ -292,18 +293,6 @@ class _Run:
         if normals is not None and normals.GetNumberOfComponents() == 3:
             self._input.renew_normals(_view(normals), self.session.triangles)
         return [f"cell arrays with too few tuples left out: {', '.join(short)}"] if short else []
-
-    def _add_field_data(self, data, report):
-        counts = {name: getattr(report, count) for name, count in COUNTS.items()}
-        counts["UnmatchedConstraintEdges"] += self._input.constraints.unmatched
-        values = {"Converged": int(report.converged), "StopReason": report.stop_reason, **counts,
-                  "GeometryUsed": report.geometry_used,
-                  **{name: getattr(report, text) for name, text in TEXTS.items()}}
-        for name, value in values.items():
-            data[FIELD_PREFIX + name] = [value]
-        iterations = self.session.iterations
-        for name, column in COLUMNS.items():
-            data[FIELD_PREFIX + name] = numpy.ascontiguousarray(iterations[column])
 
 
 def _pad(sizes, corners):
