@@ -83,12 +83,13 @@ struct WideVector
   DELAUNAYFLIP_HOST_DEVICE double GetLength() const { return Length(this->Vector); }
 };
 
-/// A finite vector times 2^exponent. A component may be too small for its new size. It is rounded
-/// only once, so that the result is the same for a vector of twice the length.
+/// A vector times 2^exponent. A component may be too small for its new size. It is rounded only
+/// once, so that the result is the same for a vector of twice the length. A vector that is not
+/// finite stays as it is.
 DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(const Vector3& vector, int exponent = 0)
 {
   const double largest = LargestComponent(vector);
-  if (!(largest > 0.0))
+  if (!(largest > 0.0 && largest < INFINITY))
   {
     return { vector, 0 };
   }

@@ -1,58 +1,100 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts the caller's arrays for the engine; arrays that already fit are not copied."""
+"""Checks the caller's arrays and converts them for the engine; arrays that already fit are not
+copied. What does not fit is a ValueError or TypeError that names the argument."""
 import numpy
 
 from . import _library
+from ._errors import InvalidMesh
+
+_CONVERSION_ERRORS = (TypeError, ValueError, OverflowError, RuntimeError, BufferError)
 
 
 def _shape_error(name, array, wanted):
     return ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
 
 
-def _as_array(values):
+def _as_array(name, values):
     """What NumPy makes of the values; by DLPack, in their memory, what it cannot convert itself."""
-    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
-        return numpy.from_dlpack(values)
-    return numpy.asarray(values)
+    if numpy.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values: fill them or leave them out")
+    try:
+        if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+            return numpy.from_dlpack(values)
+        return numpy.asarray(values)
+    except _CONVERSION_ERRORS as error:
+        kind = ValueError if isinstance(error, (ValueError, OverflowError)) else TypeError
+        raise kind(f"{name} cannot be made an array: {error}") from error
+
+
+def _choose_type(array, kinds, other):
+    """The array's type in native byte order if it is one of these, else the other."""
+    native = array.dtype if array.dtype.isnative else array.dtype.newbyteorder("=")
+    return native if native in kinds else numpy.dtype(other)
+
+
+def _convert(array, kind):
+    """The values as the engine reads them: row by row without gaps, aligned, in native byte order."""
+    return numpy.require(array, kind, "CA")
 
 
 def as_points(points):
     """Points of shape (n, 3), float32 or float64. (n, 2) gets z = 0; other numbers become float64."""
-    points = _as_array(points)
+    points = _as_array("points", points)
+    if points.size == 0 and points.ndim < 2:
+        points = numpy.empty((0, 3))
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise _shape_error("points", points, "(n, 3) or (n, 2)")
     if points.dtype.kind not in "fiu":
         raise TypeError(f"points must be real numbers, not {points.dtype}")
-    kind = points.dtype if points.dtype in (numpy.float32, numpy.float64) else numpy.float64
+    kind = _choose_type(points, (numpy.float32, numpy.float64), numpy.float64)
     if points.shape[1] == 2:
-        return numpy.column_stack([points, numpy.zeros(len(points))]).astype(kind, copy=False)
-    return numpy.ascontiguousarray(points, dtype=kind)
+        flat, points = points, numpy.zeros((len(points), 3), dtype=kind)
+        points[:, :2] = flat
+    return _convert(points, kind)
 
 
 def as_ids(name, ids, columns):
     """Ids of shape (m, columns), int32 or int64; other integers become int64."""
-    ids = _as_array(ids)
-    if ids.size == 0 and ids.ndim < 2:
-        ids = numpy.empty((0, columns), dtype=numpy.int64)
+    ids = _as_array(name, ids)
+    kind = _choose_type(ids, (numpy.int32, numpy.int64), numpy.int64)
+    if ids.size == 0 and (ids.ndim < 2 or ids.shape == (0, columns)):
+        ids = numpy.empty((0, columns), dtype=kind)
     if ids.ndim != 2 or ids.shape[1] != columns:
         raise _shape_error(name, ids, f"(m, {columns})")
     if ids.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {ids.dtype}")
-    kind = ids.dtype if ids.dtype in (numpy.int32, numpy.int64) else numpy.int64
-    return numpy.ascontiguousarray(ids, dtype=kind)
+    if ids.dtype.kind == "u":
+        large = numpy.argwhere(ids > numpy.iinfo(numpy.int64).max)
+        if len(large):
+            row, column = large[0].tolist()
+            raise InvalidMesh(f"{name}: row {row} names point {ids[row, column]}, which no mesh has",
+                              row, int(ids[row, column]))
+    return _convert(ids, kind)
 
 
 def _per_triangle(name, values, kind, count):
-    values = _as_array(values)
+    values = _as_array(name, values)
     if values.shape != (count,):
         raise _shape_error(name, values, f"({count},), a value per triangle")
-    if values.dtype.kind not in "iub":
+    if values.dtype.kind not in "iub" and count:
         raise TypeError(f"{name} must be integers, not {values.dtype}")
-    converted = numpy.ascontiguousarray(values, dtype=kind)
+    converted = _convert(values, kind)
     if not numpy.array_equal(converted, values):
         raise ValueError(f"{name} must fit {numpy.dtype(kind)}")
     return converted
+
+
+def as_flags(name, values, *shapes):
+    """True or false, or numbers that are 0 or not, of one of these shapes."""
+    values = _as_array(name, values)
+    if values.shape not in shapes:
+        raise _shape_error(name, values, " or ".join(map(str, shapes)))
+    if values.dtype.kind not in "biuf":
+        raise TypeError(f"{name} must be true or false, not {values.dtype}")
+    if numpy.isnan(values).any():
+        raise ValueError(f"{name} must be true or false, not NaN")
+    return values != 0
 
 
 class Mesh:
@@ -63,26 +105,26 @@ class Mesh:
         self.struct = _library.Mesh()
         _library.library().delaunayflip_mesh_init(self.struct)
         self._take(points, triangles)
+        edges = as_ids("constraints", [] if constraints is None else constraints, 2)
+        flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
         if constraints is not None:
-            self.constraints = as_ids("constraints", constraints, 2).astype(numpy.int64, copy=False)
+            self.constraints = _convert(edges, numpy.int64)
             self.struct.constraint_edges = address(self.constraints)
-            self.struct.number_of_constraint_edges = len(self.constraints)
-            flags = _as_array(insert_constraints)
-            if flags.ndim == 1 and len(flags) != len(self.constraints):
-                raise _shape_error("insert_constraints", flags, f"({len(self.constraints)},)")
-            self.to_insert = numpy.full(len(self.constraints), flags != 0, dtype=numpy.uint8)
+            self.struct.number_of_constraint_edges = len(edges)
+            self.to_insert = numpy.full(len(edges), flags, dtype=numpy.uint8)
             self.struct.constraints_to_insert = address(self.to_insert)
+        count = self.struct.number_of_triangles
+        for name, ids in (("triangles", self.triangles), ("constraints", edges)):
+            if len(ids) and self.struct.number_of_points == 0:
+                raise InvalidMesh(f"{name} name points, but there are no points", 0, int(ids[0, 0]))
         if regions is not None:
-            self.regions = _per_triangle("regions", regions, numpy.int32, len(self.triangles))
+            self.regions = _per_triangle("regions", regions, numpy.int32, count)
             self.struct.regions = address(self.regions)
         if frozen is not None:
-            flags = _as_array(frozen) != 0
-            self.frozen = _per_triangle("frozen", flags, numpy.uint8, len(self.triangles))
+            self.frozen = as_flags("frozen", frozen, (count,)).astype(numpy.uint8)
             self.struct.frozen_triangles = address(self.frozen)
-
         if triangle_numbers is not None:
-            self.numbers = _per_triangle(
-                "triangle_numbers", triangle_numbers, numpy.int64, len(self.triangles))
+            self.numbers = _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count)
             self.struct.triangle_numbers = address(self.numbers)
 
     def make_triangles(self):

@@ -79,7 +79,7 @@ class _Numba:
     @staticmethod
     def as_contiguous(array):
         if not array.is_c_contiguous():
-            raise ValueError("arrays of Numba must be contiguous, row by row")
+            raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
     @staticmethod
@@ -167,14 +167,19 @@ def store_triangles(session, target, count):
     """Writes the `count` triangles of a session to an array in any memory.
 
     Raises:
-        ValueError: The target is not a contiguous (m, 3) array of int32 or int64.
+        TypeError: The target is no plain array of NumPy, and not on a GPU.
+        ValueError: It is not a contiguous (m, 3) array of int32 or int64 that can be written.
     """
     is_on_device = _is_on_device(target)
+    if not is_on_device and (
+            not isinstance(target, numpy.ndarray) or isinstance(target, numpy.ma.MaskedArray)):
+        raise TypeError(f"target must be an array of NumPy or on a GPU, not {type(target).__name__}")
     functions, target = _adapt(target) if is_on_device else (None, target)
-    fits = tuple(target.shape) == (count, 3) and _is_contiguous(target, functions)
+    fits = tuple(target.shape) == (count, 3) and _can_be_written(target, functions)
     kind = _type_of(target) if fits else None
     if kind not in ("int32", "int64"):
-        raise ValueError("the target must be a contiguous (m, 3) array of int32 or int64")
+        raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "
+                         "byte order that can be written")
     if is_on_device:
         _library.call("store_triangles_on_device", session, _address(target), _TYPES[kind],
                       functions.get_stream(target))
@@ -244,17 +249,20 @@ def _check(name, array, types, columns):
 
 
 def _type_of(array):
-    """NumPy's name for the type of the array's values."""
+    """NumPy's name for the type of the array's values, if these are in native byte order."""
+    kind = array.dtype
     if _is_on_device(array):
-        return numpy.dtype(array.__cuda_array_interface__["typestr"]).name
-    return array.dtype.name
+        kind = numpy.dtype(array.__cuda_array_interface__["typestr"])
+    return kind.name if kind.isnative else kind.str
 
 
-def _is_contiguous(array, functions):
-    """`functions`: those of the array's library, or None for one of NumPy."""
+def _can_be_written(array, functions):
+    """Whether it is contiguous, too. `functions`: those of the array's library, or None for one of
+    NumPy."""
     if functions:
-        return _address(functions.as_contiguous(array)) == _address(array)
-    return array.flags.c_contiguous
+        is_read_only = array.__cuda_array_interface__["data"][1]
+        return not is_read_only and _address(functions.as_contiguous(array)) == _address(array)
+    return array.flags.carray
 
 
 def _address(array):

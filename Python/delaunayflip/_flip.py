@@ -7,15 +7,16 @@ from typing import Optional, Union
 import numpy
 
 from . import _arrays, _device, _library
+from ._options import choose
 from ._report import Report
 from ._session import Session
 from ._types import (
     Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Progress, TieRule)
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Result:
-    """What `flip` returns."""
+    """What `flip` returns. Only the same object is equal: compare the arrays."""
 
     triangles: Array  #: (m, 3), in the input's order and of its integers.
     flip_counts: Array  #: (m,) int32: how many flips each triangle was part of.
@@ -105,8 +106,8 @@ def smallest_angles(
         >>> smallest_angles([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
         array([45.])
     """
+    number = choose("geometry", geometry)
     mesh = _arrays.Mesh(_device.to_host(points), _device.to_host(triangles))
     angles = numpy.empty(len(mesh.triangles))
-    _library.call("triangle_angles", mesh.struct, _library.GEOMETRIES.index(geometry),
-                  _arrays.address(angles))
+    _library.call("triangle_angles", mesh.struct, number, _arrays.address(angles))
     return angles

@@ -5,6 +5,8 @@ import contextlib
 import signal
 import threading
 
+import numpy
+
 from . import _library
 
 
@@ -35,6 +37,9 @@ class Observers:
     """
 
     def __init__(self, progress=None, on_iteration=None):
+        for name, function in (("progress", progress), ("on_iteration", on_iteration)):
+            if function is not None and not callable(function):
+                raise TypeError(f"{name} must be a function, not {function!r}")
         self._progress = progress
         self._on_iteration = on_iteration
         self._raised = None
@@ -66,7 +71,8 @@ class Observers:
     def _ask(self, function, value):
         """Returns 0, which aborts, if the function returned False or raised an exception."""
         try:
-            if function is not None and function(value) is False:
+            answer = function(value) if function is not None else None
+            if isinstance(answer, (bool, numpy.bool_)) and not answer:
                 return 0
         except BaseException as error:
             self._note(error)

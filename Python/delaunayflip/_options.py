@@ -1,7 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keyword arguments as the engine's options."""
+"""Keyword arguments as the engine's options, and the checks of all numbers before ctypes takes them:
+it would cut off what is too large."""
+import numbers
+import operator
+
+import numpy
+
 from . import _library
+from ._errors import InvalidOptions
 
 _CHOICES = {
     "geometry": _library.GEOMETRIES,
@@ -10,14 +17,20 @@ _CHOICES = {
     "backend": _library.BACKENDS,
 }
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
+_RANGES = {
+    "maximum_iterations": (-1, 2**63 - 1),
+    "threads": (0, 2**31 - 1),
+    "device": (-1, 2**31 - 1),
+    "pieces": (0, 255),
+}
 
 
 def make_options(**keywords):
     """A _library.Options with the engine's defaults for options that are not given.
 
     Raises:
-        TypeError: A keyword that is no option.
-        ValueError: A word that is not among the choices.
+        TypeError: A keyword that is no option, or a value of a wrong type.
+        ValueError: A word that is not among the choices, or a number out of range.
     """
     options = _library.Options()
     _library.library().delaunayflip_options_init(options)
@@ -26,21 +39,65 @@ def make_options(**keywords):
         name = _NAMES.get(keyword, keyword)
         if name not in known:
             raise TypeError(f"{keyword!r} is not an option")
-        value = list_devices(value) if keyword == "devices" else _choose(keyword, value)
+        if keyword == "devices":
+            value = _list_devices(value)
+        elif keyword == "track_quality":
+            value = check_integer(keyword, value, 0, 1, "True or False")
+        elif keyword in _CHOICES:
+            value = choose(keyword, value)
+        elif keyword in _RANGES:
+            value = check_integer(keyword, value, *_RANGES[keyword])
+        else:
+            value = _check_number(keyword, value)
         setattr(options, name, value)
     return options
 
 
-def list_devices(devices):
+def choose(keyword, word):
+    """The number of a word among the choices of an option."""
+    choices = _CHOICES[keyword]
+    if not isinstance(word, str) or word not in choices:
+        raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {word!r}")
+    return choices.index(word)
+
+
+def check_integer(name, value, low, high, wanted=""):
+    """The value as int.
+
+    Raises:
+        TypeError: It is no integer.
+        InvalidOptions: It is out of range.
+    """
+    wanted = wanted or f"an integer from {low} to {high}"
+    try:
+        number = operator.index(bool(value) if isinstance(value, numpy.bool_) else value)
+    except TypeError:
+        raise TypeError(f"{name} must be {wanted}, not {value!r}") from None
+    if not low <= number <= high:
+        raise InvalidOptions(f"{name} must be {wanted}, not {value!r}")
+    return number
+
+
+def _check_number(name, value):
+    if not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number, not {value!r}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise InvalidOptions(f"{name} is out of range: {value!r}") from None
+
+
+def _list_devices(devices):
     """Numbers of GPUs, or a text of them, as the engine reads it."""
-    text = devices if isinstance(devices, str) else ",".join(str(int(one)) for one in devices)
-    return text.encode()
-
-
-def _choose(keyword, value):
-    choices = _CHOICES.get(keyword)
-    if choices is None:
-        return value
-    if value not in choices:
-        raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {value!r}")
-    return choices.index(value)
+    if not isinstance(devices, str):
+        try:
+            ids = None if isinstance(devices, (bytes, bytearray)) else list(devices)
+        except TypeError:
+            ids = None
+        if ids is None:
+            raise TypeError(f"devices must be numbers of GPUs, or a text of them, not {devices!r}")
+        highest = _RANGES["device"][1]
+        devices = ",".join(str(check_integer("devices", one, 0, highest)) for one in ids)
+    if "\0" in devices:
+        raise InvalidOptions(f"devices must be numbers of GPUs, not {devices!r}")
+    return devices.encode(errors="replace")

@@ -1,10 +1,33 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run did."""
+"""What a run did, and what an update of several meshes did."""
+import ctypes
 import dataclasses
 import typing
 
+import numpy
+
 from . import _library
+
+#: The columns of an iteration, as a NumPy structure.
+ITERATION = numpy.dtype(
+    [(name, "f8" if kind is ctypes.c_double else "i8") for name, kind in _library.Iteration._fields_]
+)
+# What VTK's field data and tables tell, by their names.
+FIELD_PREFIX = "DelaunayFlip:"
+COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
+           "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
+           "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
+          "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
+          "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
+          "ConstraintEdges": "constraint_edges",
+          "UnmatchedConstraintEdges": "unmatched_constraints",
+          "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
+TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
+
+_FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
+_MOST = 3  # places named per text, and texts
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,8 +49,8 @@ class Report:
     total_flips: int
     total_excluded: int
     total_blocked: int
-    non_delaunay_before: int  #: Bad edges of the input.
-    non_delaunay_after: int  #: Bad edges left, flippable or blocked.
+    non_delaunay_before: int  #: Bad edges of the input; -1 if the run was aborted before the test.
+    non_delaunay_after: int  #: Bad edges left, flippable or blocked; -1 as before.
     blocked_by_shape: int  #: Of these, those whose flip would fold the mesh over.
     blocked_by_edge: int  #: And those whose flip would create an edge that exists.
     edges: int
@@ -61,4 +84,131 @@ def from_struct(struct: _library.Report) -> Report:
         values[name] = value.decode(errors="replace") if isinstance(value, bytes) else value
     values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
     values["geometry_used"] = _library.GEOMETRIES[struct.geometry_used]
+    if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
+        values["non_delaunay_before"] = values["non_delaunay_after"] = -1
     return Report(**values)
+
+
+def describe_trouble(defects, report, options):
+    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
+    texts = [defects] if defects else []
+    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
+        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
+    if options["tolerance"] >= 0 and report.tolerance == "none":
+        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                     "opposite angles")
+    if report.fallback:
+        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+    return "; ".join(texts)
+
+
+class Totals:
+    """The report on one mesh, or the sum over several. Attributes that are not counts have the
+    names of those of `Report`; `geometry_used` may be "mixed"."""
+
+    def __init__(self, stop_reason="not started"):
+        self.stop_reason = stop_reason
+        self.counts = dict.fromkeys(COUNTS.values(), 0)
+        self.texts = dict.fromkeys(TEXTS.values(), "")
+        self.geometry_used = "auto"
+        self.iterations = numpy.empty(0, dtype=ITERATION)
+        self.minimum_angle_after = numpy.inf
+        self.has_triangles = False
+        self.has_angles = False  #: Some triangle has no coordinate that is NaN.
+
+    @classmethod
+    def of_run(cls, session, data):
+        """Of a session for `data`, a FlipInput with triangles."""
+        report = session.report
+        totals = cls(report.stop_reason)
+        totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}
+        totals.counts["unmatched_constraints"] += data.constraints.unmatched
+        totals.texts = {name: getattr(report, name) for name in totals.texts}
+        totals.geometry_used = report.geometry_used
+        totals.iterations = session.iterations
+        totals.minimum_angle_after = report.minimum_angle_after
+        totals.has_triangles = True
+        totals.has_angles = not numpy.isnan(report.minimum_angle_before)
+        return totals
+
+    @property
+    def converged(self):
+        return self.stop_reason == "converged"
+
+    def add(self, other):
+        """Adds the report on another mesh. Keeps the smaller angles and the worse stop reason."""
+        self.iterations = _join_iterations(self, other)
+        for name, count in other.counts.items():
+            self.counts[name] += count
+        for name, text in other.texts.items():
+            if text not in self.texts[name]:
+                self.texts[name] += (", " if self.texts[name] else "") + text
+        if self.geometry_used == "auto":
+            self.geometry_used = other.geometry_used
+        elif other.geometry_used not in ("auto", self.geometry_used):
+            self.geometry_used = "mixed"
+        if other.has_angles:
+            self.minimum_angle_after = numpy.minimum(
+                self.minimum_angle_after, other.minimum_angle_after)
+        self.has_triangles = self.has_triangles or other.has_triangles
+        self.has_angles = self.has_angles or other.has_angles
+        self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
+
+    def get_geometry(self):
+        """The number of the geometry, as vtkDelaunayFlip.GEOMETRY_... have it."""
+        return (*_library.GEOMETRIES, "mixed").index(self.geometry_used)
+
+    def get_stop_reason(self):
+        return _library.STOP_REASONS.index(self.stop_reason)
+
+    def list_columns(self):
+        """(name, values) with a value per iteration."""
+        for name, field in COLUMNS.items():
+            yield name, numpy.ascontiguousarray(self.iterations[field])
+
+    def list_fields(self):
+        """(name, value) of VTK's field data: numbers, texts, then columns. ParaView lists no field data
+        when the first array is empty."""
+        yield "Converged", numpy.int32(self.converged)
+        yield "StopReason", self.stop_reason
+        for name, count in COUNTS.items():
+            yield name, self.counts[count]
+        yield "GeometryUsed", self.geometry_used
+        for name, text in TEXTS.items():
+            yield name, self.texts[text]
+        yield from self.list_columns()
+
+
+def _join_iterations(a, b):
+    """Adds row by row. A mesh that made fewer iterations keeps its last angle; one without angles
+    does not count."""
+    rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
+    rows["minimum_angle"] = numpy.inf if a.has_angles or b.has_angles else numpy.nan
+    for totals in (a, b):
+        known = len(totals.iterations)
+        if totals.has_angles:
+            angles = numpy.full(len(rows), totals.minimum_angle_after)
+            angles[:known] = totals.iterations["minimum_angle"]
+            rows["minimum_angle"] = numpy.minimum(rows["minimum_angle"], angles)
+        for name in set(ITERATION.names) - {"iteration", "minimum_angle"}:
+            rows[name][:known] += totals.iterations[name]
+    rows["iteration"] = numpy.arange(1, len(rows) + 1)
+    return rows
+
+
+def describe(notes):
+    """Joins pairs (place, text) to one text. Each text appears once, with its first places."""
+    places = {}
+    for where, text in notes:
+        places.setdefault(text, []).append(where)
+    texts = []
+    for text, where in places.items():
+        named = _join(where, ", ")
+        texts.append(f"{named}: {text}" if named else text)
+    return _join(texts, "; ")
+
+
+def _join(items, separator):
+    more = [f"and {len(items) - _MOST} more"] if len(items) > _MOST else []
+    return separator.join(items[:_MOST] + more)

@@ -1,31 +1,29 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A run in steps."""
+import contextlib
 import ctypes
+import threading
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 
 from . import _arrays, _device, _library, _report
 from ._observers import Observers
-from ._options import make_options
+from ._options import check_integer, make_options
+from ._report import ITERATION
 from ._types import Array, Numbers, OnIteration, Options, Progress
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-#: The columns of an iteration, as a NumPy structure.
-ITERATION = numpy.dtype(
-    [(name, "f8" if kind is ctypes.c_double else "i8") for name, kind in _library.Iteration._fields_]
-)
-
 
 class Session:
     """Flips a mesh step by step.
 
     Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
     `advance` flips. The arrays must not change while the session lives. A session is a context
-    manager; leaving it frees its memory. With `triangle_numbers`, (m,) integers, reports name the
+    manager; leaving it frees its memory. It does one thing at a time: while a call is at work, its
+    observers and other threads get RuntimeError; it cannot be copied. With `triangle_numbers`, (m,) integers, reports name the
     triangles by these.
 
     Points and triangles may be arrays of CuPy, PyTorch or Numba in the memory of a GPU: float32 or
@@ -54,6 +52,7 @@ class Session:
         progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
         self._handle = ctypes.c_void_p()
+        self._lock = threading.Lock()
         self._mesh = _device.make_mesh(points, triangles, constraints, regions, frozen,
                                        insert_constraints, triangle_numbers)
         chosen = make_options(**options)
@@ -73,9 +72,13 @@ class Session:
 
     def close(self) -> None:
         """Frees the session's memory. It cannot be used afterwards; closing again is allowed."""
-        handle, self._handle = self._handle, None
-        if handle:
-            _library.library().delaunayflip_close(handle)
+        with self._at_work():
+            handle, self._handle = self._handle, None
+            if handle:
+                _library.library().delaunayflip_close(handle)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a session cannot be copied or pickled")
 
     def advance(
         self, iterations: int = -1, *, progress: Optional[Progress] = None,
@@ -91,10 +94,11 @@ class Session:
         Returns:
             Whether there is more to do and the run was not aborted.
         """
+        iterations = check_integer("iterations", iterations, -1, 2**63 - 1)
         running = ctypes.c_int32()
         observers = Observers(progress, on_iteration)
-        with observers.raising() as callbacks:
-            _library.call("advance", self._open(), iterations, callbacks, running)
+        with self._open() as handle, observers.raising() as callbacks:
+            _library.call("advance", handle, iterations, callbacks, running)
         return bool(running.value)
 
     @property
@@ -102,16 +106,18 @@ class Session:
         """The `Report` on the run so far."""
         struct = _library.Report()
         _library.library().delaunayflip_report_init(struct)
-        _library.call("get_report", self._open(), struct)
-        return _report.from_struct(struct)
+        with self._open() as handle:
+            _library.call("get_report", handle, struct)
+            return _report.from_struct(struct)
 
     @property
     def iterations(self) -> Array:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
         rows = numpy.empty(self.report.number_of_iterations, dtype=ITERATION)
-        _library.call("get_iterations", self._open(), 0, len(rows), _arrays.address(rows),
-                      ITERATION.itemsize)
+        with self._open() as handle:
+            _library.call("get_iterations", handle, 0, len(rows), _arrays.address(rows),
+                          ITERATION.itemsize)
         return rows
 
     @property
@@ -122,18 +128,33 @@ class Session:
         return triangles
 
     def store_triangles(self, target: Array) -> None:
-        """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3), in the
-        host's memory or on a GPU."""
-        _device.store_triangles(self._open(), target, self._mesh.struct.number_of_triangles)
+        """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3) that can
+        be written, in the host's memory or on a GPU."""
+        with self._open() as handle:
+            _device.store_triangles(handle, target, self._mesh.struct.number_of_triangles)
 
     @property
     def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
         counts = self._mesh.make_flip_counts()
-        _device.store_flip_counts(self._open(), counts)
+        with self._open() as handle:
+            _device.store_flip_counts(handle, counts)
         return counts
 
+    @contextlib.contextmanager
+    def _at_work(self):
+        if not self._lock.acquire(blocking=False):
+            raise RuntimeError("the session is at work: observers, and other threads, have to wait "
+                               "until its call has returned")
+        try:
+            yield
+        finally:
+            self._lock.release()
+
+    @contextlib.contextmanager
     def _open(self):
-        if not self._handle:
-            raise ValueError("the session is closed")
-        return self._handle
+        """The handle, which nothing else uses meanwhile."""
+        with self._at_work():
+            if not self._handle:
+                raise ValueError("the session is closed")
+            yield self._handle

@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
+from ._vtk_mesh import add_arrays
 from ._vtk_properties import PROPERTIES, add_properties, add_snake_case
 from ._vtk_update import Failure, Update, explain
 
@@ -19,9 +20,10 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. There are two differences: in
-    a parallel run each rank reports on its own piece; and in a live run, points that were marked
-    as modified but have not changed do not count as moved.
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. It leaves out live updates, and
+    with them warm starts: all flips are made at once, with a warning. Partitions of a dataset are
+    flipped one by one, and so are the pieces of parallel ranks, which report on their own piece:
+    edges between them stay, with a warning.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """
@@ -31,8 +33,6 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         self._values = {item.name: item.default for item in PROPERTIES}
         self._is_at_work = False
         self._interrupt = None
-        self._run = None  # of a live update
-        self._can_continue = True
         self._update = Update(self)
         for name, value in properties.items():
             setattr(self, _require_property(name), value)
@@ -79,8 +79,8 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return status
 
     def get_mesh(self, data):
-        """An input, or a block of it, as a mesh, the same object while it is the same; None if it is
-        not a surface. Subclasses that accept more than vtkPolyData override this."""
+        """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
+        more than vtkPolyData override this."""
         return data if isinstance(data, vtkPolyData) else None
 
     def FillInputPortInformation(self, port, info):
@@ -132,7 +132,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         finally:
             self._is_at_work = False
         self._update = update
-        update.totals.add_columns("", table.GetRowData())
+        add_arrays(table.GetRowData(), "", update.totals.list_columns())
         update.tell(self._tell)
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1
@@ -162,22 +162,16 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return self.GetOutputDataObject(1)
 
     def Advance(self):
-        continues = self.GetLiveUpdate() and self._can_continue
-        if continues:
-            self.Modified()
-        return continues
+        return False  # for live updates, which this class does not have
 
     def Step(self):
-        return self.Advance()
+        return False
 
     def Restart(self):
-        self._run = None
-        self._can_continue = True
         self.Modified()
 
     def GetNeedsUpdate(self):
-        is_under_way = self._run is not None and self._update.totals.stop_reason == "running"
-        return is_under_way and not self.GetPaused() and self.Advance()
+        return False
 
     def ReleaseDeviceMemory(self):
         _library.release_cuda_memory()

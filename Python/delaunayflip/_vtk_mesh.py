@@ -1,71 +1,45 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts a vtkPolyData to the engine's arrays, and back."""
-import dataclasses
-
 import numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray
+from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import (
+    VTK_ID_TYPE, VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList,
+    vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
-from . import _arrays, _library, _vtk_arrays, _vtk_regions
-from ._flip import smallest_angles
-from ._vtk_arrays import Cells, make, make_ids, new_cells, view
-from ._vtk_constraints import Constraints
-from ._vtk_slots import NONE, Slots
-
-
-@dataclasses.dataclass(frozen=True)
-class Settings:
-    """The properties that decide which edges exist and which stay."""
-
-    triangulate: bool
-    lines: bool
-    insert_lines: bool
-    insert_constraints: bool
-    region_array: str
+from ._errors import InvalidOptions
+from ._surface import FlipInput, Surface, number_tuples
 
 
-class MeshInput:
-    """Arrays for a Session, and the parts of the input that the output needs. `copy_points`: the
-    points may be moved in place while the session lives."""
+class MeshInput(FlipInput):
+    """Arrays for a Session, and the parts of the input that the output needs."""
 
-    def __init__(self, mesh, others, settings, plan, copy_points=False):
+    def __init__(self, mesh, others, settings, progress):
         self.mesh = mesh.NewInstance()
         self.mesh.ShallowCopy(mesh)
-        self.points = _vtk_arrays.view_points(mesh)
-        if copy_points:
-            self.points = self.points.copy()
-        self.slots = Slots(mesh, self.points, settings.triangulate, plan.part("polygons"))
-        self.constraints = Constraints(mesh, others, settings, self.points, self.slots.triangles)
-        self.regions = None
+        others = _read(others) if others is not None else None
+        super().__init__(_read(mesh), others, settings, progress)
         if settings.region_array:
-            self.regions = _vtk_regions.label_cells(mesh, settings.region_array)[self.slots.cells]
-        self.frozen = _vtk_regions.find_frozen(mesh, self.slots)
+            self.regions = _label_cells(mesh, settings.region_array)[self.slots.cells]
+        ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+        if ghosts is not None and not _find_ghost_fault(ghosts):
+            self.freeze(_view(ghosts))
 
-    def get_session_arguments(self):
-        """Keyword arguments of a Session."""
-        pairs = self.constraints.pairs
-        return {
-            "points": self.points, "triangles": self.slots.triangles, "regions": self.regions,
-            "frozen": self.frozen, "constraints": pairs if len(pairs) else None,
-            "insert_constraints": self.constraints.to_insert if len(pairs) else False,
-            "triangle_numbers": self.slots.cells,
-        }
+    def list_defects(self):
+        """Texts of a warning about the input's constraints and arrays."""
+        mesh, passed = self.mesh, "passed unchanged"
+        texts = self.describe_unmatched()
+        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+                                 passed if self.slots.in_place else "left out")
+        name = vtkDataSetAttributes.GhostArrayName()
+        ghosts = mesh.GetCellData().GetAbstractArray(name)
+        fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
+        return texts + ([f'1 ghost array {fault} ignored: "{name}"'] if fault else [])
 
-    def describe_defects(self, of_engine, is_warm):
-        """The text of a warning: the engine's, then those about this input's arrays. A warm start
-        does not say again what the first run has said of constraints."""
-        texts = [of_engine] if of_engine else []
-        count = self.constraints.unmatched
-        if count and not is_warm:
-            edges = "edge" if count == 1 else "edges"
-            texts.append(f"{count} constraint {edges} of the second input that the mesh does not have")
-        passed = "passed unchanged"
-        texts += _vtk_regions.describe_malformed_arrays(
-            self.mesh, passed, passed if self.slots.in_place else "left out")
-        return "; ".join(texts)
-
-    def store(self, session, output):
-        """Writes the current mesh."""
+    def store(self, session, output, counts, angles):
+        """Writes the current mesh, with the requested cell arrays."""
         mesh = self.mesh
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
@@ -75,40 +49,23 @@ class MeshInput:
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(output)
-        self._renew_normals(output)
-
-    def _uses_wide_ids(self):
-        mesh = self.mesh
-        cells = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
-        wide = cells.GetConnectivityArray().GetDataTypeSize() == 8
-        return wide or 3 * len(self.slots.triangles) > numpy.iinfo(numpy.int32).max
+        self._pass_normals(session, output)
+        add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
 
     def _build_polygons(self, session):
-        slots = self.slots
-        if slots.are_polygons_triangles:
-            cells, corners = new_cells(numpy.full(len(slots.triangles), 3), self._uses_wide_ids())
-            session.store_triangles(corners.reshape(-1, 3))
-            return cells
-        kept = Cells(self.mesh.GetPolys(), "cell", slots.first_polygon)
-        is_triangle = slots.polygon_triangles != NONE
-        sources = slots.polygon_cells - slots.first_polygon
-        sizes = numpy.full(len(sources), 3)
-        sizes[~is_triangle] = kept.sizes[sources[~is_triangle]]
-        cells, corners = new_cells(sizes, self._uses_wide_ids())
-        of_triangle = numpy.repeat(is_triangle, sizes)
-        corners[of_triangle] = session.triangles[slots.polygon_triangles[is_triangle]].ravel()
-        corners[~of_triangle] = gather(kept, sources[~is_triangle])
+        mesh = self.mesh
+        given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
+        wide = _is_wide(given) or 3 * len(self.slots.triangles) > VTK_INT_MAX
+        cells, corners = _new_cells(self.polygon_sizes, wide)
+        self.fill_polygons(session, corners)
         return cells
 
     def _build_strips(self):
-        strips, chosen = self.mesh.GetStrips(), self.slots.kept_strips - self.slots.first_strip
+        strips, chosen = self.mesh.GetStrips(), self.slots.kept_strips - self.slots.strips.first
         if len(chosen) == strips.GetNumberOfCells():
             return strips
-        if len(chosen) == 0:
-            return vtkCellArray()
-        kept = Cells(strips, "cell", self.slots.first_strip)
-        cells, corners = new_cells(kept.sizes[chosen], kept.is_wide())
-        corners[:] = gather(kept, chosen)
+        cells, corners = _new_cells(self.slots.strips.sizes[chosen], _is_wide(strips))
+        corners[:] = self.slots.strips.gather(chosen)
         return cells
 
     def _pass_cell_data(self, output):
@@ -116,93 +73,131 @@ class MeshInput:
         if self.slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
             return
-        sources = numpy.concatenate([numpy.arange(self.slots.first_polygon),
-                                     self.slots.polygon_cells, self.slots.kept_strips])
-        whole = take_whole_arrays(self.mesh)
-        data.CopyAllOn()
-        data.CopyAllocate(whole, len(sources))
-        data.CopyData(whole, make_ids(sources), make_ids(numpy.arange(len(sources))))
-        if self.slots.divides_cells:
-            demote_global_ids(data)
+        copy_cell_data(self.mesh, self.cell_sources, data)
+        ids = data.GetGlobalIds()
+        if self.slots.divides_cells and ids is not None:  # several cells share an id
+            data.SetActiveAttribute(-1, data.GLOBALIDS)
+            if data.GetPedigreeIds() is None:
+                data.SetPedigreeIds(ids)
 
-    def _find_changed(self, output):
-        """(polygons, old triangles, new triangles) of the polygons that flips have changed."""
-        polygons = numpy.flatnonzero(self.slots.polygon_triangles != NONE)
-        old = self.slots.triangles[self.slots.polygon_triangles[polygons]]
-        cells = Cells(output.GetPolys(), "cell", 0)
-        new = cells.corners[cells.offsets[polygons][:, None] + numpy.arange(3)]
-        changed = (old != new).any(axis=1)
-        return polygons[changed], old[changed], new[changed]
-
-    def _renew_normals(self, output):
-        """The normals of changed triangles. Normals that pointed against the winding still do."""
+    def _pass_normals(self, session, output):
         shared = output.GetCellData().GetNormals()
         if (shared is None or shared.GetNumberOfComponents() != 3
                 or shared.GetNumberOfTuples() < output.GetNumberOfCells()):
             return
-        normals = _vtk_arrays.copy(shared)
-        values = view(normals)
-        polygons, old, new = self._find_changed(output)
-        cells = self.slots.first_polygon + polygons
-        against = (_find_normals(self.points, old) * values[cells]).sum(axis=1) < 0
-        values[cells] = _find_normals(self.points, new) * numpy.where(against, -1.0, 1.0)[:, None]
+        normals = _copy(shared)
+        self.renew_normals(_view(normals), session.triangles)
         output.GetCellData().SetNormals(normals)
 
-    def store_flip_counts(self, session, output):
-        self._add_per_triangle(output, "vtkDelaunayFlipCount", session.flip_counts, 0)
 
-    def store_angles(self, session, output):
-        used = session.report.geometry_used
-        for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
-            angles = smallest_angles(self.points, triangles, geometry=used)
-            self._add_per_triangle(output, "vtkDelaunayFlipAngle" + name, angles, numpy.nan)
-
-    def _add_per_triangle(self, output, name, values, elsewhere):
-        of_cells = numpy.full(output.GetNumberOfCells(), elsewhere, dtype=values.dtype)
-        polygons = numpy.flatnonzero(self.slots.polygon_triangles != NONE)
-        of_cells[self.slots.first_polygon + polygons] = values[
-            self.slots.polygon_triangles[polygons]]
-        output.GetCellData().AddArray(make(name, of_cells))
+def add_arrays(data, prefix, arrays):
+    """`arrays`: (name, values, a number or a text) of each."""
+    for name, values in arrays:
+        if isinstance(values, str):
+            array = vtkStringArray()
+            array.InsertNextValue(values)
+        else:
+            values = numpy.atleast_1d(values)
+            kind = VTK_ID_TYPE if values.dtype == numpy.int64 else None
+            array = numpy_to_vtk(values, deep=True, array_type=kind)
+        array.SetName(prefix + name)
+        data.AddArray(array)
 
 
-def gather(cells, chosen):
-    """The corners of the chosen cells, one after the other."""
-    sizes = cells.sizes[chosen]
-    steps = numpy.arange(sizes.sum()) - numpy.repeat(numpy.cumsum(sizes) - sizes, sizes)
-    return cells.corners[numpy.repeat(cells.offsets[chosen], sizes) + steps]
-
-
-def _find_normals(points, triangles):
-    """Unit normals by the right-hand rule; 0 for triangles without area."""
-    mesh = _arrays.Mesh(points, triangles)
-    normals = numpy.empty((len(triangles), 3))
-    _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
-    return normals
-
-
-def take_whole_arrays(mesh):
-    """The cell data without arrays that are too short."""
-    return _take_arrays(mesh.GetCellData(), mesh.GetNumberOfCells())
-
-
-def take_whole_point_arrays(mesh):
-    """The point data without arrays that are too short."""
-    return _take_arrays(mesh.GetPointData(), mesh.GetNumberOfPoints())
-
-
-def _take_arrays(data, tuples):
-    whole = data.NewInstance()
-    whole.ShallowCopy(data)
+def copy_cell_data(mesh, sources, target):
+    """Copies the tuples of the source cells. Returns the arrays that are too short for that, and are
+    left out."""
+    whole, short = vtkDataSetAttributes(), []
+    whole.ShallowCopy(mesh.GetCellData())
     for i in reversed(range(whole.GetNumberOfArrays())):
-        if whole.GetAbstractArray(i).GetNumberOfTuples() < tuples:
+        if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
+            short.append(whole.GetAbstractArray(i))
             whole.RemoveArray(i)
-    return whole
+    target.CopyAllOn()
+    target.CopyAllocate(whole, len(sources))
+    target.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
+    return short
 
 
-def demote_global_ids(data):
-    """Global ids become pedigree ids: where cells are divided, several share an id."""
-    ids = data.GetGlobalIds()
-    if ids is not None:
-        data.SetActiveAttribute(-1, data.GLOBALIDS)
-        if data.GetPedigreeIds() is None:
-            data.SetPedigreeIds(ids)
+def _read(mesh):
+    """The arrays are copies: observers may change the input during the run."""
+    return Surface(mesh, lambda array: _view(array).copy())
+
+
+def _view(array):
+    """The values of a vtkDataArray, (n,) or (n, components)."""
+    if not array.HasStandardMemoryLayout() or isinstance(array, vtkBitArray):
+        array = _copy(array)
+    if array.GetNumberOfValues() == 0:
+        width = array.GetNumberOfComponents()
+        return numpy.empty((0, width) if width > 1 else 0, get_numpy_array_type(array.GetDataType()))
+    return vtk_to_numpy(array)
+
+
+def _copy(array):
+    """A deep copy in contiguous memory, of the same type (bits become bytes)."""
+    kind = VTK_UNSIGNED_CHAR if isinstance(array, vtkBitArray) else array.GetDataType()
+    plain = vtkDataArray.CreateDataArray(kind)
+    plain.DeepCopy(array)
+    return plain
+
+
+def _make_ids(values):
+    ids = vtkIdList()
+    ids.SetNumberOfIds(len(values))
+    for place, value in enumerate(values):
+        ids.SetId(place, int(value))
+    return ids
+
+
+def _is_wide(cells):
+    return cells.GetConnectivityArray().GetDataTypeSize() == 8
+
+
+def _new_cells(sizes, wide):
+    """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
+    kind = vtkTypeInt64Array if wide else vtkTypeInt32Array
+    offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
+    offsets.SetNumberOfValues(len(sizes) + 1)
+    _view(offsets)[0] = 0
+    _view(offsets)[1:] = ends
+    corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
+    cells = vtkCellArray()
+    cells.SetData(offsets, corners)
+    return cells, _view(cells.GetConnectivityArray())
+
+
+def _label_cells(mesh, name):
+    """One int32 label per cell; cells with equal tuples in the array have equal labels.
+
+    Raises:
+        InvalidOptions: There is no such array, or it does not have one tuple per cell.
+    """
+    array = mesh.GetCellData().GetAbstractArray(name)
+    if array is None:
+        raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+    if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
+        raise InvalidOptions(
+            f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
+    if isinstance(array, vtkDataArray):
+        return number_tuples(_view(array))
+    texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
+    return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
+
+
+def _find_ghost_fault(ghosts):
+    """Why a ghost array is ignored, or ""."""
+    if ghosts.GetDataType() != VTK_UNSIGNED_CHAR:
+        return "that is not of type unsigned char"
+    return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
+
+
+def _describe_short(data, tuples, kind, fate):
+    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+    names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
+    if not names:
+        return []
+    listed = ", ".join(f'"{name}"' for name in names[:3])
+    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
+    word = "array" if len(names) == 1 else "arrays"
+    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}{more}"]

@@ -4,10 +4,11 @@
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
-    VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkCellData, vtkDataSet,
+    VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkDataSet,
     vtkPointSet, vtkPolyData, vtkUnstructuredGrid)
 
 from ._errors import InvalidMesh
+from ._vtk_mesh import copy_cell_data
 
 #: The place of each cell type among the four cell arrays of a vtkPolyData.
 _VERTS, _LINES, _POLYS, _STRIPS = range(4)
@@ -36,8 +37,10 @@ def to_poly_data(data):
     output.SetPoints(_get_points(data))
     output.GetPointData().PassData(data.GetPointData())
     output.GetFieldData().PassData(data.GetFieldData())
-    sources = _copy_cells(data, types, output)
-    _copy_cell_data(data, sources, output.GetCellData())
+    for array in copy_cell_data(data, _copy_cells(data, types, output), output.GetCellData()):
+        empty = array.NewInstance()  # the filter warns of it
+        empty.SetName(array.GetName())
+        output.GetCellData().AddArray(empty)
     return output
 
 
@@ -98,22 +101,3 @@ def _turn_pixel(cell, ids):
     third, fourth = ids.GetId(2), ids.GetId(3)
     ids.SetId(2, fourth)
     ids.SetId(3, third)
-
-
-def _copy_cell_data(data, sources, output):
-    """Arrays that are too short to be copied become empty, so that the filter warns of them."""
-    whole, short = vtkCellData(), []
-    whole.ShallowCopy(data.GetCellData())
-    for i in reversed(range(whole.GetNumberOfArrays())):
-        array = whole.GetAbstractArray(i)
-        if array.GetNumberOfTuples() < data.GetNumberOfCells():
-            short.append(array)
-            whole.RemoveArray(i)
-    output.CopyAllOn()
-    output.CopyAllocate(whole, len(sources))
-    for target, source in enumerate(sources):
-        output.CopyData(whole, source, target)
-    for array in short:
-        empty = array.NewInstance()
-        empty.SetName(array.GetName())
-        output.AddArray(empty)

@@ -1,17 +1,22 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""One update of vtkDelaunayFlip."""
+"""One update of vtkDelaunayFlip: a mesh, or the blocks of a composite dataset one by one."""
+import dataclasses
 import enum
+import typing
 
 import numpy
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkMultiBlockDataSet,
+    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGridAMR)
 
-from . import _errors, _library, _vtk_blocks
-from ._session import ITERATION
-from ._vtk_block_mesh import BlockMesh
-from ._vtk_mesh import Settings
-from ._vtk_report import Totals, describe
-from ._vtk_run import Request, Run
+from . import _errors, _library
+from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
+from ._surface import Settings
+from ._vtk_mesh import MeshInput, add_arrays
+
+#: The shares of a mesh's update after which polygons are split, and edges flipped.
+_SPLIT, _FLIPPED = 0.1, 0.9
 
 
 class Failure(enum.IntEnum):
@@ -44,7 +49,7 @@ class Update:
         self._pieces = pieces
         self._sum = self.totals = Totals()
         self._errors, self._warnings = [], []
-        self._part = (0.0, 1.0)
+        self._block = (0.0, 1.0)  # the share of the cells before the current block, and its own
         self.failure = Failure.NONE
 
     @property
@@ -56,21 +61,6 @@ class Update:
         self.failure = self.failure or failure
         self._errors.append((where, message))
 
-    def flip(self, source, constraints, output):
-        """Flips the input, a mesh or blocks."""
-        self._filter._update = self  # observers read its totals
-        is_composite = isinstance(source, vtkCompositeDataSet)
-        if is_composite:
-            self._flip_blocks(source, constraints, output)
-        else:
-            self._flip_mesh(source, constraints, output)
-        self.totals = self._sum
-        if self._filter.GetLiveUpdate() and (is_composite or self._pieces > 1):
-            self._warnings.append(
-                ("", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once"))
-        if self._pieces > 1 and self._sum.has_triangles:
-            self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
-
     def tell(self, tell):
         """Sends the error and the warning of the update, if there are any."""
         if self.failure:
@@ -78,10 +68,24 @@ class Update:
         if self._warnings:
             tell("WarningEvent", describe(self._warnings))
 
+    def flip(self, source, constraints, output):
+        """Flips the input, a mesh or blocks."""
+        self._filter._update = self  # observers read its totals
+        if isinstance(source, vtkCompositeDataSet):
+            self._flip_blocks(source, constraints, output)
+        else:
+            self._flip_mesh(source, constraints, output)
+        self.totals = self._sum
+        if self._filter.GetLiveUpdate():
+            self._warnings.append(
+                ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
+        if self._pieces > 1 and self._sum.has_triangles:
+            self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
+
     def _flip_mesh(self, source, constraints, output):
         try:
             mesh = self._filter.get_mesh(source)
-        except _errors.InvalidMesh as error:
+        except Exception as error:
             self.fail(explain(error))
             output.Initialize()
             return
@@ -91,92 +95,97 @@ class Update:
             self.fail((Failure.OPTIONS,
                        "the constraints of a single mesh cannot be a composite dataset"))
         else:
-            is_live = self._filter.GetLiveUpdate() and self._pieces == 1
-            self._try_to_flip((mesh, constraints, output), is_live)
+            self._try_to_flip(mesh, constraints, output)
             return
         output.Initialize()
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.stop_reason = "converged"  # the result for an input without blocks
-        blocks = _vtk_blocks.copy(source)  # observers may change the input meanwhile
-        of_blocks = isinstance(constraints, vtkCompositeDataSet)
-        edges = _vtk_blocks.list_meshes(constraints) if of_blocks else constraints
-        results = {}
-        for block in _vtk_blocks.list_blocks(blocks):
-            self._flip_block(block, edges, results)
-        _vtk_blocks.store(blocks, results, output)
+        blocks = _copy(source)  # observers may change the input meanwhile
+        output.CopyStructure(blocks)
+        output.GetFieldData().ShallowCopy(blocks.GetFieldData())
+        edges = {}
+        if isinstance(constraints, vtkCompositeDataSet):
+            edges = {leaf.place: leaf.data for leaf in _list_leaves(constraints)
+                     if isinstance(leaf.data, vtkPolyData)}
+            constraints = None
+        total = max(sum(leaf.cells for leaf in _list_leaves(blocks)), 1)
+        before, of_partitions = 0, []
+        for leaf in _list_leaves(blocks):
+            self._block = (before / total, leaf.cells / total)
+            before += leaf.cells
+            result = self._flip_leaf(leaf, edges.get(leaf.place, constraints))
+            if leaf.is_partition and self.totals.has_triangles:
+                of_partitions.append(leaf.place[:-1])
+            output.SetDataSet(leaf.iterator, result)
+        if len(set(of_partitions)) < len(of_partitions):
+            self._warnings.append(("", "partitions were flipped one by one; edges between them stayed "
+                                       "as they were"))
 
-    def _flip_block(self, block, constraints, results):
-        """`results` receives the leaves of the output."""
+    def _flip_leaf(self, leaf, constraints):
+        """The leaf of the output."""
+        self.totals, result = Totals(), vtkPolyData()
         try:
-            mesh = BlockMesh(block, self._filter.get_mesh, self._filter.GetRegionArray())
-            edges = mesh.find_constraints(constraints)
+            mesh = self._filter.get_mesh(leaf.data) if leaf.may_be_mesh else None
         except Exception as error:
-            self.fail(explain(error), block.name)
-            results.update((leaf.number, vtkPolyData()) for leaf in block.leaves)
-            return
-        self._warnings += mesh.list_warnings()
-        if mesh.mesh is None or self._sum.stop_reason == "aborted":
-            mesh.store(None, results)
-            return
-        flipped = vtkPolyData()
-        self._part = (block.before, block.share)
-        self._try_to_flip((mesh.mesh, edges, flipped), False, block.name)
-        mesh.store(flipped, results)
+            self.fail(explain(error), leaf.name)
+            return result
+        if mesh is None and leaf.cells:
+            self._warnings.append((leaf.name, "not a surface, passed unchanged"))
+        if mesh is None or self._sum.stop_reason == "aborted":
+            return _copy(leaf.data)
+        self._try_to_flip(mesh, constraints, result, leaf.name)
+        return result
 
-    def _try_to_flip(self, data, is_live, where=""):
-        """`data`: (mesh, constraints or None, output)."""
+    def _try_to_flip(self, mesh, constraints, output, where=""):
         self.totals = Totals()
         try:
-            trouble = self._flip(data, is_live)
+            trouble = self._flip(mesh, constraints, output)
         except Exception as error:
-            self._filter._run, self._filter._can_continue = None, False
             self.fail(explain(error), where)
-            data[2].Initialize()
+            output.Initialize()
             return
+        except KeyboardInterrupt as stop:
+            self._filter._interrupt = stop  # raised when VTK is left
+            trouble = self._pass_after_abort(mesh, output)
         self._sum.add(self.totals)
         if trouble:
             self._warnings.append((where, trouble))
 
-    def _flip(self, data, is_live):
+    def _pass_after_abort(self, mesh, output):
+        self.totals = Totals("aborted")
+        output.ShallowCopy(mesh)
+        return ""
+
+    def _flip(self, mesh, constraints, output):
         """Returns the text of a warning, or ""."""
-        mesh, _, output = data
-        run, self._filter._run, self._filter._can_continue = self._filter._run, None, False
         if mesh.GetNumberOfPolys() == 0 and mesh.GetNumberOfStrips() == 0:
             self.totals = Totals("converged")
             output.ShallowCopy(mesh)
             return ""
-        try:
-            return self._flip_triangles(data, run, is_live)
-        except (_errors.Stopped, KeyboardInterrupt) as stop:
-            if isinstance(stop, KeyboardInterrupt):
-                self._filter._interrupt = stop  # raised when VTK is left
-            self.totals = Totals("aborted")
-            output.ShallowCopy(mesh)
-            self._filter._can_continue = is_live
-            return ""
-
-    def _flip_triangles(self, data, run, is_live):
-        filter_, (mesh, others, output) = self._filter, data
         if self._is_abort_requested():
-            raise _errors.Stopped("in another block")
-        request = Request(mesh, others, self._get_settings(), self._get_options(), is_live,
-                          self._observe_progress)
-        run = Run(request) if run is None else run.prepare(request)
-        self.totals = run.get_totals()
-        if is_live:
-            filter_._run = run
-        iterations = filter_.GetIterationsPerUpdate() if is_live else -1
-        is_running = not run.is_stopped and run.advance(iterations, self._observe)
-        is_whole = run.store(output, filter_.GetGenerateFlipCount(), filter_.GetGenerateQuality())
-        self.totals = run.get_totals()
+            return self._pass_after_abort(mesh, output)
+        filter_, options = self._filter, self._get_options()
+        observe = self._observe_part(_SPLIT, _FLIPPED)
+        try:
+            data = MeshInput(
+                mesh, constraints, self._get_settings(), self._observe_part(0.0, _SPLIT))
+            session = data.open(progress=observe, **options)
+        except _errors.Stopped:
+            return self._pass_after_abort(mesh, output)
+        with session:
+            self.totals = Totals.of_run(session, data)
+            if session.report.stop_reason != "aborted":
+                session.advance(progress=observe, on_iteration=self._observe)
+            angles = filter_.GetGenerateQuality()
+            is_whole = not angles or self._observe_part(_FLIPPED, 1.0)(0.0)
+            data.store(session, output, filter_.GetGenerateFlipCount(), angles and is_whole)
+            report, self.totals = session.report, Totals.of_run(session, data)
         if not is_whole:
             self.totals.stop_reason = "aborted"
-        self.totals.add_field_data(output.GetFieldData())
-        filter_._can_continue = is_live and (is_running or self.totals.stop_reason == "aborted")
-        trouble = run.describe_trouble()
-        is_known, run.warning = trouble == run.warning, trouble
-        return "" if is_known else trouble  # live updates give each warning once
+        add_arrays(output.GetFieldData(), FIELD_PREFIX, self.totals.list_fields())
+        defects = [report.defects] if report.defects else []
+        return describe_trouble("; ".join(defects + data.list_defects()), report, options)
 
     def _get_settings(self):
         filter_ = self._filter
@@ -218,8 +227,66 @@ class Update:
         self.totals.iterations = numpy.concatenate([self.totals.iterations, row])
         self.totals.counts["total_flips"] += record["flipped"]
 
-    def _observe_progress(self, share):
-        """`share` is the progress of the current block."""
-        before, length = self._part
-        self._filter.UpdateProgress(max(before + length * share, self._filter.GetProgress()))
-        return not self._is_abort_requested()
+    def _observe_part(self, begin, end):
+        """An observer of a part of the current block's update."""
+        before, length = self._block
+
+        def observe(share):
+            progress = before + length * (begin + (end - begin) * share)
+            self._filter.UpdateProgress(max(progress, self._filter.GetProgress()))
+            return not self._is_abort_requested()
+
+        return observe
+
+
+@dataclasses.dataclass(frozen=True)
+class _Leaf:
+    """A leaf of a composite dataset. `place`: the numbers of children, from the root on."""
+
+    data: typing.Any
+    iterator: typing.Any
+    name: str  #: "block 3 (wing)", by VTK's flat index
+    place: typing.Tuple
+    is_partition: bool
+    may_be_mesh: bool
+
+    @property
+    def cells(self):
+        return self.data.GetNumberOfElements(vtkDataObject.CELL)
+
+
+def _list_leaves(blocks):
+    """The leaves that are not None. Those of AMR, which is a tree from VTK 9.6 on, are grids."""
+    may_be_mesh = isinstance(blocks, vtkDataObjectTree) and not isinstance(blocks, vtkUniformGridAMR)
+    places, leaf = _list_places(blocks), blocks.NewIterator()
+    leaf.InitTraversal()
+    while not leaf.IsDoneWithTraversal():
+        number = leaf.GetCurrentFlatIndex()
+        place, is_partition = places[number] if number < len(places) else ((number,), False)
+        about = leaf.GetCurrentMetaData() if leaf.HasCurrentMetaData() else None
+        name = about.Get(vtkCompositeDataSet.NAME()) if about is not None else None
+        name = f"block {number} ({name})" if name else f"block {number}"
+        yield _Leaf(leaf.GetCurrentDataObject(), leaf, name, place, is_partition, may_be_mesh)
+        leaf.GoToNextItem()
+
+
+def _list_places(node, place=(), is_partition=False):
+    """(place, is_partition) of a node and all below it, by VTK's flat index."""
+    children = []
+    if isinstance(node, vtkPartitionedDataSet):
+        children = [node.GetPartitionAsDataObject(i) for i in range(node.GetNumberOfPartitions())]
+    elif isinstance(node, vtkPartitionedDataSetCollection):
+        children = [node.GetPartitionedDataSet(i) for i in range(node.GetNumberOfPartitionedDataSets())]
+    elif isinstance(node, vtkMultiBlockDataSet):
+        children = [node.GetBlock(i) for i in range(node.GetNumberOfBlocks())]
+    places = [(place, is_partition)]
+    for i, child in enumerate(children):
+        places += _list_places(child, (*place, i), isinstance(node, vtkPartitionedDataSet))
+    return places
+
+
+def _copy(source):
+    """A shallow copy."""
+    made = source.NewInstance()
+    made.ShallowCopy(source)
+    return made

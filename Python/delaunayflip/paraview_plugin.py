@@ -7,12 +7,11 @@ In ParaView choose Tools > Manage Plugins > Load New and this file, or in pvpyth
     from paraview.simple import LoadPlugin
     LoadPlugin(".../delaunayflip/paraview_plugin.py", remote=False, ns=globals())
 
-It has the properties of the plugin in C++, but not its chart, its text in the view and its widgets.
-For LiveUpdate, use Step or, in scripts, Advance: ParaView does not request the next frame of
-filters in Python. In a server with several processes each of these flips its own piece alone: edges
-between pieces stay, with a warning, and the statistics are those of the first process. The plugin in
-C++ flips the pieces as one mesh. Each plugin can read the state files of the other, but only one of the two can be
-loaded.
+It has the properties of the plugin in C++, but not its chart, its text in the view, its widgets and
+its live updates: all flips are made at once. Partitions of a dataset, and the pieces of a server
+with several processes, are flipped one by one: edges between them stay, with a warning, and the
+statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh. Each
+plugin can read the state files of the other, but only one of the two can be loaded.
 
 The file is not called paraview.py, because ParaView imports a plugin under its name, which would
 then hide ParaView's own module.
@@ -67,10 +66,6 @@ _require_no_other()
 class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView, which accepts any surface."""
 
-    def __init__(self):
-        super().__init__()
-        self._converted = (None, 0, None)  # input, its time, mesh
-
     def FillInputPortInformation(self, port, info):
         result = super().FillInputPortInformation(port, info)
         if port == 0:
@@ -79,8 +74,4 @@ class DelaunayFlip(vtkDelaunayFlip):
         return result
 
     def get_mesh(self, data):
-        source, time, mesh = self._converted
-        if source is not data or time != data.GetMTime():
-            mesh = to_poly_data(data)
-            self._converted = (data, data.GetMTime(), mesh)
-        return mesh
+        return to_poly_data(data)

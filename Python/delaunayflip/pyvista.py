@@ -10,23 +10,26 @@ With PyVista 0.48 or newer, and if this package is installed, every PolyData has
 
 With an older PyVista, or in a build folder, call the functions of this module with the mesh as
 first argument: `delaunayflip.pyvista.flip(mesh)`.
+
+Meshes go to the engine as arrays, so it does not matter which VTK PyVista uses (vtk or cvista).
 """
 import typing
 import warnings
 
+import numpy
 import pyvista
 
-from . import _errors, _library
+from ._errors import InvalidOptions
 from ._flip import smallest_angles as _angles_of_arrays
+from ._options import check_integer
+from ._report import FIELD_PREFIX, Totals, describe_trouble
+from ._surface import FlipInput, Settings, Slots, Surface, number_tuples
 from ._types import Array, Criterion, Geometry, TieRule
-from ._vtk import vtkDelaunayFlip
 
 _QUALITY = "Smallest angle"
-_CHOICES = {"geometry": ("Geometry", _library.GEOMETRIES),
-            "criterion": ("Criterion", _library.CRITERIA),
-            "tie_rule": ("TieRule", _library.TIE_RULES),
-            "backend": ("Backend", _library.BACKENDS)}
-_NAMES = {"threads": "NumberOfThreads", "device": "DeviceId", "pieces": "NumberOfPieces"}
+_SETTINGS = {"triangulate": "triangulate", "lines_as_constraints": "lines",
+             "insert_lines": "insert_lines", "insert_constraints": "insert_constraints"}
+_GLOBAL_IDS, _PEDIGREE_IDS, _ATTRIBUTES = 5, 6, 11  # of vtkDataSetAttributes; how many there are
 
 
 class Options(typing.TypedDict, total=False):
@@ -77,8 +80,8 @@ def flip(
 
     Raises:
         delaunayflip.FlipError: Its subclasses say what is wrong with the mesh or the options.
-        TypeError: A keyword is not an option.
-        ValueError: A value is not among the choices.
+        TypeError: The mesh, or the constraints, are no PolyData; or a keyword is not an option.
+        ValueError: A value is not among the choices, or out of range.
 
     Example:
         >>> import pyvista
@@ -89,14 +92,17 @@ def flip(
         >>> int(better.field_data["DelaunayFlip:TotalFlips"][0])
         1
     """
-    filter_ = _make_filter(mesh, constraints, options)
-    filter_.SetGenerateFlipCount(flip_counts)
-    filter_.SetGenerateQuality(quality)
-    return _update(filter_)
+    run = _Run(mesh, constraints, options)
+    run.session.advance()
+    return run.make_mesh(flip_counts, quality)
 
 
 def smallest_angles(mesh: "pyvista.PolyData") -> Array:
     """The smallest angle of each triangle of a mesh of triangles, (m,) in degrees.
+
+    Raises:
+        TypeError: The mesh is no PolyData.
+        ValueError: It has other polygons than triangles, or strips.
 
     Example:
         >>> import pyvista
@@ -105,7 +111,12 @@ def smallest_angles(mesh: "pyvista.PolyData") -> Array:
         >>> round(float(angles.min()), 3)
         45.0
     """
-    return _angles_of_arrays(mesh.points, mesh.faces.reshape(-1, 4)[:, 1:])
+    surface = Surface(_require_mesh("mesh", mesh), _view)
+    polygons = surface.read("Polys")
+    if not polygons.are_triangles() or mesh.GetNumberOfStrips():
+        raise ValueError("the mesh has polygons that are no triangles, or strips: mesh.triangulate() "
+                         "divides them")
+    return _angles_of_arrays(surface.points, polygons.corners.reshape(-1, 3))
 
 
 def plot_quality(mesh: "pyvista.PolyData", **arguments: typing.Any) -> typing.Any:
@@ -119,7 +130,8 @@ def plot_quality(mesh: "pyvista.PolyData", **arguments: typing.Any) -> typing.An
     Returns:
         The result of pyvista.PolyData.plot.
     """
-    shown = _color_by_quality(mesh)
+    surface = Surface(_require_mesh("mesh", mesh), _view)
+    shown = _color_by_quality(surface.points, Slots(surface, True).triangles)
     return shown.plot(**{**_look(), "cpos": _choose_camera(mesh), **arguments})
 
 
@@ -144,25 +156,23 @@ def animate(
     Raises:
         The same exceptions as `flip`.
     """
-    filter_ = _make_filter(mesh, constraints, options)
-    filter_.LiveUpdateOn()
-    filter_.SetIterationsPerUpdate(iterations_per_frame)
+    iterations_per_frame = check_integer("iterations_per_frame", iterations_per_frame, 1, 2**63 - 1)
+    run = _Run(mesh, constraints, options)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(window_size))
     try:
         _open_film(plotter, filename, fps)
-        shown = _color_by_quality(mesh)
+        shown = run.show()
         plotter.add_mesh(shown, **_look())
         plotter.camera_position = _choose_camera(mesh) or "iso"
         plotter.write_frame()
         is_running = True
         while is_running:
-            flipped = _update(filter_)
-            shown.copy_from(_color_by_quality(flipped))
+            is_running = run.session.advance(iterations_per_frame)
+            shown.copy_from(run.show())
             plotter.write_frame()
-            is_running = filter_.Advance()
     finally:
         plotter.close()
-    return flipped
+    return run.make_mesh(False, False)
 
 
 class DelaunayAccessor:
@@ -191,57 +201,108 @@ if hasattr(pyvista, "register_dataset_accessor"):
     pyvista.register_dataset_accessor("delaunay", pyvista.PolyData)(DelaunayAccessor)
 
 
-def _make_filter(mesh, constraints, options):
-    filter_ = vtkDelaunayFlip()
-    filter_.SetInputDataObject(mesh)
-    if constraints is not None:
-        filter_.SetConstraintsData(constraints)
-    for keyword, value in options.items():
-        _set_option(filter_, keyword, value)
-    filter_.told = {}
-    for event in ("ErrorEvent", "WarningEvent"):
-        _listen(filter_, event)
-    return filter_
+def _require_mesh(name, mesh):
+    if not isinstance(mesh, pyvista.PolyData):
+        raise TypeError(f"{name} must be a pyvista.PolyData, not {type(mesh).__name__}; of grids and "
+                        "images, mesh.extract_surface().triangulate() makes one")
+    return mesh
 
 
-def _set_option(filter_, keyword, value):
-    if keyword not in Options.__annotations__:
-        raise TypeError(f"{keyword!r} is not an option")
-    if keyword not in _CHOICES:
-        name = _NAMES.get(keyword) or "".join(part.title() for part in keyword.split("_"))
-        getattr(filter_, "Set" + name)(value)
-        return
-    name, words = _CHOICES[keyword]
-    if value not in words:
-        raise ValueError(f"{keyword} must be one of {', '.join(words)}, not {value!r}")
-    getattr(filter_, "Set" + name)(words.index(value))
+def _view(array):
+    """The values of an array of PyVista's VTK."""
+    if not array.HasStandardMemoryLayout():
+        array = array.ToAOSDataArray()
+    return numpy.asarray(pyvista.convert_array(array))
 
 
-def _listen(filter_, event):
-    def note(_filter, _event, text):
-        told[event] = text.split("): ", 1)[-1].strip()
+class _Run:
+    """A session for a mesh, and the way back."""
 
-    told = filter_.told  # a reference to the filter would keep it alive
-    note.CallDataType = "string0"
-    filter_.AddObserver(event, note)
+    def __init__(self, mesh, constraints, options):
+        self._mesh, surface = _require_mesh("mesh", mesh), Surface(mesh, _view)
+        others = None
+        if constraints is not None:
+            others = Surface(_require_mesh("constraints", constraints), _view)
+        for keyword in options:
+            if keyword not in Options.__annotations__:
+                raise TypeError(f"{keyword!r} is not an option")
+        flags = {name: bool(check_integer(keyword, options.pop(keyword), 0, 1, "True or False"))
+                 for keyword, name in _SETTINGS.items() if keyword in options}
+        self._input = FlipInput(surface, others, Settings(**flags))
+        self._take_cell_arrays(options.pop("region_array", None))
+        self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
+        self.session = self._input.open(**options)
+
+    def _take_cell_arrays(self, regions):
+        data, cells = self._mesh.cell_data, self._input.slots.cells
+        ghosts = data["vtkGhostType"] if "vtkGhostType" in data else None
+        if ghosts is not None and ghosts.dtype == numpy.uint8 and ghosts.ndim == 1:
+            self._input.freeze(ghosts)
+        if regions:
+            if regions not in data or len(data[regions]) != self._mesh.n_cells:
+                raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r} with a "
+                                     "value for every cell")
+            self._input.regions = number_tuples(numpy.asarray(data[regions]))[cells]
+
+    def show(self):
+        """The triangles so far, with their smallest angles."""
+        return _color_by_quality(self._input.points, self.session.triangles)
+
+    def make_mesh(self, flip_counts, quality):
+        """The mesh so far. The engine's warnings become Python's."""
+        slots, mesh = self._input.slots, self._mesh
+        made = mesh.copy(deep=False)
+        if len(slots.triangles) == 0:
+            return made
+        made.cell_data.clear()
+        corners = numpy.empty(int(self._input.polygon_sizes.sum()), dtype=numpy.int64)
+        self._input.fill_polygons(self.session, corners)
+        made.faces = _pad(self._input.polygon_sizes, corners)
+        strips = slots.kept_strips - slots.strips.first
+        made.strips = _pad(slots.strips.sizes[strips], slots.strips.gather(strips))
+        left_out = self._pass_cell_data(made)
+        for name, values in self._input.list_numbers(self.session, flip_counts, quality):
+            made.cell_data[name] = values
+        for name, value in Totals.of_run(self.session, self._input).list_fields():
+            made.field_data[FIELD_PREFIX + name] = value if numpy.ndim(value) else [value]
+        report = self.session.report
+        notes = [report.defects] if report.defects else []
+        notes += [*self._input.describe_unmatched(), *left_out]
+        trouble = describe_trouble("; ".join(notes), report, self._options)
+        if trouble:
+            warnings.warn(trouble, stacklevel=3)
+        return made
+
+    def _pass_cell_data(self, made):
+        """Returns texts about arrays that do not fit."""
+        mesh, sources, short = self._mesh, self._input.cell_sources, []
+        for name in mesh.cell_data.keys():
+            values = mesh.cell_data[name]
+            if len(values) < mesh.n_cells:
+                short.append(name)
+            else:
+                made.cell_data[name] = values[sources]
+        given, data = mesh.GetCellData(), made.GetCellData()
+        for kind in range(_ATTRIBUTES):
+            array = given.GetAbstractAttribute(kind)
+            if kind == _GLOBAL_IDS and self._input.slots.divides_cells:
+                kind = _PEDIGREE_IDS  # several cells share an id
+            if array is not None or kind == 0:  # PyVista chooses scalars by itself
+                data.SetActiveAttribute(array.GetName() if array is not None else "", kind)
+        normals = data.GetNormals()
+        if normals is not None and normals.GetNumberOfComponents() == 3:
+            self._input.renew_normals(_view(normals), self.session.triangles)
+        return [f"cell arrays with too few tuples left out: {', '.join(short)}"] if short else []
 
 
-def _update(filter_):
-    """The output. VTK's errors are raised as exceptions; its warnings become Python's warnings."""
-    filter_.told.clear()
-    filter_.Update()
-    if filter_.GetFailure():
-        kinds = {filter_.FAILURE_OPTIONS: _errors.InvalidOptions, filter_.FAILURE_MESH:
-                 _errors.InvalidMesh, filter_.FAILURE_BACKEND: _errors.BackendUnavailable}
-        raise kinds.get(filter_.GetFailure(), _errors.FlipError)(filter_.GetErrorMessage())
-    if "WarningEvent" in filter_.told:
-        warnings.warn(filter_.told["WarningEvent"], stacklevel=3)
-    return pyvista.wrap(filter_.GetOutput()).copy(deep=False)
+def _pad(sizes, corners):
+    """VTK's old layout of cells: before the corners of each is their number."""
+    return numpy.insert(corners, numpy.cumsum(sizes) - sizes, sizes)
 
 
-def _color_by_quality(mesh):
-    shown = pyvista.PolyData(mesh.points, faces=mesh.faces).triangulate()
-    shown.cell_data[_QUALITY] = smallest_angles(shown)
+def _color_by_quality(points, triangles):
+    shown = pyvista.PolyData(points, faces=_pad(numpy.full(len(triangles), 3), triangles.ravel()))
+    shown.cell_data[_QUALITY] = _angles_of_arrays(points, triangles)
     return shown
 
 

@@ -2,14 +2,15 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: run.sh [engine|files|ranks] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
+# Usage: run.sh [engine|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J processes
 # (default: all cores), a thousand per process. The engine (default) is built in build-fuzz/ with
 # AddressSanitizer, UndefinedBehaviorSanitizer and the leak check. The command, which gets mutated
 # files, and the filter on several ranks, of which one may have other options, are built in
-# build-fuzz-files/ without them. Results are kept in results/ there: after a stop, run the script
-# again to continue. The exit status is 0 only if no case failed. To run one case again and print its
-# mesh or file:
+# build-fuzz-files/ without them; the library for Python, whose functions get arrays of all layouts
+# (fuzz_arrays.py), in build-fuzz-arrays/. Results are kept in results/ there: after a stop, run the
+# script again to continue. The exit status is 0 only if no case failed. To run one case again and
+# print its mesh, file or arrays:
 #
 #   build-fuzz/bin/delaunay-flip-fuzz-engine --seed S --first CASE --cases 1 --print
 #
@@ -25,7 +26,7 @@ fail_usage()
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    engine | files | ranks) target=$1 ;;
+    engine | files | ranks | arrays) target=$1 ;;
     --cases | --seed | --jobs | --libfuzzer)
       [ $# -ge 2 ] || fail_usage
       case "$1" in
@@ -44,7 +45,10 @@ done
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build-fuzz
 options=(-DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address)
-if [ "$target" != engine ]; then
+if [ "$target" = arrays ]; then
+  build=$root/build-fuzz-arrays
+  options=(-DDELAUNAYFLIP_BUILD_VTK=OFF)
+elif [ "$target" != engine ]; then
   build=$root/build-fuzz-files
   options=(-DDELAUNAYFLIP_BUILD_VTK=ON)
 fi
@@ -75,7 +79,11 @@ if [ "$seconds" -gt 0 ]; then
 fi
 
 program=${FUZZ_PROGRAM:-$build/bin/delaunay-flip-fuzz-$target}
-if [ -z "${FUZZ_PROGRAM:-}" ]; then
+if [ "$target" = arrays ] && [ -z "${FUZZ_PROGRAM:-}" ]; then
+  program=$root/Testing/Fuzz/fuzz_arrays.py
+  build_target DelaunayFlipC "${options[@]}"
+  export PATH=/usr/bin:$PATH PYTHONPATH=$build/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1
+elif [ -z "${FUZZ_PROGRAM:-}" ]; then
   build_target "delaunay-flip-fuzz-$target" "${options[@]}"
 fi
 

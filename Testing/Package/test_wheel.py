@@ -135,6 +135,10 @@ class Vtk(unittest.TestCase):
         self.check("pyvista[io]", "imageio", "trimesh", "meshio", "nbclient", "ipykernel",
                    modules=("test_pyvista", *FILTER_TESTS))
 
+    def test_cvista(self):
+        self.check("pyvista[io]", "cvista", "cvista-io", "cvista-rendering", "imageio", "trimesh",
+                   "meshio", modules=("test_pyvista",))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -105,6 +105,15 @@ class UnstructuredGrids(InputTest):
         flip = self.flip(self.read_grid(make_grid(make_fan(5).GetPoints(), [])))
         self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
 
+    def test_volume(self):
+        with Messages() as messages:
+            flip = simple.DelaunayFlip(Input=self.read_grid(make_volume()))
+            refresh(flip)
+        self.assertIn("Extract Surface", messages.text)
+        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+
+
+class Live(InputTest):
     def test_live(self):
         """Steps continue from the last one, although the surface is extracted."""
         mesh = make_fan(20)
@@ -121,13 +130,6 @@ class UnstructuredGrids(InputTest):
             live.SMProxy.InvokeCommand("Advance")
             refresh(live)
         self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
-
-    def test_volume(self):
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=self.read_grid(make_volume()))
-            refresh(flip)
-        self.assertIn("Extract Surface", messages.text)
-        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
 
 
 class Grids(InputTest):

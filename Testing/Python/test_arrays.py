@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The package's functions for NumPy arrays. None of it may load VTK."""
+import copy
 import ctypes
 import doctest
 import gc
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import types
@@ -18,6 +21,7 @@ import unittest.mock
 import weakref
 
 import numpy
+import numpy.lib.recfunctions
 
 import delaunayflip
 from delaunayflip import _arrays, _library, _options
@@ -57,6 +61,19 @@ class Flip(unittest.TestCase):
         result = delaunayflip.flip(POINTS[:, :2].tolist(), TRIANGLES.tolist())
         self.assertEqual(result.report.total_flips, 1)
 
+    def test_two_columns_in_any_layout(self):
+        x, y = POINTS[:, 0].copy(), POINTS[:, 1].copy()
+        frame = numpy.zeros(4, dtype=[("x", float), ("id", "i1"), ("y", float)])
+        frame["x"], frame["y"] = x, y
+        columns = numpy.lib.recfunctions.structured_to_unstructured(frame[["x", "y"]])
+        for points in (numpy.array([x, y]).T, numpy.asfortranarray(POINTS[:, :2]), POINTS[:, :2],
+                       POINTS[::-1, :2].copy()[::-1], columns, numpy.array([x, y], ">f4").T):
+            result = delaunayflip.flip(points, TRIANGLES)
+            self.assertEqual(result.report.total_flips, 1, points.strides)
+            expected = delaunayflip.smallest_angles(POINTS, result.triangles)
+            angles = delaunayflip.smallest_angles(points, result.triangles)
+            numpy.testing.assert_array_equal(angles, expected)
+
     def test_strides(self):
         points, triangles = sheared_lattice(10)
         expected = delaunayflip.flip(points, triangles).triangles
@@ -90,7 +107,7 @@ class Flip(unittest.TestCase):
         self.assertEqual(sets[0], sets[2])
         for run in runs:
             self.assertEqual(run.flip_counts.sum(), 2 * run.report.total_flips)
-        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "number of pieces"):
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "pieces must be"):
             delaunayflip.flip(points, triangles, pieces=256)
 
     def test_what_must_stay(self):
@@ -116,8 +133,9 @@ class Flip(unittest.TestCase):
         self.assertEqual(kept.report.unmatched_constraints, 1)
 
     def test_empty(self):
-        result = delaunayflip.flip(numpy.empty((0, 3)), [])
-        self.assertEqual(result.triangles.shape, (0, 3))
+        for points, triangles in ((numpy.empty((0, 3)), []), ([], numpy.empty((0, 3)))):
+            result = delaunayflip.flip(points, triangles, regions=[], frozen=[], constraints=[])
+            self.assertEqual(result.triangles.shape, (0, 3))
         self.assertTrue(numpy.isnan(result.report.minimum_angle_before))
 
     def test_track_quality(self):
@@ -126,6 +144,11 @@ class Flip(unittest.TestCase):
         tracked = delaunayflip.flip(points, triangles, track_quality=True).iterations
         self.assertTrue(numpy.isnan(plain[1:-1]).all())
         self.assertTrue(numpy.isfinite(tracked["minimum_angle"]).all())
+
+    def test_results_are_compared_by_identity(self):
+        a, b = (delaunayflip.flip(POINTS, TRIANGLES) for _ in range(2))
+        self.assertTrue(a == a and a != b)
+        self.assertEqual(len({a, b}), 2)
 
     def test_smallest_angles(self):
         found = delaunayflip.smallest_angles(POINTS, TRIANGLES)
@@ -171,6 +194,68 @@ class Errors(unittest.TestCase):
             delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2, 3])
         with self.assertRaisesRegex(ValueError, "int32"):
             delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2**40])
+
+    def test_numbers(self):
+        """Each is refused before it reaches ctypes, by a message that names the argument."""
+        for name, value, error in (
+            ("maximum_iterations", 2**64, ValueError), ("maximum_iterations", -2, ValueError),
+            ("maximum_iterations", 1.5, TypeError), ("maximum_iterations", None, TypeError),
+            ("threads", 2**32 + 1, ValueError), ("threads", -1, ValueError),
+            ("threads", "2", TypeError), ("device", -2, ValueError), ("device", 2**31, ValueError),
+            ("pieces", 256, ValueError), ("pieces", numpy.float64(2), TypeError),
+            ("tolerance", "0.1", TypeError), ("tolerance", numpy.nan, ValueError),
+            ("tolerance", 10**400, ValueError), ("tolerance", [0.1], TypeError),
+            ("feature angle", numpy.inf, ValueError), ("feature angle", numpy.nan, ValueError),
+            ("track_quality", "no", TypeError), ("track_quality", 2, ValueError),
+            ("geometry", 3, ValueError), ("backend", numpy.array(["auto", "cuda"]), ValueError),
+            ("devices", 0, TypeError), ("devices", None, TypeError), ("devices", b"0", TypeError),
+            ("devices", [0.5], TypeError), ("devices", [2**40], ValueError),
+            ("devices", "0\0,1", ValueError), ("progress", 3, TypeError),
+            ("on_iteration", True, TypeError),
+        ):
+            with self.subTest(name, value=value), self.assertRaisesRegex(error, name):
+                delaunayflip.flip(POINTS, TRIANGLES, **{name.replace(" ", "_"): value})
+        with self.assertRaisesRegex(ValueError, "geometry must be one of"):
+            delaunayflip.smallest_angles(POINTS, TRIANGLES, geometry="x")
+        with delaunayflip.Session(POINTS, TRIANGLES) as session:
+            for iterations, error in ((1.5, TypeError), (2**63, ValueError), (-2, ValueError)):
+                with self.assertRaisesRegex(error, "iterations must be"):
+                    session.advance(iterations)
+            self.assertEqual(session.report.number_of_iterations, 0)
+        result = delaunayflip.flip(POINTS, TRIANGLES, threads=numpy.uint8(1), tolerance=numpy.float32(0),
+                                   maximum_iterations=2**63 - 1, track_quality=numpy.bool_(True))
+        self.assertEqual(result.report.total_flips, 1)
+
+    def test_arrays(self):
+        nothing = numpy.empty((0, 3))
+        masked = numpy.ma.masked_equal(POINTS, 4)
+        self.assertEqual(delaunayflip.flip(numpy.ma.array(POINTS), TRIANGLES).report.total_flips, 1)
+        for name, values, error in (
+            ("points", masked, ValueError), ("points", 3.0, ValueError), ("points", None, ValueError),
+            ("points", [[0, 1], [2]], ValueError), ("points", nothing, ValueError),
+            ("points", POINTS > 0, TypeError), ("triangles", numpy.int64(3), ValueError),
+            ("triangles", numpy.ma.masked_equal(TRIANGLES, 3), ValueError),
+            ("triangles", TRIANGLES.astype(numpy.uint64) - numpy.uint64(1), delaunayflip.InvalidMesh),
+            ("constraints", numpy.array([[0, 2**63]], numpy.uint64), delaunayflip.InvalidMesh),
+            ("constraints", [[0.0, 2.0]], TypeError), ("constraints", 2, ValueError),
+            ("regions", 1, ValueError), ("regions", [1.0, 2.0], TypeError),
+            ("regions", numpy.ma.masked_equal([1, 2], 2), ValueError),
+            ("frozen", [numpy.nan, 0], ValueError), ("frozen", ["no", "no"], TypeError),
+            ("frozen", True, ValueError), ("frozen", numpy.ma.masked_equal([1, 0], 0), ValueError),
+            ("insert_constraints", "no", TypeError), ("insert_constraints", numpy.nan, ValueError),
+            ("insert_constraints", [True, True], ValueError),
+            ("insert_constraints", None, TypeError),
+        ):
+            arguments = {"points": POINTS, "triangles": TRIANGLES, "constraints": [[0, 2]],
+                         name: values}
+            with self.subTest(name, values=values), self.assertRaisesRegex(error, name[:-1]):
+                delaunayflip.flip(**arguments)
+        with self.assertRaises(delaunayflip.InvalidMesh) as caught:
+            delaunayflip.flip(POINTS, numpy.array([[0, 1, 2], [0, 2, 2**64 - 1]], numpy.uint64))
+        self.assertEqual((caught.exception.cell, caught.exception.point), (1, 2**64 - 1))
+        for others in ({"triangles": TRIANGLES}, {"triangles": [], "constraints": [[0, 1]]}):
+            with self.assertRaisesRegex(delaunayflip.InvalidMesh, "there are no points"):
+                delaunayflip.flip([], **others)
 
     @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
     def test_smallest_angles_of_arrays_on_a_gpu(self):
@@ -269,6 +354,7 @@ class Callbacks(unittest.TestCase):
         points, triangles = sheared_lattice(50)
         result = delaunayflip.flip(points, triangles, progress=lambda share: False)
         self.assertEqual(result.report.stop_reason, "aborted")
+        self.assertEqual(result.report.non_delaunay_after, -1)
         numpy.testing.assert_array_equal(result.triangles, triangles)
 
     def test_iterations_abort(self):
@@ -279,6 +365,8 @@ class Callbacks(unittest.TestCase):
         self.assertEqual(len(records), 1)
         self.assertEqual(result.report.stop_reason, "aborted")
         self.assertEqual(records[0]["flipped"], result.report.total_flips)
+        of_numpy = delaunayflip.flip(points, triangles, on_iteration=lambda record: numpy.bool_(False))
+        self.assertEqual(of_numpy.report.stop_reason, "aborted")
 
     def test_exceptions_come_through(self):
         points, triangles = sheared_lattice(30)
@@ -351,6 +439,55 @@ class Session(unittest.TestCase):
         for use in (session.advance, lambda: session.triangles, lambda: session.report):
             with self.assertRaisesRegex(ValueError, "closed"):
                 use()
+
+    def test_it_does_one_thing_at_a_time(self):
+        points, triangles = sheared_lattice(60)
+        session = delaunayflip.Session(points, triangles)
+        told, refused = threading.Event(), threading.Event()
+
+        def observe(_):
+            for use in (session.close, session.advance, lambda: session.report,
+                        lambda: session.triangles):
+                with self.assertRaisesRegex(RuntimeError, "the session is at work"):
+                    use()
+            told.set()
+            return refused.wait(60)
+
+        thread = threading.Thread(target=session.advance, kwargs={"on_iteration": observe})
+        thread.start()
+        self.assertTrue(told.wait(60))
+        for use in (session.advance, session.close, lambda: session.flip_counts):
+            with self.assertRaisesRegex(RuntimeError, "the session is at work"):
+                use()
+        refused.set()
+        thread.join()
+        self.assertTrue(session.report.converged)
+        for copy_it in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                copy_it(session)
+        session.close()
+
+    def test_targets(self):
+        with delaunayflip.Session(POINTS, TRIANGLES) as session, tempfile.TemporaryFile() as file:
+            session.advance()
+            file.write(bytes(TRIANGLES))
+            for kind in (numpy.int32, numpy.int64):
+                target = numpy.zeros((2, 3), dtype=kind)
+                session.store_triangles(target)
+                numpy.testing.assert_array_equal(target, session.triangles)
+            read_only = numpy.zeros((2, 3), dtype=int)
+            read_only.flags.writeable = False
+            for target in (numpy.zeros((2, 3), dtype=">i8"), read_only, numpy.zeros((3, 2), int).T,
+                           numpy.memmap(file, dtype=int, mode="r", shape=(2, 3)),
+                           numpy.zeros((2, 3)), numpy.zeros((1, 3), int), numpy.zeros((2, 6), int)[:, ::2],
+                           numpy.frombuffer(bytearray(49), int, offset=1).reshape(2, 3)):
+                before = target.copy()
+                with self.assertRaisesRegex(ValueError, "target must be"):
+                    session.store_triangles(target)
+                numpy.testing.assert_array_equal(target, before)
+            for target in ([[0, 0, 0]] * 2, numpy.ma.zeros((2, 3), int), None):
+                with self.assertRaisesRegex(TypeError, "target must be"):
+                    session.store_triangles(target)
 
     def test_it_keeps_its_arrays_alive(self):
         points, triangles = sheared_lattice(20)

@@ -13,7 +13,7 @@ from delaunayflip._vtk_filter import vtkDelaunayFlip as PythonFilter
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
-    vtkDoubleArray, vtkIntArray, vtkObject, vtkPoints, vtkStringArray, vtkUnsignedCharArray)
+    vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData)
 
@@ -138,19 +138,6 @@ def list_blocks(output):
     if output.IsA("vtkPartitionedDataSet"):
         return [output.GetPartition(i) for i in range(output.GetNumberOfPartitions())]
     return [output]
-
-
-def cut(mesh, count):
-    """Cell i is in part i % count; the other cells of a part are ghosts."""
-    parts = []
-    for part in range(count):
-        parts.append(vtkPolyData())
-        parts[-1].DeepCopy(mesh)
-        is_other = numpy.arange(mesh.GetNumberOfCells()) % count != part
-        ghosts = numpy_to_vtk(is_other.astype(numpy.uint8), deep=True)
-        ghosts.SetName("vtkGhostType")
-        parts[-1].GetCellData().AddArray(ghosts)
-    return parts
 
 
 def cut_triangles(mesh, count):
@@ -327,61 +314,37 @@ class Same(unittest.TestCase):
         broken.SetPolys(make_cells([(0, 1, 44)]))
         for i, mesh in enumerate((make_rhombus(), image, None, broken, make_bad_mesh())):
             blocks.SetBlock(i, mesh)
-        told = self.expect_same(blocks, lambda flip: (flip.LiveUpdateOn(), flip.TrackQualityOn()))
+        told = self.expect_same(blocks, lambda flip: flip.TrackQualityOn())
         self.assertEqual(len(told["warnings"]), 1)
         self.assertEqual(len(told["errors"]), 1)
 
-    def test_partitions(self):
-        mesh = make_polygon_mesh()
-        add_regions(mesh)
-        for count in (2, 5):
-            parts = cut(mesh, count)
-            add_numbers(parts[0].GetPointData(), "Own", parts[0].GetNumberOfPoints())
-            parts[1].GetCellData().RemoveArray("Number")
-            for options in ({}, {"RegionArray": "Tree", "GenerateQuality": True},
-                            {"Triangulate": False, "GenerateFlipCount": True}):
-                with self.subTest((count, options)):
-                    told = self.expect_same(join([parts[0], None, *parts[1:]]), lambda flip: [
-                        getattr(flip, "Set" + name)(value) for name, value in options.items()])
-                    self.assertEqual(told["errors"], [])
+    def test_cells_without_points(self):
+        """Strips, polygons, lines and verts of no, one or two points are kept as they are."""
+        for short in ([()], [(0,), (1, 2)], [(), (1, 2), (3,)]):
+            for place, name in enumerate(("SetVerts", "SetLines", "SetPolys", "SetStrips"), 1):
+                mesh = make_rhombus()
+                mesh.SetPolys(make_cells([]))
+                getattr(mesh, name)(make_cells(short))
+                told = self.expect_same(mesh)
+                self.assertEqual(told["errors"], [])
+                self.assertEqual(told["meshes"][0][place][0], short)
 
-    def test_partitions_by_places(self):
-        """Parts with points of their own, numbers of points, ghosts, constraints and mistakes."""
-        parts = cut_triangles(make_bad_mesh(), 3)
-        lines = make_constraints(parts[0], float)
-        told = self.expect_same(join(parts), lambda flip: flip.SetConstraintsData(lines))
-        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 10)
-        own = vtkPolyData()
-        own.SetLines(make_cells([(0, 2), (5, 9)]))
-        self.expect_same(join(parts), lambda flip: flip.SetConstraintsData(own))
-        self.expect_same(join(parts), lambda flip: flip.SetInputDataObject(1, join([None, own, lines])))
-        add_ghosts(parts[1])
-        self.expect_same(join(parts))
-        twice = vtkPoints()
-        twice.DeepCopy(parts[2].GetPoints())
-        twice.SetPoint(1, twice.GetPoint(0))
-        parts[2].SetPoints(twice)
-        self.expect_same(join(parts))
-        for error, mistake in (("same type", lambda flip: flip.SetRegionArray("vtkGhostType")),
-                               ("4444", lambda _: parts[0].SetPolys(make_cells([(0, 1, 4444)])))):
-            told = self.expect_same(join(parts), mistake)
-            self.assertIn(error, told["errors"][0])
-
-    def test_partitions_with_short_arrays(self):
-        parts = cut_triangles(make_bad_mesh(), 3)
-        for data in (parts[0].GetCellData(), parts[2].GetCellData(), parts[2].GetPointData()):
-            add_numbers(data, "Short", 1)
-        parts[1].GetCellData().AddArray(vtkIntArray())
-        data = join([parts[0], None, *parts[1:]])
-        self.expect_same(data, lambda flip: flip.SetMaximumIterations(0))
-        told = self.expect_same(data)
-        cells, points = ('1 %s array with too few tuples left out: "Short"' % kind
-                         for kind in ("cell", "point"))
-        self.assertEqual(told["warnings"], [
-            f"block 1: {cells}; block 3: {cells.replace('Short', '')}; block 4: {points}; {cells}"])
+    def test_blocks_without_angles(self):
+        nowhere = make_bad_mesh()
+        vtk_to_numpy(nowhere.GetPoints().GetData())[:] = math.nan
+        for meshes in ((nowhere, make_bad_mesh()), (make_bad_mesh(), nowhere)):
+            blocks = vtkMultiBlockDataSet()
+            for i, mesh in enumerate(meshes):
+                blocks.SetBlock(i, mesh)
+            told = Watched(blocks, PythonFilter)
+            told.filter.TrackQualityOn()
+            told.filter.Update()
+            angles = told.filter.GetIterations().GetColumnByName("MinimumAngle")
+            self.assertGreater(angles.GetNumberOfValues(), 3)
+            self.assertTrue(numpy.isfinite(vtk_to_numpy(angles)).all())
 
     def test_wrong_ghosts(self):
-        """In a mesh, in blocks and in partitions, whatever their order."""
+        """In a mesh and in blocks."""
         for kind, fault in GHOST_FAULTS:
             mesh = make_polygon_mesh()
             add_wrong_ghosts(mesh, kind)
@@ -390,93 +353,69 @@ class Same(unittest.TestCase):
             for i, block in enumerate((make_bad_mesh(), mesh)):
                 blocks.SetBlock(i, block)
             self.assertRegex(self.expect_same(blocks)["warnings"][0], f"^block 2: .*{fault}$")
-            for wrong in range(3):
-                parts = cut_triangles(make_bad_mesh(), 3)
-                add_wrong_ghosts(parts[wrong], kind)
-                self.assertEqual(self.expect_same(join(parts))["warnings"],
-                                 [f"block {wrong + 1}: {fault}"])
-
-    def test_partitions_without_whole_regions(self):
-        parts = cut_triangles(make_bad_mesh(), 3)
-        for part in parts:
-            add_numbers(part.GetCellData(), "Short", 1)
-        told = self.expect_same(join(parts), lambda flip: flip.SetRegionArray("Short"))
-        self.assertIn("a tuple for every cell", told["errors"][0])
-
-    def test_partitions_with_global_ids(self):
-        mesh = make_bad_mesh()
-        ids = numpy_to_vtk(numpy.arange(mesh.GetNumberOfPoints()) + (1 << 60), deep=True)
-        ids.SetName("Ids")
-        mesh.GetPointData().SetGlobalIds(ids)
-        self.expect_same(join(cut(mesh, 4)))
 
     def test_aborts(self):
         def stop(flip, _event):
-            flip.SetAbortExecute(self.may_stop and flip.GetNumberOfIterations() == self.last)
+            flip.SetAbortExecute(flip.GetNumberOfIterations() == self.last)
 
         def prepare(flip):
-            flip.LiveUpdateOn()
             flip.GenerateQualityOn()
-            flip.SetIterationsPerUpdate(4)
             flip.AddObserver("ProgressEvent", stop)
 
         for self.last in (0, 2):
-            self.may_stop = True
-            both = Both(make_polygon_mesh(), prepare)
-            cxx, python = both.read()
-            self.assertEqual(cxx, python)
-            self.assertIn("aborted", cxx["answers"])
-            self.may_stop = False
-            self.assertEqual([watched.filter.Advance() for watched in both.pair], [True, True])
-            self.assertEqual(*both.read())
+            told = self.expect_same(make_polygon_mesh(), prepare)
+            self.assertIn("aborted", told["answers"])
 
     def test_pieces(self):
         told = self.expect_same(make_bad_mesh(), lambda flip: (
             flip.SetNumberOfPieces(3), flip.GenerateFlipCountOn()))
         self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 100)
 
-    def test_live_update(self):
-        def prepare(flip):
-            flip.LiveUpdateOn()
-            flip.SetIterationsPerUpdate(2)
 
-        both = Both(make_bad_mesh(), prepare)
-        steps, continues = 0, True
-        while continues:
-            cxx, python = both.read()
-            self.assertEqual(cxx, python)
-            answers = [watched.filter.Advance() for watched in both.pair]
-            self.assertEqual(*answers)
-            continues, steps = answers[0], steps + 1
-        self.assertGreater(steps, 3)
+class OnlyInCxx(unittest.TestCase):
+    """What the filter in Python leaves out, it says."""
 
+    def test_partitions(self):
+        parts = cut_triangles(make_bad_mesh(), 3)
+        told = Watched(join([parts[0], None, *parts[1:]]), PythonFilter)
+        told.filter.Update()
+        self.assertEqual(get_text(told.warnings), [
+            "partitions were flipped one by one; edges between them stayed as they were"])
+        output, flips = told.filter.GetOutputDataObject(0), 0
+        for place, part in zip((0, 2, 3), parts):
+            alone = Watched(part, PythonFilter)
+            self.assertEqual(read_mesh(output.GetPartition(place)), read_mesh(alone.run()))
+            flips += alone.filter.GetTotalFlips()
+        self.assertEqual(told.filter.GetTotalFlips(), flips)
+        only = Watched(join([None, parts[0], vtkPolyData()]), PythonFilter)
+        only.filter.Update()
+        self.assertEqual(only.warnings, [])
 
-    def test_warm_start(self):
-        """Points are moved between the updates of a live run, at last out of their plane."""
-        mesh = make_polygon_mesh()
-        flat = vtk_to_numpy(mesh.GetPoints().GetData())
-        flat[:, 2] = 0
-        mesh.SetLines(make_cells([(0, 40), (9, 10)]))
-        constraints = make_constraints(mesh, numpy.float64)
+    def test_live_updates(self):
+        told = Watched(make_bad_mesh(), PythonFilter)
+        told.filter.LiveUpdateOn()
+        told.filter.Update()
+        self.assertTrue(told.filter.GetConverged())
+        self.assertFalse(told.filter.Advance() or told.filter.Step() or told.filter.GetNeedsUpdate())
+        self.assertIn("LiveUpdate needs the filter in C++", told.warnings[0])
 
-        def prepare(flip):
-            flip.LiveUpdateOn()
-            flip.InsertLinesOn()
-            flip.GenerateFlipCountOn()
-            flip.SetIterationsPerUpdate(3)
-            flip.SetConstraintsData(constraints)
+    def test_observers_that_change_the_input(self):
+        """Its arrays are copied."""
+        outputs = []
+        for changes in (False, True):
+            mesh = make_bad_mesh()
 
-        both = Both(mesh, prepare)
-        started = []
-        for axis, amount in ((0, 0.0), (0, 0.4), (1, 0.3), (1, 0.05), (2, 2.0), (0, 0.1)):
-            points = vtk_to_numpy(mesh.GetPoints().GetData())
-            points[:, axis] += amount * numpy.sin(numpy.arange(len(points)))
-            mesh.GetPoints().Modified()
-            cxx, python = both.read()
-            for key in cxx:
-                self.assertEqual(cxx[key], python[key], (key, axis, amount))
-            started.append(cxx["answers"][ANSWERS.index("GetTotalFlips")])
-        self.assertGreater(started[0], 10)
+            def change(flip, _event, mesh=mesh):
+                if 0.3 < flip.GetProgress() < 1:
+                    vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())[:] = 10**9
+
+            told = Watched(mesh, PythonFilter)
+            told.filter.GenerateQualityOn()
+            if changes:
+                told.filter.AddObserver("ProgressEvent", change)
+            outputs.append(read_mesh(told.run()))
+            self.assertEqual(told.errors, [])
+        self.assertEqual(*outputs)
 
 
 class TwoEngines(unittest.TestCase):

@@ -4,7 +4,10 @@
 notebook."""
 import doctest
 import importlib
+import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -57,6 +60,59 @@ class MeshIO(unittest.TestCase):
         self.assertEqual([values.tolist() for values in better.cell_data["n"]], [[5], [6], [7]])
         fixed = flip(meshio.Mesh(points, [*cells, ("line", [[0, 2]])]))
         self.assertIn([0, 1, 2], fixed.cells[0].data.tolist())
+        with self.assertRaisesRegex(TypeError, "meshio.Mesh, not list"):
+            flip(points)
+
+    def test_lines_are_not_inserted(self):
+        meshio = load("meshio")
+        from delaunayflip.meshio import flip
+        points = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]]
+        faces = [[0, 1, 3], [1, 2, 3]]
+        lines = flip(meshio.Mesh(points, [("triangle", faces), ("line", [[0, 2]])]))
+        self.assertEqual(lines.cells[0].data.tolist(), faces)
+        both = flip(meshio.Mesh(points, [("triangle", faces), ("line", [[0, 1]])]), constraints=[[0, 2]])
+        self.assertEqual({frozenset(face) for face in both.cells[0].data.tolist()},
+                         {frozenset((0, 1, 2)), frozenset((0, 2, 3))})
+
+    def test_sets_and_info_stay(self):
+        meshio = load("meshio")
+        from delaunayflip.meshio import flip
+        points = numpy.array([[0.0, 2, 4, 2], [0, -1, 0, 1]]).T  # in Fortran order
+        given = meshio.Mesh(
+            points, [meshio.CellBlock("triangle", [[0, 1, 2], [0, 2, 3]], tags=["skin"])],
+            point_data={"p": [1, 2, 3, 4]}, field_data={"f": [1]}, point_sets={"a": [0, 1]},
+            cell_sets={"b": [numpy.array([1])]}, gmsh_periodic=[1], info={"by": "me"})
+        better = flip(given)
+        self.assertEqual({frozenset(face) for face in better.cells[0].data.tolist()},
+                         {frozenset((0, 1, 3)), frozenset((1, 2, 3))})
+        for name in ("field_data", "point_sets", "cell_sets", "gmsh_periodic", "info"):
+            self.assertEqual(getattr(better, name), getattr(given, name), name)
+        self.assertEqual(better.cells[0].tags, ["skin"])
+        self.assertIsNot(better.point_data, given.point_data)
+
+
+class Trimesh(unittest.TestCase):
+
+    def test_colors_attributes_and_metadata_stay(self):
+        trimesh = load("trimesh")
+        from delaunayflip.trimesh import flip
+        given = trimesh.Trimesh(
+            [[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], [[0, 1, 2], [0, 2, 3]], process=False,
+            metadata={"by": "me"}, face_colors=[[255, 0, 0, 255], [0, 255, 0, 255]],
+            face_attributes={"f": numpy.arange(2)}, vertex_attributes={"v": numpy.arange(4)})
+        better = flip(given)
+        self.assertEqual(sorted(sorted(face) for face in better.faces.tolist()),
+                         [[0, 1, 3], [1, 2, 3]])
+        self.assertEqual(better.metadata["by"], "me")
+        numpy.testing.assert_array_equal(better.visual.face_colors, given.visual.face_colors)
+        numpy.testing.assert_array_equal(better.face_attributes["f"], [0, 1])
+        numpy.testing.assert_array_equal(better.vertex_attributes["v"], [0, 1, 2, 3])
+        given.visual = trimesh.visual.ColorVisuals(vertex_colors=numpy.arange(16).reshape(4, 4))
+        self.assertEqual(flip(given).visual.vertex_colors.tolist()[3], [12, 13, 14, 15])
+        given.visual = trimesh.visual.TextureVisuals(uv=numpy.arange(8).reshape(4, 2))
+        self.assertEqual(flip(given).visual.uv.tolist()[3], [6, 7])
+        with self.assertRaisesRegex(TypeError, "trimesh.Trimesh, not Scene"):
+            flip(trimesh.Scene())
 
 
 class PyVista(unittest.TestCase):
@@ -98,6 +154,72 @@ class PyVista(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "NaN|finite"):
             self.mesh.delaunay.flip()
 
+    def test_other_data_is_refused(self):
+        pyvista, flip = self.pyvista, self.mesh.delaunay.flip
+        functions = [importlib.import_module("delaunayflip.pyvista").flip,
+                     delaunayflip.pyvista.smallest_angles, delaunayflip.pyvista.plot_quality]
+        for other in (None, pyvista.ImageData(dimensions=(3, 3, 1)), pyvista.MultiBlock([self.mesh]),
+                      self.mesh.cast_to_unstructured_grid(), pyvista.PointSet(self.mesh.points)):
+            for function in functions:
+                with self.assertRaisesRegex(TypeError, r"mesh must be.*extract_surface\(\)"):
+                    function(other)
+            if other is not None:
+                with self.assertRaisesRegex(TypeError, "constraints must be a pyvista.PolyData"):
+                    flip(constraints=other)
+        with self.assertRaisesRegex(ValueError, "no triangles"):
+            self.mesh.delaunay.smallest_angles()
+        for name, value, error in (
+                ("feature_angle", 181, ValueError), ("maximum_iterations", -2, ValueError),
+                ("threads", 2**32, ValueError), ("pieces", 256, ValueError),
+                ("triangulate", "no", TypeError), ("region_array", "no", ValueError)):
+            with self.assertRaisesRegex(error, name.replace("feature_angle", "feature angle")):
+                flip(**{name: value})
+
+    def test_attributes(self):
+        mesh = self.mesh
+        mesh.cell_data["Tree"] = numpy.array(["oak", "elm"])[numpy.arange(144) // 12 % 2]
+        mesh.field_data["Mine"] = [7]
+        mesh.cell_data["Ids"] = numpy.arange(144)
+        mesh.GetCellData().SetActiveAttribute("Ids", 5)
+        mesh.cell_data["Up"] = numpy.tile([0.0, 0.0, -1.0], (144, 1))
+        mesh.cell_data.active_normals_name = "Up"
+        better = mesh.delaunay.flip(region_array="Tree")
+        self.assertEqual(set(better["Tree"]), {"oak", "elm"})
+        self.assertEqual(list(better.field_data["Mine"]), [7])
+        self.assertEqual(better.cell_data.active_normals_name, "Up")
+        numpy.testing.assert_array_equal(better["Up"], numpy.tile([0, 0, -1], (288, 1)))
+        self.assertIsNone(better.GetCellData().GetGlobalIds())
+        self.assertEqual(better.GetCellData().GetPedigreeIds().GetName(), "Ids")
+        self.assertEqual(mesh.n_cells, 144)
+        self.assertNotIn("DelaunayFlip:Converged", mesh.field_data)
+        whole = mesh.delaunay.flip(triangulate=False)
+        numpy.testing.assert_array_equal(whole.faces, mesh.faces)
+        strips = mesh.triangulate().strip()
+        for options, count in (({}, 0), ({"triangulate": False}, strips.n_strips)):
+            made = strips.delaunay.flip(**options)
+            self.assertEqual((made.n_strips, made.area), (count, strips.area))
+
+    def test_the_filter_gives_the_same(self):
+        vtk_data = load("vtkmodules.vtkCommonDataModel")
+        if not isinstance(self.mesh, vtk_data.vtkPolyData):
+            self.skipTest("PyVista uses another VTK")
+        lines = self.pyvista.Line(self.mesh.points[0], self.mesh.points[-1], resolution=1)
+        filter_ = delaunayflip.vtkDelaunayFlip()
+        filter_.SetInputData(self.mesh)
+        filter_.SetConstraintsData(lines)
+        filter_.GenerateFlipCountOn()
+        filter_.GenerateQualityOn()
+        filter_.Update()
+        expected = self.pyvista.wrap(filter_.GetOutput())
+        found = self.mesh.delaunay.flip(constraints=lines, flip_counts=True, quality=True)
+        numpy.testing.assert_array_equal(found.faces, expected.faces)
+        self.assertEqual(found.cell_data.keys(), expected.cell_data.keys())
+        for data in ("cell_data", "field_data"):
+            for name in getattr(expected, data).keys():
+                if name != "DelaunayFlip:Seconds":
+                    numpy.testing.assert_array_equal(
+                        getattr(found, data)[name], getattr(expected, data)[name], name)
+
     def test_pictures(self):
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("error", UserWarning)
@@ -110,6 +232,18 @@ class PyVista(unittest.TestCase):
         self.assertGreaterEqual(len(frames), 3)
         self.assertGreater(numpy.abs(frames[0].astype(int) - frames[-1]).max(), 50)
         numpy.testing.assert_array_equal(last.faces, self.mesh.delaunay.flip().faces)
+
+
+class OtherVtk(unittest.TestCase):
+
+    def test_without_cvista(self):
+        """PyVista takes cvista by itself where that is installed: all above once more with vtk."""
+        load("pyvista")
+        load("cvista")
+        done = subprocess.run(
+            [sys.executable, "-m", "unittest", "test_pyvista.PyVista"], capture_output=True, text=True,
+            env={**os.environ, "PYVISTA_VTK_BACKEND": "vtk"}, cwd=pathlib.Path(__file__).parent)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Notebook(unittest.TestCase):

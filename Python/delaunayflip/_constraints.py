@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The edges along lines and polygons of VTK's meshes, as pairs of point ids."""
+"""The edges along lines and polygons of surfaces, as pairs of point ids."""
 import numpy
-
-from ._vtk_arrays import Cells, view_points
 
 
 class Constraints:
-    """Edges that must stay.
+    """Edges that must stay. `surface` and `others`, or None, are Surfaces.
 
     Attributes:
         pairs: (k, 2) int64, unique, in the order given, the smaller id of each pair first.
@@ -15,10 +13,10 @@ class Constraints:
         unmatched: how many edges of the second input end at no point of the mesh.
     """
 
-    def __init__(self, mesh, others, settings, points, triangles):
-        pairs, flags, self.unmatched = [], [], 0
+    def __init__(self, surface, others, settings, triangles):
+        pairs, flags, self.unmatched, points = [], [], 0, surface.points
         if settings.lines:
-            lines = Cells(mesh.GetLines(), "line, cell", mesh.GetNumberOfVerts())
+            lines = surface.read("Lines", "line, cell")
             lines.require_points(len(points))
             pairs.append(_drop_points(_list_pairs(lines, False)))
             flags.append(numpy.full(len(pairs[-1]), settings.insert_lines))
@@ -63,8 +61,7 @@ def _unite(pairs, flags, count):
 
 def list_other_pairs(others, count):
     """The edges of the second input, which names `count` points."""
-    lines = Cells(others.GetLines(), "constraint cell", others.GetNumberOfVerts())
-    polygons = Cells(others.GetPolys(), "constraint cell", lines.first + lines.count)
+    lines, polygons = (others.read(kind, "constraint cell") for kind in ("Lines", "Polys"))
     for cells in (lines, polygons):
         cells.require_points(count)
     return numpy.concatenate([_list_pairs(lines, False), _list_pairs(polygons, True)])
@@ -72,7 +69,7 @@ def list_other_pairs(others, count):
 
 def _find_others(others, points, triangles):
     """The pairs of the second input, and how many of its edges end at no point of the mesh."""
-    other_points = view_points(others)
+    other_points = others.points
     has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
                      and other_points.tobytes() == points.tobytes())
     if len(other_points) == 0 or has_same_bits:
