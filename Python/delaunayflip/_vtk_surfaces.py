@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts other datasets of VTK, grids of surface cells, to vtkPolyData."""
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkVersion
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
     VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkDataSet,
@@ -56,10 +56,8 @@ def _require_whole_cells(data):
 
 def _get_types(grid):
     """The types of its cells, which VTK 9.6 and newer may keep as one constant."""
-    try:
-        return grid.GetCellTypes()
-    except TypeError:  # older
-        return grid.GetCellTypesArray()
+    version = vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()
+    return grid.GetCellTypes() if version >= (9, 6) else grid.GetCellTypesArray()
 
 
 def _get_points(data):

@@ -16,7 +16,7 @@ from ._surface import Settings
 from ._vtk_mesh import MeshInput, add_arrays
 
 #: The shares of a mesh's update after which polygons are split, and edges flipped.
-_SPLIT, _FLIPPED = 0.1, 0.9
+_SPLIT, _FLIPPED = 0.02, 0.7
 
 
 class Failure(enum.IntEnum):
