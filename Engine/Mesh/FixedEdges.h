@@ -10,6 +10,7 @@
 #include "EdgeTable.h"
 #include "FlipError.h"
 #include "FlipReport.h"
+#include "InputChecks.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
@@ -250,8 +251,7 @@ inline std::int64_t CheckConstraint(const TriangleMesh& mesh, std::int64_t const
   if (point < 0 || point >= mesh.Points.Count)
   {
     throw InvalidMesh("constraint edge " + std::to_string(constraint) + " names point " +
-        std::to_string(point) + ", but the mesh has points 0 to " +
-        std::to_string(mesh.Points.Count - 1),
+        std::to_string(point) + ", but the mesh has " + DescribePoints(mesh.Points.Count),
       constraint, point);
   }
   return point;

@@ -6,6 +6,7 @@
 #include "FlipOptions.h"
 
 #include <cstdint>
+#include <string>
 
 namespace delaunayflip
 {
@@ -24,6 +25,12 @@ int CountPieces(const FlipOptions& options, std::int64_t triangles);
 /// @param remedy the end of the message: where that is the limit, and what to do.
 void CheckMeshSize(std::int64_t triangles, std::int64_t points,
   const char* remedy = "in one piece; flip the mesh in more pieces");
+
+/// Which points there are, for a message: "points 0 to 9" or "no points".
+inline std::string DescribePoints(std::int64_t points)
+{
+  return points > 0 ? "points 0 to " + std::to_string(points - 1) : "no points";
+}
 
 }
 

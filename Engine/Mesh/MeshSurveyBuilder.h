@@ -6,6 +6,7 @@
 #include "Atomics.h"
 #include "FlipError.h"
 #include "GeometryChoice.h"
+#include "InputChecks.h"
 #include "MeshSurvey.h"
 
 #include <algorithm>
@@ -47,8 +48,7 @@ PointIds GetPointIds(const MeshInput& input, std::int64_t triangle, const Backen
   const std::int64_t id =
     *std::find_if(ids.begin(), ids.end(), [=](std::int64_t p) { return p < 0 || p >= points; });
   throw InvalidMesh("triangle " + std::to_string(triangle) + " names point " + std::to_string(id) +
-      ", but the mesh has points 0 to " + std::to_string(points - 1) +
-      "; repair the file or remove the triangle",
+      ", but the mesh has " + DescribePoints(points) + "; repair the file or remove the triangle",
     triangle, id);
 }
 

@@ -13,11 +13,13 @@ namespace
 
 constexpr std::int64_t Far = std::numeric_limits<std::int64_t>::max() / 8;
 
-/// Expects InvalidMesh with this cell and point, and an unchanged output array.
-void ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t point)
+/// Expects InvalidMesh with this cell and point, and an unchanged output array. @returns its
+/// message.
+std::string ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t point)
 {
   std::vector<std::int64_t> output(3 * mesh.Triangles.Count, -7);
   const std::vector<std::int64_t> before = output;
+  std::string message;
   try
   {
     FlipToDelaunay(
@@ -28,10 +30,12 @@ void ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t point)
   {
     EXPECT_EQ(cell, error.Cell);
     EXPECT_EQ(point, error.Point);
-    EXPECT_NE(std::string::npos, std::string(error.what()).find(std::to_string(cell)));
-    EXPECT_NE(std::string::npos, std::string(error.what()).find(std::to_string(point)));
+    message = error.what();
+    EXPECT_NE(std::string::npos, message.find(std::to_string(cell)));
+    EXPECT_NE(std::string::npos, message.find(std::to_string(point)));
   }
   EXPECT_EQ(before, output);
+  return message;
 }
 
 TEST(InvalidIds, ThrowWithCellAndPoint)
@@ -61,7 +65,7 @@ TEST(InvalidIds, AreFoundWithoutAnyPoint)
   const std::vector<std::int32_t> triangles = { 0, 0, 0 };
   TriangleMesh mesh;
   mesh.Triangles = ViewTriangles(triangles);
-  ExpectInvalid(mesh, 0, 0);
+  EXPECT_NE(std::string::npos, ExpectInvalid(mesh, 0, 0).find("the mesh has no points"));
 }
 
 TEST(InvalidIds, OfConstraintsThrowWithConstraintAndPoint)
