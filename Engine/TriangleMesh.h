@@ -142,6 +142,10 @@ struct WholeMesh
   /// every point cover no direction twice. Then flips cannot make an edge that exists.
   bool StarsAreSimple = false;
 
+  /// In planar geometry: the side to which most triangles of the larger mesh turn, 1 (left) or -1.
+  /// 0: that to which most of these do.
+  int Side = 0;
+
   /// One set of bits per point, or null: the places outside this piece, whatever they are, where
   /// the point may have edges. A flip that would join two points with a common bit is blocked, as
   /// by an edge that exists.

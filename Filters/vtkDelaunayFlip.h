@@ -51,6 +51,11 @@
  * Delaunay in the sense of opposite-angle sums. An edge whose flip would fold the surface over, or
  * create an edge that exists already, stays and is reported as blocked.
  *
+ * @warning
+ * Points and triangles of the input are viewed, not copied. Observers may stop, remove, replace or
+ * empty the input and the output of an update, but must not make these arrays grow or shrink in
+ * place meanwhile.
+ *
  * Composite input (multiblock, partitioned): every polygonal block is a mesh of its own; other
  * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
  * and the other blocks are flipped. The methods that return results, and the only table, have the

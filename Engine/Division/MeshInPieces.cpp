@@ -63,8 +63,10 @@ void MeshInPieces::Examine(const FlipOptions& options)
     this->Survey.Whole.PlaneAxis = found.Projection.AxisW;
     this->Survey.Whole.PlaneIsTilted = found.Projection.Tilted;
   }
-  this->Survey.Whole.StarsAreSimple = found.Geometry != GeometryKind::Surface &&
-    AreStarsSimple(this->Mesh, found.Projection, this->Threads);
+  if (found.Geometry != GeometryKind::Surface)
+  {
+    SurveyStars(this->Mesh, found.Projection, this->Threads, this->Survey.Whole);
+  }
   this->Mesh.Whole = this->Survey.Whole;
   this->UsedPoints = found.UsedPoints;
   for (const Defect& defect : { found.RepeatedIds, found.NonFinitePoints, found.NearlyHeightField })

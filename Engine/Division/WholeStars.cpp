@@ -59,25 +59,29 @@ bool AreApart(const TriangleMesh& mesh, const PlaneProjection& plane, const Thre
   std::iota(keys.Keys.begin(), keys.Keys.end(), 0);
   keys.Shared.resize(mesh.Points.Count);
   keys.Closed.resize(mesh.Points.Count);
-  return AreStarsSimple(mesh, plane, keys, threads, *MakeSingleGroup());
+  const std::unique_ptr<PieceGroup> group = MakeSingleGroup();
+  return AreStarsSimple(
+    mesh, plane, keys, SumStarTurns(mesh, plane, keys, threads, *group), *group);
 }
 }
 
-bool AreStarsSimple(
-  const TriangleMesh& mesh, const PlaneProjection& plane, const ThreadBackend& threads)
+void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const ThreadBackend& threads, WholeMesh& whole)
 {
   PointSet open(mesh.Points.Count, threads);
   const Array<unsigned char> closed = FindClosed(mesh, threads, open);
   const StarTurns turns = SumStarTurns(mesh, plane, closed.Data(), threads);
   const auto numberOfClosed = threads.Sum<std::int64_t>(
     mesh.Points.Count, [&](std::int64_t i, std::int64_t& sum) { sum += closed[i]; });
+  whole.Side = turns.GetSide();
   if (!turns.AreUniform() || turns.Covers != numberOfClosed)
   {
-    return false;
+    return;
   }
   const auto isAtOpenPoint = [&](std::int64_t t) { return open.Touches(mesh.Triangles, t); };
   Array<std::int64_t> slots = ListNumbers(mesh.Triangles.Count, isAtOpenPoint, threads);
-  return AreApart(SubMesh(mesh, std::move(slots), threads).ViewWithoutLabels(), plane, threads);
+  whole.StarsAreSimple =
+    AreApart(SubMesh(mesh, std::move(slots), threads).ViewWithoutLabels(), plane, threads);
 }
 
 }

@@ -10,9 +10,9 @@
 namespace delaunayflip
 {
 
-/// WholeMesh::StarsAreSimple of a mesh that may be too large for a session.
-bool AreStarsSimple(
-  const TriangleMesh& mesh, const PlaneProjection& plane, const ThreadBackend& threads);
+/// Sets StarsAreSimple and Side of a mesh that may be too large for a session.
+void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const ThreadBackend& threads, WholeMesh& whole);
 
 }
 

@@ -100,8 +100,8 @@ public:
     this->Turns = survey.Turns;
     this->Report.Tolerance = DescribeTolerance(options, survey.Geometry);
     Array<unsigned char> shared = this->RankSharedPoints(mesh);
-    FlipLoopResult made = ChooseFlipLoop({ this->Points, survey, options, this->Report, this->Mesh,
-                                           mesh.Whole.StarsAreSimple, shared },
+    FlipLoopResult made = ChooseFlipLoop(
+      { this->Points, survey, options, this->Report, this->Mesh, mesh.Whole, shared },
       std::move(built.Table), this->Backend);
     this->Loop = std::move(made.Loop);
     for (const Defect& defect : made.Defects)

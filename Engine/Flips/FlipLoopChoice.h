@@ -49,7 +49,7 @@ struct FlipLoopInput
   const FlipOptions& Options;
   const FlipReport& Counts; ///< Has the counts of points and edges of the input.
   EdgeMesh& Mesh; ///< Must live as long as the loop.
-  bool StarsAreSimple; ///< Known (WholeMesh::StarsAreSimple).
+  const WholeMesh& Whole;
   Array<unsigned char>& SharedVertices; ///< WholeMesh::SharedPoints, by vertex, or empty. Taken.
 };
 
@@ -153,16 +153,17 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   const EdgeCounts& edges = input.Counts.Edges;
   const bool brokenFans =
     edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
-  const PlanarSurvey plane = SurveyPlane(
-    input.Mesh, input.Points, brokenFans || input.StarsAreSimple, survey.UsedPoints, backend);
+  const bool areSimple = input.Whole.StarsAreSimple;
+  const PlanarSurvey plane =
+    SurveyPlane(input.Mesh, input.Points, brokenFans || areSimple, survey.UsedPoints, backend);
   EdgeGuard guard;
-  if (!(plane.StarsAreSimple || input.StarsAreSimple) || input.SharedVertices.Size() > 0)
+  if (!(plane.StarsAreSimple || areSimple) || input.SharedVertices.Size() > 0)
   {
     guard = MakeGuard(input, std::move(table), backend);
   }
   table = EdgeTable(); // frees its memory
   return { MakePlanarLoop(input, plane.UniformSide, std::move(guard), backend),
-    { plane.ZeroAreaTriangles, plane.InvertedTriangles } };
+    { plane.ZeroAreaTriangles, plane.GetInverted(input.Whole.Side) } };
 }
 
 }

@@ -30,7 +30,15 @@ struct PlanarSurvey
   bool StarsAreSimple = false;
 
   Defect ZeroAreaTriangles;
-  Defect InvertedTriangles; ///< Those that turn to the less common side.
+  Defect LeftTriangles, RightTriangles; ///< By the side to which they turn.
+
+  /// The triangles that turn to the less common side, unless `side` says which side is common.
+  const Defect& GetInverted(int side) const
+  {
+    const bool areMostlyLeft =
+      side == 0 ? this->LeftTriangles.Count >= this->RightTriangles.Count : side > 0;
+    return areMostlyLeft ? this->RightTriangles : this->LeftTriangles;
+  }
 };
 
 struct OrientationSums
@@ -149,13 +157,13 @@ PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipSt
     throw BeyondDevice();
   }
   PlanarSurvey survey;
-  const bool mostlyLeft = turns.Left.Count >= turns.Right.Count;
-  survey.InvertedTriangles = MakeDefect(
-    "triangles that turn the other way than most", mostlyLeft ? turns.Right : turns.Left);
+  const char* what = "triangles that turn the other way than most";
+  survey.LeftTriangles = MakeDefect(what, turns.Left);
+  survey.RightTriangles = MakeDefect(what, turns.Right);
   survey.ZeroAreaTriangles = MakeDefect("triangles without area", turns.None);
   if (uniform)
   {
-    survey.UniformSide = mostlyLeft ? 1 : -1;
+    survey.UniformSide = turns.Right.Count == 0 ? 1 : -1;
     survey.StarsAreSimple =
       !skipStars && sums.Stars.SeveralFans == 0 && sums.Stars.Covers == usedPoints;
   }

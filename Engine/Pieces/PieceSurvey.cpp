@@ -186,8 +186,12 @@ PieceSurvey SurveyPieces(
   }
   const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
   survey.IsFloat = SumOverRanks(group, doubles) == 0;
-  survey.Whole.StarsAreSimple = found.Geometry != GeometryKind::Surface &&
-    AreStarsSimple(mesh, found.Projection, keys, backend, group);
+  if (found.Geometry != GeometryKind::Surface)
+  {
+    const StarTurns turns = SumStarTurns(mesh, found.Projection, keys, backend, group);
+    survey.Whole.Side = turns.GetSide();
+    survey.Whole.StarsAreSimple = AreStarsSimple(mesh, found.Projection, keys, turns, group);
+  }
   return survey;
 }
 

@@ -332,12 +332,17 @@ StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
   return threads.Sum<StarTurns>(mesh.Triangles.Count, TurnStep{ mesh, plane, closed });
 }
 
-bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const ThreadBackend& threads, PieceGroup& group)
+StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const PointKeys& keys, const ThreadBackend& threads, PieceGroup& group)
 {
   StarTurns own = SumStarTurns(mesh, plane, keys.Closed.data(), threads);
   own.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
-  const StarTurns all = SumOverRanks(group, own);
+  return SumOverRanks(group, own);
+}
+
+bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
+  const StarTurns& all, PieceGroup& group)
+{
   if (!all.AreUniform() || all.Covers != 0)
   {
     return false;

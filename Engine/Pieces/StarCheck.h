@@ -22,6 +22,8 @@ struct StarTurns
   /// turn around it a whole number of times. If its star is simple, +u is covered once.
   std::int64_t Covers = 0;
 
+  /// The side to which most turn.
+  int GetSide() const { return this->Left >= this->Right ? 1 : -1; }
   bool AreUniform() const { return this->None == 0 && (this->Left == 0 || this->Right == 0); }
 
   StarTurns& operator+=(const StarTurns& part)
@@ -38,12 +40,18 @@ struct StarTurns
 StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
   const unsigned char* closed, const ThreadBackend& threads);
 
+/// The sum over all ranks, without what closed points cover once each. All ranks must call this
+/// together.
+StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const PointKeys& keys, const ThreadBackend& threads, PieceGroup& group);
+
 /// Whether all triangles of the whole mesh strictly turn to the same side in the plane, and the
 /// triangles around every point cover no direction twice. Then flips need no guard
 /// (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a piece, where the star of a
 /// point has some of the same triangles. All ranks must call this together.
+/// @param all their sum by SumStarTurns.
 bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const ThreadBackend& threads, PieceGroup& group);
+  const StarTurns& all, PieceGroup& group);
 
 }
 

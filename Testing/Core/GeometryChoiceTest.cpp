@@ -388,6 +388,12 @@ TEST(GeometryChoice, IsTheSameInParts)
     options.NumberOfPieces = parts;
     expectSame(Flip(globe.View(), options).Report);
   }
+  Owners turned(globe.NumberOfTriangles()); // a rank has all of them, and nothing else
+  for (std::int64_t t = 0; t < globe.NumberOfTriangles(); ++t)
+  {
+    turned[t] = CountRight(globe, { &globe.Triangles[3 * t], &globe.Triangles[3 * t] + 3 }) > 0;
+  }
+  expectSame(FlipDivided(globe.View(), Divide(globe.View(), turned, 2), options).Reports.back());
 }
 
 /// In units in which depths extend hardly ten times as far.

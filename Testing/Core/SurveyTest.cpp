@@ -89,7 +89,7 @@ TEST(PlanarSurvey, OfTwoOppositeTrianglesTheRightOneIsInverted)
   {
     OwnedMesh<double> mesh = MakeFan(0, 2, false);
     std::swap(mesh.Triangles[3 * inverted + 1], mesh.Triangles[3 * inverted + 2]);
-    EXPECT_EQ(std::vector<std::int64_t>{ inverted }, Survey(mesh).InvertedTriangles.FirstIds);
+    EXPECT_EQ(std::vector<std::int64_t>{ inverted }, Survey(mesh).GetInverted(0).FirstIds);
   }
 }
 
