@@ -3,7 +3,6 @@
 #include "PreparedPieces.h"
 
 #include "CallerMesh.h"
-#include "DividedRun.h"
 #include "InputChecks.h"
 
 namespace delaunayflip
@@ -64,7 +63,7 @@ PiecesReport PreparedPieces::Run(const ProgressObserver& progress, std::int32_t*
   const double begin = this->Insertion.GetShare();
   const ProgressObserver observer = [&](double share)
   { return !progress || progress(begin + (1.0 - begin) * share); };
-  PiecesReport report = DividedRun(this->Mesh, this->Options, flipCounts, observer).Run();
+  PiecesReport report = FlipInTurn(this->Mesh, this->Options, flipCounts, observer);
   this->Insertion.AddTo(report);
   if (flipCounts)
   {

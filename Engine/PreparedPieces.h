@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_PREPAREDPIECES_H
 
 #include "ConstraintInsertion.h"
-#include "MeshInPieces.h"
+#include "MeshInParts.h"
 #include "PieceFlip.h"
 
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
 private:
   ConstraintInsertion Insertion;
   FlipOptions Options;
-  MeshInPieces Mesh;
+  MeshInParts Mesh;
 };
 
 }
