@@ -89,7 +89,7 @@ public:
 private:
   friend class DrawnTriangles; // of DeviceColors.h
   EngineTriangles ViewTriangles() const;
-  friend class PieceRun;
+  friend class PartRun;
   HostTriangles ViewHostTriangles() const;
 
   std::unique_ptr<SessionWork> Work;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DividedSession.h"
 
-#include "DividedRun.h"
 #include "InputChecks.h"
 
 namespace delaunayflip
@@ -63,7 +62,7 @@ PiecesReport PreparedPieces::Run(const ProgressObserver& progress, std::int32_t*
   const double begin = this->Insertion.GetShare();
   const ProgressObserver observer = [&](double share)
   { return !progress || progress(begin + (1.0 - begin) * share); };
-  PiecesReport report = DividedRun(this->Mesh, this->Options, flipCounts, observer).Run();
+  PiecesReport report = FlipInTurn(this->Mesh, this->Options, flipCounts, observer);
   this->Insertion.AddTo(report);
   if (flipCounts)
   {

@@ -5,7 +5,7 @@
 
 #include "Array.h"
 #include "ConstraintInsertion.h"
-#include "MeshInPieces.h"
+#include "MeshInParts.h"
 #include "PieceFlip.h"
 #include "SessionWork.h"
 #include "ThreadBackend.h"
@@ -41,7 +41,7 @@ public:
 private:
   ConstraintInsertion Insertion;
   FlipOptions Options;
-  MeshInPieces Mesh;
+  MeshInParts Mesh;
 };
 
 /// Flips the pieces of a mesh in one go, in a copy of its triangles.

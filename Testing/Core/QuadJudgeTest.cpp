@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadJudge.h"
 #include "ExactReference.h"
 #include "FlipTestSupport.h"
+#include "SeamQuads.h"
 
 #include <gtest/gtest.h>
 
@@ -32,11 +32,11 @@ OwnedMesh<double> MakeQuadMesh(const QuadPoints& apqb)
   return mesh;
 }
 
-PieceSurvey Survey(const TriangleMesh& mesh, const FlipOptions& options)
+PartSurvey Survey(const TriangleMesh& mesh, const FlipOptions& options)
 {
   const auto alone = MakeSingleGroup();
   const MeshPiece piece{ mesh };
-  return SurveyPieces(piece, MatchPoints(piece, *alone), options, *alone);
+  return SurveyParts(piece, MatchPoints(piece, *alone), options, *alone);
 }
 
 SeamSide MakeSide(const Point3& start, const Point3& end, const Point3& opposite, bool runsForward)

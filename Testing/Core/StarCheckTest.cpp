@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GeneratedMeshes.h"
-#include "PieceSurvey.h"
+#include "PartSurvey.h"
 #include "PieceTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ bool AreSimple(const OwnedMesh<double>& mesh, const Owners& owners, int ranks,
     {
       const MeshPiece piece = pieces[group.GetRank()].View(true);
       const PointKeys keys = MatchPoints(piece, group);
-      simple[group.GetRank()] = SurveyPieces(piece, keys, options, group).NeedsGuard() ? 0 : 1;
+      simple[group.GetRank()] = SurveyParts(piece, keys, options, group).NeedsGuard() ? 0 : 1;
     });
   EXPECT_EQ(1u, std::set<unsigned char>(simple.begin(), simple.end()).size());
   return simple.front() != 0;

@@ -1,0 +1,429 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshInParts.h"
+
+#include "FixedEdges.h"
+#include "FlipError.h"
+#include "InputChecks.h"
+#include "MeshSurveyBuilder.h"
+#include "Records.h"
+#include "StarCheck.h"
+#include "TriangleMesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+PointSet::PointSet(std::int64_t points, const ThreadBackend& backend)
+  : Words(backend.MakeArray<std::uint32_t>((points + WordBits - 1) / WordBits))
+{
+  std::uint32_t* words = this->Words.Data();
+  backend.ForEach(
+    static_cast<std::int64_t>(this->Words.Size()), [=](std::int64_t i) { words[i] = 0; });
+}
+
+void PointSet::Number(const ThreadBackend& backend)
+{
+  const auto size = static_cast<std::int64_t>(this->Words.Size());
+  this->Firsts = backend.MakeArray<std::uint32_t>(size);
+  std::uint32_t* firsts = this->Firsts.Data();
+  const std::uint32_t* words = this->Words.Data();
+  const auto count = [=](std::int64_t i) { return __builtin_popcount(words[i]); };
+  const ThreadNumbering numbering = backend.Count(size, count);
+  if (numbering.Total > std::numeric_limits<std::int32_t>::max())
+  {
+    throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh into more pieces");
+  }
+  backend.ForEachNumbered(numbering, size, count,
+    [=](std::int64_t i, std::int64_t first) { firsts[i] = static_cast<std::uint32_t>(first); });
+  this->Size = numbering.Total;
+}
+
+//------------------------------------------------------------------------------
+SubMesh::SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend)
+  : Whole(mesh),
+    Engine(backend),
+    PointIds(mesh.Points.Count, backend),
+    Slots(std::move(slots))
+{
+  const TriangleArray& triangles = mesh.Triangles;
+  const std::int64_t count = this->GetNumberOfTriangles();
+  this->Engine.ForEach(count,
+    [&](std::int64_t i)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        this->PointIds.Add(triangles.Get(this->Slots[i], slot));
+      }
+    });
+  this->PointIds.Number(this->Engine);
+  CheckMeshSize(count, this->PointIds.GetSize());
+  this->Ids = this->Engine.MakeArray<std::int32_t>(3 * count);
+  this->Engine.ForEach(count,
+    [&](std::int64_t i)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        this->Ids[3 * i + slot] = this->PointIds.GetNumber(triangles.Get(this->Slots[i], slot));
+      }
+    });
+  this->CopyPoints();
+  this->CopyLabels();
+}
+
+void SubMesh::CopyPoints()
+{
+  const PointArray& points = this->Whole.Points;
+  const std::int64_t count = this->PointIds.GetSize();
+  this->PointOf = this->Engine.MakeArray<std::int64_t>(count);
+  this->Floats = this->Engine.MakeArray<float>(points.Floats ? 3 * count : 0);
+  this->Doubles = this->Engine.MakeArray<double>(points.Floats ? 0 : 3 * count);
+  this->PointIds.ForEach(this->Engine,
+    [&](std::int64_t point, std::int64_t number)
+    {
+      this->PointOf[number] = point;
+      if (points.Floats)
+      {
+        std::copy_n(points.Floats + 3 * point, 3, this->Floats.Data() + 3 * number);
+      }
+      else
+      {
+        std::copy_n(points.Doubles + 3 * point, 3, this->Doubles.Data() + 3 * number);
+      }
+    });
+}
+
+void SubMesh::CopyLabels()
+{
+  const std::int64_t count = this->GetNumberOfTriangles();
+  if (this->Whole.Regions)
+  {
+    this->Regions = this->Engine.MakeArray<std::int32_t>(count);
+    this->Engine.ForEach(
+      count, [&](std::int64_t i) { this->Regions[i] = this->Whole.Regions[this->Slots[i]]; });
+  }
+  if (this->Whole.FrozenTriangles)
+  {
+    this->Frozen = this->Engine.MakeArray<unsigned char>(count);
+    this->Engine.ForEach(count,
+      [&](std::int64_t i) { this->Frozen[i] = this->Whole.FrozenTriangles[this->Slots[i]]; });
+  }
+}
+
+void SubMesh::FixEdges(const std::vector<std::int64_t>& ends)
+{
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+  {
+    const std::int64_t a = ends[i];
+    const std::int64_t b = ends[i + 1];
+    if (this->PointIds.Has(a) && this->PointIds.Has(b))
+    {
+      this->Edges.push_back(this->PointIds.GetNumber(a));
+      this->Edges.push_back(this->PointIds.GetNumber(b));
+    }
+  }
+}
+
+TriangleMesh SubMesh::ViewWithoutLabels() const
+{
+  const auto points = static_cast<std::int64_t>(this->PointOf.Size());
+  TriangleMesh mesh;
+  mesh.Points = this->Whole.Points.Floats ? PointArray(this->Floats.Data(), points)
+                                          : PointArray(this->Doubles.Data(), points);
+  mesh.Triangles = TriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
+  mesh.ConstraintEdges = this->Edges.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
+  mesh.Whole = this->Whole.Whole;
+  mesh.Whole.SharedPoints = this->Shared.Size() > 0 ? this->Shared.Data() : nullptr;
+  return mesh;
+}
+
+TriangleMesh SubMesh::View() const
+{
+  TriangleMesh mesh = this->ViewWithoutLabels();
+  mesh.Regions = this->Whole.Regions ? this->Regions.Data() : nullptr;
+  mesh.FrozenTriangles = this->Whole.FrozenTriangles ? this->Frozen.Data() : nullptr;
+  return mesh;
+}
+
+void SubMesh::Store(const MutableTriangleArray& triangles) const
+{
+  this->Engine.ForEach(this->GetNumberOfTriangles(),
+    [&](std::int64_t i)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        triangles.Set(this->Slots[i], slot, this->GetPoint(i, slot));
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+/// Divides a mesh into parts with about the same number of triangles by recursive bisection. Each
+/// cut is perpendicular to the axis along which what is cut is longest.
+///
+/// The cuts of a large mesh are computed from a sample of its triangles. Which triangles are in the
+/// sample depends only on their number.
+class PartCuts
+{
+public:
+  /// @param axes the coordinate axes to cut across, ascending.
+  PartCuts(const TriangleMesh& mesh, const std::vector<int>& axes, int parts)
+    : Axes(axes)
+  {
+    constexpr std::int64_t LargestSample = 1 << 20;
+    const std::int64_t triangles = mesh.Triangles.Count;
+    const bool isSample = triangles > LargestSample;
+    std::vector<Center> centers(isSample ? LargestSample : triangles);
+    for (std::size_t i = 0; i < centers.size(); ++i)
+    {
+      // Scattered, because neighbours in the array may be neighbours in space.
+      const auto t = isSample ? static_cast<std::int64_t>(ScatterBits(i) % triangles)
+                              : static_cast<std::int64_t>(i);
+      centers[i] = GetCenter(mesh, t);
+    }
+    this->First = this->Divide(centers.data(), centers.data() + centers.size(), 0, parts);
+  }
+
+  /// The part, 0 to parts - 1, in which the centre of a triangle lies.
+  int FindPart(const TriangleMesh& mesh, std::int64_t triangle) const
+  {
+    const Center center = GetCenter(mesh, triangle);
+    int side = this->First;
+    while (side >= 0)
+    {
+      const Cut& cut = this->Cuts[side];
+      side = cut.Sides[center[cut.Axis] < cut.Value ? 0 : 1];
+    }
+    return ~side;
+  }
+
+private:
+  using Center = std::array<double, 3>;
+
+  /// Centres whose coordinate is below the value belong to the first of the two sides. A side is
+  /// the index of another cut or, if negative, the part ~side.
+  struct Cut
+  {
+    int Axis;
+    double Value;
+    int Sides[2];
+  };
+
+  /// Three times the centre of a triangle; NaN counts as 0.
+  static Center GetCenter(const TriangleMesh& mesh, std::int64_t triangle)
+  {
+    Center center{ 0.0, 0.0, 0.0 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        center[axis] += mesh.Points.Get(mesh.Triangles.Get(triangle, slot), axis);
+      }
+      center[axis] = std::isnan(center[axis]) ? 0.0 : center[axis];
+    }
+    return center;
+  }
+
+  int FindLongestAxis(const Center* begin, const Center* end) const
+  {
+    int longest = this->Axes.front();
+    double length = -1.0;
+    for (const int axis : this->Axes)
+    {
+      const auto [lower, upper] = std::minmax_element(
+        begin, end, [=](const Center& a, const Center& b) { return a[axis] < b[axis]; });
+      if ((*upper)[axis] - (*lower)[axis] > length)
+      {
+        length = (*upper)[axis] - (*lower)[axis];
+        longest = axis;
+      }
+    }
+    return longest;
+  }
+
+  /// @returns the side that a range of the sample belongs to.
+  int Divide(Center* begin, Center* end, int firstPart, int parts)
+  {
+    if (parts == 1 || begin == end)
+    {
+      return ~firstPart;
+    }
+    const int axis = this->FindLongestAxis(begin, end);
+    Center* middle = begin + (end - begin) / parts * (parts / 2);
+    std::nth_element(
+      begin, middle, end, [=](const Center& a, const Center& b) { return a[axis] < b[axis]; });
+    const double value = (*middle)[axis];
+    // Equal centres stay together.
+    middle = std::partition(begin, end, [=](const Center& one) { return one[axis] < value; });
+    const auto cut = static_cast<int>(this->Cuts.size());
+    this->Cuts.push_back({ axis, value, {} });
+    const int first = this->Divide(begin, middle, firstPart, parts / 2);
+    const int second = this->Divide(middle, end, firstPart + parts / 2, parts - parts / 2);
+    this->Cuts[cut].Sides[0] = first;
+    this->Cuts[cut].Sides[1] = second;
+    return cut;
+  }
+
+  std::vector<int> Axes;
+  std::vector<Cut> Cuts;
+  int First; ///< The side that is the whole mesh.
+};
+}
+
+void CopyTriangles(
+  const TriangleArray& from, const MutableTriangleArray& to, const ThreadBackend& threads)
+{
+  if (from.Data() != to.Data())
+  {
+    threads.ForEach(from.Count,
+      [&](std::int64_t t)
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          to.Set(t, slot, from.Get(t, slot));
+        }
+      });
+  }
+}
+
+MeshInParts::MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
+  const FlipOptions& options, int parts)
+  : Mesh(mesh),
+    Triangles(triangles),
+    Parts(parts),
+    Threads(options.NumberOfThreads)
+{
+  this->Examine(options);
+  this->Divide();
+  CopyTriangles(mesh.Triangles, triangles, this->Threads);
+  this->Mesh.Triangles = triangles.Ids32 ? TriangleArray(triangles.Ids32, triangles.Count)
+                                         : TriangleArray(triangles.Ids64, triangles.Count);
+}
+
+void MeshInParts::Examine(const FlipOptions& options)
+{
+  for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
+  {
+    CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
+  }
+  const MeshSurvey found =
+    BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, options.Geometry, this->Threads);
+  CheckTieRule(options, found.Geometry);
+  this->Survey = PartSurvey(found);
+  this->Survey.IsFloat = this->Mesh.Points.Floats != nullptr;
+  if (found.Geometry != GeometryKind::Surface)
+  {
+    SurveyStars(this->Mesh, found.Projection, this->Threads, this->Survey.Whole);
+  }
+  this->Mesh.Whole = this->Survey.Whole;
+  this->UsedPoints = found.UsedPoints;
+  for (const Defect& defect : { found.RepeatedIds, found.NonFinitePoints, found.NearlyHeightField })
+  {
+    if (defect.Count > 0)
+    {
+      this->Defects.push_back(defect);
+    }
+  }
+}
+
+void MeshInParts::Divide()
+{
+  std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (this->Survey.Geometry == GeometryKind::Surface || axis != this->Survey.Projection.AxisW)
+    {
+      axes.push_back(axis);
+    }
+  }
+  const std::int64_t count = this->Mesh.Triangles.Count;
+  const PartCuts cuts(this->Mesh, axes, this->Parts);
+  this->PartOf = this->Threads.MakeArray<unsigned char>(count);
+  this->Threads.ForEach(count,
+    [&](std::int64_t t)
+    { this->PartOf[t] = static_cast<unsigned char>(cuts.FindPart(this->Mesh, t)); });
+}
+
+SubMesh MeshInParts::GetPart(int number) const
+{
+  const auto isIn = [&](std::int64_t t) { return this->PartOf[t] == number; };
+  return SubMesh(
+    this->Mesh, ListNumbers(this->Mesh.Triangles.Count, isIn, this->Threads), this->Threads);
+}
+
+SubMesh MeshInParts::GetPartOf(const SubMesh& mesh, int number) const
+{
+  const auto isIn = [&](std::int64_t t) { return this->PartOf[mesh.GetSlot(t)] == number; };
+  Array<std::int64_t> slots = ListNumbers(mesh.GetNumberOfTriangles(), isIn, this->Threads);
+  this->Threads.ForEach(static_cast<std::int64_t>(slots.Size()),
+    [&](std::int64_t i) { slots[i] = mesh.GetSlot(slots[i]); });
+  return SubMesh(this->Mesh, std::move(slots), this->Threads);
+}
+
+PointSet MeshInParts::FindSeamPoints() const
+{
+  const TriangleArray& triangles = this->Mesh.Triangles;
+  PointSet seam(this->Mesh.Points.Count, this->Threads);
+  Array<unsigned char> partOfPoint =
+    this->Threads.MakeArray<unsigned char>(this->Mesh.Points.Count);
+  const auto forEachCorner = [&](const auto& work)
+  {
+    this->Threads.ForEach(triangles.Count,
+      [&](std::int64_t t)
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          work(triangles.Get(t, slot), this->PartOf[t]);
+        }
+      });
+  };
+  // Whichever of its parts a point keeps, it differs from another one of them.
+  forEachCorner(
+    [&](std::int64_t point, unsigned char part) { AtomicStore(partOfPoint.Data() + point, part); });
+  forEachCorner(
+    [&](std::int64_t point, unsigned char part)
+    {
+      if (partOfPoint[point] != part)
+      {
+        seam.Add(point);
+      }
+    });
+  return seam;
+}
+
+SubMesh MeshInParts::GetTrianglesAt(const PointSet& points) const
+{
+  const TriangleArray& triangles = this->Mesh.Triangles;
+  const auto isIn = [&](std::int64_t t) { return points.Touches(triangles, t); };
+  return SubMesh(this->Mesh, ListNumbers(triangles.Count, isIn, this->Threads), this->Threads);
+}
+
+PointSet MeshInParts::FindPointsAround(const PointSet& points) const
+{
+  const TriangleArray& triangles = this->Mesh.Triangles;
+  PointSet around(this->Mesh.Points.Count, this->Threads);
+  this->Threads.ForEach(triangles.Count,
+    [&](std::int64_t t)
+    {
+      if (points.Touches(triangles, t))
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          around.Add(triangles.Get(t, slot));
+        }
+      }
+    });
+  return around;
+}
+
+}

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MESHINPARTS_H
+#define DELAUNAYFLIP_MESHINPARTS_H
+
+#include "Array.h"
+#include "Atomics.h"
+#include "FlipOptions.h"
+#include "PartSurvey.h"
+#include "PieceFlip.h"
+#include "ThreadBackend.h"
+#include "TriangleMesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Some points of a mesh: a bit for each point.
+class PointSet
+{
+public:
+  /// Empty.
+  /// @param points of the mesh.
+  PointSet(std::int64_t points, const ThreadBackend& backend);
+
+  /// Several threads may add at once.
+  void Add(std::int64_t point)
+  {
+    std::uint32_t* word = this->Words.Data() + point / WordBits;
+    const std::uint32_t bit = GetBit(point);
+    if ((AtomicLoad(word) & bit) == 0) // most have been added already
+    {
+      AtomicSet(word, bit);
+    }
+  }
+
+  bool Has(std::int64_t point) const
+  {
+    return (this->Words.Data()[point / WordBits] & GetBit(point)) != 0;
+  }
+
+  /// Whether a point of a triangle is in the set.
+  bool Touches(const TriangleArray& triangles, std::int64_t t) const
+  {
+    return this->Has(triangles.Get(t, 0)) || this->Has(triangles.Get(t, 1)) ||
+      this->Has(triangles.Get(t, 2));
+  }
+
+  /// Numbers the points that have been added, in the order of their ids.
+  /// @throws MeshTooLarge if a number would not fit into 32 bits.
+  void Number(const ThreadBackend& backend);
+
+  // After Number:
+  std::int64_t GetSize() const { return this->Size; }
+  /// The number of a point of the set.
+  std::int32_t GetNumber(std::int64_t point) const
+  {
+    const std::uint32_t before = this->Words.Data()[point / WordBits] & (GetBit(point) - 1);
+    return static_cast<std::int32_t>(
+      this->Firsts.Data()[point / WordBits] + __builtin_popcount(before));
+  }
+
+  /// Calls visit(point, number) for all points of the set, in several threads.
+  template <typename Visit>
+  void ForEach(const ThreadBackend& backend, const Visit& visit) const
+  {
+    backend.ForEach(static_cast<std::int64_t>(this->Words.Size()),
+      [&](std::int64_t word)
+      {
+        std::int32_t number = static_cast<std::int32_t>(this->Firsts.Data()[word]);
+        for (std::uint32_t bits = this->Words.Data()[word]; bits != 0; bits &= bits - 1)
+        {
+          visit(word * WordBits + __builtin_ctz(bits), number++);
+        }
+      });
+  }
+
+private:
+  static constexpr std::int64_t WordBits = 32;
+  static std::uint32_t GetBit(std::int64_t point) { return std::uint32_t(1) << (point % WordBits); }
+
+  Array<std::uint32_t> Words;
+  Array<std::uint32_t> Firsts; ///< By word: the number of its first point.
+  std::int64_t Size = 0;
+};
+
+/// The numbers from 0 to size - 1 for which isIn(number) is true, ascending.
+template <typename IsIn>
+Array<std::int64_t> ListNumbers(std::int64_t size, const IsIn& isIn, const ThreadBackend& backend)
+{
+  constexpr std::int64_t Grain = 1 << 16;
+  std::vector<std::vector<std::int64_t>> parts((size + Grain - 1) / Grain);
+  std::vector<std::int64_t> firsts(parts.size() + 1);
+  backend.ForRange(
+    size,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      std::vector<std::int64_t>& part = parts[begin / Grain];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        if (isIn(i))
+        {
+          part.push_back(i);
+        }
+      }
+    },
+    Grain);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    firsts[i + 1] = firsts[i] + static_cast<std::int64_t>(parts[i].size());
+  }
+  Array<std::int64_t> numbers = backend.MakeArray<std::int64_t>(firsts.back());
+  backend.ForTasks(static_cast<std::int64_t>(parts.size()),
+    [&](std::int64_t i)
+    { std::copy(parts[i].begin(), parts[i].end(), numbers.Data() + firsts[i]); });
+  return numbers;
+}
+
+/// Some triangles of a mesh as a mesh of its own, with its own numbers of points. Triangles and
+/// points keep their order.
+class SubMesh
+{
+public:
+  /// @param mesh must live as long.
+  /// @param slots the triangles, ascending.
+  SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend);
+
+  std::int64_t GetNumberOfTriangles() const
+  {
+    return static_cast<std::int64_t>(this->Slots.Size());
+  }
+  /// The place of a triangle in the mesh.
+  std::int64_t GetSlot(std::int64_t triangle) const { return this->Slots[triangle]; }
+  /// The id in the mesh of a corner of a triangle.
+  std::int64_t GetPoint(std::int64_t triangle, int slot) const
+  {
+    return this->PointOf[this->Ids[3 * triangle + slot]];
+  }
+  /// The id in the mesh of a point.
+  std::int64_t GetPointId(std::int64_t number) const { return this->PointOf[number]; }
+
+  /// Fixes edges whose two ends are both in the sub-mesh, and ignores the others.
+  /// @param ends of the edges: two point ids of the mesh for each.
+  void FixEdges(const std::vector<std::int64_t>& ends);
+
+  /// Forbids flips that would join two of the points for which `has`(point of the mesh) is true
+  /// (WholeMesh::SharedPoints). There is no need to where no flip can make an edge that exists.
+  template <typename Has>
+  void GuardPoints(const Has& has)
+  {
+    this->Shared = this->Engine.template MakeArray<unsigned char>(this->PointOf.Size());
+    this->PointIds.ForEach(this->Engine,
+      [&](std::int64_t point, std::int32_t number) { this->Shared[number] = has(point) ? 1 : 0; });
+  }
+
+  /// Views of the arrays of this object, with the regions and frozen flags of the triangles.
+  TriangleMesh View() const;
+  /// The same without regions and frozen flags.
+  TriangleMesh ViewWithoutLabels() const;
+
+  /// The point ids of the triangles, to be changed by flips.
+  MutableTriangleArray GetTriangles()
+  {
+    return MutableTriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
+  }
+  /// Writes the triangles into their slots of the mesh.
+  void Store(const MutableTriangleArray& triangles) const;
+
+private:
+  void CopyPoints();
+  void CopyLabels();
+
+  const TriangleMesh& Whole;
+  const ThreadBackend& Engine;
+  PointSet PointIds;
+  Array<std::int64_t> Slots;
+  Array<std::int64_t> PointOf;
+  Array<std::int32_t> Ids;
+  Array<float> Floats; ///< Coordinates, in the precision of the mesh; Doubles is then empty.
+  Array<double> Doubles;
+  Array<std::int32_t> Regions;
+  Array<unsigned char> Frozen;
+  Array<unsigned char> Shared;
+  std::vector<std::int64_t> Edges;
+};
+
+void CopyTriangles(
+  const TriangleArray& from, const MutableTriangleArray& to, const ThreadBackend& threads);
+
+/// A mesh whose triangle slots are divided among parts. Flips change its triangles in place.
+class MeshInParts
+{
+public:
+  /// Surveys the mesh as a whole, divides it, and copies its triangles.
+  /// @param triangles receives the copy, which flips change. May be the mesh's own array.
+  /// @param options whose threads are used.
+  /// @throws InvalidMesh, InvalidOptions, both before anything is copied.
+  MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
+    const FlipOptions& options, int parts);
+
+  const TriangleMesh& View() const { return this->Mesh; }
+  const MutableTriangleArray& GetTriangles() const { return this->Triangles; }
+  int GetNumberOfParts() const { return this->Parts; }
+  const PartSurvey& GetSurvey() const { return this->Survey; }
+  std::int64_t GetUsedPoints() const { return this->UsedPoints; }
+  /// Defects of point ids and coordinates.
+  const std::vector<Defect>& GetDefects() const { return this->Defects; }
+  const ThreadBackend& GetThreads() const { return this->Threads; }
+
+  SubMesh GetPart(int number) const;
+  /// The points that triangles of several parts share at the moment.
+  PointSet FindSeamPoints() const;
+  /// The triangles that have one of these points.
+  SubMesh GetTrianglesAt(const PointSet& points) const;
+  /// The triangles of a sub-mesh that belong to one part.
+  SubMesh GetPartOf(const SubMesh& mesh, int number) const;
+  /// All points of the triangles that have one of these points.
+  PointSet FindPointsAround(const PointSet& points) const;
+
+private:
+  void Examine(const FlipOptions& options);
+  void Divide();
+
+  TriangleMesh Mesh;
+  MutableTriangleArray Triangles;
+  int Parts;
+  ThreadBackend Threads;
+  PartSurvey Survey;
+  std::int64_t UsedPoints = 0;
+  std::vector<Defect> Defects;
+  Array<unsigned char> PartOf; ///< By triangle slot.
+};
+
+/// Flips the parts, one after the other on each device, and the edges between them.
+/// @param flipCounts is set to the number of flips of each triangle slot; or null.
+PiecesReport FlipInTurn(MeshInParts& mesh, const FlipOptions& options, std::int32_t* flipCounts,
+  const ProgressObserver& progress);
+
+}
+
+#endif

@@ -1,0 +1,619 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PartMesh.h"
+
+#include "AngleSurvey.h"
+#include "CotangentAngle.h"
+#include "FlipError.h"
+#include "FlipLoop.h"
+#include "PartSurvey.h"
+#include "ThreadBackend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace delaunayflip
+{
+
+void MarkedEdges::Add(const PointPair& edge, unsigned char marks)
+{
+  const auto last = static_cast<std::size_t>(edge[1]);
+  if (last >= this->Ends.size())
+  {
+    this->Ends.resize(std::max(last + 1, 2 * this->Ends.size()));
+  }
+  this->Ends[edge[0]] = 1;
+  this->Ends[edge[1]] = 1;
+  this->Marks[edge] |= marks;
+}
+
+unsigned char MarkedEdges::Find(const PointPair& edge) const
+{
+  const auto found = this->Marks.find(edge);
+  return found != this->Marks.end() ? found->second : 0;
+}
+
+void MarkedEdges::Apply(PartTriangles& triangles) const
+{
+  for (PartTriangle& triangle : triangles)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      triangle.SetMarks(slot, this->Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
+    }
+  }
+}
+
+std::vector<PointPair> FindCrowdedEdges(const TriangleArray& triangles)
+{
+  std::vector<PointPair> edges;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      edges.push_back(MakePair(triangles.Get(t, (slot + 1) % 3), triangles.Get(t, (slot + 2) % 3)));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<PointPair> crowded;
+  for (std::size_t i = 2; i < edges.size(); ++i)
+  {
+    if (edges[i] == edges[i - 2])
+    {
+      crowded.push_back(edges[i]);
+    }
+  }
+  return crowded;
+}
+
+//------------------------------------------------------------------------------
+void PointStars::Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points)
+{
+  this->First.assign(points, None);
+  this->Links.reserve(3 * capacity);
+  this->Links.resize(3 * triangles);
+}
+
+void PointStars::Add(const PartCorner& corner, std::int32_t point)
+{
+  const auto number = static_cast<std::uint32_t>(3 * corner.Triangle + corner.Slot);
+  if (number >= this->Links.size())
+  {
+    this->Links.resize(number + std::size_t(1));
+  }
+  if (static_cast<std::size_t>(point) >= this->First.size())
+  {
+    this->First.resize(static_cast<std::size_t>(point) + 1, None);
+  }
+  const std::uint32_t next = this->First[point];
+  this->Links[number] = { next, None };
+  this->First[point] = number;
+  if (next != None)
+  {
+    this->Links[next].Previous = number;
+  }
+}
+
+void PointStars::Remove(const PartCorner& corner, std::int32_t point)
+{
+  const Link link = this->Links[3 * corner.Triangle + corner.Slot];
+  (link.Previous != None ? this->Links[link.Previous].Next : this->First[point]) = link.Next;
+  if (link.Next != None)
+  {
+    this->Links[link.Next].Previous = link.Previous;
+  }
+}
+
+//------------------------------------------------------------------------------
+PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin)
+  : Caller(piece.Mesh.Triangles),
+    FirstOrigin(firstOrigin),
+    Shared(std::move(keys.Shared)),
+    Given(piece.Mesh.Points),
+    Keys(std::move(keys.Keys)),
+    FirstOwnKey(keys.FirstKeys[rank])
+{
+  keys.Keys.clear();
+  keys.Shared.clear();
+  keys.Closed = keys.Used = std::vector<unsigned char>();
+  this->WholeKeys = std::move(keys);
+  for (std::int64_t i = 0; i < this->Given.Count; ++i)
+  {
+    if (this->Keys[i] != this->FirstOwnKey + i)
+    {
+      this->OtherKeys.emplace(this->Keys[i], static_cast<std::int32_t>(i));
+    }
+  }
+  for (std::size_t i = 0; i < this->Shared.size(); ++i)
+  {
+    if (this->Shared[i])
+    {
+      this->SharedPoints.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  constexpr std::int64_t PartToReceive = 16; // so that the first arrival does not copy all
+  this->Triangles.reserve(this->Caller.Count + this->Caller.Count / PartToReceive);
+  this->Triangles.resize(this->Caller.Count);
+  this->Listed.resize(this->Caller.Count);
+}
+
+std::int64_t PartMesh::FindPoint(std::int64_t key) const
+{
+  const std::int64_t own = key - this->FirstOwnKey;
+  if (own >= 0 && own < this->Given.Count)
+  {
+    return this->Keys[own] == key ? own : -1;
+  }
+  const auto other = this->OtherKeys.find(key);
+  return other != this->OtherKeys.end() ? other->second : -1;
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::int64_t> PartMesh::FindListed() const
+{
+  std::vector<std::int64_t> listed;
+  listed.reserve(this->NumberListed);
+  for (std::size_t t = 0; t < this->Listed.size(); ++t)
+  {
+    if (this->Listed[t])
+    {
+      listed.push_back(static_cast<std::int64_t>(t));
+    }
+  }
+  return listed;
+}
+
+void PartMesh::ListAll()
+{
+  for (std::size_t t = 0; t < this->Triangles.size() && !this->AreAllListed(); ++t)
+  {
+    this->List(static_cast<std::int64_t>(t));
+  }
+}
+
+void PartMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
+{
+  if (this->IsListed(t))
+  {
+    std::copy_n(this->Triangles[t].Points, 3, points);
+  }
+  else
+  {
+    this->GetFirstPoints(t, points);
+  }
+}
+
+double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
+{
+  const std::vector<std::int64_t> listed = this->FindListed();
+  LargestValue largest =
+    ThreadBackend(threads).Sum<LargestValue>(static_cast<std::int64_t>(listed.size()),
+      [&](std::int64_t i, LargestValue& sum)
+      {
+        const PartTriangle& triangle = this->Triangles[listed[i]];
+        double x[3][3];
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          this->GetPosition(triangle.Points[slot], x[slot]);
+        }
+        LargestValue one;
+        one.Value = triangle.HasLeft ? -INFINITY : MeasureCotangent(x, survey);
+        sum += one;
+      });
+  if (!this->AreAllListed())
+  {
+    LargestValue rest;
+    rest.Value = this->Made.Loop->FindLargestSquaredCotangentWithout(this->Listed.data());
+    largest += rest;
+  }
+  return ToDegrees(largest.Value);
+}
+
+/// Those that it had before it was listed.
+void PartMesh::GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    points[slot] = this->Made.Records
+      ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
+      : static_cast<std::int32_t>(this->Caller.Get(t, slot));
+  }
+}
+
+void PartMesh::MakeTriangle(std::int64_t t)
+{
+  PartTriangle& triangle = this->Triangles[t];
+  triangle = PartTriangle{};
+  this->GetFirstPoints(t, triangle.Points);
+  if (this->Made.Records)
+  {
+    this->TakeRecord(t);
+  }
+  else
+  {
+    triangle.Origin = this->FirstOrigin + t;
+  }
+  this->Listed[t] = 1;
+  ++this->NumberListed;
+  for (int slot = 0; slot < 3 && this->HasStars; ++slot)
+  {
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
+  }
+}
+
+/// What a triangle that is being listed has besides its points.
+void PartMesh::TakeRecord(std::int64_t t)
+{
+  const TriangleRecord& record = this->Made.Records[t];
+  const Past past = this->GetPast(record.InputTriangle);
+  PartTriangle& triangle = this->Triangles[t];
+  triangle.Origin = past.Origin;
+  triangle.Flips = static_cast<std::int32_t>(past.Flips + record.Flips / OneFlip);
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    triangle.SetMarks(slot, this->Marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
+    const CornerId other = this->Made.GetOtherCorner(t, slot);
+    this->Mates[GetNumber({ t, slot })] = other == NoCorner
+      ? NoMate
+      : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
+  }
+}
+
+/// Of all triangles, before an engine's take their places.
+void PartMesh::KeepPast()
+{
+  this->Pasts.reserve(this->Triangles.size());
+  for (const PartTriangle& triangle : this->Triangles)
+  {
+    this->Pasts.push_back({ triangle.Origin, triangle.Flips });
+  }
+}
+
+void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
+{
+  if (this->AreAllListed())
+  {
+    this->KeepPast();
+  }
+  std::fill(this->Listed.begin(), this->Listed.end(), 0);
+  this->NumberListed = 0;
+  this->Made = made;
+  this->Marks = std::move(marks);
+  this->Mates.reserve(3 * this->Triangles.capacity());
+  this->Mates.resize(3 * this->Triangles.size());
+  made.ForEachAtBoundary(
+    [&](CornerId corner)
+    {
+      std::int32_t points[3];
+      this->GetFirstPoints(TriangleOf(corner), points);
+      const int slot = SlotOf(corner);
+      if (this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0)
+      {
+        this->List(TriangleOf(corner));
+      }
+    });
+}
+
+void PartMesh::TakeTriangles(
+  const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks)
+{
+  this->ListAll();
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    std::copy_n(ids + 3 * t, 3, this->Triangles[t].Points);
+    this->Triangles[t].Flips += flips[t];
+  }
+  marks.Apply(this->Triangles);
+}
+
+void PartMesh::BeginRounds(bool listsChanged)
+{
+  this->ListsChanged = listsChanged;
+  const std::size_t count = this->Triangles.size();
+  this->Mates.reserve(3 * this->Triangles.capacity());
+  this->Mates.resize(3 * count, Unknown);
+  this->Stars.Begin(static_cast<std::int64_t>(count),
+    static_cast<std::int64_t>(this->Triangles.capacity()), this->GetNumberOfPoints());
+  this->HasStars = true;
+  for (std::size_t t = count; t-- > 0;) // so that lists begin with their first triangle
+  {
+    for (int slot = 0; slot < 3 && this->Listed[t]; ++slot)
+    {
+      this->Stars.Add({ static_cast<std::int64_t>(t), slot }, this->Triangles[t].Points[slot]);
+    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    if (this->Listed[t])
+    {
+      this->NoteSeams(static_cast<std::int64_t>(t));
+    }
+  }
+}
+
+void PartMesh::NoteChange(std::int64_t t)
+{
+  if (this->ListsChanged)
+  {
+    this->Changed.push_back(t);
+  }
+}
+
+void PartMesh::NoteSeams(std::int64_t t)
+{
+  PartTriangle& triangle = this->Triangles[t];
+  if (triangle.HasSeam() && !triangle.IsNoted)
+  {
+    triangle.IsNoted = true;
+    this->MayHaveSeams.push_back(t);
+  }
+}
+
+/// Lists the triangles that are known to share an edge with another one.
+void PartMesh::ListBeside(std::int64_t t)
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const std::uint32_t mate = this->Mates[3 * t + slot];
+    if (mate < NoMate)
+    {
+      this->List(mate / 3);
+    }
+  }
+}
+
+/// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
+/// (b, q, a).
+void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
+{
+  this->ListBeside(one.Triangle);
+  this->ListBeside(other.Triangle);
+  PartTriangle& t = this->Triangles[one.Triangle];
+  PartTriangle& s = this->Triangles[other.Triangle];
+  const int a = one.Slot;
+  const int b = other.Slot;
+  const int q = (a + 2) % 3; // the slots of t and s that change
+  const int p = (b + 2) % 3;
+  this->Stars.Remove({ one.Triangle, q }, t.Points[q]);
+  this->Stars.Remove({ other.Triangle, p }, s.Points[p]);
+  t.Points[q] = s.Points[b];
+  s.Points[p] = t.Points[a];
+  this->Stars.Add({ one.Triangle, q }, t.Points[q]);
+  this->Stars.Add({ other.Triangle, p }, s.Points[p]);
+  const std::size_t toPB = 3 * other.Triangle + (b + 1) % 3; // the slots of t and s that turn away
+  const std::size_t toQA = 3 * one.Triangle + (a + 1) % 3;
+  this->Join(GetNumber(one), this->Mates[toPB]);
+  this->Join(GetNumber(other), this->Mates[toQA]);
+  this->Join(toPB, static_cast<std::uint32_t>(toQA));
+  const unsigned char pb = s.GetMarks((b + 1) % 3);
+  const unsigned char qa = t.GetMarks((a + 1) % 3);
+  t.SetMarks(a, pb);
+  t.SetMarks((a + 1) % 3, 0);
+  s.SetMarks(b, qa);
+  s.SetMarks((b + 1) % 3, 0);
+  for (const std::int64_t changed : { one.Triangle, other.Triangle })
+  {
+    ++this->Triangles[changed].Flips;
+    this->NoteSeams(changed);
+    this->NoteChange(changed);
+  }
+}
+
+void PartMesh::SetSeam(const PartCorner& corner)
+{
+  this->Triangles[corner.Triangle].Set(SeamMark, corner.Slot);
+  this->Mates[GetNumber(corner)] = Unknown;
+  this->NoteSeams(corner.Triangle);
+}
+
+void PartMesh::ClearSeam(const PartCorner& corner)
+{
+  PartTriangle& triangle = this->Triangles[corner.Triangle];
+  triangle.Clear(SeamMark, corner.Slot);
+  this->Mates[GetNumber(corner)] = Unknown;
+  this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
+}
+
+std::vector<PartCorner> PartMesh::TakeNewSeams()
+{
+  std::vector<PartCorner> corners;
+  for (const std::int64_t t : this->MayHaveSeams)
+  {
+    PartTriangle& triangle = this->Triangles[t];
+    triangle.IsNoted = false;
+    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
+    {
+      if (triangle.Has(SeamMark, slot))
+      {
+        corners.push_back({ t, slot });
+      }
+    }
+  }
+  this->MayHaveSeams.clear();
+  return corners;
+}
+
+//------------------------------------------------------------------------------
+PartCorner PartMesh::FindMate(const PartCorner& corner) const
+{
+  const PartTriangle& triangle = this->Triangles[corner.Triangle];
+  const std::int32_t start = triangle.GetStart(corner.Slot);
+  const std::int32_t end = triangle.GetEnd(corner.Slot);
+  PartCorner mate{ -1, 0 };
+  this->Stars.FindAtEither(start, end,
+    [&](const PartCorner& at)
+    {
+      const PartTriangle& other = this->Triangles[at.Triangle];
+      for (const int slot : { (at.Slot + 1) % 3, (at.Slot + 2) % 3 })
+      {
+        if (at.Triangle != corner.Triangle && other.HasEdge(slot, start, end))
+        {
+          mate = { at.Triangle, slot };
+        }
+      }
+      return mate.Triangle >= 0;
+    });
+  return mate;
+}
+
+PartCorner PartMesh::FindOpenMate(const PartCorner& corner)
+{
+  const PartTriangle& triangle = this->Triangles[corner.Triangle];
+  if (triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot))
+  {
+    return { -1, 0 };
+  }
+  const std::uint32_t& known = this->Mates[GetNumber(corner)];
+  if (known == Unknown)
+  {
+    const PartCorner mate = this->FindMate(corner);
+    this->Join(
+      GetNumber(corner), mate.Triangle < 0 ? NoMate : static_cast<std::uint32_t>(GetNumber(mate)));
+  }
+  if (known == NoMate)
+  {
+    return { -1, 0 };
+  }
+  this->List(known / 3);
+  return { known / 3, static_cast<int>(known % 3) };
+}
+
+/// Makes two corners each other's mates.
+void PartMesh::Join(std::size_t one, std::uint32_t other)
+{
+  this->Mates[one] = other;
+  if (other < NoMate)
+  {
+    this->Mates[other] = static_cast<std::uint32_t>(one);
+  }
+}
+
+void PartMesh::PrefetchPoints(std::int64_t triangle) const
+{
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    this->PrefetchPoint(this->Triangles[triangle].Points[slot]);
+    const std::uint32_t mate = this->Mates[3 * triangle + slot];
+    if (mate < NoMate && this->IsListed(mate / 3))
+    {
+      this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
+    }
+  }
+}
+
+bool PartMesh::HasEdge(const PointPair& ends) const
+{
+  bool has = false;
+  this->Stars.FindAtEither(static_cast<std::int32_t>(ends[0]), static_cast<std::int32_t>(ends[1]),
+    [&](const PartCorner& corner)
+    {
+      const PartTriangle& triangle = this->Triangles[corner.Triangle];
+      const auto isEnd = [&](std::int64_t point) { return point == ends[0] || point == ends[1]; };
+      has = isEnd(triangle.GetStart(corner.Slot)) || isEnd(triangle.GetEnd(corner.Slot));
+      return has;
+    });
+  return has;
+}
+
+//------------------------------------------------------------------------------
+TravellingTriangle PartMesh::Pack(const PartTriangle& triangle) const
+{
+  TravellingTriangle packed{};
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    packed.Keys[slot] = this->GetKey(triangle.Points[slot]);
+    this->GetPosition(triangle.Points[slot], packed.Coordinates[slot]);
+  }
+  packed.Origin = triangle.Origin;
+  packed.Flips = triangle.Flips;
+  packed.Marks = triangle.Marks;
+  return packed;
+}
+
+std::vector<TravellingTriangle> PartMesh::Release(const std::vector<std::int64_t>& triangles)
+{
+  std::vector<TravellingTriangle> packed;
+  for (const std::int64_t t : triangles)
+  {
+    packed.push_back(this->Pack(this->Triangles[t]));
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (this->Triangles[t].Has(SeamMark, slot))
+      {
+        this->LostSeams.push_back(this->GetKeys(this->Triangles[t].GetEdge(slot)));
+      }
+    }
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int32_t point = this->Triangles[t].Points[slot];
+      this->Stars.Remove({ t, slot }, point);
+      this->SharePoint(point);
+    }
+    this->Triangles[t].HasLeft = true;
+  }
+  return packed;
+}
+
+std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
+{
+  // Corners are numbered by 32 bits, and two numbers mean something else.
+  constexpr std::size_t Most = (std::numeric_limits<std::uint32_t>::max() - 1) / 3;
+  if (this->Triangles.size() == Most)
+  {
+    throw MeshTooLarge("a piece has too many triangles: divide the mesh among more ranks");
+  }
+  const auto t = static_cast<std::int64_t>(this->Triangles.size());
+  this->Triangles.push_back({});
+  this->Listed.push_back(1);
+  ++this->NumberListed;
+  this->Mates.resize(this->Mates.size() + 3, Unknown);
+  PartTriangle& triangle = this->Triangles[t];
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);
+    this->SharePoint(triangle.Points[slot]);
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
+  }
+  triangle.Origin = packed.Origin;
+  triangle.Flips = packed.Flips;
+  triangle.Marks = packed.Marks;
+  this->NoteSeams(t);
+  this->NoteChange(t);
+  return t;
+}
+
+void PartMesh::SharePoint(std::int32_t point)
+{
+  if (!this->Shared[point])
+  {
+    this->Shared[point] = 1;
+    this->SharedPoints.push_back(point);
+    if (this->ListsChanged)
+    {
+      this->ForEachAt(point, [&](const PartCorner& corner) { this->NoteChange(corner.Triangle); });
+    }
+  }
+}
+
+std::int32_t PartMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])
+{
+  const std::int64_t known = this->FindPoint(key);
+  if (known >= 0)
+  {
+    return static_cast<std::int32_t>(known);
+  }
+  if (this->GetNumberOfPoints() == std::numeric_limits<std::int32_t>::max())
+  {
+    throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");
+  }
+  const auto point = static_cast<std::int32_t>(this->Keys.size());
+  this->Keys.push_back(key);
+  this->Shared.push_back(0);
+  this->Received.insert(this->Received.end(), x, x + 3);
+  this->OtherKeys.emplace(key, point);
+  return point;
+}
+
+}

@@ -1,0 +1,398 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PARTMESH_H
+#define DELAUNAYFLIP_PARTMESH_H
+
+#include "EngineTriangles.h"
+#include "HostVector.h"
+#include "PieceFlip.h"
+#include "PointMatch.h"
+#include "Records.h"
+#include "TriangleMesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Two points, the smaller first: keys or ids.
+using PointPair = std::array<std::int64_t, 2>;
+
+inline PointPair MakePair(std::int64_t a, std::int64_t b)
+{
+  return a < b ? PointPair{ a, b } : PointPair{ b, a };
+}
+
+struct PairHash
+{
+  std::size_t operator()(const PointPair& pair) const
+  {
+    return ScatterBits(pair[0] + ScatterBits(pair[1]));
+  }
+};
+
+/// Never iterated over: its order varies.
+template <typename Value>
+using PairMap = std::unordered_map<PointPair, Value, PairHash>;
+
+/// What is known about the edge of a triangle opposite to one of its corners.
+enum EdgeMark : unsigned char
+{
+  FixedMark = 1, ///< The edge never flips.
+  SeamMark = 8 ///< A seam edge: it may flip, and its other triangle is on another rank.
+};
+
+/// The state of a triangle in an iteration of a round (RoundFlips).
+enum class TriangleStep : unsigned char
+{
+  None,
+  Listed, ///< Its edges will be judged in this iteration.
+  Visited, ///< Its edges have been judged in this iteration.
+  Next ///< Its edges will be judged in the next iteration.
+};
+
+/// A triangle with its marks. `mark << slot` is the bit for the edge opposite to corner `slot`.
+struct PartTriangle
+{
+  std::int32_t Points[3]; ///< Ids of this rank.
+  std::int32_t Flips;
+  std::int64_t Origin; ///< The number of its input slot, counted over all ranks.
+  unsigned char Marks;
+  bool HasLeft; ///< It is on another rank now, and its place is empty.
+  bool IsNoted; ///< In the list of triangles that may have new seam edges.
+  TriangleStep Step;
+
+  bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
+  void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }
+  void Clear(EdgeMark mark, int slot)
+  {
+    this->Marks &= static_cast<unsigned char>(~(mark << slot));
+  }
+  /// The marks of one edge, shifted to slot 0; SetMarks takes them in the same form.
+  unsigned char GetMarks(int slot) const
+  {
+    return static_cast<unsigned char>((this->Marks >> slot) & (FixedMark | SeamMark));
+  }
+  void SetMarks(int slot, unsigned char marks)
+  {
+    this->Clear(FixedMark, slot);
+    this->Clear(SeamMark, slot);
+    this->Marks |= static_cast<unsigned char>(marks << slot);
+  }
+  bool HasSeam() const { return this->Marks >= SeamMark; }
+
+  /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
+  std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
+  std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
+  PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
+  /// Whether the edge opposite to a corner has these ends, in either order.
+  bool HasEdge(int slot, std::int32_t a, std::int32_t b) const
+  {
+    const std::int32_t start = this->GetStart(slot);
+    const std::int32_t end = this->GetEnd(slot);
+    return (start == a && end == b) || (start == b && end == a);
+  }
+};
+
+using PartTriangles = RawVector<PartTriangle>;
+
+/// A triangle of a rank and one of its corners.
+struct PartCorner
+{
+  std::int64_t Triangle; ///< -1: there is none.
+  int Slot;
+};
+
+/// The marks (EdgeMark, of slot 0) of the edges of a piece, by the ends of the edges. So the marks
+/// can be applied again after flips have changed the triangles.
+class MarkedEdges
+{
+public:
+  void Add(const PointPair& edge, unsigned char marks);
+  /// The marks of the edge between two points; 0 if it has none.
+  unsigned char Get(std::int32_t a, std::int32_t b) const
+  {
+    return this->IsEnd(a) && this->IsEnd(b) ? this->Find(MakePair(a, b)) : 0;
+  }
+
+  /// Marks the edges of all triangles. All earlier marks are lost.
+  void Apply(PartTriangles& triangles) const;
+
+private:
+  bool IsEnd(std::int32_t point) const
+  {
+    return static_cast<std::size_t>(point) < this->Ends.size() && this->Ends[point] != 0;
+  }
+  unsigned char Find(const PointPair& edge) const;
+
+  PairMap<unsigned char> Marks;
+  std::vector<unsigned char> Ends; ///< One flag per point: whether it is an end of a marked edge.
+};
+
+/// The edges that three or more triangles share, in the order of the triangles.
+std::vector<PointPair> FindCrowdedEdges(const TriangleArray& triangles);
+
+/// The star of every point of a rank: the corners of triangles at the point. The stars are linked
+/// lists that are kept up to date, so a round takes no time for triangles that it does not change.
+class PointStars
+{
+public:
+  /// Begins with empty lists. More triangles and points may be added later.
+  /// @param capacity the number of triangles to reserve memory for.
+  void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
+  /// Adds a corner that is in no list.
+  void Add(const PartCorner& corner, std::int32_t point);
+
+  /// Removes a corner from its list.
+  void Remove(const PartCorner& corner, std::int32_t point);
+
+  /// Calls visit(corner) for the corners at a point until visit returns true.
+  template <typename Visit>
+  void Find(std::int32_t point, const Visit& visit) const
+  {
+    std::uint32_t number = this->GetFirst(point);
+    while (number != None && !visit(GetCorner(number)))
+    {
+      number = this->Links[number].Next;
+    }
+  }
+
+  /// Calls visit(corner) for corners at two points in turn, until it returns true or one of the
+  /// points has no more corners. So a point with very many corners costs no more than the other.
+  template <typename Visit>
+  void FindAtEither(std::int32_t one, std::int32_t other, const Visit& visit) const
+  {
+    std::uint32_t number = this->GetFirst(one);
+    std::uint32_t next = this->GetFirst(other);
+    while (number != None && next != None && !visit(GetCorner(number)))
+    {
+      number = std::exchange(next, this->Links[number].Next);
+    }
+  }
+
+private:
+  static constexpr std::uint32_t None = 0xFFFFFFFFu;
+
+  /// The neighbours of a corner in its list.
+  struct Link
+  {
+    std::uint32_t Next, Previous;
+  };
+
+  static PartCorner GetCorner(std::uint32_t number)
+  {
+    return { number / 3, static_cast<int>(number % 3) };
+  }
+  std::uint32_t GetFirst(std::int32_t point) const
+  {
+    return static_cast<std::size_t>(point) < this->First.size() ? this->First[point] : None;
+  }
+
+  HostVector<std::uint32_t> First; ///< By point: the number of a corner, 3 * triangle + slot.
+  RawVector<Link> Links; ///< By that number.
+};
+
+struct PartSurvey;
+
+/// A triangle as it is sent to another rank.
+struct TravellingTriangle
+{
+  std::int64_t Keys[3];
+  double Coordinates[3][3];
+  std::int64_t Origin;
+  std::int32_t Flips;
+  unsigned char Marks;
+};
+
+/// The triangles that a rank has at the moment, and all points that it has ever had.
+///
+/// Most triangles are never touched by a round. So a triangle is *listed*, that is copied to its
+/// place in Triangles, only when it is needed. Until then it stays in the arrays of the caller or
+/// of the engine of the first flips. Before a triangle changes or goes to another rank, all
+/// triangles that share an edge with it are listed.
+class PartMesh
+{
+public:
+  /// Starts with the triangles of the caller, none of them listed.
+  /// @param firstOrigin the number of the first of them among the triangles of all ranks.
+  PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
+
+  PartTriangles Triangles; ///< A place may be empty (HasLeft), or not listed.
+
+  bool IsListed(std::int64_t t) const { return this->Listed[t] != 0; }
+  bool AreAllListed() const { return this->NumberListed == this->Triangles.size(); }
+  /// The numbers of the listed triangles, ascending.
+  std::vector<std::int64_t> FindListed() const;
+  void List(std::int64_t t)
+  {
+    if (!this->IsListed(t))
+    {
+      this->MakeTriangle(t);
+    }
+  }
+  void ListAll();
+  /// The point ids of a triangle, listed or not.
+  void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
+  /// The ends of the edge opposite to a corner of a triangle, listed or not.
+  PointPair GetEdge(std::int64_t t, int slot) const
+  {
+    std::int32_t points[3];
+    this->GetPoints(t, points);
+    return MakePair(points[(slot + 1) % 3], points[(slot + 2) % 3]);
+  }
+  /// The smallest angle of all triangles, in degrees; NaN if there is none. The engine of the first
+  /// flips measures the triangles that are not listed, which takes less time.
+  double FindSmallestAngle(const PartSurvey& survey, int threads) const;
+  /// Takes the result of the first flips, in the order of the engine: triangles near each other in
+  /// the mesh are near each other in memory. Lists the triangles at marked boundary edges.
+  /// @param made must not change as long as there are triangles that are not listed.
+  void TakeTriangles(const HostTriangles& made, MarkedEdges marks);
+  /// The same for arrays in the order of the triangles here. Lists all triangles.
+  void TakeTriangles(const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks);
+  /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
+  /// without a pass over all. From now on only the functions below may change triangles.
+  /// @param listsChanged whether TakeChanged will be called; then all triangles must be listed.
+  void BeginRounds(bool listsChanged);
+  /// Flips the edge opposite to two corners.
+  void Flip(const PartCorner& one, const PartCorner& other);
+  /// The triangles that have changed or arrived since the last call, and those at points that have
+  /// become shared. A triangle may be repeated.
+  std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
+  /// Marks the edge opposite to a corner as a seam edge.
+  void SetSeam(const PartCorner& corner);
+  /// Removes this mark: both triangles of the edge are on this rank.
+  void ClearSeam(const PartCorner& corner);
+  /// The seam edges whose triangles here have changed or arrived since the last call.
+  std::vector<PartCorner> TakeNewSeams();
+  /// The keys of seam edges that have lost their triangle here since the last call. They may
+  /// include edges that have a triangle here again, or that TakeNewSeams has never returned.
+  std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
+  /// Calls visit(corner) for every corner at a point.
+  template <typename Visit>
+  void ForEachAt(std::int32_t point, const Visit& visit) const
+  {
+    this->Stars.Find(point,
+      [&](const PartCorner& corner)
+      {
+        visit(corner);
+        return false;
+      });
+  }
+  /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
+  PartCorner FindMate(const PartCorner& corner) const;
+  /// The same, but none if the edge is a fixed edge or a seam edge.
+  PartCorner FindOpenMate(const PartCorner& corner);
+  /// Prefetches the points of a triangle and those opposite to it.
+  void PrefetchPoints(std::int64_t triangle) const;
+  bool HasEdge(const PointPair& ends) const;
+
+  bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
+  /// One flag per point: whether other ranks may have triangles at it.
+  const std::vector<unsigned char>& GetShared() const { return this->Shared; }
+  /// The shared points, in no particular order.
+  const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
+  /// What is known of the points of all ranks, without the arrays with one value per point.
+  const PointKeys& GetWholeKeys() const { return this->WholeKeys; }
+
+  std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
+  std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
+  /// The id of a key here, or -1.
+  std::int64_t FindPoint(std::int64_t key) const;
+  void GetPosition(std::int64_t point, double (&x)[3]) const
+  {
+    const std::int64_t received = point - this->Given.Count;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = received < 0 ? this->Given.Get(point, axis) : this->Received[3 * received + axis];
+    }
+  }
+  void PrefetchPoint(std::int32_t point) const
+  {
+    if (point < this->Given.Count)
+    {
+      this->Given.Prefetch(point);
+    }
+  }
+  PointPair GetKeys(const PointPair& pair) const
+  {
+    return MakePair(this->Keys[pair[0]], this->Keys[pair[1]]);
+  }
+
+  /// Removes triangles that go to other ranks. @returns them, in the same order.
+  std::vector<TravellingTriangle> Release(const std::vector<std::int64_t>& triangles);
+  /// Adds one that comes from another rank. @returns its number here.
+  std::int64_t Receive(const TravellingTriangle& triangle);
+
+  /// Points with this id or a larger one came from other ranks.
+  std::int64_t GetFirstReceived() const { return this->Given.Count; }
+  /// The rank that a point comes from, and its id there.
+  PieceOrigin FindOrigin(std::int64_t point) const
+  {
+    return this->WholeKeys.FindOrigin(this->Keys[point]);
+  }
+
+private:
+  /// What is known of a triangle besides its points.
+  struct Past
+  {
+    std::int64_t Origin;
+    std::int64_t Flips;
+  };
+
+  void GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const;
+  void MakeTriangle(std::int64_t t);
+  void TakeRecord(std::int64_t t);
+  void KeepPast();
+  void ListBeside(std::int64_t t);
+  Past GetPast(std::int64_t t) const
+  {
+    return this->Pasts.empty() ? Past{ this->FirstOrigin + t, 0 } : this->Pasts[t];
+  }
+  std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
+  TravellingTriangle Pack(const PartTriangle& triangle) const;
+  void SharePoint(std::int32_t point);
+  void NoteChange(std::int64_t triangle);
+  void NoteSeams(std::int64_t triangle);
+
+  static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
+  static std::size_t GetNumber(const PartCorner& corner)
+  {
+    return static_cast<std::size_t>(3 * corner.Triangle + corner.Slot);
+  }
+  void Join(std::size_t one, std::uint32_t other);
+
+  // Where the triangles are that are not listed: in Made if it has records, otherwise in Caller.
+  TriangleArray Caller;
+  HostTriangles Made;
+  std::int64_t FirstOrigin;
+  HostVector<Past> Pasts; ///< Of the input of the first flips; empty if that was the caller's.
+  MarkedEdges Marks;
+  std::vector<unsigned char> Listed; ///< One flag per triangle.
+  std::size_t NumberListed = 0;
+  bool HasStars = false;
+
+  PointStars Stars; ///< Of the listed triangles.
+  /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
+  RawVector<std::uint32_t> Mates;
+  bool ListsChanged = false;
+  std::vector<std::int64_t> Changed;
+  std::vector<std::int64_t> MayHaveSeams; ///< Triangles for TakeNewSeams (PartTriangle::IsNoted).
+  std::vector<PointPair> LostSeams;
+  std::vector<unsigned char> Shared;
+  std::vector<std::int32_t> SharedPoints;
+  PointArray Given; ///< The caller's points.
+  std::vector<double> Received; ///< Coordinates of the points from other ranks, which follow these.
+  PointKeys WholeKeys;
+  HostVector<std::int64_t> Keys;
+  std::int64_t FirstOwnKey;
+  std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.
+};
+
+}
+
+#endif

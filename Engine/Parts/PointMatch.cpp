@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointMatch.h"
+
+#include "Records.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// The place of a point: its global number, or the bits of its three coordinates. Points of
+/// different ranks can be the same point only if their places are equal.
+using Place = std::array<std::uint64_t, 3>;
+
+std::uint64_t GetHash(const Place& place)
+{
+  return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
+}
+
+/// Hashes of places. Another place with the same hash is only asked for in vain.
+using PlaceHashes = std::unordered_set<std::uint64_t>; // never iterated over
+
+/// If it holds no point, Lower exceeds Upper.
+struct Box
+{
+  static constexpr double Inf = std::numeric_limits<double>::infinity();
+  double Lower[3] = { Inf, Inf, Inf }, Upper[3] = { -Inf, -Inf, -Inf };
+
+  void Add(const double (&x)[3])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Lower[axis] = std::min(this->Lower[axis], x[axis]);
+      this->Upper[axis] = std::max(this->Upper[axis], x[axis]);
+    }
+  }
+  bool Meets(const Box& other) const
+  {
+    bool meets = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      meets =
+        meets && this->Lower[axis] <= other.Upper[axis] && other.Lower[axis] <= this->Upper[axis];
+    }
+    return meets;
+  }
+};
+
+/// A point of one rank that another may have, too.
+struct Candidate
+{
+  Place At;
+  std::int64_t Key; ///< Its key if it is not shared.
+  std::int64_t IsUnused; ///< 0 or 1.
+};
+using RankedCandidate = RankedRecord<Candidate>;
+
+struct SharedPoint
+{
+  std::int64_t Own; ///< The key that the rank sent.
+  std::int64_t Key;
+};
+
+struct MatchCounts
+{
+  std::int64_t Used = 0, Repeated = 0, Ambiguous = 0;
+
+  MatchCounts& operator+=(const MatchCounts& part)
+  {
+    this->Used += part.Used;
+    this->Repeated += part.Repeated;
+    this->Ambiguous += part.Ambiguous;
+    return *this;
+  }
+};
+
+class PointMatcher
+{
+public:
+  PointMatcher(const MeshPiece& piece, PieceGroup& group)
+    : Mesh(piece.Mesh),
+      Group(group),
+      Fans(Mesh.Points.Count, 0),
+      Ends(Mesh.Points.Count, 0)
+  {
+    // Numbers are used only if every rank that has points gives them.
+    const bool lacksThem = !piece.PointNumbers && this->Mesh.Points.Count > 0;
+    const bool haveNumbers = SumOverRanks(group, std::int64_t(lacksThem ? 1 : 0)) == 0;
+    this->Numbers = haveNumbers ? piece.PointNumbers : nullptr;
+    this->Keys.Used.resize(this->Mesh.Points.Count);
+    for (std::int64_t t = 0; t < this->Mesh.Triangles.Count; ++t)
+    {
+      this->NoteTriangle(t);
+    }
+    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
+    {
+      this->Ends[this->Mesh.ConstraintEdges[i]] = 1;
+    }
+  }
+
+  PointKeys Run()
+  {
+    PointKeys& keys = this->Keys;
+    const std::int64_t count = this->Mesh.Points.Count;
+    keys.FirstKeys.push_back(0);
+    for (const std::vector<std::int64_t>& points :
+      GatherRecords(this->Group, std::vector<std::int64_t>{ count }))
+    {
+      keys.FirstKeys.push_back(keys.FirstKeys.back() + points.front());
+    }
+    this->FindBoxes();
+    const std::int64_t first = keys.FirstKeys[this->Group.GetRank()];
+    PlaceHashes asked; // by other ranks
+    for (const std::vector<std::uint64_t>& list : ExchangeRecords(this->Group, this->Ask()))
+    {
+      asked.insert(list.begin(), list.end());
+    }
+    const RecordLists<Candidate> candidates =
+      ExchangeRecords(this->Group, this->List(first, asked));
+    MatchCounts counts;
+    counts.Used = std::count(keys.Used.begin(), keys.Used.end(), 1);
+    const RecordLists<SharedPoint> answers =
+      ExchangeRecords(this->Group, JoinCandidates(candidates, counts));
+    keys.Keys.resize(count);
+    keys.Shared.resize(count);
+    keys.Closed.resize(count);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      keys.Keys[i] = first + i;
+      keys.Closed[i] = keys.Used[i] != 0 && this->Fans[i] == 0 ? 1 : 0;
+    }
+    for (const std::vector<SharedPoint>& list : answers)
+    {
+      for (const SharedPoint& point : list)
+      {
+        keys.Keys[point.Own - first] = point.Key;
+        keys.Shared[point.Own - first] = 1;
+        keys.Closed[point.Own - first] = 0;
+      }
+    }
+    counts = SumOverRanks(this->Group, counts);
+    keys.Repeated = counts.Repeated;
+    keys.UsedPoints = counts.Used;
+    keys.Ambiguous = counts.Ambiguous;
+    return std::move(keys);
+  }
+
+private:
+  void NoteTriangle(std::int64_t t)
+  {
+    const TriangleArray& triangles = this->Mesh.Triangles;
+    const std::int64_t ids[3] = { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) };
+    const std::uint64_t bits[3] = { ScatterBits(ids[0]), ScatterBits(ids[1]), ScatterBits(ids[2]) };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Keys.Used[ids[slot]] = 1;
+      // In a closed fan every neighbour follows this corner once and precedes it once: the sum is
+      // 0.
+      this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
+    }
+  }
+
+  /// Whether a point must be matched with points of other ranks: a triangle has it, or it is the
+  /// end of a constraint.
+  bool IsWanted(std::int64_t point) const
+  {
+    return this->Keys.Used[point] != 0 || this->Ends[point] != 0;
+  }
+  /// Whether a point is at the border of the part: its triangles do not form a closed fan, or it
+  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
+  bool IsAtBorder(std::int64_t point) const
+  {
+    return this->Fans[point] != 0 || (this->Keys.Used[point] == 0 && this->Ends[point] != 0);
+  }
+
+  /// @returns whether the coordinates are numbers.
+  bool GetPosition(std::int64_t point, double (&x)[3]) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = this->Mesh.Points.Get(point, axis) + 0.0; // -0 becomes 0
+    }
+    return !std::isnan(x[0]) && !std::isnan(x[1]) && !std::isnan(x[2]);
+  }
+  /// @returns whether a point has a place: a number, or coordinates without NaN.
+  bool FindPlace(std::int64_t point, Place& place) const
+  {
+    if (this->Numbers)
+    {
+      place = { static_cast<std::uint64_t>(this->Numbers[point]), 0, 0 };
+      return true;
+    }
+    double x[3];
+    const bool isPlace = this->GetPosition(point, x);
+    std::memcpy(place.data(), x, sizeof(x));
+    return isPlace;
+  }
+
+  /// Finds the boxes around the used points of every rank, and the ranks whose boxes are near.
+  void FindBoxes()
+  {
+    Box used, wanted; // NaN changes nothing
+    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
+    {
+      double x[3];
+      this->GetPosition(i, x);
+      if (this->Keys.Used[i] != 0)
+      {
+        used.Add(x);
+      }
+      if (this->IsWanted(i))
+      {
+        wanted.Add(x);
+      }
+    }
+    for (const std::vector<Box>& box : GatherRecords(this->Group, std::vector<Box>{ used }))
+    {
+      const auto rank = static_cast<int>(this->Boxes.size());
+      this->Boxes.push_back(box.front());
+      if (rank != this->Group.GetRank() && wanted.Meets(box.front()))
+      {
+        this->Near.push_back(rank);
+      }
+    }
+  }
+
+  /// Asks the ranks whose box holds a point of this one whether they have it, too: a border point,
+  /// or any point if points have numbers. It may be inside their part: where three sheets of a
+  /// non-manifold mesh meet, two may be on one rank; and sheets that lie on each other may have the
+  /// same points.
+  RecordLists<std::uint64_t> Ask() const
+  {
+    RecordLists<std::uint64_t> questions(this->Group.GetSize());
+    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
+    {
+      Place place{};
+      if (!(this->Numbers ? this->IsWanted(i) : this->IsAtBorder(i)) || !this->FindPlace(i, place))
+      {
+        continue;
+      }
+      double x[3];
+      if (this->GetPosition(i, x))
+      {
+        Box at;
+        at.Add(x);
+        for (const int rank : this->Near)
+        {
+          if (this->Boxes[rank].Meets(at))
+          {
+            questions[rank].push_back(GetHash(place));
+          }
+        }
+        continue;
+      }
+      for (int rank = 0; rank < this->Group.GetSize(); ++rank)
+      {
+        if (rank != this->Group.GetRank())
+        {
+          questions[rank].push_back(GetHash(place));
+        }
+      }
+    }
+    return questions;
+  }
+
+  /// The points that others may have, too, for the homes of their places.
+  RecordLists<Candidate> List(std::int64_t firstKey, const PlaceHashes& asked) const
+  {
+    RecordLists<Candidate> toHome(this->Group.GetSize());
+    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
+    {
+      Place place{};
+      if (this->IsWanted(i) && this->FindPlace(i, place) &&
+        (this->IsAtBorder(i) || asked.count(GetHash(place)) > 0))
+      {
+        toHome[GetHome(GetHash(place), this->Group)].push_back(
+          { place, firstKey + i, this->Keys.Used[i] != 0 ? 0 : 1 });
+      }
+    }
+    return toHome;
+  }
+
+  /// @returns what each rank must know about its candidates that are shared.
+  static RecordLists<SharedPoint> JoinCandidates(
+    const RecordLists<Candidate>& lists, MatchCounts& counts)
+  {
+    std::vector<RankedCandidate> all = JoinLists(lists);
+    const auto order = [](const RankedCandidate& a)
+    { return std::tie(a.Value.At, a.Value.IsUnused, a.Value.Key); };
+    std::sort(all.begin(), all.end(),
+      [&](const RankedCandidate& a, const RankedCandidate& b) { return order(a) < order(b); });
+    RecordLists<SharedPoint> answers(lists.size());
+    ForEachRun(
+      all,
+      [](const RankedCandidate& a, const RankedCandidate& b) { return a.Value.At == b.Value.At; },
+      [&](const RankedCandidate* begin, const RankedCandidate* end)
+      { JoinPlace(begin, end, answers, counts); });
+    return answers;
+  }
+
+  /// Answers the candidates of one place: first those with triangles, then the others; each group
+  /// by key, hence by rank.
+  static void JoinPlace(const RankedCandidate* begin, const RankedCandidate* end,
+    RecordLists<SharedPoint>& answers, MatchCounts& counts)
+  {
+    // Of points without triangles only one of a rank counts, and none if it has one with triangles.
+    std::vector<RankedCandidate> list;
+    for (const RankedCandidate* one = begin; one != end; ++one)
+    {
+      const bool isKnown = std::any_of(list.begin(), list.end(),
+        [=](const RankedCandidate& other) { return other.Rank == one->Rank; });
+      if (one->Value.IsUnused == 0 || !isKnown)
+      {
+        list.push_back(*one);
+      }
+    }
+    if (list.front().Value.IsUnused != 0 || list.front().Rank == list.back().Rank)
+    {
+      return;
+    }
+    const auto isSameRank = [](const RankedCandidate& a, const RankedCandidate& b)
+    { return a.Rank == b.Rank; };
+    const auto size = static_cast<std::int64_t>(list.size());
+    if (std::adjacent_find(list.begin(), list.end(), isSameRank) != list.end())
+    {
+      counts.Ambiguous += size;
+      return;
+    }
+    counts.Repeated += size - 1;
+    counts.Used -= std::count_if(list.begin() + 1, list.end(),
+      [](const RankedCandidate& one) { return one.Value.IsUnused == 0; });
+    for (const RankedCandidate& one : list)
+    {
+      answers[one.Rank].push_back({ one.Value.Key, list.front().Value.Key });
+    }
+  }
+
+  const TriangleMesh& Mesh;
+  PieceGroup& Group;
+  const std::int64_t* Numbers = nullptr; ///< Of the points, or null.
+  HostVector<std::uint64_t> Fans;
+  std::vector<unsigned char> Ends; ///< Of constraints.
+  PointKeys Keys;
+  std::vector<Box> Boxes; ///< One per rank.
+  std::vector<int> Near; ///< Other ranks whose box may hold a point of this one.
+};
+}
+
+PieceOrigin PointKeys::FindOrigin(std::int64_t key) const
+{
+  const auto after = std::upper_bound(this->FirstKeys.begin(), this->FirstKeys.end(), key);
+  const auto rank = static_cast<std::int32_t>(after - this->FirstKeys.begin() - 1);
+  return { rank, key - this->FirstKeys[rank] };
+}
+
+PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group)
+{
+  return PointMatcher(piece, group).Run();
+}
+
+}

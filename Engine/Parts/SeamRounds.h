@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SEAMROUNDS_H
+#define DELAUNAYFLIP_SEAMROUNDS_H
+
+#include "FlipReport.h"
+#include "PartMesh.h"
+#include "Records.h"
+#include "SeamQuads.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A bad seam edge, as seen from one of its two ranks.
+struct BadSeam
+{
+  std::int64_t Triangle; ///< The triangle of this rank.
+  PointPair Ends; ///< Keys.
+  PointPair Opposite; ///< Keys of the points that the flip would join.
+  /// Of the end with the lower key. Both ranks of the edge get the same values, even if they have
+  /// the point elsewhere.
+  double Place[3];
+  std::int32_t OtherRank;
+};
+
+/// The result of a test of all seam edges.
+struct SeamTest
+{
+  std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
+  std::int64_t BadOfAll = 0; ///< The number of bad seam edges over all ranks, each counted once.
+  std::int64_t BlockedOfAll = 0; ///< Other ones, whose flip would fold the mesh over.
+};
+
+/// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam
+/// edges whose home is this rank. So ranks send only triangles that have changed, and good edges
+/// are not tested again.
+class SeamTester
+{
+public:
+  /// All ranks must call this together, after BeginRounds.
+  SeamTest Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group);
+
+private:
+  /// One of the two triangles of a seam edge.
+  struct Side
+  {
+    PointPair Ends; ///< Keys of the ends of the edge.
+    std::int32_t Rank; ///< The rank that has the triangle.
+    std::uint32_t Place; ///< The index in Seams.
+    bool IsToTest; ///< The edge is tested if this is true of one of its sides.
+  };
+
+  struct Found
+  {
+    RecordLists<BadSeam> ToRank;
+    std::int64_t Bad = 0;
+    std::int64_t Blocked = 0;
+  };
+
+  void Update(const std::vector<RankedTriangle>& news);
+  std::uint32_t Keep(const SeamTriangle& seam);
+  std::vector<std::size_t> ListToTest() const;
+  void TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const;
+  Found Judge(const QuadJudge& judge, int ranks);
+  const SeamTriangle& GetSeam(std::size_t side) const { return this->Seams[Sides[side].Place]; }
+
+  std::vector<Side> Sides; ///< Sorted by edge, then by rank.
+  std::vector<SeamTriangle> Seams; ///< The triangles of Sides, kept apart so that Sides are small.
+  std::vector<std::uint32_t> Free; ///< Places in Seams that are free.
+};
+
+/// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
+struct MoveRule
+{
+  bool ToLower; ///< The lower one, else the higher.
+  /// Whether this holds only for the first half of the edges between two ranks (SeamHalves), and
+  /// for the second half it is the other way round.
+  bool InHalves;
+};
+
+/// Moves triangles so that at least one bad seam edge becomes an inner edge. A triangle with
+/// several bad edges goes to the lowest of their receivers (ToLower), or to the highest.
+///
+/// So take the bad edges with the lowest receiver of all. Both triangles of each go to that rank,
+/// and these edges become inner edges.
+/// @param bad the bad seam edges of this rank.
+/// @param moved receives the number of triangles that have moved, over all ranks.
+/// @returns the triangles of this rank whose edges must now be judged.
+std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSeam>& bad,
+  const MoveRule& rule, PieceGroup& group, std::int64_t& moved);
+
+/// The flips of a rank in a round. They are made one by one, starting from some triangles and going
+/// on as long as an edge of a changed triangle is bad. Other triangles take no time.
+class RoundFlips
+{
+public:
+  /// @param needsGuard PartSurvey::NeedsGuard. If true, an edge does not flip if this rank has, or
+  /// another rank may have, the edge that the flip would make.
+  RoundFlips(PartMesh& mesh, const QuadJudge& judge, bool needsGuard)
+    : Mesh(mesh),
+      Rule(judge),
+      NeedsGuard(needsGuard)
+  {
+  }
+
+  /// Adds a triangle whose edges are to be judged.
+  void Add(std::int64_t triangle);
+  /// Adds the triangles of edges that could not flip while the rank had this edge, now gone.
+  void AddFreed(std::int32_t from, std::int32_t to);
+
+  /// Whether no edge is left to be judged.
+  bool AreDone() const { return this->Next.empty(); }
+  /// The triangles whose edges will be judged next.
+  const std::vector<std::int64_t>& GetNext() const { return this->Next; }
+
+  /// Judges the edges of GetNext() and flips the bad ones, but changes each triangle at most once.
+  /// Triangles that have changed are the next ones.
+  /// @returns the record of the iteration, without its number and the smallest angle.
+  IterationRecord Iterate();
+
+  /// Whether an edge of GetNext() is bad and may flip.
+  bool HasBad();
+
+private:
+  void Visit(std::int64_t triangle, IterationRecord& record);
+  EdgeState Judge(const PartCorner& one, const PartCorner& other) const;
+  bool IsForbidden(std::int32_t a, std::int32_t b) const;
+  void Flip(const PartCorner& one, const PartCorner& other);
+
+  PartMesh& Mesh;
+  const QuadJudge& Rule;
+  bool NeedsGuard;
+  std::vector<std::int64_t> Next;
+};
+
+/// What a rank has flipped in the guarded part of a round.
+///
+/// The guard keeps a flip from making an edge that another rank has. Such an edge could only join
+/// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
+/// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
+/// does not, one rank may make it.
+struct GuardRound
+{
+  std::int64_t Flipped = 0; ///< Edges that this rank has flipped.
+  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
+  std::vector<std::int64_t> Changed; ///< The triangles of the flipped edges.
+  std::vector<PointPair> Gone; ///< The ends of the flipped edges before the flip.
+};
+
+/// An inner edge of a rank, given by the two corners opposite to it.
+struct InnerQuad
+{
+  PartCorner One, Other;
+};
+
+/// The edges of a rank that wait (see GuardRound).
+class WaitingEdges
+{
+public:
+  /// Flips waiting edges of `mesh` as far as the guard allows. Removes from `test` the seam edges
+  /// whose flip would make an edge that exists or that another flip makes, and those whose triangle
+  /// has just changed. All ranks must call this together.
+  /// @param mayFlip if false, it only finds how many edges may flip.
+  GuardRound Flip(
+    PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip);
+
+private:
+  void Find(PartMesh& mesh, const QuadJudge& judge);
+
+  bool IsFirst = true;
+  std::vector<InnerQuad> Bad;
+  /// The triangles of `Bad`. Other edges can have become bad only where triangles have changed.
+  std::vector<std::int64_t> Triangles;
+};
+
+}
+
+#endif

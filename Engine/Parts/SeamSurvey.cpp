@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SeamSurvey.h"
+
+#include "JoinReports.h"
+#include "SeamQuads.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// A constraint between shared points.
+struct SharedConstraint
+{
+  PointPair Ends; ///< Keys.
+  std::int64_t IsToInsert; ///< 0 or 1.
+};
+
+/// The answer of the home of an edge about a triangle that a rank has sent.
+struct SeamAnswer
+{
+  std::int64_t Triangle;
+  std::int32_t Slot;
+  bool IsFixed;
+  bool IsToFix; ///< The rank must be told to fix the edge: it has two triangles of it.
+};
+
+/// One edge: its triangles, by rank.
+struct SeamEdge
+{
+  const RankedTriangle* Begin;
+  const RankedTriangle* End;
+  bool IsConstraint;
+
+  bool IsOnOneRank() const { return this->Begin->Rank == (this->End - 1)->Rank; }
+  /// Whether it has two triangles, on two ranks, with different opposite points.
+  bool IsQuad() const
+  {
+    return this->End - this->Begin == 2 && !this->IsOnOneRank() &&
+      this->Begin[0].Seam->Opposite != this->Begin[1].Seam->Opposite;
+  }
+  std::int64_t CountOn(int rank) const
+  {
+    return std::count_if(
+      this->Begin, this->End, [=](const RankedTriangle& one) { return one.Rank == rank; });
+  }
+};
+
+/// Decides about the edges that all ranks have sent to this one, their home.
+class SeamJudge
+{
+public:
+  SeamJudge(const PartJob& job)
+    : Survey(job.Survey),
+      Options(job.Options),
+      Answers(job.Group.GetSize())
+  {
+  }
+
+  /// @param seams, lists from every rank.
+  void Judge(const RecordLists<SeamTriangle>& seams, const RecordLists<SharedConstraint>& lists)
+  {
+    const std::vector<RankedTriangle> triangles = SortByEdge(seams);
+    const std::vector<SeamEdge> edges = this->FindEdges(triangles, lists);
+    QuadSoup soup(this->Survey, this->Options);
+    for (const SeamEdge& edge : edges)
+    {
+      if (edge.IsQuad())
+      {
+        soup.Add(edge.Begin[0].Seam->Side, edge.Begin[1].Seam->Side);
+      }
+    }
+    const std::vector<unsigned char> fixed = soup.FindFixed(this->Counts.Edges);
+    auto isFixed = fixed.begin();
+    const QuadJudge judge(this->Survey, this->Options);
+    for (const SeamEdge& edge : edges)
+    {
+      if (edge.IsQuad())
+      {
+        this->AnswerQuad(edge, *isFixed++ != 0, judge);
+        continue;
+      }
+      const bool isSpread = !edge.IsOnOneRank();
+      if (isSpread)
+      {
+        this->CountOther(edge);
+      }
+      for (const RankedTriangle* one = edge.Begin;
+           one != edge.End && (isSpread || edge.IsConstraint); ++one)
+      {
+        this->Answer(*one, true, !isSpread || edge.CountOn(one->Rank) == 2);
+      }
+    }
+  }
+
+  RecordLists<SeamAnswer> Answers; ///< For every rank.
+  std::vector<PointPair> Missing; ///< The constraints to be inserted that are not edges yet.
+  SeamCounts Counts;
+
+private:
+  /// Finds the edges, and which of the constraints they are. The other constraints are missing.
+  std::vector<SeamEdge> FindEdges(
+    const std::vector<RankedTriangle>& triangles, const RecordLists<SharedConstraint>& lists)
+  {
+    std::vector<SharedConstraint> constraints;
+    for (const std::vector<SharedConstraint>& list : lists)
+    {
+      constraints.insert(constraints.end(), list.begin(), list.end());
+    }
+    // Of equal ones, one to be inserted comes first.
+    std::sort(constraints.begin(), constraints.end(),
+      [](const SharedConstraint& a, const SharedConstraint& b)
+      { return a.Ends != b.Ends ? a.Ends < b.Ends : a.IsToInsert > b.IsToInsert; });
+    std::vector<SeamEdge> edges;
+    for (std::size_t begin = 0, end = 0; begin < triangles.size(); begin = end)
+    {
+      while (end < triangles.size() && triangles[end].Ends == triangles[begin].Ends)
+      {
+        ++end;
+      }
+      edges.push_back({ triangles.data() + begin, triangles.data() + end, false });
+    }
+    auto edge = edges.begin();
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      const SharedConstraint& one = constraints[i];
+      if (i > 0 && one.Ends == constraints[i - 1].Ends)
+      {
+        continue;
+      }
+      edge = std::lower_bound(edge, edges.end(), one.Ends,
+        [](const SeamEdge& a, const PointPair& ends) { return a.Begin->Ends < ends; });
+      if (edge != edges.end() && edge->Begin->Ends == one.Ends)
+      {
+        edge->IsConstraint = true;
+        continue;
+      }
+      ++this->Counts.MissingConstraints;
+      this->Counts.MissingToInsert += one.IsToInsert;
+      if (one.IsToInsert != 0)
+      {
+        this->Missing.push_back(one.Ends);
+      }
+    }
+    return edges;
+  }
+
+  /// An edge with a triangle on each of two ranks.
+  void AnswerQuad(const SeamEdge& edge, bool isFixed, const QuadJudge& judge)
+  {
+    // Each rank has counted an edge at its boundary.
+    AddCounts(this->Counts.Edges, MakeBoundary(), -2);
+    this->Counts.Edges.Constraint += edge.IsConstraint ? 1 : 0;
+    this->Counts.Edges.Fixed += edge.IsConstraint && !isFixed ? 1 : 0;
+    const bool stays = isFixed || edge.IsConstraint;
+    this->Answer(edge.Begin[0], stays, false);
+    this->Answer(edge.Begin[1], stays, false);
+    if (!stays)
+    {
+      ++this->Counts.Seams;
+      const EdgeState state = judge.Judge(edge.Begin[0].Seam->Side, edge.Begin[1].Seam->Side);
+      this->Counts.NonDelaunay += state != EdgeState::Good ? 1 : 0;
+    }
+  }
+
+  /// Counts an edge with more than two triangles, or two on the same three points, and takes back
+  /// what the ranks have counted alone.
+  void CountOther(const SeamEdge& edge)
+  {
+    EdgeCounts all;
+    all.Edges = 1;
+    all.Fixed = 1;
+    all.NonManifold = edge.End - edge.Begin > 2 ? 1 : 0;
+    all.Constraint = edge.IsConstraint ? 1 : 0;
+    if (all.NonManifold == 0)
+    {
+      const SeamSide& one = edge.Begin[0].Seam->Side;
+      const SeamSide& other = edge.Begin[1].Seam->Side;
+      all.WronglyWound = one.RunsForward == other.RunsForward ? 1 : 0;
+      all.Region = one.Region != other.Region ? 1 : 0;
+    }
+    AddCounts(this->Counts.Edges, all, 1);
+    for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
+    {
+      if (one == edge.Begin || one->Rank != one[-1].Rank)
+      {
+        AddCounts(this->Counts.Edges, this->CountAlone(one, edge.CountOn(one->Rank)), -1);
+      }
+    }
+  }
+
+  /// What a rank counts of an edge of which others have triangles, too.
+  /// @param first of its triangles.
+  EdgeCounts CountAlone(const RankedTriangle* first, std::int64_t size) const
+  {
+    EdgeCounts counts = MakeBoundary();
+    if (size == 2)
+    {
+      counts = EdgeCounts();
+      QuadSoup soup(this->Survey, this->Options);
+      soup.Add(first[0].Seam->Side, first[1].Seam->Side);
+      soup.FindFixed(counts);
+      counts.Fixed = 1; // on this rank
+      counts.Constraint = 1;
+    }
+    else if (size > 2)
+    {
+      counts.Boundary = 0;
+      counts.NonManifold = 1;
+    }
+    return counts;
+  }
+
+  static EdgeCounts MakeBoundary()
+  {
+    EdgeCounts counts;
+    counts.Edges = counts.Boundary = counts.Fixed = 1;
+    return counts;
+  }
+
+  void Answer(const RankedTriangle& one, bool isFixed, bool isToFix)
+  {
+    this->Answers[one.Rank].push_back(
+      { one.Seam->GetTriangle(), one.Seam->GetSlot(), isFixed, isToFix });
+  }
+
+  const PartSurvey& Survey;
+  const FlipOptions& Options;
+};
+
+/// The triangles of this rank at edges between two shared points, for the homes of the edges.
+RecordLists<SeamTriangle> ListSeamTriangles(
+  const TriangleMesh& caller, const PartMesh& mesh, const PieceGroup& group)
+{
+  RecordLists<SeamTriangle> toHome(group.GetSize());
+  for (std::int64_t t = 0; t < static_cast<std::int64_t>(mesh.Triangles.size()); ++t)
+  {
+    std::int32_t p[3];
+    mesh.GetPoints(t, p);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int32_t start = p[(slot + 1) % 3];
+      const std::int32_t end = p[(slot + 2) % 3];
+      if (start != end && mesh.IsShared(start) && mesh.IsShared(end))
+      {
+        SeamTriangle seam = MakeSeamTriangle(mesh, t, slot);
+        seam.Side.IsFrozen = (caller.FrozenTriangles && caller.FrozenTriangles[t] != 0) ||
+          p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+        seam.Side.Region = caller.Regions ? caller.Regions[t] : 0;
+        toHome[GetHome(PairHash()(seam.Ends), group)].push_back(seam);
+      }
+    }
+  }
+  return toHome;
+}
+
+/// Sends constraints between shared points to the ranks that know their edges, and keeps the others
+/// for this rank alone.
+RecordLists<SharedConstraint> DivideConstraints(
+  const TriangleMesh& caller, const PartMesh& mesh, SeamSurvey& survey, const PieceGroup& group)
+{
+  RecordLists<SharedConstraint> toHome(group.GetSize());
+  for (std::int64_t i = 0; i < caller.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t a = caller.ConstraintEdges[2 * i];
+    const std::int64_t b = caller.ConstraintEdges[2 * i + 1];
+    const unsigned char isToInsert = caller.ConstraintsToInsert ? caller.ConstraintsToInsert[i] : 0;
+    if (a != b && mesh.IsShared(a) && mesh.IsShared(b))
+    {
+      const PointPair keys = mesh.GetKeys({ a, b });
+      toHome[GetHome(PairHash()(keys), group)].push_back({ keys, isToInsert != 0 ? 1 : 0 });
+    }
+    else
+    {
+      survey.Constraints.insert(survey.Constraints.end(), { a, b });
+      survey.ToInsert.push_back(isToInsert);
+    }
+  }
+  return toHome;
+}
+}
+
+SeamCounts& SeamCounts::operator+=(const SeamCounts& part)
+{
+  AddCounts(this->Edges, part.Edges, 1);
+  this->Seams += part.Seams;
+  this->NonDelaunay += part.NonDelaunay;
+  this->MissingConstraints += part.MissingConstraints;
+  this->MissingToInsert += part.MissingToInsert;
+  this->ToInsert += part.ToInsert;
+  return *this;
+}
+
+SeamSurvey SurveySeams(const PartJob& job, const MeshPiece& piece, const PartMesh& mesh)
+{
+  PieceGroup& group = job.Group;
+  SeamSurvey seams;
+  const RecordLists<SeamTriangle> triangles =
+    ExchangeRecords(group, ListSeamTriangles(piece.Mesh, mesh, group));
+  const RecordLists<SharedConstraint> constraints =
+    ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
+  SeamJudge judge(job);
+  DoTogether(group, [&]() { judge.Judge(triangles, constraints); });
+  for (const std::vector<SeamAnswer>& list : ExchangeRecords(group, judge.Answers))
+  {
+    for (const SeamAnswer& answer : list)
+    {
+      seams.Marks.push_back(
+        { answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
+      if (answer.IsToFix)
+      {
+        seams.EdgesToFix.push_back(mesh.GetEdge(answer.Triangle, answer.Slot));
+      }
+    }
+  }
+  judge.Counts.ToInsert = std::count_if(
+    seams.ToInsert.begin(), seams.ToInsert.end(), [](unsigned char flag) { return flag != 0; });
+  seams.Counts = SumOverRanks(group, judge.Counts);
+  if (seams.Counts.MissingToInsert > 0)
+  {
+    for (const std::vector<PointPair>& list : GatherRecords(group, judge.Missing))
+    {
+      seams.Missing.insert(seams.Missing.end(), list.begin(), list.end());
+    }
+    std::sort(seams.Missing.begin(), seams.Missing.end());
+  }
+  return seams;
+}
+
+}
