@@ -192,7 +192,8 @@ PartSurvey SurveyParts(
   {
     const StarTurns turns = SumStarTurns(mesh, found.Projection, keys, backend, group);
     survey.Whole.Side = turns.GetSide();
-    survey.Whole.StarsAreSimple = AreStarsSimple(mesh, found.Projection, keys, turns, group);
+    survey.Whole.StarsAreSimple =
+      AreStarsSimple(mesh, found.Projection, keys, turns, backend, group);
   }
   return survey;
 }

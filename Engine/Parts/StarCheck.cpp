@@ -168,7 +168,7 @@ StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
 }
 
 bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const StarTurns& turns, PieceGroup& group)
+  const StarTurns& turns, const ThreadBackend& threads, PieceGroup& group)
 {
   if (!turns.AreUniform() || turns.Covers != 0)
   {
@@ -230,7 +230,7 @@ void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
   const std::unique_ptr<PieceGroup> group = MakeSingleGroup();
   const StarTurns turns = SumStarTurns(mesh, plane, keys, threads, *group);
   whole.Side = turns.GetSide();
-  whole.StarsAreSimple = AreStarsSimple(mesh, plane, keys, turns, *group);
+  whole.StarsAreSimple = AreStarsSimple(mesh, plane, keys, turns, threads, *group);
 }
 
 }

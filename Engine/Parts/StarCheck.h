@@ -47,7 +47,7 @@ StarTurns SumStarTurns(const TriangleMesh& mesh, const PlaneProjection& plane,
 /// point has some of the same triangles. All ranks must call this together.
 /// @param keys of which only Keys, Shared and Closed matter. @param turns from SumStarTurns.
 bool AreStarsSimple(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const StarTurns& turns, PieceGroup& group);
+  const StarTurns& turns, const ThreadBackend& threads, PieceGroup& group);
 
 /// Sets StarsAreSimple and Side of a mesh of this process, which may be too large for a session.
 void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
