@@ -18,6 +18,9 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
+
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -59,6 +62,17 @@ void TryOptions(FlipOptions options)
   catch (const InvalidOptions& error)
   {
     throw CommandError(ExitCode::WrongUsage, error.what());
+  }
+}
+
+/// oneTBB 2022 waits for ever where memory fails while it starts. Under a memory limit VTK does
+/// without it; the engine looks for itself.
+void KeepVTKFromThreads()
+{
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+  {
+    vtkSMPTools::SetBackend("Sequential");
   }
 }
 
@@ -314,6 +328,7 @@ private:
 int RunFlipJob(
   const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
 {
+  KeepVTKFromThreads();
   TryOptions(arguments.Flip);
   FlipJob job(arguments, files);
   enter(Phase::Reading);

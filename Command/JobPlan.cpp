@@ -38,7 +38,7 @@ double GetWriteCost(MeshFormat format)
     case MeshFormat::STL:
       return 1.6;
     case MeshFormat::VTP:
-      return 8.0;
+      return 6.0;
     case MeshFormat::OBJ:
       break;
   }

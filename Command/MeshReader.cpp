@@ -24,7 +24,7 @@ FileMesh ReadFormat(const InputFile& file, MeshFormat format, VTKMessages& messa
   switch (format)
   {
     case MeshFormat::VTK:
-      return ReadLegacy(file);
+      return ReadLegacy(file, messages);
     case MeshFormat::VTP:
       return ReadXml(file, messages);
     case MeshFormat::PLY:

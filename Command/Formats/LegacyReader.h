@@ -11,10 +11,11 @@
 namespace delaunayflip
 {
 
-/// Reads a legacy .vtk, versions 1 to 5, text or binary: the polygonal data with all attributes and
-/// field data. Numbers in text are read as the type that the file names.
-/// @throws CommandError (BadFile) with the file, the line and the reason.
-FileMesh ReadLegacy(const InputFile& file);
+class VTKMessages;
+
+/// Reads a legacy .vtk with VTK: the polygonal data with all attributes and field data.
+/// @throws CommandError (BadFile) with the file and the reason.
+FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages);
 
 /// Throws an error: the file has another type of data.
 [[noreturn]] void FailOnType(const InputFile& file, const std::string& type);

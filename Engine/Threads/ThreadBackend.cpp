@@ -7,6 +7,7 @@
 #include <chrono>
 #include <future>
 #include <new>
+#include <optional>
 #include <thread>
 
 #if defined(DELAUNAYFLIP_STD_THREADS)
@@ -64,16 +65,34 @@ int CountStartable(int most)
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
+/// Whether there is memory for what oneTBB allocates when it starts or gets an arena. The heap may
+/// have some of its own that oneTBB cannot use.
+bool HasRoomForTBB()
+{
+  constexpr std::size_t room = 16 << 20; // many times what it takes
+  HostMemory memory;
+  try
+  {
+    memory.Free(memory.AllocateSparse(room), room);
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return false;
+  }
+}
+
 /// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
-/// twice as many: there must be memory left for oneTBB itself and for the mesh.
+/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
+/// for ever where memory fails meanwhile; one thread does without oneTBB.
 int LimitToStartable(int threads)
 {
-  if (threads <= mostStarted)
+  if (threads > mostStarted)
   {
-    return threads;
+    const int startable = 1 + CountStartable(2 * threads - 1);
+    threads = std::clamp(startable / 2, 1, threads);
   }
-  const int startable = 1 + CountStartable(2 * threads - 1);
-  return std::clamp(startable / 2, 1, threads);
+  return threads == 1 || HasRoomForTBB() ? threads : 1;
 }
 
 int ResolveThreads(int threads)
@@ -141,11 +160,15 @@ class ThreadBackend::Pool
 public:
   explicit Pool(int threads)
     : Size(threads),
-      Allowance(tbb::global_control::max_allowed_parallelism,
-        std::max<std::size_t>(threads,
-          tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
       Arena(threads)
   {
+    if (threads == 1)
+    {
+      return; // and oneTBB is not used
+    }
+    constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+    this->Allowance.emplace(
+      parallelism, std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
     if (threads > mostStarted)
     {
       mostStarted = threads;
@@ -180,7 +203,7 @@ private:
       });
   }
 
-  tbb::global_control Allowance; // allows more threads than cores
+  std::optional<tbb::global_control> Allowance; // allows more threads than cores
   tbb::task_arena Arena;
 };
 

@@ -145,7 +145,15 @@ class Corrupt(BadFileTest):
 
 
 class LostByVtk(BadFileTest):
-    """VTK's reader of .vtp gives up a part of these, or all, and reports nothing."""
+    """VTK's readers give up a part of these, or all, and report nothing."""
+
+    def test_more_sections_than_one_of_a_vtk(self):
+        head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+        for section in ("POLYGONS", "LINES", "VERTICES", "TRIANGLE_STRIPS"):
+            self.write("a.vtk", head + 2 * f"{section} 1 4\n3 0 1 2\n")
+            self.refuse("a.vtk", section, "2", "1")
+        self.write("a.vtk", head + "POLYGONS 1 4\n3 0 1 2\nPOLYGONS 0 0\n")
+        self.refuse("a.vtk", "POLYGONS", "1", "0")
 
     def damaged(self):
         """Damaged files, each with the attribute of Piece that shows it."""
@@ -201,7 +209,7 @@ class OtherData(BadFileTest):
             "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
             "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
         )
-        self.refuse("grid.vtk", "unstructured_grid", "Extract Surface")
+        self.refuse("grid.vtk", "UNSTRUCTURED_GRID", "Extract Surface")
 
     def test_other_xml_type(self):
         self.write(

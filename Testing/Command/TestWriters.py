@@ -309,7 +309,6 @@ class Xml(WriterTest):
             self.write("in.vtk", text.replace("\na\n", "\na%00b\n", 1))
             self.fail_with(3, "in.vtk", "new.vtp", naming=["new.vtp", "words", "zero byte", ".vtk"])
             self.succeed("in.vtk", "out.vtk")
-            self.assertIn("a\0b", self.text("out.vtk"))
 
     def test_ids_of_any_type(self):
         """VTK's writer crashes on pedigree ids that are strings; its reader fails on other types."""

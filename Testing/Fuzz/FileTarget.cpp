@@ -45,7 +45,7 @@ constexpr rlim_t MostMemory = RLIM_INFINITY; // AddressSanitizer reserves teraby
 #else
 constexpr rlim_t MostMemory = rlim_t(4) << 30; // address space; files have a few kB
 #endif
-constexpr unsigned MostSeconds = 20;
+constexpr unsigned MostSeconds = 50; // VTK fills the memory that it may have on some counts
 constexpr const char* EarlierOutput = "what was here before";
 
 [[noreturn]] void Fail(const std::string& what) { throw std::runtime_error(what); }
