@@ -22,7 +22,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -179,7 +178,6 @@ public:
     }
     this->ThrowErrors();
     this->TakeReport();
-    this->WarnOfTolerance();
   }
 
   void Write()
@@ -248,21 +246,6 @@ private:
   {
     PrintWarning(warning);
     this->Run.Warnings.push_back(warning);
-  }
-
-  /// Unless the filter has said it.
-  void WarnOfTolerance()
-  {
-    const std::vector<std::string>& said = this->Run.Warnings;
-    const bool isSaid = std::any_of(said.begin(), said.end(),
-      [](const std::string& warning) { return warning.find("tolerance") != std::string::npos; });
-    const FlipReport& report = this->Run.Flip;
-    if (this->Settings.Flip.Tolerance >= 0.0 && report.Triangles > 0 && !isSaid &&
-      report.Tolerance == "none")
-    {
-      this->Warn("--tolerance has no effect, since the in-circle test is exact; it is for surfaces "
-                 "and for --criterion opposite-angles");
-    }
   }
 
   void Note(const std::string& note) const

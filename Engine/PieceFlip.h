@@ -90,8 +90,8 @@ DELAUNAYFLIP_EXPORT void RequireSameOptions(const FlipOptions& options, PieceGro
 /// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
 /// group must call this together, with the same options (see RequireSameOptions).
 /// FlipOptions::NumberOfPieces and TrackQuality have no effect: the smallest angle is known before
-/// the first iteration and after the last. What ranks do at the same time is one iteration, of which
-/// FlipOptions::MaximumIterations are made at most, over all rounds.
+/// the first iteration and after the last. What ranks do at the same time is one iteration, of
+/// which FlipOptions::MaximumIterations are made at most, over all rounds.
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
