@@ -223,7 +223,7 @@ std::int64_t SumOf(const std::string& bytes, const std::string& pattern)
 
 std::int64_t CountLines(const std::string& bytes, const std::string& beginning)
 {
-  const std::regex lines("(^|\n)[ \t]*" + beginning);
+  const std::regex lines("(^|[\r\n])[ \t]*" + beginning);
   return std::distance(
     std::sregex_iterator(bytes.begin(), bytes.end(), lines), std::sregex_iterator());
 }
@@ -261,8 +261,8 @@ FileCounts CountsOf(const std::string& bytes, const std::string& format)
   if (format == "ply")
   {
     const std::string head = bytes.substr(0, bytes.find("end_header"));
-    return { SumOf(head, "\nelement vertex ([0-9]+)"), -1, -1,
-      SumOf(head, "\nelement face ([0-9]+)") };
+    return { SumOf(head, "[\r\n]element vertex ([0-9]+)"), -1, -1,
+      SumOf(head, "[\r\n]element face ([0-9]+)") };
   }
   if (format == "obj")
   {
