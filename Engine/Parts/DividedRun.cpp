@@ -8,7 +8,7 @@
 #include "MissingConstraints.h"
 #include "PartMesh.h"
 #include "PieceFlip.h"
-#include "SeamQuads.h"
+#include "SeamSurvey.h"
 
 #include <algorithm>
 #include <atomic>
@@ -98,20 +98,368 @@ public:
   }
 
 private:
-  FlipOptions GetCountingOptions() const;
-  void ExamineSeams();
-  void KeepFixedEdges(const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges);
-  void FlipParts();
-  void FlipPart(int number, PieceGroup& group);
-  void KeepFlips(const SubMesh& part, const std::int32_t* counts);
-  void JoinParts();
-  void FlipRegions();
-  PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress);
-  void CountRest();
-  void CountBadEdges();
-  void AddDefects();
+  //------------------------------------------------------------------------------
+  /// The options for parts of the mesh in which no edge is flipped.
+  FlipOptions GetCountingOptions() const
+  {
+    FlipOptions options = GetPartOptions(this->Mesh.GetSurvey(), this->Options);
+    options.MaximumIterations = 0;
+    if (!this->Options.Devices.empty())
+    {
+      options.Device = this->Options.Devices.front();
+      options.Devices.clear();
+    }
+    return options;
+  }
+
+  /// Before the first flip: counts seam edges, finds the fixed ones, and missing constraints.
+  void ExamineSeams()
+  {
+    FlipOptions options = this->GetCountingOptions();
+    options.FeatureAngle = this->Options.FeatureAngle;
+    const auto count = [&](const SubMesh& part, std::int64_t factor)
+    {
+      const FlipSession session(part.View(), options);
+      this->Seams.Add(session.GetReport(), factor);
+      return session.GetReport().Edges;
+    };
+    SubMesh strip = this->Mesh.GetTrianglesAt(this->Seam);
+    strip.FixEdges(this->Constraints);
+    this->KeepFixedEdges(strip, options, count(strip, 1));
+    this->FixedAtSeams = this->Fixed;
+    for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
+    {
+      SubMesh part = this->Mesh.GetPartOf(strip, number);
+      part.FixEdges(this->Constraints);
+      part.FixEdges(this->FixedAtSeams);
+      count(part, -1);
+    }
+    TriangleMesh mesh = this->Mesh.View();
+    const std::vector<unsigned char> all(mesh.NumberOfConstraintEdges, 1);
+    mesh.ConstraintsToInsert = all.data();
+    const MissingConstraints missing = FindMissingConstraints(mesh, this->Mesh.GetThreads());
+    this->Unmatched = std::count(missing.IsMissing.begin(), missing.IsMissing.end(), true);
+  }
+
+  /// Keeps the edges of a part that stay.
+  /// @param edges of that part.
+  void KeepFixedEdges(const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges)
+  {
+    const std::vector<std::int64_t> ends = ListFixedEdges(part.View(), options, edges);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (const std::int64_t end : ends)
+    {
+      this->Fixed.push_back(part.GetPointId(end));
+    }
+  }
+
+  //------------------------------------------------------------------------------
+  void FlipParts()
+  {
+    // One worker prepares a part while another's is on the GPU.
+    const int devices = static_cast<int>(this->Options.Devices.size());
+    const int workers = devices == 0 ? 1 : std::min(this->Mesh.GetNumberOfParts(), 2 * devices);
+    std::vector<int> turns;
+    for (int worker = 0; worker < workers && devices > 0; ++worker)
+    {
+      turns.push_back(worker % devices);
+    }
+    const auto work = [&](PieceGroup& group)
+    {
+      try
+      {
+        for (int part = group.GetRank(); part < this->Mesh.GetNumberOfParts(); part += workers)
+        {
+          this->FlipPart(part, group);
+        }
+      }
+      catch (...)
+      {
+        this->GoesOn = false;
+        throw;
+      }
+    };
+    RunInThreads(workers, work, turns);
+  }
+
+  /// In one of several threads. Rank 0 is the calling thread, whose observer is asked.
+  void FlipPart(int number, PieceGroup& group)
+  {
+    SubMesh part = this->Mesh.GetPart(number);
+    part.FixEdges(this->Constraints);
+    part.FixEdges(this->FixedAtSeams);
+    if (this->Mesh.GetSurvey().NeedsGuard())
+    {
+      part.GuardPoints([this](std::int64_t point) { return this->Seam.Has(point); });
+    }
+    FlipOptions options = this->Options;
+    options.NumberOfPieces = 1;
+    options.Geometry = this->Mesh.GetSurvey().Geometry;
+    if (!this->Options.Devices.empty())
+    {
+      options.Device = this->Options.Devices[number % this->Options.Devices.size()];
+      options.Devices.clear();
+    }
+    const bool isCaller = group.GetRank() == 0;
+    const ProgressObserver progress = [&](double share)
+    {
+      this->Shares[number] = share;
+      if (isCaller && this->Progress)
+      {
+        const double sum = std::accumulate(this->Shares.begin(), this->Shares.end(), 0.0);
+        this->GoesOn =
+          this->Progress(PartsShare * sum / this->Mesh.GetNumberOfParts()) && this->GoesOn;
+      }
+      return this->GoesOn.load();
+    };
+    const auto flip = [&]()
+    {
+      FlipSession session(part.View(), options, progress);
+      if (session.GetReport().StopReason != StopReasonKind::Aborted)
+      {
+        this->KeepFixedEdges(part, options, session.GetReport().Edges);
+        session.Advance(-1, {}, progress);
+      }
+      else
+      {
+        this->AreCounted = false;
+      }
+      this->Reports[number] = session.GetReport();
+      session.StoreTriangles(part.GetTriangles());
+      if (this->FlipCounts)
+      {
+        Array<std::int32_t> counts =
+          this->Mesh.GetThreads().MakeArray<std::int32_t>(part.GetNumberOfTriangles());
+        session.StoreFlipCounts(counts.Data());
+        this->KeepFlips(part, counts.Data());
+      }
+    };
+    group.Work(flip);
+    part.Store(this->Mesh.GetTriangles());
+  }
+
+  /// Adds the flips of a part's triangles. Parts that are flipped at the same time have no triangle
+  /// in common.
+  void KeepFlips(const SubMesh& part, const std::int32_t* counts)
+  {
+    if (this->FlipCounts)
+    {
+      this->Mesh.GetThreads().ForEach(part.GetNumberOfTriangles(),
+        [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += counts[t]; });
+    }
+  }
+
+  /// Begins the report of the whole mesh.
+  void JoinParts()
+  {
+    static_cast<FlipReport&>(this->Report) = JoinReports(this->Reports);
+    this->Report.UnmatchedConstraints = this->Unmatched;
+    this->Report.SeamEdges = -this->Seams.Edges.Edges;
+    this->Report.Points = this->Mesh.View().Points.Count;
+    this->Report.GeometryUsed = this->Mesh.GetSurvey().Geometry;
+    this->Report.GeometryReason = this->Mesh.GetSurvey().GeometryReason;
+    this->Report.Rounds = 1;
+    this->Report.StopReason = StopReasonKind::Converged;
+    // The seconds of all parts that have the same GPU; of several GPUs the largest.
+    const std::size_t devices = std::max<std::size_t>(1, this->Options.Devices.size());
+    std::vector<double> build(devices), flip(devices);
+    for (std::size_t number = 0; number < this->Reports.size(); ++number)
+    {
+      const FlipReport& part = this->Reports[number];
+      build[number % devices] += part.BuildSeconds;
+      flip[number % devices] += part.FlipSeconds;
+      const bool isWorse = part.StopReason == StopReasonKind::Aborted ||
+        (part.StopReason == StopReasonKind::IterationLimit && this->Report.Converged());
+      this->Report.StopReason = isWorse ? part.StopReason : this->Report.StopReason;
+      this->HasBadEdges = this->HasBadEdges || part.NonDelaunayAfter > 0;
+    }
+    this->Report.BuildSeconds = *std::max_element(build.begin(), build.end());
+    this->Report.FlipSeconds = *std::max_element(flip.begin(), flip.end());
+  }
+
+  //------------------------------------------------------------------------------
+  void FlipRegions()
+  {
+    PointSet active = std::move(this->Seam);
+    active.Number(this->Mesh.GetThreads());
+    for (std::int64_t regions = 1;
+         active.GetSize() > 0 && this->Report.StopReason == StopReasonKind::Converged; ++regions)
+    {
+      if (regions > MostRegions && this->Mesh.GetSurvey().Geometry == GeometryKind::Surface)
+      {
+        this->Report.StopReason = StopReasonKind::IterationLimit;
+        return;
+      }
+      const double share = PartsShare + (1.0 - PartsShare) * (1.0 - 1.0 / double(regions));
+      active = this->FlipRegion(active,
+        [&](double part)
+        { return !this->Progress || this->Progress(share + part * (1.0 - share) / 2.0); });
+    }
+  }
+
+  /// Flips the triangles around some points, as one mesh.
+  /// @returns the points around which edges must be judged next: those at the border of the region
+  /// that flips have reached. A flip that would join two points at the border, which may have an
+  /// edge elsewhere, waits; a triangle beside it has changed, or the edge would not be bad, so one
+  /// of the two is reached.
+  PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress)
+  {
+    const ThreadBackend& threads = this->Mesh.GetThreads();
+    const PointSet inner =
+      this->Mesh.FindPointsAround(active); // all of whose triangles belong to it
+    SubMesh region = this->Mesh.GetTrianglesAt(inner);
+    region.FixEdges(this->Fixed);
+    if (this->Mesh.GetSurvey().NeedsGuard())
+    {
+      region.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
+    }
+    FlipOptions options = this->GetCountingOptions();
+    const auto made = static_cast<std::int64_t>(this->Report.Iterations.size());
+    options.MaximumIterations = this->Options.MaximumIterations < 0
+      ? -1
+      : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
+    options.TrackQuality = this->Options.TrackQuality;
+    FlipSession session(region.View(false), options, progress);
+    if (session.GetReport().StopReason != StopReasonKind::Aborted)
+    {
+      session.Advance(-1, {}, progress);
+    }
+
+    const FlipReport& report = session.GetReport();
+    const TriangleArray& triangles = this->Mesh.View().Triangles;
+    const double rest = !this->Options.TrackQuality || report.Iterations.empty()
+      ? NaN
+      : this->FindSmallestAngle([&](std::int64_t t) { return !inner.Touches(triangles, t); });
+    for (IterationRecord row : report.Iterations)
+    {
+      row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
+      row.MinimumAngle = std::fmin(row.MinimumAngle, rest);
+      this->Report.Iterations.push_back(row);
+    }
+    this->Report.Rounds += report.TotalFlips > 0 ? 1 : 0;
+    this->Report.StopReason = report.StopReason;
+    this->Report.BuildSeconds += report.BuildSeconds;
+    this->Report.FlipSeconds += report.FlipSeconds;
+    this->HasBadEdges = this->HasBadEdges || report.NonDelaunayAfter > 0;
+
+    std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
+    session.StoreFlipCounts(flips.data());
+    this->KeepFlips(region, flips.data());
+    session.StoreTriangles(region.GetTriangles());
+    region.Store(this->Mesh.GetTriangles());
+    PointSet next(this->Mesh.View().Points.Count, threads);
+    for (std::int64_t t = 0; t < region.GetNumberOfTriangles(); ++t)
+    {
+      for (int slot = 0; slot < 3 && flips[t] > 0; ++slot)
+      {
+        const std::int64_t point = region.GetPoint(t, slot);
+        if (!inner.Has(point))
+        {
+          next.Add(point);
+        }
+      }
+    }
+    next.Number(threads);
+    return next;
+  }
+
+  //------------------------------------------------------------------------------
+  void CountRest()
+  {
+    PiecesReport& report = this->Report;
+    AddCounts(report.Edges, this->Seams.Edges, 1);
+    report.EulerCharacteristic = this->Mesh.GetUsedPoints() - report.Edges.Edges + report.Triangles;
+    report.NonDelaunayBefore += this->Seams.NonDelaunay;
+    if (!this->AreCounted)
+    {
+      report.Edges = EdgeCounts();
+      report.EulerCharacteristic = 0;
+      report.NonDelaunayBefore -= this->Seams.NonDelaunay;
+    }
+    if (report.Rounds > 1)
+    {
+      report.MinimumAngleAfter = this->FindSmallestAngle([](std::int64_t) { return true; });
+    }
+    if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
+    {
+      this->CountBadEdges();
+    }
+    if (!this->Options.TrackQuality && !report.Iterations.empty())
+    {
+      for (IterationRecord& row : report.Iterations)
+      {
+        row.MinimumAngle = NaN;
+      }
+      report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+    }
+    CountIterations(report);
+  }
+
+  /// Counts those that are left, whatever the reason.
+  void CountBadEdges()
+  {
+    const FlipOptions options = this->GetCountingOptions();
+    EdgeTotals totals;
+    const auto count = [&](SubMesh& part, std::int64_t factor)
+    {
+      part.FixEdges(this->Fixed);
+      const FlipSession session(part.View(false), options);
+      totals.Add(session.GetReport(), factor);
+    };
+    SubMesh strip = this->Mesh.GetTrianglesAt(this->Mesh.FindSeamPoints());
+    count(strip, 1);
+    for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
+    {
+      SubMesh whole = this->Mesh.GetPart(number);
+      SubMesh atSeams = this->Mesh.GetPartOf(strip, number);
+      count(whole, 1);
+      count(atSeams, -1);
+    }
+    this->Report.NonDelaunayAfter = totals.NonDelaunay;
+    this->Report.BlockedByShape = totals.BlockedByShape;
+    // A part does not know all edges that exist. After the last flip nothing else blocks any.
+    this->Report.BlockedByEdge =
+      this->Report.Converged() ? totals.NonDelaunay - totals.BlockedByShape : totals.BlockedByEdge;
+  }
+
+  /// What is known of the whole mesh takes the place of what parts have found.
+  void AddDefects()
+  {
+    std::vector<Defect> defects = this->Mesh.GetDefects();
+    AddDefect({ "constraint edges that are not edges of the mesh",
+                this->Report.UnmatchedConstraints, {}, DefectIds::Points },
+      defects);
+    for (const Defect& defect : this->Report.Defects)
+    {
+      const bool isKnown = std::any_of(defects.begin(), defects.end(),
+        [&](const Defect& known) { return known.What == defect.What; });
+      if (!isKnown)
+      {
+        defects.push_back(defect);
+      }
+    }
+    this->Report.Defects = defects;
+  }
+
+  /// The smallest angle in degrees of the triangles for which counts(slot); NaN without any.
   template <typename Counts>
-  double FindSmallestAngle(const Counts& counts) const;
+  double FindSmallestAngle(const Counts& counts) const
+  {
+    const TriangleArray& triangles = this->Mesh.View().Triangles;
+    const LargestValue largest = this->Mesh.GetThreads().Sum<LargestValue>(triangles.Count,
+      [&](std::int64_t t, LargestValue& sum)
+      {
+        double x[3][3];
+        for (int i = 0; i < 9; ++i)
+        {
+          x[i / 3][i % 3] = this->Mesh.View().Points.Get(triangles.Get(t, i / 3), i % 3);
+        }
+        LargestValue one;
+        one.Value = counts(t) ? MeasureCotangent(x, this->Mesh.GetSurvey()) : -INFINITY;
+        sum += one;
+      });
+    return ToDegrees(largest.Value);
+  }
 
   MeshInParts& Mesh;
   const FlipOptions& Options;
@@ -134,381 +482,6 @@ private:
   PiecesReport Report; ///< Of the whole mesh.
   bool HasBadEdges = false; ///< Whether a session has left some.
 };
-
-//------------------------------------------------------------------------------
-/// The options for parts of the mesh in which no edge is flipped.
-FlipOptions DividedRun::GetCountingOptions() const
-{
-  FlipOptions options = GetPartOptions(this->Mesh.GetSurvey(), this->Options);
-  options.MaximumIterations = 0;
-  if (!this->Options.Devices.empty())
-  {
-    options.Device = this->Options.Devices.front();
-    options.Devices.clear();
-  }
-  return options;
-}
-
-/// Before the first flip: counts seam edges, finds the fixed ones, and missing constraints.
-void DividedRun::ExamineSeams()
-{
-  FlipOptions options = this->GetCountingOptions();
-  options.FeatureAngle = this->Options.FeatureAngle;
-  const auto count = [&](const SubMesh& part, std::int64_t factor)
-  {
-    const FlipSession session(part.View(), options);
-    this->Seams.Add(session.GetReport(), factor);
-    return session.GetReport().Edges;
-  };
-  SubMesh strip = this->Mesh.GetTrianglesAt(this->Seam);
-  strip.FixEdges(this->Constraints);
-  this->KeepFixedEdges(strip, options, count(strip, 1));
-  this->FixedAtSeams = this->Fixed;
-  for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
-  {
-    SubMesh part = this->Mesh.GetPartOf(strip, number);
-    part.FixEdges(this->Constraints);
-    part.FixEdges(this->FixedAtSeams);
-    count(part, -1);
-  }
-  TriangleMesh mesh = this->Mesh.View();
-  const std::vector<unsigned char> all(mesh.NumberOfConstraintEdges, 1);
-  mesh.ConstraintsToInsert = all.data();
-  const MissingConstraints missing = FindMissingConstraints(mesh, this->Mesh.GetThreads());
-  this->Unmatched = std::count(missing.IsMissing.begin(), missing.IsMissing.end(), true);
-}
-
-/// Keeps the edges of a part that stay.
-/// @param edges of that part.
-void DividedRun::KeepFixedEdges(
-  const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges)
-{
-  std::vector<std::int64_t> ends;
-  const TriangleMesh view = part.View();
-  if (edges.Fixed > edges.Boundary + edges.NonManifold)
-  {
-    ends = FindFixedEdges(view, options);
-  }
-  if (edges.NonManifold > 0)
-  {
-    for (const PointPair& edge : FindCrowdedEdges(view.Triangles))
-    {
-      ends.insert(ends.end(), edge.begin(), edge.end());
-    }
-  }
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  for (const std::int64_t end : ends)
-  {
-    this->Fixed.push_back(part.GetPointId(end));
-  }
-}
-
-//------------------------------------------------------------------------------
-void DividedRun::FlipParts()
-{
-  // One worker prepares a part while another's is on the GPU.
-  const int devices = static_cast<int>(this->Options.Devices.size());
-  const int workers = devices == 0 ? 1 : std::min(this->Mesh.GetNumberOfParts(), 2 * devices);
-  std::vector<int> turns;
-  for (int worker = 0; worker < workers && devices > 0; ++worker)
-  {
-    turns.push_back(worker % devices);
-  }
-  const auto work = [&](PieceGroup& group)
-  {
-    try
-    {
-      for (int part = group.GetRank(); part < this->Mesh.GetNumberOfParts(); part += workers)
-      {
-        this->FlipPart(part, group);
-      }
-    }
-    catch (...)
-    {
-      this->GoesOn = false;
-      throw;
-    }
-  };
-  RunInThreads(workers, work, turns);
-}
-
-/// In one of several threads. Rank 0 is the calling thread, whose observer is asked.
-void DividedRun::FlipPart(int number, PieceGroup& group)
-{
-  SubMesh part = this->Mesh.GetPart(number);
-  part.FixEdges(this->Constraints);
-  part.FixEdges(this->FixedAtSeams);
-  if (this->Mesh.GetSurvey().NeedsGuard())
-  {
-    part.GuardPoints([this](std::int64_t point) { return this->Seam.Has(point); });
-  }
-  FlipOptions options = this->Options;
-  options.NumberOfPieces = 1;
-  options.Geometry = this->Mesh.GetSurvey().Geometry;
-  if (!this->Options.Devices.empty())
-  {
-    options.Device = this->Options.Devices[number % this->Options.Devices.size()];
-    options.Devices.clear();
-  }
-  const bool isCaller = group.GetRank() == 0;
-  const ProgressObserver progress = [&](double share)
-  {
-    this->Shares[number] = share;
-    if (isCaller && this->Progress)
-    {
-      const double sum = std::accumulate(this->Shares.begin(), this->Shares.end(), 0.0);
-      this->GoesOn =
-        this->Progress(PartsShare * sum / this->Mesh.GetNumberOfParts()) && this->GoesOn;
-    }
-    return this->GoesOn.load();
-  };
-  const auto flip = [&]()
-  {
-    FlipSession session(part.View(), options, progress);
-    if (session.GetReport().StopReason != StopReasonKind::Aborted)
-    {
-      this->KeepFixedEdges(part, options, session.GetReport().Edges);
-      session.Advance(-1, {}, progress);
-    }
-    else
-    {
-      this->AreCounted = false;
-    }
-    this->Reports[number] = session.GetReport();
-    session.StoreTriangles(part.GetTriangles());
-    if (this->FlipCounts)
-    {
-      Array<std::int32_t> counts =
-        this->Mesh.GetThreads().MakeArray<std::int32_t>(part.GetNumberOfTriangles());
-      session.StoreFlipCounts(counts.Data());
-      this->KeepFlips(part, counts.Data());
-    }
-  };
-  group.Work(flip);
-  part.Store(this->Mesh.GetTriangles());
-}
-
-/// Adds the flips of a part's triangles. Parts that are flipped at the same time have no triangle
-/// in common.
-void DividedRun::KeepFlips(const SubMesh& part, const std::int32_t* counts)
-{
-  if (this->FlipCounts)
-  {
-    this->Mesh.GetThreads().ForEach(part.GetNumberOfTriangles(),
-      [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += counts[t]; });
-  }
-}
-
-/// Begins the report of the whole mesh.
-void DividedRun::JoinParts()
-{
-  static_cast<FlipReport&>(this->Report) = JoinReports(this->Reports);
-  this->Report.UnmatchedConstraints = this->Unmatched;
-  this->Report.SeamEdges = -this->Seams.Edges.Edges;
-  this->Report.Points = this->Mesh.View().Points.Count;
-  this->Report.GeometryUsed = this->Mesh.GetSurvey().Geometry;
-  this->Report.GeometryReason = this->Mesh.GetSurvey().GeometryReason;
-  this->Report.Rounds = 1;
-  this->Report.StopReason = StopReasonKind::Converged;
-  // The seconds of all parts that have the same GPU; of several GPUs the largest.
-  const std::size_t devices = std::max<std::size_t>(1, this->Options.Devices.size());
-  std::vector<double> build(devices), flip(devices);
-  for (std::size_t number = 0; number < this->Reports.size(); ++number)
-  {
-    const FlipReport& part = this->Reports[number];
-    build[number % devices] += part.BuildSeconds;
-    flip[number % devices] += part.FlipSeconds;
-    const bool isWorse = part.StopReason == StopReasonKind::Aborted ||
-      (part.StopReason == StopReasonKind::IterationLimit && this->Report.Converged());
-    this->Report.StopReason = isWorse ? part.StopReason : this->Report.StopReason;
-    this->HasBadEdges = this->HasBadEdges || part.NonDelaunayAfter > 0;
-  }
-  this->Report.BuildSeconds = *std::max_element(build.begin(), build.end());
-  this->Report.FlipSeconds = *std::max_element(flip.begin(), flip.end());
-}
-
-//------------------------------------------------------------------------------
-void DividedRun::FlipRegions()
-{
-  PointSet active = std::move(this->Seam);
-  active.Number(this->Mesh.GetThreads());
-  for (std::int64_t regions = 1;
-       active.GetSize() > 0 && this->Report.StopReason == StopReasonKind::Converged; ++regions)
-  {
-    if (regions > MostRegions && this->Mesh.GetSurvey().Geometry == GeometryKind::Surface)
-    {
-      this->Report.StopReason = StopReasonKind::IterationLimit;
-      return;
-    }
-    const double share = PartsShare + (1.0 - PartsShare) * (1.0 - 1.0 / double(regions));
-    active = this->FlipRegion(active,
-      [&](double part)
-      { return !this->Progress || this->Progress(share + part * (1.0 - share) / 2.0); });
-  }
-}
-
-/// Flips the triangles around some points, as one mesh.
-/// @returns the points around which edges must be judged next: those at the border of the region
-/// that flips have reached. A flip that would join two points at the border, which may have an edge
-/// elsewhere, waits; a triangle beside it has changed, or the edge would not be bad, so one of the
-/// two is reached.
-PointSet DividedRun::FlipRegion(const PointSet& active, const ProgressObserver& progress)
-{
-  const ThreadBackend& threads = this->Mesh.GetThreads();
-  const PointSet inner = this->Mesh.FindPointsAround(active); // all of whose triangles belong to it
-  SubMesh region = this->Mesh.GetTrianglesAt(inner);
-  region.FixEdges(this->Fixed);
-  if (this->Mesh.GetSurvey().NeedsGuard())
-  {
-    region.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
-  }
-  FlipOptions options = this->GetCountingOptions();
-  const auto made = static_cast<std::int64_t>(this->Report.Iterations.size());
-  options.MaximumIterations = this->Options.MaximumIterations < 0
-    ? -1
-    : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
-  options.TrackQuality = this->Options.TrackQuality;
-  FlipSession session(region.ViewWithoutLabels(), options, progress);
-  if (session.GetReport().StopReason != StopReasonKind::Aborted)
-  {
-    session.Advance(-1, {}, progress);
-  }
-
-  const FlipReport& report = session.GetReport();
-  const TriangleArray& triangles = this->Mesh.View().Triangles;
-  const double rest = !this->Options.TrackQuality || report.Iterations.empty()
-    ? NaN
-    : this->FindSmallestAngle([&](std::int64_t t) { return !inner.Touches(triangles, t); });
-  for (IterationRecord row : report.Iterations)
-  {
-    row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
-    row.MinimumAngle = std::fmin(row.MinimumAngle, rest);
-    this->Report.Iterations.push_back(row);
-  }
-  this->Report.Rounds += report.TotalFlips > 0 ? 1 : 0;
-  this->Report.StopReason = report.StopReason;
-  this->Report.BuildSeconds += report.BuildSeconds;
-  this->Report.FlipSeconds += report.FlipSeconds;
-  this->HasBadEdges = this->HasBadEdges || report.NonDelaunayAfter > 0;
-
-  std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
-  session.StoreFlipCounts(flips.data());
-  this->KeepFlips(region, flips.data());
-  session.StoreTriangles(region.GetTriangles());
-  region.Store(this->Mesh.GetTriangles());
-  PointSet next(this->Mesh.View().Points.Count, threads);
-  for (std::int64_t t = 0; t < region.GetNumberOfTriangles(); ++t)
-  {
-    for (int slot = 0; slot < 3 && flips[t] > 0; ++slot)
-    {
-      const std::int64_t point = region.GetPoint(t, slot);
-      if (!inner.Has(point))
-      {
-        next.Add(point);
-      }
-    }
-  }
-  next.Number(threads);
-  return next;
-}
-
-//------------------------------------------------------------------------------
-void DividedRun::CountRest()
-{
-  PiecesReport& report = this->Report;
-  AddCounts(report.Edges, this->Seams.Edges, 1);
-  report.EulerCharacteristic = this->Mesh.GetUsedPoints() - report.Edges.Edges + report.Triangles;
-  report.NonDelaunayBefore += this->Seams.NonDelaunay;
-  if (!this->AreCounted)
-  {
-    report.Edges = EdgeCounts();
-    report.EulerCharacteristic = 0;
-    report.NonDelaunayBefore -= this->Seams.NonDelaunay;
-  }
-  if (report.Rounds > 1)
-  {
-    report.MinimumAngleAfter = this->FindSmallestAngle([](std::int64_t) { return true; });
-  }
-  if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
-  {
-    this->CountBadEdges();
-  }
-  if (!this->Options.TrackQuality && !report.Iterations.empty())
-  {
-    for (IterationRecord& row : report.Iterations)
-    {
-      row.MinimumAngle = NaN;
-    }
-    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
-  }
-  CountIterations(report);
-}
-
-/// Counts those that are left, whatever the reason.
-void DividedRun::CountBadEdges()
-{
-  const FlipOptions options = this->GetCountingOptions();
-  EdgeTotals totals;
-  const auto count = [&](SubMesh& part, std::int64_t factor)
-  {
-    part.FixEdges(this->Fixed);
-    const FlipSession session(part.ViewWithoutLabels(), options);
-    totals.Add(session.GetReport(), factor);
-  };
-  SubMesh strip = this->Mesh.GetTrianglesAt(this->Mesh.FindSeamPoints());
-  count(strip, 1);
-  for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
-  {
-    SubMesh whole = this->Mesh.GetPart(number);
-    SubMesh atSeams = this->Mesh.GetPartOf(strip, number);
-    count(whole, 1);
-    count(atSeams, -1);
-  }
-  this->Report.NonDelaunayAfter = totals.NonDelaunay;
-  this->Report.BlockedByShape = totals.BlockedByShape;
-  // A part does not know all edges that exist. After the last flip nothing else blocks any.
-  this->Report.BlockedByEdge =
-    this->Report.Converged() ? totals.NonDelaunay - totals.BlockedByShape : totals.BlockedByEdge;
-}
-
-/// What is known of the whole mesh takes the place of what parts have found.
-void DividedRun::AddDefects()
-{
-  std::vector<Defect> defects = this->Mesh.GetDefects();
-  AddDefect({ "constraint edges that are not edges of the mesh", this->Report.UnmatchedConstraints,
-              {}, DefectIds::Points },
-    defects);
-  for (const Defect& defect : this->Report.Defects)
-  {
-    const bool isKnown = std::any_of(defects.begin(), defects.end(),
-      [&](const Defect& known) { return known.What == defect.What; });
-    if (!isKnown)
-    {
-      defects.push_back(defect);
-    }
-  }
-  this->Report.Defects = defects;
-}
-
-/// The smallest angle in degrees of the triangles for which counts(slot); NaN without any.
-template <typename Counts>
-double DividedRun::FindSmallestAngle(const Counts& counts) const
-{
-  const TriangleArray& triangles = this->Mesh.View().Triangles;
-  const LargestValue largest = this->Mesh.GetThreads().Sum<LargestValue>(triangles.Count,
-    [&](std::int64_t t, LargestValue& sum)
-    {
-      double x[3][3];
-      for (int i = 0; i < 9; ++i)
-      {
-        x[i / 3][i % 3] = this->Mesh.View().Points.Get(triangles.Get(t, i / 3), i % 3);
-      }
-      LargestValue one;
-      one.Value = counts(t) ? MeasureCotangent(x, this->Mesh.GetSurvey()) : -INFINITY;
-      sum += one;
-    });
-  return ToDegrees(largest.Value);
-}
 }
 
 PiecesReport FlipInTurn(MeshInParts& mesh, const FlipOptions& options, std::int32_t* flipCounts,

@@ -6,8 +6,8 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
+#include "PartSurvey.h"
 #include "Records.h"
-#include "StarCheck.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
@@ -74,17 +74,11 @@ SubMesh::SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const Thre
         this->Ids[3 * i + slot] = this->PointIds.GetNumber(triangles.Get(this->Slots[i], slot));
       }
     });
-  this->CopyPoints();
-  this->CopyLabels();
-}
-
-void SubMesh::CopyPoints()
-{
   const PointArray& points = this->Whole.Points;
-  const std::int64_t count = this->PointIds.GetSize();
-  this->PointOf = this->Engine.MakeArray<std::int64_t>(count);
-  this->Floats = this->Engine.MakeArray<float>(points.Floats ? 3 * count : 0);
-  this->Doubles = this->Engine.MakeArray<double>(points.Floats ? 0 : 3 * count);
+  const std::int64_t size = this->PointIds.GetSize();
+  this->PointOf = this->Engine.MakeArray<std::int64_t>(size);
+  this->Floats = this->Engine.MakeArray<float>(points.Floats ? 3 * size : 0);
+  this->Doubles = this->Engine.MakeArray<double>(points.Floats ? 0 : 3 * size);
   this->PointIds.ForEach(this->Engine,
     [&](std::int64_t point, std::int64_t number)
     {
@@ -98,11 +92,6 @@ void SubMesh::CopyPoints()
         std::copy_n(points.Doubles + 3 * point, 3, this->Doubles.Data() + 3 * number);
       }
     });
-}
-
-void SubMesh::CopyLabels()
-{
-  const std::int64_t count = this->GetNumberOfTriangles();
   if (this->Whole.Regions)
   {
     this->Regions = this->Engine.MakeArray<std::int32_t>(count);
@@ -131,7 +120,7 @@ void SubMesh::FixEdges(const std::vector<std::int64_t>& ends)
   }
 }
 
-TriangleMesh SubMesh::ViewWithoutLabels() const
+TriangleMesh SubMesh::View(bool withLabels) const
 {
   const auto points = static_cast<std::int64_t>(this->PointOf.Size());
   TriangleMesh mesh;
@@ -142,14 +131,8 @@ TriangleMesh SubMesh::ViewWithoutLabels() const
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
   mesh.Whole = this->Whole.Whole;
   mesh.Whole.SharedPoints = this->Shared.Size() > 0 ? this->Shared.Data() : nullptr;
-  return mesh;
-}
-
-TriangleMesh SubMesh::View() const
-{
-  TriangleMesh mesh = this->ViewWithoutLabels();
-  mesh.Regions = this->Whole.Regions ? this->Regions.Data() : nullptr;
-  mesh.FrozenTriangles = this->Whole.FrozenTriangles ? this->Frozen.Data() : nullptr;
+  mesh.Regions = withLabels && this->Whole.Regions ? this->Regions.Data() : nullptr;
+  mesh.FrozenTriangles = withLabels && this->Whole.FrozenTriangles ? this->Frozen.Data() : nullptr;
   return mesh;
 }
 
@@ -304,7 +287,20 @@ MeshInParts::MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& t
     Threads(options.NumberOfThreads)
 {
   this->Examine(options);
-  this->Divide();
+  std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (this->Survey.Geometry == GeometryKind::Surface || axis != this->Survey.Projection.AxisW)
+    {
+      axes.push_back(axis);
+    }
+  }
+  const std::int64_t count = this->Mesh.Triangles.Count;
+  const PartCuts cuts(this->Mesh, axes, this->Parts);
+  this->PartOf = this->Threads.MakeArray<unsigned char>(count);
+  this->Threads.ForEach(count,
+    [&](std::int64_t t)
+    { this->PartOf[t] = static_cast<unsigned char>(cuts.FindPart(this->Mesh, t)); });
   CopyTriangles(mesh.Triangles, triangles, this->Threads);
   this->Mesh.Triangles = triangles.Ids32 ? TriangleArray(triangles.Ids32, triangles.Count)
                                          : TriangleArray(triangles.Ids64, triangles.Count);
@@ -334,24 +330,6 @@ void MeshInParts::Examine(const FlipOptions& options)
       this->Defects.push_back(defect);
     }
   }
-}
-
-void MeshInParts::Divide()
-{
-  std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (this->Survey.Geometry == GeometryKind::Surface || axis != this->Survey.Projection.AxisW)
-    {
-      axes.push_back(axis);
-    }
-  }
-  const std::int64_t count = this->Mesh.Triangles.Count;
-  const PartCuts cuts(this->Mesh, axes, this->Parts);
-  this->PartOf = this->Threads.MakeArray<unsigned char>(count);
-  this->Threads.ForEach(count,
-    [&](std::int64_t t)
-    { this->PartOf[t] = static_cast<unsigned char>(cuts.FindPart(this->Mesh, t)); });
 }
 
 SubMesh MeshInParts::GetPart(int number) const

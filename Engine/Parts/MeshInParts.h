@@ -156,10 +156,9 @@ public:
       [&](std::int64_t point, std::int32_t number) { this->Shared[number] = has(point) ? 1 : 0; });
   }
 
-  /// Views of the arrays of this object, with the regions and frozen flags of the triangles.
-  TriangleMesh View() const;
-  /// The same without regions and frozen flags.
-  TriangleMesh ViewWithoutLabels() const;
+  /// Views of the arrays of this object.
+  /// @param withLabels with the regions and frozen flags of the triangles.
+  TriangleMesh View(bool withLabels = true) const;
 
   /// The point ids of the triangles, to be changed by flips.
   MutableTriangleArray GetTriangles()
@@ -170,9 +169,6 @@ public:
   void Store(const MutableTriangleArray& triangles) const;
 
 private:
-  void CopyPoints();
-  void CopyLabels();
-
   const TriangleMesh& Whole;
   const ThreadBackend& Engine;
   PointSet PointIds;
@@ -222,7 +218,6 @@ public:
 
 private:
   void Examine(const FlipOptions& options);
-  void Divide();
 
   TriangleMesh Mesh;
   MutableTriangleArray Triangles;

@@ -18,27 +18,13 @@ constexpr double InsertionShare = 0.25;
 /// What became of a constraint on a rank: one of these, or 1 + its Refusal. The largest of all
 /// ranks decides.
 constexpr char NotTried = 0, Done = 100;
-
-/// What the ranks have found.
-struct InsertionSums
-{
-  std::int64_t Missing = 0; ///< Constraints that were not edges.
-  std::int64_t Aborted = 0; ///< Ranks.
-
-  InsertionSums& operator+=(const InsertionSums& part)
-  {
-    this->Missing += part.Missing;
-    this->Aborted += part.Aborted;
-    return *this;
-  }
-};
 }
 
 PartConstraints::PartConstraints(const PartJob& job, PartMesh& mesh)
-  : Job(job),
-    Mesh(mesh),
-    Piece(job.Piece),
-    Seams(SurveySeams(job, job.Piece, mesh))
+  : Piece(job.Piece),
+    Seams(SurveySeams(job, job.Piece, mesh)),
+    Job(job),
+    Mesh(mesh)
 {
   const bool isPlanar = job.Survey.Geometry != GeometryKind::Surface;
   if (isPlanar && this->Seams.Counts.ToInsert + this->Seams.Counts.MissingToInsert > 0)
@@ -94,13 +80,11 @@ void PartConstraints::Run()
   ConstraintInsertion insertion;
   DoTogether(this->Job.Group, [&]() { insertion = this->Insert(mesh); });
 
-  InsertionSums sums;
-  sums.Missing = insertion.GetNumberInserted() +
+  const auto found = insertion.GetNumberInserted() +
     static_cast<std::int64_t>(insertion.GetRefused().size() + this->Seams.Missing.size());
-  sums.Aborted = this->IsAborted ? 1 : 0;
-  sums = SumOverRanks(this->Job.Group, sums);
-  this->IsAborted = sums.Aborted > 0;
-  if (sums.Missing == 0 || this->IsAborted)
+  this->IsAborted =
+    SumOverRanks(this->Job.Group, static_cast<std::int64_t>(this->IsAborted ? 1 : 0)) > 0;
+  if (SumOverRanks(this->Job.Group, found) == 0 || this->IsAborted)
   {
     // All are edges; or what other ranks have inserted is dropped.
     std::fill(this->Seams.ToInsert.begin(), this->Seams.ToInsert.end(), 0);

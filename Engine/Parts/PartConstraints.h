@@ -28,15 +28,10 @@ public:
   /// @param mesh before BeginRounds; receives the changed triangles.
   PartConstraints(const PartJob& job, PartMesh& mesh);
 
-  /// Views of the caller's arrays and of arrays of this object.
-  const MeshPiece& GetPiece() const { return this->Piece; }
-  SeamSurvey& GetSeams() { return this->Seams; }
-
-  /// Whether an observer of any rank has stopped the insertion.
-  bool HasAborted() const { return this->IsAborted; }
-
-  /// The share of the run that is done after the insertion.
-  double GetShare() const { return this->Share; }
+  MeshPiece Piece; ///< Views of the caller's arrays and of arrays of this object.
+  SeamSurvey Seams;
+  bool IsAborted = false; ///< Whether an observer of any rank has stopped the insertion.
+  double Share = 0.0; ///< Of the run that is done after the insertion.
 
   /// Adds the constraints that this rank has inserted and refused.
   void AddTo(FlipReport& report) const;
@@ -49,10 +44,6 @@ private:
 
   PartJob Job;
   PartMesh& Mesh;
-  MeshPiece Piece;
-  SeamSurvey Seams;
-  bool IsAborted = false;
-  double Share = 0.0;
   std::int64_t Inserted = 0;
   std::int64_t Flips = 0;
   std::vector<RefusedConstraint> Refused; ///< Those that this rank counts.

@@ -4,6 +4,7 @@
 
 #include "AngleSurvey.h"
 #include "CotangentAngle.h"
+#include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
 #include "PartSurvey.h"
@@ -17,55 +18,31 @@
 namespace delaunayflip
 {
 
-void MarkedEdges::Add(const PointPair& edge, unsigned char marks)
+std::vector<std::int64_t> ListFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts)
 {
-  const auto last = static_cast<std::size_t>(edge[1]);
-  if (last >= this->Ends.size())
+  std::vector<std::int64_t> ends;
+  if (counts.Fixed > counts.Boundary + counts.NonManifold)
   {
-    this->Ends.resize(std::max(last + 1, 2 * this->Ends.size()));
+    ends = FindFixedEdges(mesh, options);
   }
-  this->Ends[edge[0]] = 1;
-  this->Ends[edge[1]] = 1;
-  this->Marks[edge] |= marks;
-}
-
-unsigned char MarkedEdges::Find(const PointPair& edge) const
-{
-  const auto found = this->Marks.find(edge);
-  return found != this->Marks.end() ? found->second : 0;
-}
-
-void MarkedEdges::Apply(PartTriangles& triangles) const
-{
-  for (PartTriangle& triangle : triangles)
+  std::vector<PointPair> edges; // of all triangles, to find those of three or more
+  for (std::int64_t t = 0; t < mesh.Triangles.Count && counts.NonManifold > 0; ++t)
   {
     for (int slot = 0; slot < 3; ++slot)
     {
-      triangle.SetMarks(slot, this->Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
-    }
-  }
-}
-
-std::vector<PointPair> FindCrowdedEdges(const TriangleArray& triangles)
-{
-  std::vector<PointPair> edges;
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      edges.push_back(MakePair(triangles.Get(t, (slot + 1) % 3), triangles.Get(t, (slot + 2) % 3)));
+      edges.push_back(MakePair(mesh.Triangles.Get(t, slot), mesh.Triangles.Get(t, (slot + 1) % 3)));
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<PointPair> crowded;
   for (std::size_t i = 2; i < edges.size(); ++i)
   {
     if (edges[i] == edges[i - 2])
     {
-      crowded.push_back(edges[i]);
+      ends.insert(ends.end(), edges[i].begin(), edges[i].end());
     }
   }
-  return crowded;
+  return ends;
 }
 
 //------------------------------------------------------------------------------
@@ -175,13 +152,12 @@ void PartMesh::ListAll()
 
 void PartMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
 {
-  if (this->IsListed(t))
+  for (int slot = 0; slot < 3; ++slot)
   {
-    std::copy_n(this->Triangles[t].Points, 3, points);
-  }
-  else
-  {
-    this->GetFirstPoints(t, points);
+    points[slot] = this->IsListed(t) ? this->Triangles[t].Points[slot]
+      : this->Made.Records
+      ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
+      : static_cast<std::int32_t>(this->Caller.Get(t, slot));
   }
 }
 
@@ -211,22 +187,11 @@ double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
   return ToDegrees(largest.Value);
 }
 
-/// Those that it had before it was listed.
-void PartMesh::GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const
-{
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    points[slot] = this->Made.Records
-      ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
-      : static_cast<std::int32_t>(this->Caller.Get(t, slot));
-  }
-}
-
 void PartMesh::MakeTriangle(std::int64_t t)
 {
   PartTriangle& triangle = this->Triangles[t];
   triangle = PartTriangle{};
-  this->GetFirstPoints(t, triangle.Points);
+  this->GetPoints(t, triangle.Points);
   if (this->Made.Records)
   {
     this->TakeRecord(t);
@@ -247,10 +212,10 @@ void PartMesh::MakeTriangle(std::int64_t t)
 void PartMesh::TakeRecord(std::int64_t t)
 {
   const TriangleRecord& record = this->Made.Records[t];
-  const Past past = this->GetPast(record.InputTriangle);
   PartTriangle& triangle = this->Triangles[t];
-  triangle.Origin = past.Origin;
-  triangle.Flips = static_cast<std::int32_t>(past.Flips + record.Flips / OneFlip);
+  triangle.Origin = this->FirstOrigin + record.InputTriangle;
+  triangle.Flips = static_cast<std::int32_t>(record.Flips / OneFlip) +
+    (this->PastFlips.empty() ? 0 : this->PastFlips[record.InputTriangle]);
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.SetMarks(slot, this->Marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
@@ -261,21 +226,11 @@ void PartMesh::TakeRecord(std::int64_t t)
   }
 }
 
-/// Of all triangles, before an engine's take their places.
-void PartMesh::KeepPast()
-{
-  this->Pasts.reserve(this->Triangles.size());
-  for (const PartTriangle& triangle : this->Triangles)
-  {
-    this->Pasts.push_back({ triangle.Origin, triangle.Flips });
-  }
-}
-
 void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
 {
-  if (this->AreAllListed())
+  for (std::size_t t = 0; t < this->Triangles.size() && this->AreAllListed(); ++t)
   {
-    this->KeepPast();
+    this->PastFlips.push_back(this->Triangles[t].Flips);
   }
   std::fill(this->Listed.begin(), this->Listed.end(), 0);
   this->NumberListed = 0;
@@ -287,7 +242,7 @@ void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
     [&](CornerId corner)
     {
       std::int32_t points[3];
-      this->GetFirstPoints(TriangleOf(corner), points);
+      this->GetPoints(TriangleOf(corner), points);
       const int slot = SlotOf(corner);
       if (this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0)
       {
@@ -304,13 +259,16 @@ void PartMesh::TakeTriangles(
   {
     std::copy_n(ids + 3 * t, 3, this->Triangles[t].Points);
     this->Triangles[t].Flips += flips[t];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      PartTriangle& triangle = this->Triangles[t];
+      triangle.SetMarks(slot, marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
+    }
   }
-  marks.Apply(this->Triangles);
 }
 
-void PartMesh::BeginRounds(bool listsChanged)
+void PartMesh::BeginRounds()
 {
-  this->ListsChanged = listsChanged;
   const std::size_t count = this->Triangles.size();
   this->Mates.reserve(3 * this->Triangles.capacity());
   this->Mates.resize(3 * count, Unknown);
@@ -330,14 +288,6 @@ void PartMesh::BeginRounds(bool listsChanged)
     {
       this->NoteSeams(static_cast<std::int64_t>(t));
     }
-  }
-}
-
-void PartMesh::NoteChange(std::int64_t t)
-{
-  if (this->ListsChanged)
-  {
-    this->Changed.push_back(t);
   }
 }
 
@@ -397,7 +347,6 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
   {
     ++this->Triangles[changed].Flips;
     this->NoteSeams(changed);
-    this->NoteChange(changed);
   }
 }
 
@@ -518,40 +467,29 @@ bool PartMesh::HasEdge(const PointPair& ends) const
 }
 
 //------------------------------------------------------------------------------
-TravellingTriangle PartMesh::Pack(const PartTriangle& triangle) const
-{
-  TravellingTriangle packed{};
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    packed.Keys[slot] = this->GetKey(triangle.Points[slot]);
-    this->GetPosition(triangle.Points[slot], packed.Coordinates[slot]);
-  }
-  packed.Origin = triangle.Origin;
-  packed.Flips = triangle.Flips;
-  packed.Marks = triangle.Marks;
-  return packed;
-}
-
 std::vector<TravellingTriangle> PartMesh::Release(const std::vector<std::int64_t>& triangles)
 {
   std::vector<TravellingTriangle> packed;
   for (const std::int64_t t : triangles)
   {
-    packed.push_back(this->Pack(this->Triangles[t]));
+    PartTriangle& triangle = this->Triangles[t];
+    TravellingTriangle& to = packed.emplace_back();
     for (int slot = 0; slot < 3; ++slot)
     {
-      if (this->Triangles[t].Has(SeamMark, slot))
+      const std::int32_t point = triangle.Points[slot];
+      to.Keys[slot] = this->GetKey(point);
+      this->GetPosition(point, to.Coordinates[slot]);
+      if (triangle.Has(SeamMark, slot))
       {
-        this->LostSeams.push_back(this->GetKeys(this->Triangles[t].GetEdge(slot)));
+        this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(slot)));
       }
-    }
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::int32_t point = this->Triangles[t].Points[slot];
       this->Stars.Remove({ t, slot }, point);
       this->SharePoint(point);
     }
-    this->Triangles[t].HasLeft = true;
+    to.Origin = triangle.Origin;
+    to.Flips = triangle.Flips;
+    to.Marks = triangle.Marks;
+    triangle.HasLeft = true;
   }
   return packed;
 }
@@ -580,7 +518,6 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
   this->NoteSeams(t);
-  this->NoteChange(t);
   return t;
 }
 
@@ -590,10 +527,6 @@ void PartMesh::SharePoint(std::int32_t point)
   {
     this->Shared[point] = 1;
     this->SharedPoints.push_back(point);
-    if (this->ListsChanged)
-    {
-      this->ForEachAt(point, [&](const PartCorner& corner) { this->NoteChange(corner.Triangle); });
-    }
   }
 }
 

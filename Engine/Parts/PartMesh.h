@@ -4,12 +4,15 @@
 #define DELAUNAYFLIP_PARTMESH_H
 
 #include "EngineTriangles.h"
+#include "FlipOptions.h"
+#include "FlipReport.h"
 #include "HostVector.h"
 #include "PieceFlip.h"
 #include "PointMatch.h"
 #include "Records.h"
 #include "TriangleMesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -108,34 +111,42 @@ struct PartCorner
   int Slot;
 };
 
-/// The marks (EdgeMark, of slot 0) of the edges of a piece, by the ends of the edges. So the marks
-/// can be applied again after flips have changed the triangles.
+/// The marks (EdgeMark, of slot 0) of the edges of a part, by the ends of the edges.
 class MarkedEdges
 {
 public:
-  void Add(const PointPair& edge, unsigned char marks);
+  void Add(const PointPair& edge, unsigned char marks)
+  {
+    const auto last = static_cast<std::size_t>(edge[1]);
+    if (last >= this->Ends.size())
+    {
+      this->Ends.resize(std::max(last + 1, 2 * this->Ends.size()));
+    }
+    this->Ends[edge[0]] = this->Ends[edge[1]] = 1;
+    this->Marks[edge] |= marks;
+  }
   /// The marks of the edge between two points; 0 if it has none.
   unsigned char Get(std::int32_t a, std::int32_t b) const
   {
-    return this->IsEnd(a) && this->IsEnd(b) ? this->Find(MakePair(a, b)) : 0;
+    const auto found =
+      this->IsEnd(a) && this->IsEnd(b) ? this->Marks.find(MakePair(a, b)) : this->Marks.end();
+    return found != this->Marks.end() ? found->second : 0;
   }
-
-  /// Marks the edges of all triangles. All earlier marks are lost.
-  void Apply(PartTriangles& triangles) const;
 
 private:
   bool IsEnd(std::int32_t point) const
   {
     return static_cast<std::size_t>(point) < this->Ends.size() && this->Ends[point] != 0;
   }
-  unsigned char Find(const PointPair& edge) const;
 
   PairMap<unsigned char> Marks;
   std::vector<unsigned char> Ends; ///< One flag per point: whether it is an end of a marked edge.
 };
 
-/// The edges that three or more triangles share, in the order of the triangles.
-std::vector<PointPair> FindCrowdedEdges(const TriangleArray& triangles);
+/// The edges of a mesh that stay, but boundary edges: two ids for each.
+/// @param counts of its edges.
+std::vector<std::int64_t> ListFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts);
 
 /// The star of every point of a rank: the corners of triangles at the point. The stars are linked
 /// lists that are kept up to date, so a round takes no time for triangles that it does not change.
@@ -256,13 +267,9 @@ public:
   void TakeTriangles(const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks);
   /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
   /// without a pass over all. From now on only the functions below may change triangles.
-  /// @param listsChanged whether TakeChanged will be called; then all triangles must be listed.
-  void BeginRounds(bool listsChanged);
+  void BeginRounds();
   /// Flips the edge opposite to two corners.
   void Flip(const PartCorner& one, const PartCorner& other);
-  /// The triangles that have changed or arrived since the last call, and those at points that have
-  /// become shared. A triangle may be repeated.
-  std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
   /// Marks the edge opposite to a corner as a seam edge.
   void SetSeam(const PartCorner& corner);
   /// Removes this mark: both triangles of the edge are on this rank.
@@ -337,26 +344,11 @@ public:
   }
 
 private:
-  /// What is known of a triangle besides its points.
-  struct Past
-  {
-    std::int64_t Origin;
-    std::int64_t Flips;
-  };
-
-  void GetFirstPoints(std::int64_t t, std::int32_t (&points)[3]) const;
   void MakeTriangle(std::int64_t t);
   void TakeRecord(std::int64_t t);
-  void KeepPast();
   void ListBeside(std::int64_t t);
-  Past GetPast(std::int64_t t) const
-  {
-    return this->Pasts.empty() ? Past{ this->FirstOrigin + t, 0 } : this->Pasts[t];
-  }
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
-  TravellingTriangle Pack(const PartTriangle& triangle) const;
   void SharePoint(std::int32_t point);
-  void NoteChange(std::int64_t triangle);
   void NoteSeams(std::int64_t triangle);
 
   static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
@@ -370,7 +362,7 @@ private:
   TriangleArray Caller;
   HostTriangles Made;
   std::int64_t FirstOrigin;
-  HostVector<Past> Pasts; ///< Of the input of the first flips; empty if that was the caller's.
+  std::vector<std::int32_t> PastFlips; ///< Before the first flips; empty if there were none.
   MarkedEdges Marks;
   std::vector<unsigned char> Listed; ///< One flag per triangle.
   std::size_t NumberListed = 0;
@@ -379,8 +371,6 @@ private:
   PointStars Stars; ///< Of the listed triangles.
   /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
   RawVector<std::uint32_t> Mates;
-  bool ListsChanged = false;
-  std::vector<std::int64_t> Changed;
   std::vector<std::int64_t> MayHaveSeams; ///< Triangles for TakeNewSeams (PartTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
   std::vector<unsigned char> Shared;

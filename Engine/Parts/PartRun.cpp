@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "FlipError.h"
 #include "HostVector.h"
 #include "JoinReports.h"
 #include "MeshAudit.h"
@@ -15,12 +14,9 @@
 #include "StopWatch.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <string>
 #include <utility>
 
 /// @file
@@ -56,19 +52,19 @@ std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& gr
   return firsts;
 }
 
-/// How many ranks have stopped, and why.
-struct StopCounts
+/// What a rank says after its flips, or all ranks together.
+struct RankState
 {
-  std::int64_t Iterations = 0; ///< Since the last count; the most that a rank has made.
-  std::int64_t Aborted = 0, Limited = 0;
-  std::int64_t Uncounted = 0; ///< Stopped before the edges were counted.
+  bool IsAborted = false, IsLimited = false;
+  bool IsUncounted = false; ///< Stopped before the edges were counted.
+  std::int64_t Iterations = 0; ///< Since the last time; the most that a rank has made.
 
-  StopCounts& operator+=(const StopCounts& part)
+  RankState& operator+=(const RankState& other)
   {
-    this->Iterations = std::max(this->Iterations, part.Iterations);
-    this->Aborted += part.Aborted;
-    this->Limited += part.Limited;
-    this->Uncounted += part.Uncounted;
+    this->IsAborted |= other.IsAborted;
+    this->IsLimited |= other.IsLimited;
+    this->IsUncounted |= other.IsUncounted;
+    this->Iterations = std::max(this->Iterations, other.Iterations);
     return *this;
   }
 };
@@ -103,7 +99,7 @@ public:
       Mesh(job.Piece, std::move(keys), job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
       Judge(job.Survey, job.Options),
       Constraints(Job, Mesh),
-      Seams(std::move(Constraints.GetSeams()))
+      Seams(std::move(Constraints.Seams))
   {
     this->Whole.SeamEdges = this->Seams.Counts.Seams;
     this->Whole.AmbiguousPoints = this->Mesh.GetWholeKeys().Ambiguous;
@@ -121,19 +117,233 @@ public:
     return this->MakeReport();
   }
 
-  void Store(FlippedPiece& flipped) const;
+  void Store(FlippedPiece& flipped) const
+  {
+    const PartTriangles& triangles = this->Mesh.Triangles;
+    const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
+    const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
+    flipped.Clear();
+    flipped.AreFloats = this->Job.Survey.IsFloat;
+    // With room for the triangles that have come: to append them would else copy the whole arrays.
+    flipped.Triangles.reserve(3 * triangles.size());
+    flipped.FlipCounts.reserve(triangles.size());
+    flipped.Triangles.resize(3 * count);
+    flipped.FlipCounts.resize(count);
+    if (this->First)
+    {
+      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
+      this->First->StoreFlipCounts(flipped.FlipCounts.data());
+    }
+
+    // Where the rank's own triangles are now. One that has left may have come back.
+    constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
+    HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
+    std::vector<std::int64_t> listed = this->Mesh.FindListed();
+    std::vector<std::int64_t> others;
+    for (const std::int64_t t : listed)
+    {
+      const std::int64_t slot = triangles[t].Origin - first;
+      const bool isOwn = slot >= 0 && slot < count;
+      if (isOwn && !triangles[t].HasLeft)
+      {
+        places[slot] = static_cast<std::uint32_t>(t);
+      }
+      else if (isOwn)
+      {
+        places[slot] = places[slot] == Unlisted ? Gone : places[slot];
+      }
+      else if (!triangles[t].HasLeft)
+      {
+        others.push_back(t);
+      }
+    }
+    for (std::int64_t slot = 0; slot < count; ++slot)
+    {
+      if (places[slot] == Gone)
+      {
+        flipped.GoneTriangles.push_back(slot);
+      }
+    }
+    if (!this->First)
+    {
+      listed.assign(places.begin(), places.end()); // in the order of slots, which is fast
+    }
+
+    // Overwrites the slots of listed triangles, closes those of gone ones, and adds those of
+    // others.
+    std::vector<std::int32_t> idOfReceived(
+      this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
+    const auto storePoint = [&](std::int32_t point)
+    {
+      const auto firstReceived = static_cast<std::int32_t>(this->Mesh.GetFirstReceived());
+      if (point < firstReceived)
+      {
+        return point;
+      }
+      std::int32_t& id = idOfReceived[point - firstReceived];
+      if (id < 0)
+      {
+        id = firstReceived + static_cast<std::int32_t>(flipped.ReceivedPoints.size());
+        double x[3];
+        this->Mesh.GetPosition(point, x);
+        flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
+        flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
+      }
+      return id;
+    };
+    for (std::size_t i = 0; i < listed.size(); ++i)
+    {
+      constexpr std::size_t PrefetchDistance = 16;
+      const std::int64_t later = listed[std::min(i + PrefetchDistance, listed.size() - 1)];
+      if (later < Gone)
+      {
+        Prefetch(&triangles[later]);
+      }
+      const std::int64_t t = listed[i];
+      const std::int64_t slot = t < Gone ? triangles[t].Origin - first : -1;
+      if (slot >= 0 && slot < count && !triangles[t].HasLeft)
+      {
+        flipped.FlipCounts[slot] = triangles[t].Flips;
+        std::transform(triangles[t].Points, triangles[t].Points + 3,
+          flipped.Triangles.begin() + 3 * slot, storePoint);
+      }
+    }
+    RemoveItems(flipped.GoneTriangles, 3, flipped.Triangles);
+    RemoveItems(flipped.GoneTriangles, 1, flipped.FlipCounts);
+    std::sort(others.begin(), others.end(),
+      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
+    for (const std::int64_t t : others)
+    {
+      const auto after =
+        std::upper_bound(this->FirstOrigins.begin(), this->FirstOrigins.end(), triangles[t].Origin);
+      const auto rank = static_cast<std::int32_t>(after - this->FirstOrigins.begin() - 1);
+      flipped.ReceivedTriangles.push_back({ rank, triangles[t].Origin - this->FirstOrigins[rank] });
+      flipped.FlipCounts.push_back(triangles[t].Flips);
+      std::transform(triangles[t].Points, triangles[t].Points + 3,
+        std::back_inserter(flipped.Triangles), storePoint);
+    }
+  }
 
 private:
   /// Calls the observer of this rank. @returns whether to go on.
   bool Tell(double share) const
   {
-    return !this->Constraints.HasAborted() && (!this->Job.Progress || this->Job.Progress(share));
+    return !this->Constraints.IsAborted && (!this->Job.Progress || this->Job.Progress(share));
   }
 
-  void FlipFirst();
-  void TakeFirst(const TriangleMesh& mesh);
-  MarkedEdges MarkEdges(const TriangleMesh& mesh);
-  bool MayGoOn();
+  //------------------------------------------------------------------------------
+  /// Flips the part by itself, with the constraints that other ranks know of.
+  void FlipFirst()
+  {
+    for (const PointPair& edge : this->Seams.EdgesToFix)
+    {
+      this->Seams.Constraints.insert(this->Seams.Constraints.end(), { edge[0], edge[1] });
+      this->Seams.ToInsert.push_back(0);
+    }
+    TriangleMesh mesh = this->Constraints.Piece.Mesh;
+    mesh.ConstraintEdges = this->Seams.Constraints.data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
+    mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
+    mesh.Whole = this->Job.Survey.Whole;
+    mesh.Whole.SharedPoints =
+      this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
+    FlipOptions options = this->Job.Options;
+    options.Geometry = this->Job.Survey.Geometry;
+    const double begin = this->Constraints.Share;
+    const ProgressObserver progress = [=](double share)
+    { return this->Tell(begin + (FirstShare - begin) * share); };
+    this->First = std::make_unique<FlipSession>(mesh, options, progress);
+    if (this->First->GetReport().StopReason != StopReasonKind::Aborted)
+    {
+      this->First->Advance(-1, {}, progress);
+    }
+    this->Own = this->First->GetReport();
+    this->Constraints.AddTo(this->Own);
+    std::for_each(this->Own.Iterations.begin(), this->Own.Iterations.end(),
+      [this](const IterationRecord& row) { this->KeepRow(row); });
+    this->HasBlocked = this->Own.NonDelaunayAfter > 0;
+    this->StopReason = this->Constraints.IsAborted ? StopReasonKind::Aborted : this->Own.StopReason;
+    this->TakeFirst(mesh);
+  }
+
+  /// Takes the triangles of the first flips.
+  /// @param mesh what they started from.
+  void TakeFirst(const TriangleMesh& mesh)
+  {
+    const bool haveChanged = this->Mesh.AreAllListed(); // by constraints
+    MarkedEdges marks = this->MarkEdges(mesh);
+    const HostTriangles made = this->First->ViewHostTriangles();
+    if (made.Records)
+    {
+      this->Mesh.TakeTriangles(made, std::move(marks));
+    }
+    else
+    {
+      const std::size_t count = this->Mesh.Triangles.size();
+      RawVector<std::int32_t> ids(3 * count);
+      RawVector<std::int32_t> flips(count);
+      this->First->StoreTriangles(
+        MutableTriangleArray(ids.data(), static_cast<std::int64_t>(count)));
+      this->First->StoreFlipCounts(flips.data());
+      this->Mesh.TakeTriangles(ids.data(), flips.data(), marks);
+    }
+    if (haveChanged || this->Job.Survey.NeedsGuard())
+    {
+      this->Mesh.ListAll();
+    }
+    if (this->Mesh.AreAllListed())
+    {
+      this->First.reset();
+    }
+    if (this->Job.Group.GetSize() > 1)
+    {
+      this->Mesh.BeginRounds();
+    }
+  }
+
+  /// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
+  /// have others on other ranks.
+  MarkedEdges MarkEdges(const TriangleMesh& mesh)
+  {
+    MarkedEdges edges;
+    for (const MarkedCorner& mark : this->Seams.Marks)
+    {
+      edges.Add(this->Mesh.GetEdge(mark.Triangle, mark.Slot), mark.Mark);
+    }
+    FlipOptions options = this->Job.Options;
+    options.Geometry = this->Job.Survey.Geometry;
+    const std::vector<std::int64_t> fixed = ListFixedEdges(mesh, options, this->Own.Edges);
+    for (std::size_t i = 0; i < fixed.size(); i += 2)
+    {
+      edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
+    }
+    return edges;
+  }
+
+  //------------------------------------------------------------------------------
+  /// Whether no rank has stopped.
+  bool MayGoOn()
+  {
+    RankState state;
+    state.IsAborted = this->StopReason == StopReasonKind::Aborted;
+    state.IsLimited = this->StopReason == StopReasonKind::IterationLimit;
+    state.IsUncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0;
+    state.Iterations = static_cast<std::int64_t>(this->Rows.size() - this->EarlierRows);
+    this->EarlierRows = this->Rows.size();
+    state = SumOverRanks(this->Job.Group, state);
+    this->Iterations += state.Iterations;
+    this->IsCounted = !state.IsUncounted;
+    if (state.IsAborted)
+    {
+      this->WholeStopReason = StopReasonKind::Aborted;
+    }
+    else if (state.IsLimited || (this->Job.Survey.NeedsGuard() && this->Whole.Rounds > MostRounds))
+    {
+      this->WholeStopReason = StopReasonKind::IterationLimit;
+    }
+    return this->WholeStopReason == StopReasonKind::Converged;
+  }
+
   /// Whether all ranks together have made as many iterations as they may. What they do in a round
   /// at the same time is one iteration.
   bool IsAtLimit() const
@@ -141,19 +351,203 @@ private:
     const std::int64_t most = this->Job.Options.MaximumIterations;
     return most >= 0 && this->Iterations >= most;
   }
-  bool MakeRound();
-  void Flip(RoundFlips& flips);
-  void KeepRow(const IterationRecord& row);
-  void CountRest();
-  void CountBad();
-  PiecesReport MakeReport();
+
+  /// Tests the edges between ranks and flips around those that are bad. @returns whether there were
+  /// any.
+  bool MakeRound()
+  {
+    ++this->Whole.Rounds;
+    PieceGroup& group = this->Job.Group;
+    const bool needsGuard = this->Job.Survey.NeedsGuard();
+    const bool mayGoOn = this->MayGoOn();
+    SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
+    this->BadSeams = test.BadOfAll + test.BlockedOfAll;
+    this->FoldedSeams = test.BlockedOfAll;
+    GuardRound waiting;
+    waiting.FreeOfAll = test.BadOfAll;
+    if (needsGuard && mayGoOn)
+    {
+      waiting = FlipWaiting(this->Mesh, this->Judge, test, group, !this->IsAtLimit());
+      if (!waiting.Gone.empty()) // all at once
+      {
+        IterationRecord row;
+        row.Tested = row.NonDelaunay = row.Flipped = static_cast<std::int64_t>(waiting.Gone.size());
+        this->KeepRow(row);
+      }
+    }
+    if (!mayGoOn || waiting.FreeOfAll == 0)
+    {
+      return false;
+    }
+    if (this->IsAtLimit())
+    {
+      this->WholeStopReason = StopReasonKind::IterationLimit;
+      return false;
+    }
+    std::int64_t moved = 0;
+    // With a guard the two ranks of a seam may try different edges, and so find different halves.
+    const MoveRule rule{ this->Whole.Rounds % 2 != 0, !needsGuard };
+    const std::vector<std::int64_t> toJudge =
+      MoveTriangles(this->Mesh, test.Bad, rule, group, moved);
+    this->Whole.MovedTriangles += moved;
+    DoTogether(group,
+      [&]()
+      {
+        // The edges of triangles that have come or lie at bad seam edges, or that have waited;
+        // then, as far as flips reach, those further away.
+        RoundFlips flips(this->Mesh, this->Judge, needsGuard);
+        const auto add = [&](std::int64_t t) { flips.Add(t); };
+        std::for_each(toJudge.begin(), toJudge.end(), add);
+        std::for_each(waiting.Changed.begin(), waiting.Changed.end(), add);
+        std::for_each(waiting.Gone.begin(), waiting.Gone.end(),
+          [&](const PointPair& edge) { flips.AddFreed(edge); });
+        this->Flip(flips);
+      });
+    return true;
+  }
+
+  void Flip(RoundFlips& flips)
+  {
+    const StopWatch watch;
+    const double rounds = static_cast<double>(this->Whole.Rounds);
+    const auto made = static_cast<std::int64_t>(this->Rows.size());
+    const std::int64_t limit = this->Job.Options.MaximumIterations >= 0
+      ? static_cast<std::int64_t>(this->EarlierRows) + this->Job.Options.MaximumIterations -
+        this->Iterations
+      : made + static_cast<std::int64_t>(this->Mesh.Triangles.size()) + SafetyMargin;
+    while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
+    {
+      if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
+      {
+        this->StopReason = StopReasonKind::Aborted;
+      }
+      else if (static_cast<std::int64_t>(this->Rows.size()) >= limit)
+      {
+        this->StopReason = flips.HasBad() ? StopReasonKind::IterationLimit : this->StopReason;
+        break;
+      }
+      else
+      {
+        const IterationRecord row = flips.Iterate();
+        this->HasBlocked = this->HasBlocked || row.Blocked > 0;
+        if (row.Flipped > 0) // else it has found that nothing is left to do
+        {
+          this->KeepRow(row);
+        }
+      }
+    }
+    this->Own.FlipSeconds += watch.GetSeconds();
+  }
+
+  /// The smallest angle of a row is not that of the whole mesh.
+  void KeepRow(const IterationRecord& row)
+  {
+    const bool isNext = !this->Rows.empty() && this->Rows.back().Round == this->Whole.Rounds;
+    this->Rows.push_back({ this->Whole.Rounds, isNext ? this->Rows.back().Place + 1 : 0, row });
+    this->Rows.back().Record.MinimumAngle = NaN;
+  }
+
+  //------------------------------------------------------------------------------
+  /// The edges that are left, and the smallest angle, on this rank.
+  void CountRest()
+  {
+    if (this->Whole.Rounds == 1 && this->Own.Edges.Edges > 0)
+    {
+      return; // the first flips were the last
+    }
+    this->Own.MinimumAngleAfter =
+      this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
+    this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
+    if (this->HasBlocked)
+    {
+      this->CountBad();
+    }
+  }
+
+  /// The bad edges that are left on this rank.
+  void CountBad()
+  {
+    this->Mesh.ListAll();
+    PointList points{ this->Job.Survey.IsFloat, {}, {} };
+    for (std::int64_t i = 0; i < this->Mesh.GetNumberOfPoints(); ++i)
+    {
+      double x[3];
+      this->Mesh.GetPosition(i, x);
+      points.Add(x);
+    }
+    std::vector<std::int32_t> ids;
+    std::vector<std::int64_t> fixed;
+    for (const PartTriangle& triangle : this->Mesh.Triangles)
+    {
+      for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
+      {
+        ids.push_back(triangle.Points[slot]);
+        if (triangle.Has(FixedMark, slot))
+        {
+          fixed.insert(fixed.end(), { triangle.GetStart(slot), triangle.GetEnd(slot) });
+        }
+      }
+    }
+    TriangleMesh mesh;
+    mesh.Points = points.View();
+    mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
+    mesh.ConstraintEdges = fixed.data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(fixed.size()) / 2;
+    mesh.Whole = this->Job.Survey.Whole;
+    mesh.Whole.SharedPoints =
+      this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
+    FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
+    none.MaximumIterations = 0;
+    const FlipSession session(mesh, none);
+    const FlipReport& report = session.GetReport();
+    this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
+    this->Own.BlockedByShape = report.BlockedByShape;
+    this->Own.BlockedByEdge = report.BlockedByEdge;
+  }
+
+  PiecesReport MakeReport()
+  {
+    const SeamCounts& seams = this->Seams.Counts;
+    const PointKeys& keys = this->Mesh.GetWholeKeys();
+    PiecesReport report = this->Whole;
+    static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
+    report.Points = keys.FirstKeys.back() - keys.Repeated;
+    AddCounts(report.Edges, seams.Edges, 1);
+    report.EulerCharacteristic = keys.UsedPoints - report.Edges.Edges + report.Triangles;
+    if (!this->IsCounted)
+    {
+      report.Edges = EdgeCounts();
+      report.EulerCharacteristic = 0;
+    }
+    report.UnmatchedConstraints += seams.MissingConstraints;
+    report.NonDelaunayBefore += seams.NonDelaunay;
+    report.NonDelaunayAfter += this->BadSeams;
+    report.BlockedByShape += this->FoldedSeams;
+    const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
+    report.BlockedByEdge += areBlocked ? this->BadSeams - this->FoldedSeams : 0;
+    report.GeometryUsed = this->Job.Survey.Geometry;
+    report.GeometryReason = this->Job.Survey.GeometryReason;
+    report.StopReason = this->WholeStopReason;
+    if (!report.Iterations.empty())
+    {
+      report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+    }
+    const Defect onSurface{ Describe(Refusal::OnSurface), seams.MissingToInsert, {},
+      DefectIds::PointPairs };
+    const Defect missing{ "constraint edges that are not edges of the mesh",
+      seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };
+    for (const Defect& defect : { this->Job.Survey.NearlyHeightField, onSurface, missing })
+    {
+      AddDefect(defect, report.Defects);
+    }
+    return report;
+  }
 
   PartJob Job;
   std::vector<std::int64_t> FirstOrigins;
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
-  WaitingEdges Waiting;
   PartConstraints Constraints;
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 
@@ -176,479 +570,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/// Flips the part by itself, with the constraints that other ranks know of.
-void PartRun::FlipFirst()
-{
-  for (const PointPair& edge : this->Seams.EdgesToFix)
-  {
-    this->Seams.Constraints.insert(this->Seams.Constraints.end(), { edge[0], edge[1] });
-    this->Seams.ToInsert.push_back(0);
-  }
-  TriangleMesh mesh = this->Constraints.GetPiece().Mesh;
-  mesh.ConstraintEdges = this->Seams.Constraints.data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
-  mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
-  mesh.Whole = this->Job.Survey.Whole;
-  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
-  FlipOptions options = this->Job.Options;
-  options.Geometry = this->Job.Survey.Geometry;
-  const double begin = this->Constraints.GetShare();
-  const ProgressObserver progress = [=](double share)
-  { return this->Tell(begin + (FirstShare - begin) * share); };
-  this->First = std::make_unique<FlipSession>(mesh, options, progress);
-  if (this->First->GetReport().StopReason != StopReasonKind::Aborted)
-  {
-    this->First->Advance(-1, {}, progress);
-  }
-  this->Own = this->First->GetReport();
-  this->Constraints.AddTo(this->Own);
-  std::for_each(this->Own.Iterations.begin(), this->Own.Iterations.end(),
-    [this](const IterationRecord& row) { this->KeepRow(row); });
-  this->HasBlocked = this->Own.NonDelaunayAfter > 0;
-  this->StopReason =
-    this->Constraints.HasAborted() ? StopReasonKind::Aborted : this->Own.StopReason;
-  this->TakeFirst(mesh);
-}
-
-/// Takes the triangles of the first flips.
-/// @param mesh what they started from.
-void PartRun::TakeFirst(const TriangleMesh& mesh)
-{
-  const bool haveChanged = this->Mesh.AreAllListed(); // by constraints
-  MarkedEdges marks = this->MarkEdges(mesh);
-  const HostTriangles made = this->First->ViewHostTriangles();
-  if (made.Records)
-  {
-    this->Mesh.TakeTriangles(made, std::move(marks));
-  }
-  else
-  {
-    const std::size_t count = this->Mesh.Triangles.size();
-    RawVector<std::int32_t> ids(3 * count);
-    RawVector<std::int32_t> flips(count);
-    this->First->StoreTriangles(MutableTriangleArray(ids.data(), static_cast<std::int64_t>(count)));
-    this->First->StoreFlipCounts(flips.data());
-    this->Mesh.TakeTriangles(ids.data(), flips.data(), marks);
-  }
-  if (haveChanged || this->Job.Survey.NeedsGuard())
-  {
-    this->Mesh.ListAll();
-  }
-  if (this->Mesh.AreAllListed())
-  {
-    this->First.reset();
-  }
-  if (this->Job.Group.GetSize() > 1)
-  {
-    this->Mesh.BeginRounds(this->Job.Survey.NeedsGuard());
-  }
-}
-
-/// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
-/// have others on other ranks.
-MarkedEdges PartRun::MarkEdges(const TriangleMesh& mesh)
-{
-  MarkedEdges edges;
-  for (const MarkedCorner& mark : this->Seams.Marks)
-  {
-    edges.Add(this->Mesh.GetEdge(mark.Triangle, mark.Slot), mark.Mark);
-  }
-  const EdgeCounts& counts = this->Own.Edges;
-  if (counts.Fixed > counts.Boundary + counts.NonManifold)
-  {
-    FlipOptions options = this->Job.Options;
-    options.Geometry = this->Job.Survey.Geometry;
-    const std::vector<std::int64_t> fixed = FindFixedEdges(mesh, options);
-    for (std::size_t i = 0; i < fixed.size(); i += 2)
-    {
-      edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
-    }
-  }
-  if (counts.NonManifold > 0)
-  {
-    for (const PointPair& edge : FindCrowdedEdges(mesh.Triangles))
-    {
-      edges.Add(edge, FixedMark);
-    }
-  }
-  return edges;
-}
-
-//------------------------------------------------------------------------------
-/// Whether no rank has stopped.
-bool PartRun::MayGoOn()
-{
-  StopCounts counts;
-  counts.Iterations = static_cast<std::int64_t>(this->Rows.size() - this->EarlierRows);
-  this->EarlierRows = this->Rows.size();
-  counts.Aborted = this->StopReason == StopReasonKind::Aborted ? 1 : 0;
-  counts.Limited = this->StopReason == StopReasonKind::IterationLimit ? 1 : 0;
-  counts.Uncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0 ? 1 : 0;
-  counts = SumOverRanks(this->Job.Group, counts);
-  this->Iterations += counts.Iterations;
-  this->IsCounted = counts.Uncounted == 0;
-  if (counts.Aborted > 0)
-  {
-    this->WholeStopReason = StopReasonKind::Aborted;
-  }
-  else if (counts.Limited > 0 || (this->Job.Survey.NeedsGuard() && this->Whole.Rounds > MostRounds))
-  {
-    this->WholeStopReason = StopReasonKind::IterationLimit;
-  }
-  return this->WholeStopReason == StopReasonKind::Converged;
-}
-
-/// Tests the edges between ranks and flips around those that are bad. @returns whether there were
-/// any.
-bool PartRun::MakeRound()
-{
-  ++this->Whole.Rounds;
-  PieceGroup& group = this->Job.Group;
-  const bool needsGuard = this->Job.Survey.NeedsGuard();
-  const bool mayGoOn = this->MayGoOn();
-  SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
-  this->BadSeams = test.BadOfAll + test.BlockedOfAll;
-  this->FoldedSeams = test.BlockedOfAll;
-  GuardRound waiting;
-  waiting.FreeOfAll = test.BadOfAll;
-  if (needsGuard && mayGoOn)
-  {
-    waiting = this->Waiting.Flip(this->Mesh, this->Judge, test, group, !this->IsAtLimit());
-    if (waiting.Flipped > 0) // all at once
-    {
-      IterationRecord row;
-      row.Tested = row.NonDelaunay = row.Flipped = waiting.Flipped;
-      this->KeepRow(row);
-    }
-  }
-  if (!mayGoOn || waiting.FreeOfAll == 0)
-  {
-    return false;
-  }
-  if (this->IsAtLimit())
-  {
-    this->WholeStopReason = StopReasonKind::IterationLimit;
-    return false;
-  }
-  std::int64_t moved = 0;
-  // With a guard the two ranks of a seam may try different edges, and so find different halves.
-  const MoveRule rule{ this->Whole.Rounds % 2 != 0, !needsGuard };
-  const std::vector<std::int64_t> toJudge = MoveTriangles(this->Mesh, test.Bad, rule, group, moved);
-  this->Whole.MovedTriangles += moved;
-  DoTogether(group,
-    [&]()
-    {
-      // The edges of triangles that have come or lie at bad seam edges, or that have waited; then,
-      // as far as flips reach, those further away.
-      RoundFlips flips(this->Mesh, this->Judge, needsGuard);
-      const auto add = [&](std::int64_t t) { flips.Add(t); };
-      std::for_each(toJudge.begin(), toJudge.end(), add);
-      std::for_each(waiting.Changed.begin(), waiting.Changed.end(), add);
-      for (const PointPair& edge : waiting.Gone)
-      {
-        flips.AddFreed(static_cast<std::int32_t>(edge[0]), static_cast<std::int32_t>(edge[1]));
-      }
-      this->Flip(flips);
-    });
-  return true;
-}
-
-void PartRun::Flip(RoundFlips& flips)
-{
-  const StopWatch watch;
-  const double rounds = static_cast<double>(this->Whole.Rounds);
-  const auto made = static_cast<std::int64_t>(this->Rows.size());
-  const std::int64_t limit = this->Job.Options.MaximumIterations >= 0
-    ? static_cast<std::int64_t>(this->EarlierRows) + this->Job.Options.MaximumIterations -
-      this->Iterations
-    : made + static_cast<std::int64_t>(this->Mesh.Triangles.size()) + SafetyMargin;
-  while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
-  {
-    if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
-    {
-      this->StopReason = StopReasonKind::Aborted;
-    }
-    else if (static_cast<std::int64_t>(this->Rows.size()) >= limit)
-    {
-      this->StopReason = flips.HasBad() ? StopReasonKind::IterationLimit : this->StopReason;
-      break;
-    }
-    else
-    {
-      const IterationRecord row = flips.Iterate();
-      this->HasBlocked = this->HasBlocked || row.Blocked > 0;
-      if (row.Flipped > 0) // else it has found that nothing is left to do
-      {
-        this->KeepRow(row);
-      }
-    }
-  }
-  this->Own.FlipSeconds += watch.GetSeconds();
-}
-
-/// The smallest angle of a row is not that of the whole mesh.
-void PartRun::KeepRow(const IterationRecord& row)
-{
-  const bool isNext = !this->Rows.empty() && this->Rows.back().Round == this->Whole.Rounds;
-  this->Rows.push_back({ this->Whole.Rounds, isNext ? this->Rows.back().Place + 1 : 0, row });
-  this->Rows.back().Record.MinimumAngle = NaN;
-}
-
-//------------------------------------------------------------------------------
-/// The edges that are left, and the smallest angle, on this rank.
-void PartRun::CountRest()
-{
-  if (this->Whole.Rounds == 1 && this->Own.Edges.Edges > 0)
-  {
-    return; // the first flips were the last
-  }
-  this->Own.MinimumAngleAfter =
-    this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
-  this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
-  if (this->HasBlocked)
-  {
-    this->CountBad();
-  }
-}
-
-/// The bad edges that are left on this rank.
-void PartRun::CountBad()
-{
-  this->Mesh.ListAll();
-  PointList points(this->Job.Survey.IsFloat);
-  points.Reserve(this->Mesh.GetNumberOfPoints());
-  for (std::int64_t i = 0; i < this->Mesh.GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    this->Mesh.GetPosition(i, x);
-    points.Add(x);
-  }
-  std::vector<std::int32_t> ids;
-  std::vector<std::int64_t> fixed;
-  for (const PartTriangle& triangle : this->Mesh.Triangles)
-  {
-    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
-    {
-      ids.push_back(triangle.Points[slot]);
-      if (triangle.Has(FixedMark, slot))
-      {
-        fixed.insert(fixed.end(), { triangle.GetStart(slot), triangle.GetEnd(slot) });
-      }
-    }
-  }
-  TriangleMesh mesh;
-  mesh.Points = points.View();
-  mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
-  mesh.ConstraintEdges = fixed.data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(fixed.size()) / 2;
-  mesh.Whole = this->Job.Survey.Whole;
-  mesh.Whole.SharedPoints = this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
-  FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
-  none.MaximumIterations = 0;
-  const FlipSession session(mesh, none);
-  const FlipReport& report = session.GetReport();
-  this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
-  this->Own.BlockedByShape = report.BlockedByShape;
-  this->Own.BlockedByEdge = report.BlockedByEdge;
-}
-
-PiecesReport PartRun::MakeReport()
-{
-  const SeamCounts& seams = this->Seams.Counts;
-  const PointKeys& keys = this->Mesh.GetWholeKeys();
-  PiecesReport report = this->Whole;
-  static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
-  report.Points = keys.FirstKeys.back() - keys.Repeated;
-  AddCounts(report.Edges, seams.Edges, 1);
-  report.EulerCharacteristic = keys.UsedPoints - report.Edges.Edges + report.Triangles;
-  if (!this->IsCounted)
-  {
-    report.Edges = EdgeCounts();
-    report.EulerCharacteristic = 0;
-  }
-  report.UnmatchedConstraints += seams.MissingConstraints;
-  report.NonDelaunayBefore += seams.NonDelaunay;
-  report.NonDelaunayAfter += this->BadSeams;
-  report.BlockedByShape += this->FoldedSeams;
-  const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
-  report.BlockedByEdge += areBlocked ? this->BadSeams - this->FoldedSeams : 0;
-  report.GeometryUsed = this->Job.Survey.Geometry;
-  report.GeometryReason = this->Job.Survey.GeometryReason;
-  report.StopReason = this->WholeStopReason;
-  if (!report.Iterations.empty())
-  {
-    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
-  }
-  const Defect onSurface{ Describe(Refusal::OnSurface), seams.MissingToInsert, {},
-    DefectIds::PointPairs };
-  const Defect missing{ "constraint edges that are not edges of the mesh",
-    seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };
-  for (const Defect& defect : { this->Job.Survey.NearlyHeightField, onSurface, missing })
-  {
-    AddDefect(defect, report.Defects);
-  }
-  return report;
-}
-
-//------------------------------------------------------------------------------
-void PartRun::Store(FlippedPiece& flipped) const
-{
-  const PartTriangles& triangles = this->Mesh.Triangles;
-  const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
-  const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
-  flipped.Clear();
-  flipped.AreFloats = this->Job.Survey.IsFloat;
-  // With room for the triangles that have come: to append them would else copy the whole arrays.
-  flipped.Triangles.reserve(3 * triangles.size());
-  flipped.FlipCounts.reserve(triangles.size());
-  flipped.Triangles.resize(3 * count);
-  flipped.FlipCounts.resize(count);
-  if (this->First)
-  {
-    this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
-    this->First->StoreFlipCounts(flipped.FlipCounts.data());
-  }
-
-  // Where the rank's own triangles are now. One that has left may have come back.
-  constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
-  HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
-  std::vector<std::int64_t> listed = this->Mesh.FindListed();
-  std::vector<std::int64_t> others;
-  for (const std::int64_t t : listed)
-  {
-    const std::int64_t slot = triangles[t].Origin - first;
-    const bool isOwn = slot >= 0 && slot < count;
-    if (isOwn && !triangles[t].HasLeft)
-    {
-      places[slot] = static_cast<std::uint32_t>(t);
-    }
-    else if (isOwn)
-    {
-      places[slot] = places[slot] == Unlisted ? Gone : places[slot];
-    }
-    else if (!triangles[t].HasLeft)
-    {
-      others.push_back(t);
-    }
-  }
-  for (std::int64_t slot = 0; slot < count; ++slot)
-  {
-    if (places[slot] == Gone)
-    {
-      flipped.GoneTriangles.push_back(slot);
-    }
-  }
-  if (!this->First)
-  {
-    listed.assign(places.begin(), places.end()); // in the order of slots, which is fast
-  }
-
-  // Overwrites the slots of listed triangles, closes those of gone ones, and adds those of others.
-  std::vector<std::int32_t> idOfReceived(
-    this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
-  const auto storePoint = [&](std::int32_t point)
-  {
-    const auto firstReceived = static_cast<std::int32_t>(this->Mesh.GetFirstReceived());
-    if (point < firstReceived)
-    {
-      return point;
-    }
-    std::int32_t& id = idOfReceived[point - firstReceived];
-    if (id < 0)
-    {
-      id = firstReceived + static_cast<std::int32_t>(flipped.ReceivedPoints.size());
-      double x[3];
-      this->Mesh.GetPosition(point, x);
-      flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
-      flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
-    }
-    return id;
-  };
-  for (std::size_t i = 0; i < listed.size(); ++i)
-  {
-    constexpr std::size_t PrefetchDistance = 16;
-    const std::int64_t later = listed[std::min(i + PrefetchDistance, listed.size() - 1)];
-    if (later < Gone)
-    {
-      Prefetch(&triangles[later]);
-    }
-    const std::int64_t t = listed[i];
-    const std::int64_t slot = t < Gone ? triangles[t].Origin - first : -1;
-    if (slot >= 0 && slot < count && !triangles[t].HasLeft)
-    {
-      flipped.FlipCounts[slot] = triangles[t].Flips;
-      std::transform(triangles[t].Points, triangles[t].Points + 3,
-        flipped.Triangles.begin() + 3 * slot, storePoint);
-    }
-  }
-  RemoveItems(flipped.GoneTriangles, 3, flipped.Triangles);
-  RemoveItems(flipped.GoneTriangles, 1, flipped.FlipCounts);
-  std::sort(others.begin(), others.end(),
-    [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
-  for (const std::int64_t t : others)
-  {
-    const auto after =
-      std::upper_bound(this->FirstOrigins.begin(), this->FirstOrigins.end(), triangles[t].Origin);
-    const auto rank = static_cast<std::int32_t>(after - this->FirstOrigins.begin() - 1);
-    flipped.ReceivedTriangles.push_back({ rank, triangles[t].Origin - this->FirstOrigins[rank] });
-    flipped.FlipCounts.push_back(triangles[t].Flips);
-    std::transform(triangles[t].Points, triangles[t].Points + 3,
-      std::back_inserter(flipped.Triangles), storePoint);
-  }
-}
-
-//------------------------------------------------------------------------------
-namespace
-{
-std::string Write(bool value) { return value ? "on" : "off"; }
-
-std::string Write(double value)
-{
-  std::array<char, 32> text{};
-  return { text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr };
-}
-}
-
-void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
-  const std::vector<std::pair<std::string, std::string>>& more)
-{
-  std::vector<std::pair<std::string, std::string>> all = {
-    { "Geometry", ToString(options.Geometry) },
-    { "Criterion", options.Criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles" },
-    { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
-    { "Tolerance", Write(options.Tolerance) },
-    { "FeatureAngle", Write(options.FeatureAngle) },
-    { "MaximumIterations", std::to_string(options.MaximumIterations) },
-    { "TrackQuality", Write(options.TrackQuality) },
-  };
-  all.insert(all.end(), more.begin(), more.end());
-  std::string own;
-  for (const auto& option : all)
-  {
-    own += option.second + '\0';
-  }
-  std::vector<Message> ranks = group.Gather(Message(own.begin(), own.end()));
-  std::vector<const char*> values;
-  for (const Message& rank : ranks)
-  {
-    values.push_back(rank.data());
-  }
-  for (const auto& option : all)
-  {
-    const std::string first = values[0];
-    for (std::size_t rank = 0; rank < values.size(); ++rank)
-    {
-      const std::string value = values[rank];
-      if (value != first)
-      {
-        throw InvalidOptions(option.first + " is '" + first + "' on rank 0, but '" + value +
-          "' on rank " + std::to_string(rank) + "; set it to the same on all ranks");
-      }
-      values[rank] += value.size() + 1;
-    }
-  }
-}
-
 PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group,
   FlippedPiece& flipped, const ProgressObserver& progress)
 {
@@ -668,35 +589,6 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
   };
   RunTogether(group, std::ref(flip)); // a copy of flip would need memory
   return report;
-}
-
-void FlippedPiece::Clear()
-{
-  this->Triangles.clear();
-  this->FlipCounts.clear();
-  this->GoneTriangles.clear();
-  this->ReceivedTriangles.clear();
-  this->ReceivedPoints.clear();
-  this->ReceivedCoordinates.clear();
-}
-
-std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank)
-{
-  const std::size_t kept = flipped.FlipCounts.size() - flipped.ReceivedTriangles.size();
-  std::vector<PieceOrigin> origins;
-  origins.reserve(flipped.FlipCounts.size());
-  auto gone = flipped.GoneTriangles.begin();
-  for (std::int64_t slot = 0; origins.size() < kept; ++slot)
-  {
-    if (gone != flipped.GoneTriangles.end() && *gone == slot)
-    {
-      ++gone;
-      continue;
-    }
-    origins.push_back({ rank, slot });
-  }
-  origins.insert(origins.end(), flipped.ReceivedTriangles.begin(), flipped.ReceivedTriangles.end());
-  return origins;
 }
 
 }

@@ -5,7 +5,10 @@
 
 #include "MeshSurvey.h"
 #include "PieceFlip.h"
+#include "PieceGroup.h"
 #include "PointMatch.h"
+#include "ThreadBackend.h"
+#include "TriangleMesh.h"
 
 #include <string>
 
@@ -53,6 +56,18 @@ struct PartJob
   PieceGroup& Group;
   const ProgressObserver& Progress;
 };
+
+/// Sets Side and StarsAreSimple: whether all triangles of the whole mesh strictly turn to the same
+/// side in the plane, and the triangles around every point cover no direction twice. Then flips
+/// need no guard (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a part, where the
+/// star of a point has some of the same triangles. All ranks must call this together.
+/// @param keys of which only Keys, Shared and Closed matter.
+void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
+  const ThreadBackend& threads, PieceGroup& group, WholeMesh& whole);
+
+/// The same for a mesh of this process, which may be too large for a session.
+void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
+  const ThreadBackend& threads, WholeMesh& whole);
 
 }
 

@@ -61,27 +61,14 @@ struct Candidate
 {
   Place At;
   std::int64_t Key; ///< Its key if it is not shared.
-  std::int64_t IsUnused; ///< 0 or 1.
+  std::int32_t Rank;
+  std::int32_t IsUnused; ///< 0 or 1.
 };
-using RankedCandidate = RankedRecord<Candidate>;
 
 struct SharedPoint
 {
   std::int64_t Own; ///< The key that the rank sent.
   std::int64_t Key;
-};
-
-struct MatchCounts
-{
-  std::int64_t Used = 0, Repeated = 0, Ambiguous = 0;
-
-  MatchCounts& operator+=(const MatchCounts& part)
-  {
-    this->Used += part.Used;
-    this->Repeated += part.Repeated;
-    this->Ambiguous += part.Ambiguous;
-    return *this;
-  }
 };
 
 class PointMatcher
@@ -127,10 +114,9 @@ public:
     }
     const RecordLists<Candidate> candidates =
       ExchangeRecords(this->Group, this->List(first, asked));
-    MatchCounts counts;
-    counts.Used = std::count(keys.Used.begin(), keys.Used.end(), 1);
+    keys.UsedPoints = std::count(keys.Used.begin(), keys.Used.end(), 1);
     const RecordLists<SharedPoint> answers =
-      ExchangeRecords(this->Group, JoinCandidates(candidates, counts));
+      ExchangeRecords(this->Group, this->JoinCandidates(Join(candidates)));
     keys.Keys.resize(count);
     keys.Shared.resize(count);
     keys.Closed.resize(count);
@@ -139,19 +125,16 @@ public:
       keys.Keys[i] = first + i;
       keys.Closed[i] = keys.Used[i] != 0 && this->Fans[i] == 0 ? 1 : 0;
     }
-    for (const std::vector<SharedPoint>& list : answers)
+    for (const SharedPoint& point : Join(answers))
     {
-      for (const SharedPoint& point : list)
-      {
-        keys.Keys[point.Own - first] = point.Key;
-        keys.Shared[point.Own - first] = 1;
-        keys.Closed[point.Own - first] = 0;
-      }
+      keys.Keys[point.Own - first] = point.Key;
+      keys.Shared[point.Own - first] = 1;
+      keys.Closed[point.Own - first] = 0;
     }
-    counts = SumOverRanks(this->Group, counts);
-    keys.Repeated = counts.Repeated;
-    keys.UsedPoints = counts.Used;
-    keys.Ambiguous = counts.Ambiguous;
+    for (std::int64_t* sum : { &keys.Repeated, &keys.UsedPoints, &keys.Ambiguous })
+    {
+      *sum = SumOverRanks(this->Group, *sum);
+    }
     return std::move(keys);
   }
 
@@ -284,64 +267,57 @@ private:
         (this->IsAtBorder(i) || asked.count(GetHash(place)) > 0))
       {
         toHome[GetHome(GetHash(place), this->Group)].push_back(
-          { place, firstKey + i, this->Keys.Used[i] != 0 ? 0 : 1 });
+          { place, firstKey + i, this->Group.GetRank(), this->Keys.Used[i] != 0 ? 0 : 1 });
       }
     }
     return toHome;
   }
 
-  /// @returns what each rank must know about its candidates that are shared.
-  static RecordLists<SharedPoint> JoinCandidates(
-    const RecordLists<Candidate>& lists, MatchCounts& counts)
+  /// @returns what each rank must know about its candidates that are shared. Counts as the home of
+  /// their places.
+  RecordLists<SharedPoint> JoinCandidates(std::vector<Candidate> all)
   {
-    std::vector<RankedCandidate> all = JoinLists(lists);
-    const auto order = [](const RankedCandidate& a)
-    { return std::tie(a.Value.At, a.Value.IsUnused, a.Value.Key); };
+    const auto order = [](const Candidate& a) { return std::tie(a.At, a.IsUnused, a.Key); };
     std::sort(all.begin(), all.end(),
-      [&](const RankedCandidate& a, const RankedCandidate& b) { return order(a) < order(b); });
-    RecordLists<SharedPoint> answers(lists.size());
+      [&](const Candidate& a, const Candidate& b) { return order(a) < order(b); });
+    RecordLists<SharedPoint> answers(this->Group.GetSize());
     ForEachRun(
-      all,
-      [](const RankedCandidate& a, const RankedCandidate& b) { return a.Value.At == b.Value.At; },
-      [&](const RankedCandidate* begin, const RankedCandidate* end)
-      { JoinPlace(begin, end, answers, counts); });
+      all, [](const Candidate& a, const Candidate& b) { return a.At == b.At; },
+      [&](const Candidate* begin, const Candidate* end) { this->JoinPlace(begin, end, answers); });
     return answers;
   }
 
   /// Answers the candidates of one place: first those with triangles, then the others; each group
   /// by key, hence by rank.
-  static void JoinPlace(const RankedCandidate* begin, const RankedCandidate* end,
-    RecordLists<SharedPoint>& answers, MatchCounts& counts)
+  void JoinPlace(const Candidate* begin, const Candidate* end, RecordLists<SharedPoint>& answers)
   {
     // Of points without triangles only one of a rank counts, and none if it has one with triangles.
-    std::vector<RankedCandidate> list;
-    for (const RankedCandidate* one = begin; one != end; ++one)
+    std::vector<Candidate> list;
+    for (const Candidate* one = begin; one != end; ++one)
     {
-      const bool isKnown = std::any_of(list.begin(), list.end(),
-        [=](const RankedCandidate& other) { return other.Rank == one->Rank; });
-      if (one->Value.IsUnused == 0 || !isKnown)
+      const bool isKnown = std::any_of(
+        list.begin(), list.end(), [=](const Candidate& other) { return other.Rank == one->Rank; });
+      if (one->IsUnused == 0 || !isKnown)
       {
         list.push_back(*one);
       }
     }
-    if (list.front().Value.IsUnused != 0 || list.front().Rank == list.back().Rank)
+    if (list.front().IsUnused != 0 || list.front().Rank == list.back().Rank)
     {
       return;
     }
-    const auto isSameRank = [](const RankedCandidate& a, const RankedCandidate& b)
-    { return a.Rank == b.Rank; };
-    const auto size = static_cast<std::int64_t>(list.size());
+    const auto isSameRank = [](const Candidate& a, const Candidate& b) { return a.Rank == b.Rank; };
     if (std::adjacent_find(list.begin(), list.end(), isSameRank) != list.end())
     {
-      counts.Ambiguous += size;
+      this->Keys.Ambiguous += static_cast<std::int64_t>(list.size());
       return;
     }
-    counts.Repeated += size - 1;
-    counts.Used -= std::count_if(list.begin() + 1, list.end(),
-      [](const RankedCandidate& one) { return one.Value.IsUnused == 0; });
-    for (const RankedCandidate& one : list)
+    for (const Candidate& one : list)
     {
-      answers[one.Rank].push_back({ one.Value.Key, list.front().Value.Key });
+      const bool isFirst = one.Key == list.front().Key;
+      this->Keys.Repeated += isFirst ? 0 : 1;
+      this->Keys.UsedPoints -= isFirst || one.IsUnused != 0 ? 0 : 1;
+      answers[one.Rank].push_back({ one.Key, list.front().Key });
     }
   }
 

@@ -82,25 +82,14 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
   return sum;
 }
 
-/// A record and the rank that sent it.
+/// The records of all ranks in one list, by rank.
 template <typename Record>
-struct RankedRecord
+std::vector<Record> Join(const RecordLists<Record>& lists)
 {
-  Record Value;
-  int Rank;
-};
-
-/// The records of all ranks in one list.
-template <typename Record>
-std::vector<RankedRecord<Record>> JoinLists(const RecordLists<Record>& lists)
-{
-  std::vector<RankedRecord<Record>> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  std::vector<Record> all;
+  for (const std::vector<Record>& list : lists)
   {
-    for (const Record& record : lists[rank])
-    {
-      all.push_back({ record, static_cast<int>(rank) });
-    }
+    all.insert(all.end(), list.begin(), list.end());
   }
   return all;
 }

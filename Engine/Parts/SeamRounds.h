@@ -6,10 +6,13 @@
 #include "FlipReport.h"
 #include "PartMesh.h"
 #include "Records.h"
-#include "SeamQuads.h"
+#include "SeamSurvey.h"
 
 #include <cstdint>
 #include <vector>
+
+/// @file
+/// The steps of a round: all seam edges are tested, triangles at bad ones move, and ranks flip.
 
 namespace delaunayflip
 {
@@ -49,35 +52,19 @@ private:
   {
     PointPair Ends; ///< Keys of the ends of the edge.
     std::int32_t Rank; ///< The rank that has the triangle.
-    std::uint32_t Place; ///< The index in Seams.
     bool IsToTest; ///< The edge is tested if this is true of one of its sides.
+    SeamTriangle Seam;
   };
-
-  struct Found
-  {
-    RecordLists<BadSeam> ToRank;
-    std::int64_t Bad = 0;
-    std::int64_t Blocked = 0;
-  };
-
-  void Update(const std::vector<RankedTriangle>& news);
-  std::uint32_t Keep(const SeamTriangle& seam);
-  std::vector<std::size_t> ListToTest() const;
-  void TellBad(std::size_t one, std::size_t other, RecordLists<BadSeam>& toRank) const;
-  Found Judge(const QuadJudge& judge, int ranks);
-  const SeamTriangle& GetSeam(std::size_t side) const { return this->Seams[Sides[side].Place]; }
 
   std::vector<Side> Sides; ///< Sorted by edge, then by rank.
-  std::vector<SeamTriangle> Seams; ///< The triangles of Sides, kept apart so that Sides are small.
-  std::vector<std::uint32_t> Free; ///< Places in Seams that are free.
 };
 
 /// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
 struct MoveRule
 {
   bool ToLower; ///< The lower one, else the higher.
-  /// Whether this holds only for the first half of the edges between two ranks (SeamHalves), and
-  /// for the second half it is the other way round.
+  /// Whether this holds only for the first half of the edges between two ranks, and for the second
+  /// half it is the other way round.
   bool InHalves;
 };
 
@@ -108,8 +95,9 @@ public:
 
   /// Adds a triangle whose edges are to be judged.
   void Add(std::int64_t triangle);
-  /// Adds the triangles of edges that could not flip while the rank had this edge, now gone.
-  void AddFreed(std::int32_t from, std::int32_t to);
+  /// Adds the triangles at the first end of this edge, now gone, whose edges could not flip while
+  /// the rank had it.
+  void AddFreed(const PointPair& edge);
 
   /// Whether no edge is left to be judged.
   bool AreDone() const { return this->Next.empty(); }
@@ -127,8 +115,6 @@ public:
 private:
   void Visit(std::int64_t triangle, IterationRecord& record);
   EdgeState Judge(const PartCorner& one, const PartCorner& other) const;
-  bool IsForbidden(std::int32_t a, std::int32_t b) const;
-  void Flip(const PartCorner& one, const PartCorner& other);
 
   PartMesh& Mesh;
   const QuadJudge& Rule;
@@ -137,44 +123,25 @@ private:
 };
 
 /// What a rank has flipped in the guarded part of a round.
+struct GuardRound
+{
+  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
+  std::vector<std::int64_t> Changed; ///< The triangles of the edges that this rank has flipped.
+  std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
+};
+
+/// Flips waiting edges as far as the guard allows.
 ///
 /// The guard keeps a flip from making an edge that another rank has. Such an edge could only join
 /// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
 /// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
 /// does not, one rank may make it.
-struct GuardRound
-{
-  std::int64_t Flipped = 0; ///< Edges that this rank has flipped.
-  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
-  std::vector<std::int64_t> Changed; ///< The triangles of the flipped edges.
-  std::vector<PointPair> Gone; ///< The ends of the flipped edges before the flip.
-};
-
-/// An inner edge of a rank, given by the two corners opposite to it.
-struct InnerQuad
-{
-  PartCorner One, Other;
-};
-
-/// The edges of a rank that wait (see GuardRound).
-class WaitingEdges
-{
-public:
-  /// Flips waiting edges of `mesh` as far as the guard allows. Removes from `test` the seam edges
-  /// whose flip would make an edge that exists or that another flip makes, and those whose triangle
-  /// has just changed. All ranks must call this together.
-  /// @param mayFlip if false, it only finds how many edges may flip.
-  GuardRound Flip(
-    PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip);
-
-private:
-  void Find(PartMesh& mesh, const QuadJudge& judge);
-
-  bool IsFirst = true;
-  std::vector<InnerQuad> Bad;
-  /// The triangles of `Bad`. Other edges can have become bad only where triangles have changed.
-  std::vector<std::int64_t> Triangles;
-};
+///
+/// Removes from `test` the seam edges whose flip would make an edge that exists or that another
+/// flip makes, and those whose triangle has just changed. All ranks must call this together.
+/// @param mayFlip if false, it only finds how many edges may flip.
+GuardRound FlipWaiting(
+  PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip);
 
 }
 

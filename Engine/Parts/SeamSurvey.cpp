@@ -2,15 +2,148 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamSurvey.h"
 
+#include "DelaunayFlip.h"
+#include "FlipLoopChoice.h"
 #include "JoinReports.h"
-#include "SeamQuads.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace delaunayflip
 {
 
+FlipOptions GetPartOptions(const PartSurvey& survey, const FlipOptions& options)
+{
+  FlipOptions part = options;
+  part.Geometry = survey.Geometry;
+  part.FeatureAngle = 180.0;
+  part.TrackQuality = false;
+  part.NumberOfPieces = 1;
+  if (part.Backend == BackendKind::CUDA)
+  {
+    part.Backend = BackendKind::Auto; // parts are often too small for a GPU
+  }
+  return part;
+}
+
+//------------------------------------------------------------------------------
+SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
+{
+  std::int32_t points[3];
+  mesh.GetPoints(t, points);
+  std::int32_t first = points[(slot + 1) % 3];
+  std::int32_t second = points[(slot + 2) % 3];
+  SeamTriangle seam{};
+  seam.Ends = mesh.GetKeys({ first, second });
+  seam.Opposite = mesh.GetKey(points[slot]);
+  seam.Corner = 3 * t + slot;
+  seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
+  if (!seam.Side.RunsForward)
+  {
+    std::swap(first, second);
+  }
+  mesh.GetPosition(first, seam.Side.Ends[0]);
+  mesh.GetPosition(second, seam.Side.Ends[1]);
+  mesh.GetPosition(points[slot], seam.Side.Opposite);
+  return seam;
+}
+
+std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
+{
+  std::vector<RankedTriangle> all;
+  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  {
+    for (const SeamTriangle& seam : lists[rank])
+    {
+      all.push_back({ seam.Ends, static_cast<int>(rank), &seam });
+    }
+  }
+  std::sort(all.begin(), all.end(),
+    [](const RankedTriangle& a, const RankedTriangle& b)
+    { return IsBefore(a, b) || (!IsBefore(b, a) && a.Seam->Corner < b.Seam->Corner); });
+  return all;
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+/// What the engine knows of a mesh when it chooses a rule.
+MeshSurvey DescribeMesh(const PartSurvey& survey)
+{
+  MeshSurvey mesh;
+  mesh.Geometry = survey.Geometry;
+  mesh.Projection = survey.Projection;
+  mesh.Precision = survey.IsFloat ? FloatPrecision : DoublePrecision;
+  return mesh;
+}
+
+/// @param rule for the points 0 to 3.
+template <typename Rule>
+EdgeState Decide(const Rule& rule)
+{
+  const Quad quad{ 0, 0, 0, 1, 2, 3 };
+  const EdgeState state = rule.Judge(quad);
+  return state == EdgeState::Uncertain ? rule.JudgeExactly(quad) : state;
+}
+}
+
+QuadJudge::QuadJudge(const PartSurvey& survey, const FlipOptions& options)
+  : Plan(PlanPacking(DescribeMesh(survey), options.Criterion, false)),
+    Criterion(options.Criterion),
+    IsSurface(survey.Geometry == GeometryKind::Surface),
+    Canonical(options.TieRule == TieRuleKind::Canonical),
+    FiltersApply(survey.FiltersApply),
+    Tolerance(GetTolerance(options, DescribeMesh(survey))),
+    Range(survey.Range)
+{
+}
+
+EdgeState QuadJudge::Judge(const double (&apqb)[4][3]) const
+{
+  double packed[12];
+  const int components = this->Plan.Components;
+  for (int i = 0; i < 4 * components; ++i)
+  {
+    const int k = i % components;
+    packed[i] = this->Plan.Flat && k == 2 ? 0.0 : apqb[i / components][this->Plan.Axes[k]];
+  }
+  if (this->IsSurface)
+  {
+    return Decide(SurfaceRule<double>{ { packed, this->Tolerance, this->Range } });
+  }
+  if (this->Criterion == CriterionKind::OppositeAngles)
+  {
+    return Decide(PlanarAngleRule{ { packed, this->Tolerance, this->Range } });
+  }
+  return components == 3
+    ? Decide(PlanarRule<double, 3>{ packed, 0, this->Canonical, this->FiltersApply })
+    : Decide(PlanarRule<double, 2>{ packed, 0, this->Canonical, this->FiltersApply });
+}
+
+EdgeState QuadJudge::Judge(const SeamSide& one, const SeamSide& other) const
+{
+  double apqb[4][3];
+  std::copy_n(one.Opposite, 3, apqb[0]);
+  std::copy_n(one.Ends[one.RunsForward ? 0 : 1], 3, apqb[1]);
+  std::copy_n(one.Ends[one.RunsForward ? 1 : 0], 3, apqb[2]);
+  std::copy_n(other.Opposite, 3, apqb[3]);
+  return this->Judge(apqb);
+}
+
+EdgeState QuadJudge::Judge(
+  const PartMesh& mesh, const PartCorner& one, const PartCorner& other) const
+{
+  const PartTriangle& triangle = mesh.Triangles[one.Triangle];
+  double apqb[4][3];
+  mesh.GetPosition(triangle.Points[one.Slot], apqb[0]);
+  mesh.GetPosition(triangle.GetStart(one.Slot), apqb[1]);
+  mesh.GetPosition(triangle.GetEnd(one.Slot), apqb[2]);
+  mesh.GetPosition(mesh.Triangles[other.Triangle].Points[other.Slot], apqb[3]);
+  return this->Judge(apqb);
+}
+
+//------------------------------------------------------------------------------
 namespace
 {
 /// A constraint between shared points.
@@ -50,14 +183,69 @@ struct SeamEdge
   }
 };
 
+/// The two triangles of an edge.
+using SeamQuad = std::array<const SeamSide*, 2>;
+
+/// One flag per quad: whether its edge is fixed. Adds these edges, and why they are fixed, to
+/// `counts`. The quads, whose triangles may come from different ranks, are a mesh in which they
+/// share no points. So the engine judges such edges by the same rules as all others.
+std::vector<unsigned char> FindFixed(
+  const std::vector<SeamQuad>& quads, const PartJob& job, EdgeCounts& counts)
+{
+  std::vector<unsigned char> fixed(quads.size());
+  if (fixed.empty())
+  {
+    return fixed;
+  }
+  PointList points{ job.Survey.IsFloat, {}, {} };
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> regions;
+  std::vector<unsigned char> frozen;
+  for (const SeamQuad& quad : quads)
+  {
+    const auto first = static_cast<std::int64_t>(2 * frozen.size());
+    points.Add(quad[0]->Ends[0]);
+    points.Add(quad[0]->Ends[1]);
+    for (int i = 0; i < 2; ++i)
+    {
+      points.Add(quad[i]->Opposite);
+      const int start = quad[i]->RunsForward ? 0 : 1;
+      ids.insert(ids.end(), { first + start, first + 1 - start, first + 2 + i });
+      regions.push_back(quad[i]->Region);
+      frozen.push_back(quad[i]->IsFrozen ? 1 : 0);
+    }
+  }
+  TriangleMesh mesh;
+  mesh.Points = points.View();
+  mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
+  mesh.Regions = regions.data();
+  mesh.FrozenTriangles = frozen.data();
+  mesh.Whole = job.Survey.Whole;
+  FlipOptions options = GetPartOptions(job.Survey, job.Options);
+  options.FeatureAngle = job.Options.FeatureAngle;
+  const std::vector<std::int64_t> pairs = FindFixedEdges(mesh, options);
+  for (std::size_t i = 0; i < pairs.size(); i += 2)
+  {
+    fixed[pairs[i] / 4] = 1;
+  }
+  options.MaximumIterations = 0;
+  const FlipSession session(mesh, options);
+  const EdgeCounts& found = session.GetReport().Edges;
+  counts.Edges += static_cast<std::int64_t>(quads.size());
+  counts.WronglyWound += found.WronglyWound;
+  counts.Feature += found.Feature;
+  counts.Region += found.Region;
+  counts.Fixed += static_cast<std::int64_t>(pairs.size()) / 2;
+  return fixed;
+}
+
 /// Decides about the edges that all ranks have sent to this one, their home.
 class SeamJudge
 {
 public:
   SeamJudge(const PartJob& job)
-    : Survey(job.Survey),
-      Options(job.Options),
-      Answers(job.Group.GetSize())
+    : Answers(job.Group.GetSize()),
+      Job(job)
   {
   }
 
@@ -66,17 +254,17 @@ public:
   {
     const std::vector<RankedTriangle> triangles = SortByEdge(seams);
     const std::vector<SeamEdge> edges = this->FindEdges(triangles, lists);
-    QuadSoup soup(this->Survey, this->Options);
+    std::vector<SeamQuad> quads;
     for (const SeamEdge& edge : edges)
     {
       if (edge.IsQuad())
       {
-        soup.Add(edge.Begin[0].Seam->Side, edge.Begin[1].Seam->Side);
+        quads.push_back({ &edge.Begin[0].Seam->Side, &edge.Begin[1].Seam->Side });
       }
     }
-    const std::vector<unsigned char> fixed = soup.FindFixed(this->Counts.Edges);
+    const std::vector<unsigned char> fixed = FindFixed(quads, this->Job, this->Counts.Edges);
     auto isFixed = fixed.begin();
-    const QuadJudge judge(this->Survey, this->Options);
+    const QuadJudge judge(this->Job.Survey, this->Job.Options);
     for (const SeamEdge& edge : edges)
     {
       if (edge.IsQuad())
@@ -106,11 +294,7 @@ private:
   std::vector<SeamEdge> FindEdges(
     const std::vector<RankedTriangle>& triangles, const RecordLists<SharedConstraint>& lists)
   {
-    std::vector<SharedConstraint> constraints;
-    for (const std::vector<SharedConstraint>& list : lists)
-    {
-      constraints.insert(constraints.end(), list.begin(), list.end());
-    }
+    std::vector<SharedConstraint> constraints = Join(lists);
     // Of equal ones, one to be inserted comes first.
     std::sort(constraints.begin(), constraints.end(),
       [](const SharedConstraint& a, const SharedConstraint& b)
@@ -201,9 +385,7 @@ private:
     if (size == 2)
     {
       counts = EdgeCounts();
-      QuadSoup soup(this->Survey, this->Options);
-      soup.Add(first[0].Seam->Side, first[1].Seam->Side);
-      soup.FindFixed(counts);
+      FindFixed({ { &first[0].Seam->Side, &first[1].Seam->Side } }, this->Job, counts);
       counts.Fixed = 1; // on this rank
       counts.Constraint = 1;
     }
@@ -228,8 +410,7 @@ private:
       { one.Seam->GetTriangle(), one.Seam->GetSlot(), isFixed, isToFix });
   }
 
-  const PartSurvey& Survey;
-  const FlipOptions& Options;
+  const PartJob& Job;
 };
 
 /// The triangles of this rank at edges between two shared points, for the homes of the edges.
@@ -305,16 +486,12 @@ SeamSurvey SurveySeams(const PartJob& job, const MeshPiece& piece, const PartMes
     ExchangeRecords(group, DivideConstraints(piece.Mesh, mesh, seams, group));
   SeamJudge judge(job);
   DoTogether(group, [&]() { judge.Judge(triangles, constraints); });
-  for (const std::vector<SeamAnswer>& list : ExchangeRecords(group, judge.Answers))
+  for (const SeamAnswer& answer : Join(ExchangeRecords(group, judge.Answers)))
   {
-    for (const SeamAnswer& answer : list)
+    seams.Marks.push_back({ answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
+    if (answer.IsToFix)
     {
-      seams.Marks.push_back(
-        { answer.Triangle, answer.Slot, answer.IsFixed ? FixedMark : SeamMark });
-      if (answer.IsToFix)
-      {
-        seams.EdgesToFix.push_back(mesh.GetEdge(answer.Triangle, answer.Slot));
-      }
+      seams.EdgesToFix.push_back(mesh.GetEdge(answer.Triangle, answer.Slot));
     }
   }
   judge.Counts.ToInsert = std::count_if(
@@ -322,10 +499,7 @@ SeamSurvey SurveySeams(const PartJob& job, const MeshPiece& piece, const PartMes
   seams.Counts = SumOverRanks(group, judge.Counts);
   if (seams.Counts.MissingToInsert > 0)
   {
-    for (const std::vector<PointPair>& list : GatherRecords(group, judge.Missing))
-    {
-      seams.Missing.insert(seams.Missing.end(), list.begin(), list.end());
-    }
+    seams.Missing = Join(GatherRecords(group, judge.Missing));
     std::sort(seams.Missing.begin(), seams.Missing.end());
   }
   return seams;

@@ -159,7 +159,7 @@ protected:
   SmallestAngleTest()
   {
     this->Mesh.TakeTriangles(this->First->ViewHostTriangles(), MarkedEdges());
-    this->Mesh.BeginRounds(false);
+    this->Mesh.BeginRounds();
   }
 
   /// The corner at a point of one triangle, which it lists.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactReference.h"
 #include "FlipTestSupport.h"
-#include "SeamQuads.h"
+#include "SeamSurvey.h"
 
 #include <gtest/gtest.h>
 

@@ -39,7 +39,7 @@ public:
       Triangles(this->Piece, MakeKeys(shared), 0, 0)
   {
     this->Triangles.ListAll();
-    this->Triangles.BeginRounds(true);
+    this->Triangles.BeginRounds();
   }
 
   TriangleSet GetSet() const
@@ -199,9 +199,9 @@ TEST(RoundFlips, FreedEdgesAreJudgedAgain)
 {
   RoundMesh round(MakeWaitingEdge(), MakeOnSurface());
   RoundFlips flips(round.Triangles, round.Rule, true);
-  flips.AddFreed(1, 2); // no edge waits for this one
+  flips.AddFreed({ 1, 2 }); // no edge waits for this one
   EXPECT_TRUE(flips.AreDone());
-  flips.AddFreed(3, 0);
+  flips.AddFreed({ 3, 0 });
   EXPECT_EQ(std::vector<std::int64_t>{ 1 }, flips.GetNext());
 }
 
@@ -285,7 +285,7 @@ std::vector<RankState> MoveOnce(const MoveRule& rule)
       const MeshPiece piece = pieces[rank].View(true);
       PartMesh own(piece, MatchPoints(piece, group), rank, rank * mesh.NumberOfTriangles());
       own.ListAll();
-      own.BeginRounds(false);
+      own.BeginRounds();
       const std::vector<BadSeam> bad = ListSeams(own, rank);
       states[rank].Bad = bad.size();
       MoveTriangles(own, bad, rule, group, states[rank].Moved);
