@@ -135,39 +135,8 @@ public:
       this->First->StoreFlipCounts(flipped.FlipCounts.data());
     }
 
-    // Where the rank's own triangles are now. One that has left may have come back.
-    constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
-    HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
-    std::vector<std::int64_t> listed = this->Mesh.FindListed();
     std::vector<std::int64_t> others;
-    for (const std::int64_t t : listed)
-    {
-      const std::int64_t slot = triangles[t].Origin - first;
-      const bool isOwn = slot >= 0 && slot < count;
-      if (isOwn && !triangles[t].HasLeft)
-      {
-        places[slot] = static_cast<std::uint32_t>(t);
-      }
-      else if (isOwn)
-      {
-        places[slot] = places[slot] == Unlisted ? Gone : places[slot];
-      }
-      else if (!triangles[t].HasLeft)
-      {
-        others.push_back(t);
-      }
-    }
-    for (std::int64_t slot = 0; slot < count; ++slot)
-    {
-      if (places[slot] == Gone)
-      {
-        flipped.GoneTriangles.push_back(slot);
-      }
-    }
-    if (!this->First)
-    {
-      listed.assign(places.begin(), places.end()); // in the order of slots, which is fast
-    }
+    const std::vector<std::int64_t> listed = this->FindPlaces(flipped.GoneTriangles, others);
 
     // Overwrites the slots of listed triangles, closes those of gone ones, and adds those of
     // others.
@@ -225,6 +194,51 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
+
+  /// Where the listed triangles are now. One that has left may have come back.
+  /// @param gone receives the slots of the rank's own triangles that are elsewhere.
+  /// @param others receives the places of triangles that other ranks gave.
+  /// @returns the places of its own ones, some of which may be Gone or Unlisted.
+  std::vector<std::int64_t> FindPlaces(
+    std::vector<std::int64_t>& gone, std::vector<std::int64_t>& others) const
+  {
+    const PartTriangles& triangles = this->Mesh.Triangles;
+    const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
+    const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
+    HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
+    std::vector<std::int64_t> listed = this->Mesh.FindListed();
+    for (const std::int64_t t : listed)
+    {
+      const std::int64_t slot = triangles[t].Origin - first;
+      const bool isOwn = slot >= 0 && slot < count;
+      if (isOwn && !triangles[t].HasLeft)
+      {
+        places[slot] = static_cast<std::uint32_t>(t);
+      }
+      else if (isOwn)
+      {
+        places[slot] = places[slot] == Unlisted ? Gone : places[slot];
+      }
+      else if (!triangles[t].HasLeft)
+      {
+        others.push_back(t);
+      }
+    }
+    for (std::int64_t slot = 0; slot < count; ++slot)
+    {
+      if (places[slot] == Gone)
+      {
+        gone.push_back(slot);
+      }
+    }
+    if (!this->First)
+    {
+      listed.assign(places.begin(), places.end()); // in the order of slots, which is fast
+    }
+    return listed;
+  }
+
   /// Calls the observer of this rank. @returns whether to go on.
   bool Tell(double share) const
   {
