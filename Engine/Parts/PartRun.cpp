@@ -341,11 +341,13 @@ private:
     SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
     this->BadSeams = test.BadOfAll + test.BlockedOfAll;
     this->FoldedSeams = test.BlockedOfAll;
+    const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
     GuardRound waiting;
     waiting.FreeOfAll = test.BadOfAll;
     if (needsGuard && mayGoOn)
     {
-      waiting = FlipWaiting(this->Mesh, this->Judge, test, group);
+      this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
+      waiting = FlipWaiting(this->Mesh, this->Judge, this->Waiting, test, group);
       if (!waiting.Gone.empty()) // all at once
       {
         IterationRecord row;
@@ -520,6 +522,7 @@ private:
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
+  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (FlipWaiting).
   PartConstraints Constraints;
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 

@@ -139,7 +139,10 @@ struct GuardRound
 ///
 /// Removes from `test` the seam edges whose flip would make an edge that exists or that another
 /// flip makes, and those whose triangle has just changed. All ranks must call this together.
-GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group);
+/// @param waiting the triangles of edges that are bad and may wait; replaced by those of edges that
+/// were bad now. Other edges can have become bad only where triangles have changed.
+GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
+  SeamTest& test, PieceGroup& group);
 
 }
 
