@@ -14,7 +14,8 @@
 namespace delaunayflip
 {
 
-SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group)
+/// Brings the sides up to date.
+void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
 {
   // What has changed, for the homes of the edges. One without a corner has lost its triangle here.
   constexpr std::int64_t HasNone = -1;
@@ -54,7 +55,11 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   }
   sides.insert(sides.end(), side, this->Sides.end());
   this->Sides = std::move(sides);
+}
 
+SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group)
+{
+  this->Update(mesh, group);
   RecordLists<BadSeam> toRank(group.GetSize());
   std::int64_t bad = 0;
   std::int64_t blocked = 0;

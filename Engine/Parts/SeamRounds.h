@@ -56,6 +56,8 @@ private:
     SeamTriangle Seam;
   };
 
+  void Update(PartMesh& mesh, PieceGroup& group);
+
   std::vector<Side> Sides; ///< Sorted by edge, then by rank.
 };
 
