@@ -18,7 +18,7 @@ namespace delaunayflip
 /// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
 /// mesh.
 ///
-/// Each rank inserts the constraints that stay within its piece. Of those between shared points,
+/// Each rank inserts the constraints that stay within its part. Of those between shared points,
 /// which several ranks may have, it tries all whose two points it has. A constraint that no rank
 /// inserts counts as unmatched, once. Where flips need a guard, ranks insert nothing.
 class PartConstraints

@@ -289,6 +289,10 @@ void PartMesh::BeginRounds()
       this->NoteSeams(static_cast<std::int64_t>(t));
     }
   }
+  for (const std::int32_t point : this->SharedPoints)
+  {
+    this->NoteChanges(point);
+  }
 }
 
 void PartMesh::NoteSeams(std::int64_t t)
@@ -347,6 +351,7 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
   {
     ++this->Triangles[changed].Flips;
     this->NoteSeams(changed);
+    this->Changed.push_back(changed);
   }
 }
 
@@ -518,6 +523,7 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
   this->NoteSeams(t);
+  this->Changed.push_back(t);
   return t;
 }
 
@@ -527,7 +533,15 @@ void PartMesh::SharePoint(std::int32_t point)
   {
     this->Shared[point] = 1;
     this->SharedPoints.push_back(point);
+    this->NoteChanges(point);
   }
+}
+
+/// Takes the triangles at a point for changed ones.
+void PartMesh::NoteChanges(std::int32_t point)
+{
+  this->ForEachAt(
+    point, [&](const PartCorner& corner) { this->Changed.push_back(corner.Triangle); });
 }
 
 std::int32_t PartMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])

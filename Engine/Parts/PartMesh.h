@@ -274,6 +274,9 @@ public:
   void SetSeam(const PartCorner& corner);
   /// Removes this mark: both triangles of the edge are on this rank.
   void ClearSeam(const PartCorner& corner);
+  /// The triangles that have changed or arrived since the last call, and those at points that have
+  /// become shared; at first, all at shared points. A triangle may be repeated.
+  std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
   /// The seam edges whose triangles here have changed or arrived since the last call.
   std::vector<PartCorner> TakeNewSeams();
   /// The keys of seam edges that have lost their triangle here since the last call. They may
@@ -349,6 +352,7 @@ private:
   void ListBeside(std::int64_t t);
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   void SharePoint(std::int32_t point);
+  void NoteChanges(std::int32_t point);
   void NoteSeams(std::int64_t triangle);
 
   static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
@@ -371,6 +375,7 @@ private:
   PointStars Stars; ///< Of the listed triangles.
   /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
   RawVector<std::uint32_t> Mates;
+  std::vector<std::int64_t> Changed;
   std::vector<std::int64_t> MayHaveSeams; ///< Triangles for TakeNewSeams (PartTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
   std::vector<unsigned char> Shared;

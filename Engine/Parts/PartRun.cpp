@@ -122,21 +122,9 @@ public:
     const PartTriangles& triangles = this->Mesh.Triangles;
     const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
     const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
-    flipped.Clear();
-    flipped.AreFloats = this->Job.Survey.IsFloat;
-    // With room for the triangles that have come: to append them would else copy the whole arrays.
-    flipped.Triangles.reserve(3 * triangles.size());
-    flipped.FlipCounts.reserve(triangles.size());
-    flipped.Triangles.resize(3 * count);
-    flipped.FlipCounts.resize(count);
-    if (this->First)
-    {
-      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
-      this->First->StoreFlipCounts(flipped.FlipCounts.data());
-    }
-
-    std::vector<std::int64_t> others;
-    const std::vector<std::int64_t> listed = this->FindPlaces(flipped.GoneTriangles, others);
+    this->StoreFirst(flipped, count);
+    std::vector<std::int64_t> own, others;
+    this->FindTriangles(flipped.GoneTriangles, own, others);
 
     // Overwrites the slots of listed triangles, closes those of gone ones, and adds those of
     // others.
@@ -160,27 +148,18 @@ public:
       }
       return id;
     };
-    for (std::size_t i = 0; i < listed.size(); ++i)
+    for (std::size_t i = 0; i < own.size(); ++i)
     {
       constexpr std::size_t PrefetchDistance = 16;
-      const std::int64_t later = listed[std::min(i + PrefetchDistance, listed.size() - 1)];
-      if (later < Gone)
-      {
-        Prefetch(&triangles[later]);
-      }
-      const std::int64_t t = listed[i];
-      const std::int64_t slot = t < Gone ? triangles[t].Origin - first : -1;
-      if (slot >= 0 && slot < count && !triangles[t].HasLeft)
-      {
-        flipped.FlipCounts[slot] = triangles[t].Flips;
-        std::transform(triangles[t].Points, triangles[t].Points + 3,
-          flipped.Triangles.begin() + 3 * slot, storePoint);
-      }
+      Prefetch(&triangles[own[std::min(i + PrefetchDistance, own.size() - 1)]]);
+      const PartTriangle& triangle = triangles[own[i]];
+      const std::int64_t slot = triangle.Origin - first;
+      flipped.FlipCounts[slot] = triangle.Flips;
+      std::transform(
+        triangle.Points, triangle.Points + 3, flipped.Triangles.begin() + 3 * slot, storePoint);
     }
     RemoveItems(flipped.GoneTriangles, 3, flipped.Triangles);
     RemoveItems(flipped.GoneTriangles, 1, flipped.FlipCounts);
-    std::sort(others.begin(), others.end(),
-      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
     for (const std::int64_t t : others)
     {
       const auto after =
@@ -194,36 +173,54 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
+  /// Stores the triangles of the first flips in their slots, or makes room for all.
+  void StoreFirst(FlippedPiece& flipped, std::int64_t count) const
+  {
+    flipped.Clear();
+    flipped.AreFloats = this->Job.Survey.IsFloat;
+    // With room for the triangles that have come: to append them would else copy the whole arrays.
+    flipped.Triangles.reserve(3 * this->Mesh.Triangles.size());
+    flipped.FlipCounts.reserve(this->Mesh.Triangles.size());
+    flipped.Triangles.resize(3 * count);
+    flipped.FlipCounts.resize(count);
+    if (this->First)
+    {
+      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
+      this->First->StoreFlipCounts(flipped.FlipCounts.data());
+    }
+  }
 
-  /// Where the listed triangles are now. One that has left may have come back.
-  /// @param gone receives the slots of the rank's own triangles that are elsewhere.
-  /// @param others receives the places of triangles that other ranks gave.
-  /// @returns the places of its own ones, some of which may be Gone or Unlisted.
-  std::vector<std::int64_t> FindPlaces(
-    std::vector<std::int64_t>& gone, std::vector<std::int64_t>& others) const
+  /// Finds the listed triangles that are here: the rank's own, and others by their origins.
+  /// @param gone receives the slots of own ones that have left.
+  void FindTriangles(std::vector<std::int64_t>& gone, std::vector<std::int64_t>& own,
+    std::vector<std::int64_t>& others) const
   {
     const PartTriangles& triangles = this->Mesh.Triangles;
     const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
     const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
+    constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
     HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
-    std::vector<std::int64_t> listed = this->Mesh.FindListed();
-    for (const std::int64_t t : listed)
+    for (const std::int64_t t : this->Mesh.FindListed())
     {
       const std::int64_t slot = triangles[t].Origin - first;
       const bool isOwn = slot >= 0 && slot < count;
-      if (isOwn && !triangles[t].HasLeft)
+      if (isOwn && triangles[t].HasLeft)
       {
-        places[slot] = static_cast<std::uint32_t>(t);
+        places[slot] = places[slot] == Unlisted ? Gone : places[slot]; // or it has come back
       }
       else if (isOwn)
       {
-        places[slot] = places[slot] == Unlisted ? Gone : places[slot];
+        places[slot] = static_cast<std::uint32_t>(t);
+        own.push_back(t);
       }
       else if (!triangles[t].HasLeft)
       {
         others.push_back(t);
       }
+    }
+    if (!this->First)
+    {
+      own.clear(); // the order of slots is faster
     }
     for (std::int64_t slot = 0; slot < count; ++slot)
     {
@@ -231,12 +228,13 @@ private:
       {
         gone.push_back(slot);
       }
+      else if (!this->First)
+      {
+        own.push_back(places[slot]);
+      }
     }
-    if (!this->First)
-    {
-      listed.assign(places.begin(), places.end()); // in the order of slots, which is fast
-    }
-    return listed;
+    std::sort(others.begin(), others.end(),
+      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
   }
 
   /// Calls the observer of this rank. @returns whether to go on.
@@ -377,11 +375,14 @@ private:
     SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
     this->BadSeams = test.BadOfAll + test.BlockedOfAll;
     this->FoldedSeams = test.BlockedOfAll;
+    const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
     GuardRound waiting;
     waiting.FreeOfAll = test.BadOfAll;
     if (needsGuard && mayGoOn)
     {
-      waiting = FlipWaiting(this->Mesh, this->Judge, test, group, !this->IsAtLimit());
+      this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
+      waiting =
+        FlipWaiting(this->Mesh, this->Judge, this->Waiting, test, group, !this->IsAtLimit());
       if (!waiting.Gone.empty()) // all at once
       {
         IterationRecord row;
@@ -562,6 +563,7 @@ private:
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
+  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (FlipWaiting).
   PartConstraints Constraints;
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 

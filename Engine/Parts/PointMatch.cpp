@@ -10,7 +10,6 @@
 #include <cstring>
 #include <limits>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
 namespace delaunayflip
@@ -27,8 +26,40 @@ std::uint64_t GetHash(const Place& place)
   return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
 }
 
-/// Hashes of places. Another place with the same hash is only asked for in vain.
-using PlaceHashes = std::unordered_set<std::uint64_t>; // never iterated over
+/// Hashes of places, in a table at least half of which is empty. Another place with the same hash
+/// is only asked for in vain.
+class PlaceHashes
+{
+public:
+  explicit PlaceHashes(const std::vector<std::uint64_t>& hashes)
+  {
+    std::size_t size = 1; // a power of two
+    while (size < 2 * hashes.size())
+    {
+      size *= 2;
+    }
+    this->Table.resize(size);
+    for (const std::uint64_t hash : hashes)
+    {
+      this->Table[this->Find(hash | 1)] = hash | 1; // never 0
+    }
+  }
+  bool Has(std::uint64_t hash) const { return this->Table[this->Find(hash | 1)] != 0; }
+
+private:
+  /// The cell of a hash, or the empty one, which is 0, where it would be.
+  std::size_t Find(std::uint64_t hash) const
+  {
+    std::size_t cell = hash >> 8 & (this->Table.size() - 1);
+    while (this->Table[cell] != 0 && this->Table[cell] != hash)
+    {
+      cell = (cell + 1) & (this->Table.size() - 1);
+    }
+    return cell;
+  }
+
+  std::vector<std::uint64_t> Table;
+};
 
 /// If it holds no point, Lower exceeds Upper.
 struct Box
@@ -107,11 +138,7 @@ public:
     }
     this->FindBoxes();
     const std::int64_t first = keys.FirstKeys[this->Group.GetRank()];
-    PlaceHashes asked; // by other ranks
-    for (const std::vector<std::uint64_t>& list : ExchangeRecords(this->Group, this->Ask()))
-    {
-      asked.insert(list.begin(), list.end());
-    }
+    const PlaceHashes asked(Join(ExchangeRecords(this->Group, this->Ask())));
     const RecordLists<Candidate> candidates =
       ExchangeRecords(this->Group, this->List(first, asked));
     keys.UsedPoints = std::count(keys.Used.begin(), keys.Used.end(), 1);
@@ -264,7 +291,7 @@ private:
     {
       Place place{};
       if (this->IsWanted(i) && this->FindPlace(i, place) &&
-        (this->IsAtBorder(i) || asked.count(GetHash(place)) > 0))
+        (this->IsAtBorder(i) || asked.Has(GetHash(place))))
       {
         toHome[GetHome(GetHash(place), this->Group)].push_back(
           { place, firstKey + i, this->Group.GetRank(), this->Keys.Used[i] != 0 ? 0 : 1 });

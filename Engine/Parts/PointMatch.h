@@ -34,9 +34,9 @@ struct PointKeys
 };
 
 /// Finds the points that several ranks have: points with the same global number or, without such
-/// numbers, with the same coordinates if at least one of them is at the border of a piece. A point
+/// numbers, with the same coordinates if at least one of them is at the border of a part. A point
 /// without triangles that is the end of a constraint counts as a border point. Two points with the
-/// same number that are inside their pieces are found if each of them lies in the bounding box of
+/// same number that are inside their parts are found if each of them lies in the bounding box of
 /// the other one's rank.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 

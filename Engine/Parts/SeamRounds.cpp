@@ -14,7 +14,8 @@
 namespace delaunayflip
 {
 
-SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group)
+/// Brings the sides up to date.
+void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
 {
   // What has changed, for the homes of the edges. One without a corner has lost its triangle here.
   constexpr std::int64_t HasNone = -1;
@@ -54,7 +55,11 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   }
   sides.insert(sides.end(), side, this->Sides.end());
   this->Sides = std::move(sides);
+}
 
+SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group)
+{
+  this->Update(mesh, group);
   RecordLists<BadSeam> toRank(group.GetSize());
   std::int64_t bad = 0;
   std::int64_t blocked = 0;
@@ -352,28 +357,36 @@ struct Question
   bool IsSeam; ///< Between ranks, so that it cannot flip now.
 };
 
-/// The inner edges whose two opposite points are both shared, that are bad and whose flip would not
-/// fold the mesh over; in the order of the later of their triangles.
-std::vector<InnerQuad> FindWaiting(PartMesh& mesh, const QuadJudge& judge)
+/// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
+/// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
+std::vector<InnerQuad> FindWaiting(
+  PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
 {
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   std::vector<InnerQuad> quads;
-  for (const std::int32_t point : mesh.GetSharedPoints())
+  for (const std::int64_t t : triangles)
   {
-    mesh.ForEachAt(point,
-      [&](const PartCorner& corner)
+    for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
+    {
+      const PartCorner corner{ t, slot };
+      const PartCorner mate = mesh.IsShared(mesh.Triangles[t].Points[slot])
+        ? mesh.FindOpenMate(corner)
+        : PartCorner{ -1, 0 };
+      const bool isNew = mate.Triangle > t ||
+        (mate.Triangle >= 0 &&
+          !std::binary_search(triangles.begin(), triangles.end(), mate.Triangle));
+      if (isNew && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
+        judge.Judge(mesh, corner, mate) == EdgeState::Bad)
       {
-        const PartCorner mate = mesh.FindOpenMate(corner);
-        if (mate.Triangle > corner.Triangle &&
-          mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
-          judge.Judge(mesh, corner, mate) == EdgeState::Bad)
-        {
-          quads.push_back({ corner, mate });
-        }
-      });
+        quads.push_back({ t < mate.Triangle ? corner : mate, t < mate.Triangle ? mate : corner });
+      }
+    }
   }
+  const auto place = [](const InnerQuad& quad)
+  { return 3 * quad.Other.Triangle + quad.Other.Slot; };
   std::sort(quads.begin(), quads.end(),
-    [](const InnerQuad& a, const InnerQuad& b)
-    { return 3 * a.Other.Triangle + a.Other.Slot < 3 * b.Other.Triangle + b.Other.Slot; });
+    [&](const InnerQuad& a, const InnerQuad& b) { return place(a) < place(b); });
   return quads;
 }
 
@@ -408,14 +421,16 @@ PairMap<PointPair> GrantFlips(
 }
 }
 
-GuardRound FlipWaiting(
-  PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip)
+GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
+  SeamTest& test, PieceGroup& group, bool mayFlip)
 {
   std::vector<InnerQuad> quads;
-  DoTogether(group, [&]() { quads = FindWaiting(mesh, judge); });
+  DoTogether(group, [&]() { quads = FindWaiting(mesh, std::move(waiting), judge); });
+  waiting.clear();
   std::vector<Question> questions;
   for (const InnerQuad& quad : quads)
   {
+    waiting.insert(waiting.end(), { quad.One.Triangle, quad.Other.Triangle });
     const PartTriangle& one = mesh.Triangles[quad.One.Triangle];
     const PartTriangle& other = mesh.Triangles[quad.Other.Triangle];
     questions.push_back({ mesh.GetKeys(one.GetEdge(quad.One.Slot)),

@@ -56,6 +56,8 @@ private:
     SeamTriangle Seam;
   };
 
+  void Update(PartMesh& mesh, PieceGroup& group);
+
   std::vector<Side> Sides; ///< Sorted by edge, then by rank.
 };
 
@@ -139,9 +141,11 @@ struct GuardRound
 ///
 /// Removes from `test` the seam edges whose flip would make an edge that exists or that another
 /// flip makes, and those whose triangle has just changed. All ranks must call this together.
+/// @param waiting the triangles of edges that are bad and may wait; replaced by those of edges that
+/// were bad now. Other edges can have become bad only where triangles have changed.
 /// @param mayFlip if false, it only finds how many edges may flip.
-GuardRound FlipWaiting(
-  PartMesh& mesh, const QuadJudge& judge, SeamTest& test, PieceGroup& group, bool mayFlip);
+GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
+  SeamTest& test, PieceGroup& group, bool mayFlip);
 
 }
 
