@@ -28,7 +28,7 @@ namespace
 std::string InOneLine(const char* text)
 {
   static const std::regex head("^[^\n]*(ERROR|Warning): In [^\n]*\n");
-  static const std::regex object("^vtk\\w+ \\(0x[0-9a-fA-F]+\\): ?");
+  static const std::regex object("^\\w+ \\(0x[0-9a-fA-F]+\\): ?");
   static const std::regex request(
     "^Algorithm (\\w+) *\\(0x[^\n]*returned failure for request[^]*$");
   static const std::regex breaks("\\s+");

@@ -91,7 +91,8 @@ def as_flags(name, values, *shapes):
     if values.shape not in shapes:
         raise _shape_error(name, values, " or ".join(map(str, shapes)))
     if values.dtype.kind not in "biuf":
-        raise TypeError(f"{name} must be true or false, not {values.dtype}")
+        example = values.ravel()[:1].tolist() or [str(values.dtype)]
+        raise TypeError(f"{name} must be true or false, not {example[0]!r}")
     if numpy.isnan(values).any():
         raise ValueError(f"{name} must be true or false, not NaN")
     return values != 0

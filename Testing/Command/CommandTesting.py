@@ -79,6 +79,7 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
         errors = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
         self.assertEqual(len(errors), 1, result.stderr)
+        self.assertNotRegex(errors[0], r"\(0x\w+\)")  # an object of VTK
         for word in naming:
             self.assertIn(word, errors[0])
         return result
