@@ -241,7 +241,7 @@ FileCounts CountInLegacy(const std::string& bytes)
   const bool hasOffsets = bytes.find("OFFSETS") != std::string::npos;
   const auto count = [&](const char* kind)
   {
-    const std::int64_t number = SumOf(bytes, std::string("\n") + kind + " ([0-9]+) [0-9]+\n");
+    const std::int64_t number = SumOf(bytes, std::string("\n") + kind + " ([0-9]+) [0-9]+\\s");
     return hasOffsets && number > 0 ? number - 1 : number;
   };
   return { SumOf(bytes, "\nPOINTS ([0-9]+) "), count("VERTICES"), count("LINES"),
