@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTMESH_H
+#define DELAUNAYFLIP_POINTMESH_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "EdgeMeshBuilder.h"
+#include "Hull.h"
+#include "Mountains.h"
+#include "Strips.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+/// @file
+/// From points to an edge mesh that flips can make Delaunay.
+
+namespace delaunayflip
+{
+
+/// A triangulation of points. Vertices are the places of Points, in its order; all triangles turn
+/// to the left and have an area.
+template <typename Real>
+struct PointMesh
+{
+  StripPoints<Real> Points; ///< One per place.
+  EdgeMesh Edges;
+  std::int64_t HullEdges = 0; ///< Edges with one triangle.
+};
+
+/// What the functions below share.
+template <typename Real, typename Backend>
+struct PointMeshBuilder
+{
+  PointMesh<Real>& Mesh;
+  const Backend& Device;
+  Array<Gap> Gaps;
+  std::vector<Gap> HostGaps;
+  std::vector<std::uint32_t> HostStarts;
+  Array<CornerId> SidesOfEdge, SidesOfDiagonal;
+  Array<std::int32_t> Failed;
+
+  ChainView<Real> View()
+  {
+    StripPoints<Real>& points = this->Mesh.Points;
+    return { points.Places.Data(), points.Starts.Data(), points.Strips, this->Gaps.Data(),
+      this->Mesh.Edges.Triangles.Data(), this->SidesOfEdge.Data(), this->SidesOfDiagonal.Data(),
+      this->Failed.Data() };
+  }
+
+  /// @returns the number of triangles in all mountains.
+  std::int64_t MeasureGaps()
+  {
+    const std::int64_t strips = this->Mesh.Points.Strips;
+    this->HostStarts.resize(strips + 1);
+    this->Device.Download(
+      this->Mesh.Points.Starts.Data(), strips + 1, this->HostStarts.data());
+    this->Gaps = this->Device.template MakeArray<Gap>(strips - 1);
+    Gap* gaps = this->Gaps.Data();
+    const ChainView<Real> chains = this->View();
+    this->Device.ForEach(strips - 1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t gap) { gaps[gap] = MeasureGap(chains, gap); });
+    this->HostGaps.resize(strips - 1);
+    this->Device.Download(gaps, strips - 1, this->HostGaps.data());
+    std::int64_t triangles = 0;
+    for (std::int64_t gap = 0; gap + 1 < strips; ++gap)
+    {
+      this->HostGaps[gap].FirstTriangle = triangles;
+      triangles += std::int64_t(this->HostStarts[gap + 2]) - this->HostStarts[gap] -
+        this->HostGaps[gap].LeftRun - this->HostGaps[gap].RightRun;
+    }
+    this->Device.Upload(this->HostGaps.data(), strips - 1, gaps);
+    return triangles;
+  }
+
+  HullTriangles FillHullOnHost(std::int64_t firstTriangle)
+  {
+    const Boundary boundary = ListBoundary(this->HostStarts, this->HostGaps);
+    const auto size = static_cast<std::int64_t>(boundary.Places.size());
+    Array<std::uint32_t> listed = this->Device.template MakeArray<std::uint32_t>(size);
+    this->Device.Upload(boundary.Places.data(), size, listed.Data());
+    Array<CoordinatePair<double>> gathered =
+      this->Device.template MakeArray<CoordinatePair<double>>(size);
+    const std::uint32_t* list = listed.Data();
+    CoordinatePair<double>* to = gathered.Data();
+    const CoordinatePair<Real>* places = this->Mesh.Points.Places.Data();
+    this->Device.ForEach(size,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { to[i] = { places[list[i]].U, places[list[i]].V }; });
+    std::vector<CoordinatePair<double>> coordinates(size);
+    this->Device.Download(to, size, coordinates.data());
+    return FillHull(boundary, coordinates, firstTriangle);
+  }
+
+  void MakeArrays(const HullTriangles& hull, std::int64_t inMountains)
+  {
+    EdgeMesh& edges = this->Mesh.Edges;
+    edges.NumberOfTriangles = inMountains + static_cast<std::int64_t>(hull.Triangles.size());
+    edges.Triangles = this->Device.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
+    const std::int64_t places = this->Mesh.Points.Count;
+    const std::int64_t slots = this->View().Chains > 1 ? this->CountSlots() : 0;
+    this->SidesOfEdge = this->Device.template MakeArray<CornerId>(2 * places);
+    this->SidesOfDiagonal = this->Device.template MakeArray<CornerId>(2 * slots + 2);
+    CornerId* ofEdge = this->SidesOfEdge.Data();
+    CornerId* ofDiagonal = this->SidesOfDiagonal.Data();
+    this->Device.ForEach(2 * places,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofEdge[i] = NoCorner; });
+    this->Device.ForEach(2 * slots + 2,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofDiagonal[i] = NoCorner; });
+  }
+
+  std::int64_t CountSlots() const
+  {
+    const auto& starts = this->HostStarts;
+    return std::int64_t(starts[starts.size() - 2]) + starts.back() - starts[1];
+  }
+
+  void StoreHull(const HullTriangles& hull, std::int64_t firstTriangle)
+  {
+    this->Device.Upload(hull.Triangles.data(), static_cast<std::int64_t>(hull.Triangles.size()),
+      this->Mesh.Edges.Triangles.Data() + firstTriangle);
+    const auto size = static_cast<std::int64_t>(hull.Sides.size());
+    Array<SideWord> words = this->Device.template MakeArray<SideWord>(size);
+    Array<CornerId> corners = this->Device.template MakeArray<CornerId>(size);
+    this->Device.Upload(hull.Sides.data(), size, words.Data());
+    this->Device.Upload(hull.Corners.data(), size, corners.Data());
+    const ChainView<Real> chains = this->View();
+    const SideWord* word = words.Data();
+    const CornerId* corner = corners.Data();
+    this->Device.ForEach(size,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        CornerId& side = word[i] < 0 ? chains.SidesOfDiagonal[~word[i]] : chains.SidesOfEdge[word[i]];
+        side = corner[i];
+      });
+  }
+
+  /// Joins the triangles on both sides of all edges of chains and of all diagonals.
+  void JoinSides()
+  {
+    const ChainView<Real> chains = this->View();
+    this->Device.ForEach(this->Mesh.Points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { chains.Join(chains.SidesOfEdge[2 * i], chains.SidesOfEdge[2 * i + 1]); });
+    const std::int64_t slots = this->View().Chains > 1 ? this->CountSlots() : 0;
+    this->Device.ForEach(slots + 1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { chains.Join(chains.SidesOfDiagonal[2 * i], chains.SidesOfDiagonal[2 * i + 1]); });
+    this->SidesOfEdge = Array<CornerId>();
+    this->SidesOfDiagonal = Array<CornerId>();
+  }
+
+  /// Numbers the edges, as BuildEdgeMesh does. Those with one triangle are fixed.
+  void NumberEdges()
+  {
+    TriangleRecord* triangles = this->Mesh.Edges.Triangles.Data();
+    EdgeMeshResult result;
+    result.Edges = std::move(this->Mesh.Edges);
+    const typename Backend::Numbering numbering = this->Device.Count(
+      result.Edges.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        TriangleRecord& triangle = triangles[t];
+        triangle.InputTriangle = static_cast<TriangleId>(t);
+        triangle.Flips = 0;
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          const CornerId other = GetAt(triangle.HalfEdges, slot);
+          const CornerRole role = other == NoCorner ? CornerRole::Alone
+            : MakeCorner(static_cast<TriangleId>(t), slot) < other ? CornerRole::Leader
+                                                                   : CornerRole::Follower;
+          triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
+        }
+        return CountLeaders(triangle);
+      });
+    delaunayflip::NumberEdges(result, numbering, this->Device);
+    this->Mesh.Edges = std::move(result.Edges);
+  }
+};
+
+/// Triangulates the places of points.
+/// @param strips at least three points, merged by MergePlaces.
+template <typename Real, typename Backend>
+PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
+{
+  PointMesh<Real> mesh;
+  mesh.Points = std::move(strips);
+  PointMeshBuilder<Real, Backend> builder{ mesh, backend, {}, {}, {}, {}, {}, {} };
+  builder.Failed = backend.template MakeArray<std::int32_t>(1);
+  std::int32_t failed = 0;
+  backend.Upload(&failed, 1, builder.Failed.Data());
+  const std::int64_t inMountains = builder.MeasureGaps();
+  const HullTriangles hull = builder.FillHullOnHost(inMountains);
+  mesh.HullEdges = hull.HullEdges;
+  builder.MakeArrays(hull, inMountains);
+  if (mesh.Points.Strips > 1)
+  {
+    const ChainView<Real> chains = builder.View();
+    constexpr std::int64_t Grain = 4096;
+    const std::int64_t slots = builder.CountSlots();
+    backend.ForTasks((slots + Grain - 1) / Grain, [&](std::int64_t task)
+      { CutMountains(chains, task * Grain, std::min(slots, (task + 1) * Grain)); });
+  }
+  builder.StoreHull(hull, inMountains);
+  builder.JoinSides();
+  if (mesh.Edges.NumberOfTriangles != std::max<std::int64_t>(0, 2 * mesh.Points.Count - 2 - mesh.HullEdges))
+  {
+    throw std::logic_error("a triangulation of points is incomplete; please report this");
+  }
+  builder.NumberEdges();
+  return mesh;
+}
+
+}
+
+#endif

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_STRIPS_H
+#define DELAUNAYFLIP_STRIPS_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "FilteredPredicates.h"
+#include "FlipRules.h"
+#include "HostDevice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+/// @file
+/// The first part of a triangulation of points: horizontal strips, and in each strip a chain.
+///
+/// A strip holds the points whose y is in a range. No value of y is in two strips. In a strip the
+/// points are sorted by (x, y), so that joined in this order they are a chain that never turns back
+/// in x. Every chain lies strictly above the one before.
+
+namespace delaunayflip
+{
+
+/// Points of a caller in the plane: x and y are the first two of `Stride` numbers per point.
+struct PlaneArray
+{
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr; ///< If Floats is null.
+  std::int64_t Count = 0;
+  std::int64_t Stride = 2;
+
+  /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
+  DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
+  {
+    const std::int64_t i = this->Stride * point + axis;
+    return (this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i]) + 0.0;
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool IsFinite(std::int64_t point) const
+  {
+    return delaunayflip::IsFinite(this->Get(point, 0)) &&
+      delaunayflip::IsFinite(this->Get(point, 1));
+  }
+};
+
+/// The values of y where strips begin, except that of the lowest strip; ascending.
+using StripBounds = std::vector<double>;
+
+/// The strip of a y: how many of the bounds are not above it.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindStrip(
+  const double* bounds, std::uint32_t numberOfBounds, double y)
+{
+  std::uint32_t first = 0;
+  for (std::uint32_t left = numberOfBounds; left > 0;)
+  {
+    const std::uint32_t half = left / 2;
+    const bool isAbove = bounds[first + half] <= y;
+    first = isAbove ? first + half + 1 : first;
+    left = isAbove ? left - half - 1 : half;
+  }
+  return first;
+}
+
+/// Points sorted by (strip, x, y, id), in the memory of a backend.
+template <typename Real>
+struct StripPoints
+{
+  Array<CoordinatePair<Real>> Places;
+  Array<VertexId> Ids; ///< The caller's.
+  Array<std::uint32_t> Starts; ///< Of every strip the first point, and the number of points.
+  std::int64_t Count = 0;
+  std::int64_t Strips = 0;
+};
+
+/// Sorts the points that are finite. A backend specialises this (Threads/StripSorting.h).
+template <typename Real, typename Backend>
+struct StripSorter;
+
+/// Sample number i of a set of `count` points: a fixed pseudo-random choice, so that no regular
+/// order of the points matters (splitmix64, Steele et al. 2014).
+DELAUNAYFLIP_HOST_DEVICE inline std::int64_t PickSample(std::uint64_t i, std::int64_t count)
+{
+  std::uint64_t z = (i + 1) * 0x9E3779B97F4A7C15u;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(count));
+}
+
+/// How far the middle 98 of 100 values are spread, times 2^-1 so that it cannot overflow. Outliers
+/// do not count.
+inline double FindSpread(std::vector<double>& values)
+{
+  const std::size_t tail = values.size() / 100;
+  const auto low = values.begin() + static_cast<std::ptrdiff_t>(tail);
+  const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(tail);
+  std::nth_element(values.begin(), low, values.end());
+  const double lower = *low;
+  std::nth_element(values.begin(), high, values.end());
+  return 0.5 * *high - 0.5 * lower;
+}
+
+/// Strips about as high as the points in them are apart in x: `count` points have
+/// sqrt(count * height / width) strips.
+inline std::int64_t CountStrips(std::int64_t count, double width, double height)
+{
+  const double ratio = height > 0.0 ? (width > 0.0 ? height / width : INFINITY) : 0.0;
+  const double strips = std::sqrt(static_cast<double>(count) * ratio);
+  const double most = static_cast<double>(count) / 2.0;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(strips, most) + 0.5));
+}
+
+/// The finite ones of up to `size` of the points; all of them if there are no more.
+template <typename Backend>
+std::vector<CoordinatePair<double>> SamplePoints(
+  const PlaneArray& points, std::int64_t size, const Backend& backend)
+{
+  const bool all = size >= points.Count;
+  size = std::min(size, points.Count);
+  Array<CoordinatePair<double>> sampled = backend.template MakeArray<CoordinatePair<double>>(size);
+  CoordinatePair<double>* samples = sampled.Data();
+  backend.ForEach(size,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    {
+      const std::int64_t point = all ? i : PickSample(i, points.Count);
+      samples[i] = { points.Get(point, 0), points.Get(point, 1) };
+    });
+  std::vector<CoordinatePair<double>> onHost(size);
+  backend.Download(samples, size, onHost.data());
+  onHost.erase(std::remove_if(onHost.begin(), onHost.end(),
+                 [](const CoordinatePair<double>& p) { return !IsFinite(p.U) || !IsFinite(p.V); }),
+    onHost.end());
+  return onHost;
+}
+
+/// Chooses the strips from samples, so that they hold similar numbers of points.
+template <typename Backend>
+StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
+{
+  constexpr std::int64_t SmallestSample = 1 << 14;
+  constexpr std::int64_t SamplesPerStrip = 16;
+  std::vector<double> xs, ys;
+  std::int64_t strips = 1;
+  for (std::int64_t size = 0; size < std::max(SmallestSample, SamplesPerStrip * strips);)
+  {
+    size = std::max(SmallestSample, SamplesPerStrip * strips);
+    const std::vector<CoordinatePair<double>> samples = SamplePoints(points, size, backend);
+    if (samples.empty())
+    {
+      return {};
+    }
+    xs.clear();
+    ys.clear();
+    for (const CoordinatePair<double>& sample : samples)
+    {
+      xs.push_back(sample.U);
+      ys.push_back(sample.V);
+    }
+    strips = CountStrips(points.Count, FindSpread(xs), FindSpread(ys));
+    if (size >= points.Count)
+    {
+      break;
+    }
+  }
+  std::sort(ys.begin(), ys.end());
+  StripBounds bounds;
+  for (std::int64_t strip = 1; strip < strips; ++strip)
+  {
+    const double bound = ys[static_cast<std::size_t>(
+      static_cast<double>(ys.size()) * static_cast<double>(strip) / static_cast<double>(strips))];
+    if (bound > (bounds.empty() ? ys.front() : bounds.back()))
+    {
+      bounds.push_back(bound);
+    }
+  }
+  return bounds;
+}
+
+/// Whether a point of the strips is the first at its place.
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(
+  const CoordinatePair<Real>* places, std::int64_t i)
+{
+  return i == 0 || places[i].U != places[i - 1].U || places[i].V != places[i - 1].V;
+}
+
+/// Keeps of the points at equal places that with the lowest id. @param usedPoint null, or one word
+/// per point of the caller: receives the id of the point that is used at its place.
+template <typename Real, typename Backend>
+void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& backend)
+{
+  const std::int64_t count = strips.Count;
+  const CoordinatePair<Real>* places = strips.Places.Data();
+  const VertexId* ids = strips.Ids.Data();
+  const auto isFirst = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+  { return IsFirstAtPlace(places, i) ? 1 : 0; };
+  const typename Backend::Numbering numbering = backend.Count(count, isFirst);
+  if (numbering.Total == count && !usedPoint)
+  {
+    return;
+  }
+  StripPoints<Real> kept;
+  kept.Count = numbering.Total;
+  kept.Strips = strips.Strips;
+  kept.Places = backend.template MakeArray<CoordinatePair<Real>>(kept.Count);
+  kept.Ids = backend.template MakeArray<VertexId>(kept.Count);
+  kept.Starts = backend.template MakeArray<std::uint32_t>(kept.Strips + 1);
+  Array<std::uint32_t> numbers = backend.template MakeArray<std::uint32_t>(count);
+  CoordinatePair<Real>* toPlaces = kept.Places.Data();
+  VertexId* toIds = kept.Ids.Data();
+  std::uint32_t* toNumbers = numbers.Data();
+  backend.ForEachNumbered(numbering, count, isFirst,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+    {
+      const bool first = IsFirstAtPlace(places, i);
+      toNumbers[i] = static_cast<std::uint32_t>(first ? number : number - 1);
+      if (first)
+      {
+        toPlaces[number] = places[i];
+        toIds[number] = ids[i];
+      }
+    });
+  const std::uint32_t* starts = strips.Starts.Data();
+  std::uint32_t* toStarts = kept.Starts.Data();
+  const std::int64_t end = kept.Count;
+  backend.ForEach(kept.Strips + 1,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t strip)
+    {
+      toStarts[strip] =
+        starts[strip] < count ? toNumbers[starts[strip]] : static_cast<std::uint32_t>(end);
+    });
+  if (usedPoint)
+  {
+    backend.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[ids[i]] = toIds[toNumbers[i]]; });
+  }
+  strips = std::move(kept);
+}
+
+}
+
+#endif

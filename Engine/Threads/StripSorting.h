@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_STRIPSORTING_H
+#define DELAUNAYFLIP_STRIPSORTING_H
+
+#include "Strips.h"
+#include "ThreadBackend.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Puts the points into their strips, and then sorts every strip, which fits a cache.
+template <typename Real>
+struct StripSorter<Real, ThreadBackend>
+{
+  struct Item
+  {
+    Real X, Y;
+    VertexId Id;
+
+    bool operator<(const Item& other) const
+    {
+      return this->X != other.X ? this->X < other.X
+                                : (this->Y != other.Y ? this->Y < other.Y : this->Id < other.Id);
+    }
+  };
+
+  static StripPoints<Real> Sort(
+    const PlaneArray& points, const StripBounds& bounds, const ThreadBackend& backend)
+  {
+    constexpr std::int64_t Grain = 1 << 16;
+    const std::int64_t pieces = (points.Count + Grain - 1) / Grain;
+    const auto strips = static_cast<std::int64_t>(bounds.size()) + 1;
+    const std::uint32_t unused = static_cast<std::uint32_t>(strips); // not finite
+    Array<std::uint32_t> stripOf = backend.MakeArray<std::uint32_t>(points.Count);
+    std::vector<std::uint32_t> next(pieces * strips, 0);
+    backend.ForRange(
+      points.Count,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        std::uint32_t* counts = &next[begin / Grain * strips];
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          stripOf[i] = points.IsFinite(i)
+            ? FindStrip(bounds.data(), static_cast<std::uint32_t>(bounds.size()), points.Get(i, 1))
+            : unused;
+          if (stripOf[i] != unused)
+          {
+            ++counts[stripOf[i]];
+          }
+        }
+      },
+      Grain);
+
+    StripPoints<Real> sorted;
+    sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
+    std::uint32_t start = 0;
+    for (std::int64_t strip = 0; strip < strips; ++strip)
+    {
+      sorted.Starts[strip] = start;
+      for (std::int64_t piece = 0; piece < pieces; ++piece)
+      {
+        const std::uint32_t items = next[piece * strips + strip];
+        next[piece * strips + strip] = start;
+        start += items;
+      }
+    }
+    sorted.Starts[strips] = start;
+    sorted.Strips = strips;
+    sorted.Count = start;
+
+    Array<Item> items = backend.MakeArray<Item>(start);
+    backend.ForRange(
+      points.Count,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        std::uint32_t* places = &next[begin / Grain * strips];
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          if (stripOf[i] != unused)
+          {
+            items[places[stripOf[i]]++] = { static_cast<Real>(points.Get(i, 0)),
+              static_cast<Real>(points.Get(i, 1)), static_cast<VertexId>(i) };
+          }
+        }
+      },
+      Grain);
+    sorted.Places = backend.MakeArray<CoordinatePair<Real>>(start);
+    sorted.Ids = backend.MakeArray<VertexId>(start);
+    const std::int64_t stripGrain = std::max<std::int64_t>(1, 4096 * strips / (start + 1));
+    backend.ForRange(
+      strips,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t strip = begin; strip < end; ++strip)
+        {
+          std::sort(items.Data() + sorted.Starts[strip], items.Data() + sorted.Starts[strip + 1]);
+        }
+        for (std::uint32_t i = sorted.Starts[begin]; i < sorted.Starts[end]; ++i)
+        {
+          sorted.Places[i] = { items[i].X, items[i].Y };
+          sorted.Ids[i] = items[i].Id;
+        }
+      },
+      stripGrain);
+    return sorted;
+  }
+};
+
+}
+
+#endif
