@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_POINTMESH_H
 
 #include "Array.h"
+#include "DivideAndConquer.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "Hull.h"
@@ -32,6 +33,44 @@ struct PointMesh
   std::int64_t HullEdges = 0; ///< Edges with one triangle.
 };
 
+/// A triangulation of n places with h of them on the hull's boundary has 2 n - 2 - h triangles.
+template <typename Real>
+void RequireComplete(const PointMesh<Real>& mesh)
+{
+  if (mesh.Edges.NumberOfTriangles != 2 * mesh.Points.Count - 2 - mesh.HullEdges)
+  {
+    throw std::logic_error("a triangulation of points is incomplete; please report the points");
+  }
+}
+
+/// Numbers the edges, as BuildEdgeMesh does, of triangles whose HalfEdges hold the other corner of
+/// each edge. Edges with one triangle are fixed.
+template <typename Backend>
+void NumberJoinedEdges(EdgeMesh& edges, const Backend& backend)
+{
+  TriangleRecord* triangles = edges.Triangles.Data();
+  EdgeMeshResult result;
+  result.Edges = std::move(edges);
+  const typename Backend::Numbering numbering = backend.Count(result.Edges.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    {
+      TriangleRecord& triangle = triangles[t];
+      triangle.InputTriangle = static_cast<TriangleId>(t);
+      triangle.Flips = 0;
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const CornerId other = GetAt(triangle.HalfEdges, slot);
+        const CornerRole role = other == NoCorner ? CornerRole::Alone
+          : MakeCorner(static_cast<TriangleId>(t), slot) < other ? CornerRole::Leader
+                                                                 : CornerRole::Follower;
+        triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
+      }
+      return CountLeaders(triangle);
+    });
+  NumberEdges(result, numbering, backend);
+  edges = std::move(result.Edges);
+}
+
 /// What the functions below share.
 template <typename Real, typename Backend>
 struct PointMeshBuilder
@@ -47,7 +86,7 @@ struct PointMeshBuilder
   ChainView<Real> View()
   {
     StripPoints<Real>& points = this->Mesh.Points;
-    return { points.Places.Data(), points.Starts.Data(), points.Strips, this->Gaps.Data(),
+    return { points.Places(), points.Starts.Data(), points.Strips, this->Gaps.Data(),
       this->Mesh.Edges.Triangles.Data(), this->SidesOfEdge.Data(), this->SidesOfDiagonal.Data(),
       this->Failed.Data() };
   }
@@ -87,7 +126,7 @@ struct PointMeshBuilder
       this->Device.template MakeArray<CoordinatePair<double>>(size);
     const std::uint32_t* list = listed.Data();
     CoordinatePair<double>* to = gathered.Data();
-    const CoordinatePair<Real>* places = this->Mesh.Points.Places.Data();
+    const CoordinatePair<Real>* places = this->Mesh.Points.Places();
     this->Device.ForEach(size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       { to[i] = { places[list[i]].U, places[list[i]].V }; });
@@ -153,33 +192,6 @@ struct PointMeshBuilder
     this->SidesOfEdge = Array<CornerId>();
     this->SidesOfDiagonal = Array<CornerId>();
   }
-
-  /// Numbers the edges, as BuildEdgeMesh does. Those with one triangle are fixed.
-  void NumberEdges()
-  {
-    TriangleRecord* triangles = this->Mesh.Edges.Triangles.Data();
-    EdgeMeshResult result;
-    result.Edges = std::move(this->Mesh.Edges);
-    const typename Backend::Numbering numbering = this->Device.Count(
-      result.Edges.NumberOfTriangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-      {
-        TriangleRecord& triangle = triangles[t];
-        triangle.InputTriangle = static_cast<TriangleId>(t);
-        triangle.Flips = 0;
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          const CornerId other = GetAt(triangle.HalfEdges, slot);
-          const CornerRole role = other == NoCorner ? CornerRole::Alone
-            : MakeCorner(static_cast<TriangleId>(t), slot) < other ? CornerRole::Leader
-                                                                   : CornerRole::Follower;
-          triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
-        }
-        return CountLeaders(triangle);
-      });
-    delaunayflip::NumberEdges(result, numbering, this->Device);
-    this->Mesh.Edges = std::move(result.Edges);
-  }
 };
 
 /// Triangulates the places of points.
@@ -207,11 +219,43 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   }
   builder.StoreHull(hull, inMountains);
   builder.JoinSides();
-  if (mesh.Edges.NumberOfTriangles != std::max<std::int64_t>(0, 2 * mesh.Points.Count - 2 - mesh.HullEdges))
+  RequireComplete(mesh);
+  NumberJoinedEdges(mesh.Edges, backend);
+  return mesh;
+}
+
+/// The same by divide and conquer, on the host. The places get another order.
+template <typename Real, typename Backend>
+PointMesh<Real> BuildDividedMesh(
+  StripPoints<Real> strips, const ThreadBackend& threads, const Backend& backend)
+{
+  const std::int64_t count = strips.Count;
+  std::vector<CoordinatePair<Real>> places(count);
+  std::vector<VertexId> ids(count);
+  backend.Download(strips.Places(), count, places.data());
+  backend.Download(strips.Ids.Data(), count, ids.data());
+  std::vector<CoordinatePair<double>> exact(count);
+  std::transform(places.begin(), places.end(), exact.begin(),
+    [](const CoordinatePair<Real>& p) { return CoordinatePair<double>{ p.U, p.V }; });
+  const DividedPoints divided = DivideAndConquer(exact, threads);
+  std::vector<CoordinatePair<Real>> sortedPlaces(count);
+  std::vector<VertexId> sortedIds(count);
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    throw std::logic_error("a triangulation of points is incomplete; please report this");
+    sortedPlaces[i] = places[divided.Order[i]];
+    sortedIds[i] = ids[divided.Order[i]];
   }
-  builder.NumberEdges();
+  PointMesh<Real> mesh;
+  mesh.Points = std::move(strips);
+  backend.Upload(sortedPlaces.data(), count, mesh.Points.Places());
+  backend.Upload(sortedIds.data(), count, mesh.Points.Ids.Data());
+  mesh.HullEdges = divided.HullEdges;
+  EdgeMesh& edges = mesh.Edges;
+  edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.size());
+  edges.Triangles = backend.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
+  backend.Upload(divided.Triangles.data(), edges.NumberOfTriangles, edges.Triangles.Data());
+  RequireComplete(mesh);
+  NumberJoinedEdges(edges, backend);
   return mesh;
 }
 

@@ -68,11 +68,16 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindStrip(
 template <typename Real>
 struct StripPoints
 {
-  Array<CoordinatePair<Real>> Places;
+  Array<Real> Coordinates; ///< x and y of every point.
   Array<VertexId> Ids; ///< The caller's.
   Array<std::uint32_t> Starts; ///< Of every strip the first point, and the number of points.
   std::int64_t Count = 0;
   std::int64_t Strips = 0;
+
+  CoordinatePair<Real>* Places()
+  {
+    return reinterpret_cast<CoordinatePair<Real>*>(this->Coordinates.Data());
+  }
 };
 
 /// Sorts the points that are finite. A backend specialises this (Threads/StripSorting.h).
@@ -192,7 +197,7 @@ template <typename Real, typename Backend>
 void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& backend)
 {
   const std::int64_t count = strips.Count;
-  const CoordinatePair<Real>* places = strips.Places.Data();
+  const CoordinatePair<Real>* places = strips.Places();
   const VertexId* ids = strips.Ids.Data();
   const auto isFirst = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
   { return IsFirstAtPlace(places, i) ? 1 : 0; };
@@ -204,11 +209,11 @@ void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& 
   StripPoints<Real> kept;
   kept.Count = numbering.Total;
   kept.Strips = strips.Strips;
-  kept.Places = backend.template MakeArray<CoordinatePair<Real>>(kept.Count);
+  kept.Coordinates = backend.template MakeArray<Real>(2 * kept.Count);
   kept.Ids = backend.template MakeArray<VertexId>(kept.Count);
   kept.Starts = backend.template MakeArray<std::uint32_t>(kept.Strips + 1);
   Array<std::uint32_t> numbers = backend.template MakeArray<std::uint32_t>(count);
-  CoordinatePair<Real>* toPlaces = kept.Places.Data();
+  CoordinatePair<Real>* toPlaces = kept.Places();
   VertexId* toIds = kept.Ids.Data();
   std::uint32_t* toNumbers = numbers.Data();
   backend.ForEachNumbered(numbering, count, isFirst,

@@ -89,7 +89,8 @@ struct StripSorter<Real, ThreadBackend>
         }
       },
       Grain);
-    sorted.Places = backend.MakeArray<CoordinatePair<Real>>(start);
+    sorted.Coordinates = backend.MakeArray<Real>(2 * std::int64_t(start));
+    CoordinatePair<Real>* sortedPlaces = sorted.Places();
     sorted.Ids = backend.MakeArray<VertexId>(start);
     const std::int64_t stripGrain = std::max<std::int64_t>(1, 4096 * strips / (start + 1));
     backend.ForRange(
@@ -102,7 +103,7 @@ struct StripSorter<Real, ThreadBackend>
         }
         for (std::uint32_t i = sorted.Starts[begin]; i < sorted.Starts[end]; ++i)
         {
-          sorted.Places[i] = { items[i].X, items[i].Y };
+          sortedPlaces[i] = { items[i].X, items[i].Y };
           sorted.Ids[i] = items[i].Id;
         }
       },

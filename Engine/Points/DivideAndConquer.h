@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_DIVIDEANDCONQUER_H
+#define DELAUNAYFLIP_DIVIDEANDCONQUER_H
+
+#include "EdgeMesh.h"
+#include "FlipRules.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// The Delaunay triangulation of points on the host, by divide and conquer (Guibas and Stolfi, ACM
+/// Transactions on Graphics 4, 1985) with cuts that alternate between x and y (Dwyer, Algorithmica
+/// 2, 1987). It takes O(n log n) steps whatever the points are. Where strips leave a start from which
+/// flips are a long chain, as for points along curves, this takes over.
+
+namespace delaunayflip
+{
+
+class ThreadBackend;
+
+struct DividedPoints
+{
+  std::vector<std::uint32_t> Order; ///< The numbers of the places, by which vertices are named.
+  std::vector<TriangleRecord> Triangles; ///< HalfEdges hold the other corners, or NoCorner.
+  std::int64_t HullEdges = 0;
+};
+
+/// Triangulates places, no two of which are equal. All triangles turn to the left and have an area;
+/// no point is inside a circumcircle. Which of two diagonals is used for four points on a circle
+/// depends on the order of the places.
+DividedPoints DivideAndConquer(
+  const std::vector<CoordinatePair<double>>& places, const ThreadBackend& backend);
+
+}
+
+#endif
