@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -46,23 +47,74 @@ struct PlaneArray
   }
 };
 
-/// The values of y where strips begin, except that of the lowest strip; ascending.
-using StripBounds = std::vector<double>;
-
-/// The strip of a y: how many of the bounds are not above it.
-DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindStrip(
-  const double* bounds, std::uint32_t numberOfBounds, double y)
+/// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells
+/// narrows a binary search. Plain pointers to StripBounds.
+struct StripFinder
 {
-  std::uint32_t first = 0;
-  for (std::uint32_t left = numberOfBounds; left > 0;)
+  const double* Bounds;
+  const std::uint32_t* FirstOfCell;
+  std::uint32_t Cells;
+  double HalfLower, Scale;
+
+  /// Does not decrease with y.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindCell(double y) const
   {
-    const std::uint32_t half = left / 2;
-    const bool isAbove = bounds[first + half] <= y;
-    first = isAbove ? first + half + 1 : first;
-    left = isAbove ? left - half - 1 : half;
+    const double cell = (0.5 * y - this->HalfLower) * this->Scale;
+    return cell > 0.0 ? (cell < this->Cells - 1 ? static_cast<std::uint32_t>(cell) : this->Cells - 1)
+                      : 0;
   }
-  return first;
-}
+
+  /// The strip: how many of the bounds are not above y.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t operator()(double y) const
+  {
+    const std::uint32_t cell = this->FindCell(y);
+    std::uint32_t first = this->FirstOfCell[cell];
+    for (std::uint32_t left = this->FirstOfCell[cell + 1] - first; left > 0;)
+    {
+      const std::uint32_t half = left / 2;
+      const bool isAbove = this->Bounds[first + half] <= y;
+      first = isAbove ? first + half + 1 : first;
+      left = isAbove ? left - half - 1 : half;
+    }
+    return first;
+  }
+};
+
+/// The values of y where strips begin, except that of the lowest strip.
+struct StripBounds
+{
+  std::vector<double> Bounds; ///< Ascending.
+  std::vector<std::uint32_t> FirstOfCell; ///< Of every cell its first bound, and their number.
+  double HalfLower = 0.0, Scale = 0.0;
+
+  explicit StripBounds(std::vector<double> bounds)
+    : Bounds(std::move(bounds)),
+      FirstOfCell(2 * this->Bounds.size() + 2, 0)
+  {
+    if (this->Bounds.size() > 1)
+    {
+      this->HalfLower = 0.5 * this->Bounds.front();
+      const double scale = static_cast<double>(2 * this->Bounds.size()) /
+        (0.5 * this->Bounds.back() - this->HalfLower);
+      this->Scale = std::isfinite(scale) ? scale : 0.0; // one cell
+    }
+    const StripFinder finder = this->View();
+    for (const double bound : this->Bounds)
+    {
+      ++this->FirstOfCell[finder.FindCell(bound) + 1];
+    }
+    std::partial_sum(
+      this->FirstOfCell.begin(), this->FirstOfCell.end(), this->FirstOfCell.begin());
+  }
+
+  std::int64_t CountStrips() const { return static_cast<std::int64_t>(this->Bounds.size()) + 1; }
+
+  StripFinder View() const
+  {
+    return { this->Bounds.data(), this->FirstOfCell.data(),
+      static_cast<std::uint32_t>(this->FirstOfCell.size() - 1), this->HalfLower, this->Scale };
+  }
+};
 
 /// Points sorted by (strip, x, y, id), in the memory of a backend.
 template <typename Real>
@@ -154,7 +206,7 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
     const std::vector<CoordinatePair<double>> samples = SamplePoints(points, size, backend);
     if (samples.empty())
     {
-      return {};
+      return StripBounds({});
     }
     xs.clear();
     ys.clear();
@@ -170,7 +222,7 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
     }
   }
   std::sort(ys.begin(), ys.end());
-  StripBounds bounds;
+  std::vector<double> bounds;
   for (std::int64_t strip = 1; strip < strips; ++strip)
   {
     const double bound = ys[static_cast<std::size_t>(
@@ -180,7 +232,7 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
       bounds.push_back(bound);
     }
   }
-  return bounds;
+  return StripBounds(std::move(bounds));
 }
 
 /// Whether a point of the strips is the first at its place.

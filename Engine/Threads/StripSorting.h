@@ -34,7 +34,8 @@ struct StripSorter<Real, ThreadBackend>
   {
     constexpr std::int64_t Grain = 1 << 16;
     const std::int64_t pieces = (points.Count + Grain - 1) / Grain;
-    const auto strips = static_cast<std::int64_t>(bounds.size()) + 1;
+    const std::int64_t strips = bounds.CountStrips();
+    const StripFinder findStrip = bounds.View();
     const std::uint32_t unused = static_cast<std::uint32_t>(strips); // not finite
     Array<std::uint32_t> stripOf = backend.MakeArray<std::uint32_t>(points.Count);
     std::vector<std::uint32_t> next(pieces * strips, 0);
@@ -45,9 +46,7 @@ struct StripSorter<Real, ThreadBackend>
         std::uint32_t* counts = &next[begin / Grain * strips];
         for (std::int64_t i = begin; i < end; ++i)
         {
-          stripOf[i] = points.IsFinite(i)
-            ? FindStrip(bounds.data(), static_cast<std::uint32_t>(bounds.size()), points.Get(i, 1))
-            : unused;
+          stripOf[i] = points.IsFinite(i) ? findStrip(points.Get(i, 1)) : unused;
           if (stripOf[i] != unused)
           {
             ++counts[stripOf[i]];
