@@ -12,6 +12,7 @@
 #include "MeshSurveyBuilder.h"
 #include "OutputSlice.h"
 #include "PackedPoints.h"
+#include "PointMesh.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 #include "TurnedTriangles.h"
@@ -110,6 +111,18 @@ public:
     }
   }
 
+  /// Triangulates points in the plane instead.
+  /// @param byDivision divide and conquer, after which no edge is bad, instead of strips. On the
+  /// host.
+  /// @throws RunAborted.
+  BackendEngine(const PlaneArray& points, const FlipOptions& options, bool byDivision,
+    BackendT backend, const BuildProgress& progress)
+    : Backend(std::move(backend))
+  {
+    points.Floats ? this->Triangulate<float>(points, points.Floats, options, byDivision, progress)
+                  : this->Triangulate<double>(points, points.Doubles, options, byDivision, progress);
+  }
+
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
 
   FlipLoop& GetLoop() override { return *this->Loop; }
@@ -172,6 +185,69 @@ protected:
   FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
 private:
+  template <typename Real>
+  void Triangulate(PlaneArray points, const Real* values, const FlipOptions& options,
+    bool byDivision, const BuildProgress& progress)
+  {
+    constexpr GeometryKind Plane = GeometryKind::PlanarXY;
+    StripPoints<Real> sorted;
+    {
+      const auto numbers = static_cast<std::int64_t>(points.Count * points.Stride);
+      Array<Real> copy = this->Backend.template MakeArray<Real>(BackendT::IsOnHost ? 0 : numbers);
+      if (!BackendT::IsOnHost)
+      {
+        this->Backend.Upload(values, numbers, copy.Data());
+        points = PlaneArray(copy.Data(), points.Count, points.Stride);
+      }
+      progress.Reach(Plane, BuildStep::Surveyed);
+      sorted = StripSorter<Real, BackendT>::Sort(
+        points, ChooseStrips(points, this->Backend), this->Backend);
+    }
+    const std::int64_t finite = sorted.Count;
+    this->UsedPoint = MergePlaces(sorted, points.Count, this->Backend);
+    const std::int64_t places = sorted.Count;
+    progress.Reach(Plane, BuildStep::Loaded);
+    PointMesh<Real> mesh;
+    if (places < 3)
+    {
+      mesh.Points = std::move(sorted);
+    }
+    else if (byDivision)
+    {
+      mesh = BuildDividedMesh(std::move(sorted), ThreadBackend(options.NumberOfThreads), this->Backend);
+    }
+    else
+    {
+      mesh = BuildPointMesh(std::move(sorted), this->Backend);
+    }
+    progress.Reach(Plane, BuildStep::Fixed);
+    const MeshSurvey survey = SurveyPlaces(mesh.Points, this->Backend);
+    this->Mesh = std::move(mesh.Edges);
+    this->Order.VertexOfRank = std::move(mesh.Points.Ids);
+    this->Points.Count = places;
+    this->Points.Take(std::move(mesh.Points.Coordinates));
+
+    FlipReport& report = this->Report;
+    report.Points = points.Count;
+    report.Triangles = this->Mesh.NumberOfTriangles;
+    report.Edges.Edges = this->Mesh.NumberOfEdges;
+    report.Edges.Boundary = this->Mesh.NumberOfTriangles > 0 ? mesh.HullEdges : 0;
+    report.Edges.Fixed = report.Edges.Boundary;
+    report.EulerCharacteristic =
+      report.Triangles > 0 ? places - report.Edges.Edges + report.Triangles : 0;
+    report.GeometryUsed = Plane;
+    report.GeometryReason = "points are triangulated in x and y";
+    report.Backend = this->Backend.GetName();
+    report.Tolerance = DescribeTolerance(options, Plane);
+    this->AddDefect({ "points with NaN or infinite coordinates", points.Count - finite, {},
+      DefectIds::Points });
+    this->AddDefect({ "points at the place of another one", finite - places, {}, DefectIds::Points });
+    Array<unsigned char> none;
+    this->Loop = MakePlanarLoop(
+      { this->Points, survey, options, report, this->Mesh, WholeMesh(), none }, 1, EdgeGuard(),
+      this->Backend);
+  }
+
   /// In the plane the caller's points are not needed once they are packed; on surfaces feature
   /// edges are found first.
   void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
@@ -231,6 +307,7 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
+  Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
   TurnCounts Turns;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;

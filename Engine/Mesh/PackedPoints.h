@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 /// @file
 /// The coordinates that rules read, in the engine's order of vertices and in the caller's
@@ -60,6 +61,9 @@ struct PackedPoints
   Array<double> Doubles;
 
   bool IsFloat() const { return this->Floats.Size() > 0; }
+
+  void Take(Array<float> values) { this->Floats = std::move(values); }
+  void Take(Array<double> values) { this->Doubles = std::move(values); }
 
   PackedPointsView View() const
   {

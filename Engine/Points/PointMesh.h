@@ -8,6 +8,7 @@
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "Hull.h"
+#include "MeshSurveyBuilder.h"
 #include "Mountains.h"
 #include "Strips.h"
 
@@ -69,6 +70,34 @@ void NumberJoinedEdges(EdgeMesh& edges, const Backend& backend)
     });
   NumberEdges(result, numbering, backend);
   edges = std::move(result.Edges);
+}
+
+/// What judging edges between these places needs to know.
+template <typename Real, typename Backend>
+MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
+{
+  const CoordinatePair<Real>* places = points.Places();
+  const PointSurvey found = backend.template Sum<PointSurvey>(points.Count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
+    {
+      const double xy[2] = { places[i].U, places[i].V };
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        sum.Include(axis, xy[axis], xy[axis]);
+        sum.IncludeMagnitude(std::fabs(xy[axis]));
+      }
+    });
+  MeshSurvey survey;
+  survey.Geometry = GeometryKind::PlanarXY;
+  survey.UsedPoints = points.Count;
+  if (points.Count > 0)
+  {
+    std::copy_n(found.Lower, 2, survey.Box.Lower);
+    std::copy_n(found.Upper, 2, survey.Box.Upper);
+    survey.SmallestMagnitude = found.Smallest;
+  }
+  ResolveRange(survey);
+  return survey;
 }
 
 /// What the functions below share.

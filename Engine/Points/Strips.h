@@ -26,6 +26,8 @@
 namespace delaunayflip
 {
 
+constexpr VertexId NoVertex = 0xFFFFFFFFu;
+
 /// Points of a caller in the plane: x and y are the first two of `Stride` numbers per point.
 struct PlaneArray
 {
@@ -33,6 +35,20 @@ struct PlaneArray
   const double* Doubles = nullptr; ///< If Floats is null.
   std::int64_t Count = 0;
   std::int64_t Stride = 2;
+
+  PlaneArray() = default;
+  PlaneArray(const float* values, std::int64_t count, std::int64_t stride)
+    : Floats(values),
+      Count(count),
+      Stride(stride)
+  {
+  }
+  PlaneArray(const double* values, std::int64_t count, std::int64_t stride)
+    : Doubles(values),
+      Count(count),
+      Stride(stride)
+  {
+  }
 
   /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
   DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
@@ -243,10 +259,13 @@ DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(
   return i == 0 || places[i].U != places[i - 1].U || places[i].V != places[i - 1].V;
 }
 
-/// Keeps of the points at equal places that with the lowest id. @param usedPoint null, or one word
-/// per point of the caller: receives the id of the point that is used at its place.
+/// Keeps of the points at equal places that with the lowest id.
+/// @param callerPoints the number of the caller's points.
+/// @returns, if there are such points, for each of the caller's points the id of the point that is
+/// used at its place; NoVertex for one that is not finite.
 template <typename Real, typename Backend>
-void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& backend)
+Array<VertexId> MergePlaces(
+  StripPoints<Real>& strips, std::int64_t callerPoints, const Backend& backend)
 {
   const std::int64_t count = strips.Count;
   const CoordinatePair<Real>* places = strips.Places();
@@ -254,9 +273,9 @@ void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& 
   const auto isFirst = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
   { return IsFirstAtPlace(places, i) ? 1 : 0; };
   const typename Backend::Numbering numbering = backend.Count(count, isFirst);
-  if (numbering.Total == count && !usedPoint)
+  if (numbering.Total == count)
   {
-    return;
+    return {};
   }
   StripPoints<Real> kept;
   kept.Count = numbering.Total;
@@ -288,12 +307,14 @@ void MergePlaces(StripPoints<Real>& strips, VertexId* usedPoint, const Backend& 
       toStarts[strip] =
         starts[strip] < count ? toNumbers[starts[strip]] : static_cast<std::uint32_t>(end);
     });
-  if (usedPoint)
-  {
-    backend.ForEach(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[ids[i]] = toIds[toNumbers[i]]; });
-  }
+  Array<VertexId> used = backend.template MakeArray<VertexId>(callerPoints);
+  VertexId* usedPoint = used.Data();
+  backend.ForEach(callerPoints,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[i] = NoVertex; });
+  backend.ForEach(count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[ids[i]] = toIds[toNumbers[i]]; });
   strips = std::move(kept);
+  return used;
 }
 
 }
