@@ -30,6 +30,12 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
   throw BackendUnavailable(NoArrays);
 }
 
+std::unique_ptr<FlipEngine> MakeCudaEngine(
+  const PlaneArray&, const FlipOptions&, bool, const BuildProgress&)
+{
+  throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+}
+
 int FindDeviceOf(const void*) { throw BackendUnavailable(NoArrays); }
 
 void CopyFromDevice(const void*, std::int64_t, void*, const DeviceStream&)

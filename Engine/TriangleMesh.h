@@ -48,6 +48,36 @@ struct PointArray
   std::int64_t Count = 0;
 };
 
+/// Points in the plane: x and y are the first two of `Stride` numbers per point.
+struct PlaneArray
+{
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr; ///< If Floats is null.
+  std::int64_t Count = 0;
+  std::int64_t Stride = 2;
+
+  PlaneArray() = default;
+  PlaneArray(const float* values, std::int64_t count, std::int64_t stride)
+    : Floats(values),
+      Count(count),
+      Stride(stride)
+  {
+  }
+  PlaneArray(const double* values, std::int64_t count, std::int64_t stride)
+    : Doubles(values),
+      Count(count),
+      Stride(stride)
+  {
+  }
+
+  /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
+  DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
+  {
+    const std::int64_t i = this->Stride * point + axis;
+    return (this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i]) + 0.0;
+  }
+};
+
 /// Vertex ids of triangles: three per triangle, interleaved, 3 * Count integers of 32 or 64 bits.
 /// `Id32` and `Id64` are const types for an input, non-const for an output.
 template <typename Id32, typename Id64>

@@ -213,7 +213,7 @@ private:
     }
     else if (byDivision)
     {
-      mesh = BuildDividedMesh(std::move(sorted), ThreadBackend(options.NumberOfThreads), this->Backend);
+      mesh = BuildDividedMesh(std::move(sorted), this->Backend);
     }
     else
     {

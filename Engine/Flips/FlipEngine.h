@@ -68,6 +68,11 @@ public:
 std::unique_ptr<FlipEngine> MakeThreadEngine(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
+/// Triangulates points in the plane.
+/// @param byDivision as BackendEngine's.
+std::unique_ptr<FlipEngine> MakeThreadEngine(const PlaneArray& points, const FlipOptions& options,
+  bool byDivision, const BuildProgress& progress);
+
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
 /// mesh needs the CPU. The message says why.
@@ -77,6 +82,10 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
 /// For arrays in the memory of FlipOptions::Device.
 std::unique_ptr<FlipEngine> MakeCudaEngine(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+
+/// For points in the host's memory.
+std::unique_ptr<FlipEngine> MakeCudaEngine(const PlaneArray& points, const FlipOptions& options,
+  bool byDivision, const BuildProgress& progress);
 
 }
 

@@ -109,13 +109,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4
   return isBelow(apqb[0]) && isBelow(apqb[3]);
 }
 
-/// Two coordinates, which a device loads with one instruction.
-template <typename Real>
-struct alignas(2 * sizeof(Real)) CoordinatePair
-{
-  Real U, V;
-};
-
 /// Judges in the plane, by the exact in-circle predicate. Components = 2: (u, v); 3: (u, v, w) of a
 /// tilted plane.
 template <typename Real, int Components>

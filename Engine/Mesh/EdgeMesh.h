@@ -137,6 +137,13 @@ struct Quad
   VertexId A, P, Q, B; ///< The edge runs from p to q in a's triangle.
 };
 
+/// Two coordinates, which a device loads with one instruction.
+template <typename Real>
+struct alignas(2 * sizeof(Real)) CoordinatePair
+{
+  Real U, V;
+};
+
 /// Plain pointers to an EdgeMesh, for functions of both backends.
 struct EdgeMeshView
 {

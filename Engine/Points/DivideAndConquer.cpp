@@ -3,7 +3,6 @@
 #include "DivideAndConquer.h"
 
 #include "ExactPredicates.h"
-#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <numeric>
@@ -28,8 +27,8 @@ struct Part
 class Divider
 {
 public:
-  Divider(const std::vector<CoordinatePair<double>>& places, const ThreadBackend& backend)
-    : Backend(backend),
+  Divider(const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
+    : Run(run),
       Order(places.size()),
       Places(places.size()),
       Origin(6 * places.size()),
@@ -43,7 +42,7 @@ public:
     }
   }
 
-  DividedPoints Run()
+  DividedPoints Solve()
   {
     const auto size = static_cast<std::uint32_t>(this->Order.size());
     // The top of the recursion is level by level, so that the parts of a level run side by side.
@@ -54,7 +53,7 @@ public:
       const std::vector<std::uint32_t>& cuts = levels.back();
       std::vector<std::uint32_t> finer(2 * cuts.size() - 1);
       const int axis = static_cast<int>(levels.size() - 1) % 2;
-      this->Backend.ForTasks(static_cast<std::int64_t>(cuts.size()) - 1,
+      this->Run(static_cast<std::int64_t>(cuts.size()) - 1,
         [&](std::int64_t i)
         {
           finer[2 * i] = cuts[i];
@@ -63,17 +62,16 @@ public:
       finer.back() = size;
       levels.push_back(finer);
     }
-    // Places are read in the final order from here on.
-    std::vector<Part> parts(levels.back().size() - 1);
+      std::vector<Part> parts(levels.back().size() - 1);
     int axis = static_cast<int>(levels.size() - 1) % 2;
-    this->Backend.ForTasks(static_cast<std::int64_t>(parts.size()),
+    this->Run(static_cast<std::int64_t>(parts.size()),
       [&](std::int64_t i)
       { parts[i] = this->Solve(levels.back()[i], levels.back()[i + 1], axis); });
     while (parts.size() > 1)
     {
       axis = 1 - axis;
       std::vector<Part> merged(parts.size() / 2);
-      this->Backend.ForTasks(static_cast<std::int64_t>(merged.size()),
+      this->Run(static_cast<std::int64_t>(merged.size()),
         [&](std::int64_t i)
         { merged[i] = this->Merge(parts[2 * i], parts[2 * i + 1], axis); });
       parts = std::move(merged);
@@ -359,7 +357,7 @@ private:
     return result;
   }
 
-  const ThreadBackend& Backend;
+  const TaskRunner& Run;
   std::vector<std::uint32_t> Order;
   std::vector<PlanePoint> Places;
   std::vector<std::uint32_t> Origin;
@@ -368,9 +366,9 @@ private:
 }
 
 DividedPoints DivideAndConquer(
-  const std::vector<CoordinatePair<double>>& places, const ThreadBackend& backend)
+  const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
 {
-  return Divider(places, backend).Run();
+  return Divider(places, run).Solve();
 }
 
 }

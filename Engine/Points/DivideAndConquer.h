@@ -4,9 +4,9 @@
 #define DELAUNAYFLIP_DIVIDEANDCONQUER_H
 
 #include "EdgeMesh.h"
-#include "FlipRules.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// @file
@@ -18,7 +18,9 @@
 namespace delaunayflip
 {
 
-class ThreadBackend;
+/// Calls work(task) for task = 0 .. count - 1, on threads.
+using TaskRunner =
+  std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)>;
 
 struct DividedPoints
 {
@@ -31,7 +33,7 @@ struct DividedPoints
 /// no point is inside a circumcircle. Which of two diagonals is used for four points on a circle
 /// depends on the order of the places.
 DividedPoints DivideAndConquer(
-  const std::vector<CoordinatePair<double>>& places, const ThreadBackend& backend);
+  const std::vector<CoordinatePair<double>>& places, const TaskRunner& run);
 
 }
 

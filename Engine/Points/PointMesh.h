@@ -207,6 +207,26 @@ struct PointMeshBuilder
       });
   }
 
+  void CutAllMountains()
+  {
+    const ChainView<Real> chains = this->View();
+    const std::int64_t slots = this->CountSlots();
+    constexpr std::int64_t Grain = Backend::IsOnHost ? 4096 : 32;
+    const auto cut = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t task)
+    {
+      const std::int64_t end = (task + 1) * Grain;
+      CutMountains(chains, task * Grain, end < slots ? end : slots);
+    };
+    if constexpr (Backend::IsOnHost)
+    {
+      this->Device.ForTasks((slots + Grain - 1) / Grain, cut);
+    }
+    else
+    {
+      this->Device.ForEach((slots + Grain - 1) / Grain, cut);
+    }
+  }
+
   /// Joins the triangles on both sides of all edges of chains and of all diagonals.
   void JoinSides()
   {
@@ -240,13 +260,14 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   builder.MakeArrays(hull, inMountains);
   if (mesh.Points.Strips > 1)
   {
-    const ChainView<Real> chains = builder.View();
-    constexpr std::int64_t Grain = 4096;
-    const std::int64_t slots = builder.CountSlots();
-    backend.ForTasks((slots + Grain - 1) / Grain, [&](std::int64_t task)
-      { CutMountains(chains, task * Grain, std::min(slots, (task + 1) * Grain)); });
+    builder.CutAllMountains();
   }
   builder.StoreHull(hull, inMountains);
+  backend.Download(builder.Failed.Data(), 1, &failed);
+  if (failed != 0)
+  {
+    throw BeyondDevice();
+  }
   builder.JoinSides();
   RequireComplete(mesh);
   NumberJoinedEdges(mesh.Edges, backend);
@@ -256,7 +277,7 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
 /// The same by divide and conquer, on the host. The places get another order.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildDividedMesh(
-  StripPoints<Real> strips, const ThreadBackend& threads, const Backend& backend)
+  StripPoints<Real> strips, const Backend& backend)
 {
   const std::int64_t count = strips.Count;
   std::vector<CoordinatePair<Real>> places(count);
@@ -266,7 +287,9 @@ PointMesh<Real> BuildDividedMesh(
   std::vector<CoordinatePair<double>> exact(count);
   std::transform(places.begin(), places.end(), exact.begin(),
     [](const CoordinatePair<Real>& p) { return CoordinatePair<double>{ p.U, p.V }; });
-  const DividedPoints divided = DivideAndConquer(exact, threads);
+  const DividedPoints divided = DivideAndConquer(exact,
+    [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
+    { backend.ForTasks(tasks, work); });
   std::vector<CoordinatePair<Real>> sortedPlaces(count);
   std::vector<VertexId> sortedIds(count);
   for (std::int64_t i = 0; i < count; ++i)

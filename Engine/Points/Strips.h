@@ -6,8 +6,8 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
-#include "FlipRules.h"
 #include "HostDevice.h"
+#include "TriangleMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,40 +28,10 @@ namespace delaunayflip
 
 constexpr VertexId NoVertex = 0xFFFFFFFFu;
 
-/// Points of a caller in the plane: x and y are the first two of `Stride` numbers per point.
-struct PlaneArray
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(const PlaneArray& points, std::int64_t point)
 {
-  const float* Floats = nullptr;
-  const double* Doubles = nullptr; ///< If Floats is null.
-  std::int64_t Count = 0;
-  std::int64_t Stride = 2;
-
-  PlaneArray() = default;
-  PlaneArray(const float* values, std::int64_t count, std::int64_t stride)
-    : Floats(values),
-      Count(count),
-      Stride(stride)
-  {
-  }
-  PlaneArray(const double* values, std::int64_t count, std::int64_t stride)
-    : Doubles(values),
-      Count(count),
-      Stride(stride)
-  {
-  }
-
-  /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
-  DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
-  {
-    const std::int64_t i = this->Stride * point + axis;
-    return (this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i]) + 0.0;
-  }
-  DELAUNAYFLIP_HOST_DEVICE bool IsFinite(std::int64_t point) const
-  {
-    return delaunayflip::IsFinite(this->Get(point, 0)) &&
-      delaunayflip::IsFinite(this->Get(point, 1));
-  }
-};
+  return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1));
+}
 
 /// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells
 /// narrows a binary search. Plain pointers to StripBounds.

@@ -46,7 +46,7 @@ struct StripSorter<Real, ThreadBackend>
         std::uint32_t* counts = &next[begin / Grain * strips];
         for (std::int64_t i = begin; i < end; ++i)
         {
-          stripOf[i] = points.IsFinite(i) ? findStrip(points.Get(i, 1)) : unused;
+          stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused;
           if (stripOf[i] != unused)
           {
             ++counts[stripOf[i]];

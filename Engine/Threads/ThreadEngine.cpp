@@ -3,6 +3,7 @@
 #include "BackendEngine.h"
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
+#include "StripSorting.h"
 #include "ThreadBackend.h"
 #include "ThreadFlipLoop.h"
 
@@ -18,6 +19,13 @@ std::unique_ptr<FlipEngine> MakeThreadEngine(
   const ThreadBackend::LocalMesh local = backend.Localize(mesh);
   return std::unique_ptr<FlipEngine>(
     new BackendEngine<ThreadBackend>(mesh, local, options, std::move(backend), progress));
+}
+
+std::unique_ptr<FlipEngine> MakeThreadEngine(const PlaneArray& points, const FlipOptions& options,
+  bool byDivision, const BuildProgress& progress)
+{
+  return std::unique_ptr<FlipEngine>(new BackendEngine<ThreadBackend>(
+    points, options, byDivision, ThreadBackend(options.NumberOfThreads), progress));
 }
 
 namespace
