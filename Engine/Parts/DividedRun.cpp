@@ -368,7 +368,8 @@ private:
   {
     PiecesReport& report = this->Report;
     AddCounts(report.Edges, this->Seams.Edges, 1);
-    report.EulerCharacteristic = this->Mesh.GetSurvey().UsedPoints - report.Edges.Edges + report.Triangles;
+    report.EulerCharacteristic =
+      this->Mesh.GetSurvey().UsedPoints - report.Edges.Edges + report.Triangles;
     report.NonDelaunayBefore += this->Seams.NonDelaunay;
     if (!this->AreCounted)
     {

@@ -218,8 +218,8 @@ bool ConstraintInsertion::IsRequested(const FixedEdges& edges)
 {
   const unsigned char* flags = edges.ConstraintsToInsert;
   return flags &&
-    std::any_of(flags, flags + edges.NumberOfConstraintEdges,
-      [](unsigned char flag) { return flag != 0; });
+    std::any_of(
+      flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
 }
 
 ConstraintInsertion::ConstraintInsertion(
