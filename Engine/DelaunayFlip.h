@@ -53,6 +53,21 @@ public:
   /// CUDA cannot be used at all, with any BackendKind.
   FlipSession(
     const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
+
+  /// Triangulates points in the plane: a session that begins with a valid triangulation of all
+  /// places, which flips make Delaunay. Of the options, Geometry, Criterion and TieRule are not
+  /// used: the geometry is PlanarXY, and ties are canonical, so that the triangles depend on the
+  /// points alone, not on their order. All turn counter-clockwise and have an area; n places with h
+  /// on the hull have 2 n - 2 - h triangles. Of points at equal places that with the lowest id is
+  /// used; points with NaN or infinite coordinates are not. GetReport().Triangles is known after
+  /// the constructor; it is 0 if fewer than three places are given or all lie on one line.
+  ///
+  /// If the flips would be a long chain, as for points along curves, the host takes over by divide
+  /// and conquer. The arrays must stay unchanged as above.
+  /// @throws MeshTooLarge for more than 357 million points; InvalidOptions, BackendUnavailable,
+  /// std::bad_alloc.
+  FlipSession(
+    const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress = {});
   ~FlipSession();
   FlipSession(FlipSession&&) noexcept;
   FlipSession& operator=(FlipSession&&) noexcept;
@@ -73,6 +88,14 @@ public:
   /// Writes the triangles, each in its input slot. A triangle that no flip changed keeps its three
   /// ids in their order. `triangles.Count` must be that of the input.
   void StoreTriangles(const MutableTriangleArray& triangles) const;
+
+  /// Of a session from points: writes, for every triangle, the triangles across its edges: number k
+  /// is opposite its vertex k, -1 where there is none. 3 numbers per triangle.
+  void StoreNeighbors(std::int32_t* neighbors) const;
+
+  /// Of a session from points: writes, for every point of the caller, the id of the point that is
+  /// used at its place, or -1 for one that is not finite.
+  void StoreUsedPoints(std::int64_t* ids) const;
 
   /// Writes, for every triangle slot, in how many flips it took part: GetReport().Triangles
   /// numbers.

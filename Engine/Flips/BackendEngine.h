@@ -17,6 +17,7 @@
 #include "SurfaceAngles.h"
 
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -45,6 +46,22 @@ struct StoreStep
   {
     const TriangleRecord& triangle = this->Triangles[t];
     target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
+  }
+};
+
+/// Sets the number of the triangle across an edge, -1 where there is none.
+struct NeighborStep
+{
+  const TriangleRecord* Triangles;
+  const CornerId* CornerOfHalfEdge;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, const OutputSlice& target) const
+  {
+    const TriangleRecord& triangle = this->Triangles[i / 3];
+    const int slot = static_cast<int>(i % 3);
+    const CornerId across = this->CornerOfHalfEdge[GetAt(triangle.HalfEdges, slot) ^ 1u];
+    target.Set(std::int64_t(3) * triangle.InputTriangle + slot,
+      across == NoCorner ? NoTriangle : this->Triangles[TriangleOf(across)].InputTriangle);
   }
 };
 
@@ -136,6 +153,23 @@ public:
   void StoreFlipCounts(std::int32_t* counts) const override
   {
     this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts, this->GetFlipCountStep());
+  }
+
+  void StoreNeighbors(std::int32_t* neighbors) const override
+  {
+    this->Backend.StoreValues(3 * this->Mesh.NumberOfTriangles, neighbors,
+      NeighborStep{ this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data() });
+  }
+
+  void StoreUsedPoints(std::int64_t* ids) const override
+  {
+    const std::int64_t count = this->Report.Points;
+    std::vector<VertexId> used(this->UsedPoint.Size());
+    this->Backend.Download(this->UsedPoint.Data(), count * (used.empty() ? 0 : 1), used.data());
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
+    }
   }
 
   HostTriangles ViewHostTriangles() const override

@@ -42,6 +42,8 @@ public:
   /// The same as FlipSession's.
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
+  virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
+  virtual void StoreUsedPoints(std::int64_t* ids) const = 0;
 
   /// The same into device memory. @returns false, and writes nothing, if the engine's device cannot
   /// write it.

@@ -68,6 +68,7 @@ void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
 struct FlipSession::Work
 {
   Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+  Work(const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress);
 
   /// Calls work(engine), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
@@ -106,6 +107,8 @@ struct FlipSession::Work
 
   void Build();
   void MakeEngine();
+  std::unique_ptr<FlipEngine> MakeEngineOn(BackendKind backend);
+  void DivideIfLong();
   void FallBack(const BackendUnavailable& error);
   void Reset();
   void Abort();
@@ -122,7 +125,9 @@ struct FlipSession::Work
   double MeasureAngle();
   void MeasureEnd();
 
-  CallerMesh Mesh;
+  CallerMesh Mesh; ///< Empty in a session from points.
+  std::optional<PlaneArray> Cloud; ///< Of a session from points.
+  bool ByDivision = false; ///< Whether these are triangulated by divide and conquer.
   FlipOptions Options;
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   FlipReport Report;
@@ -157,6 +162,28 @@ FlipSession::Work::Work(
   CheckOptions(options);
   CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
   this->Options.Device = mesh.ChooseDevice(options.Device);
+  try
+  {
+    this->Build();
+  }
+  catch (const RunAborted&)
+  {
+    this->Abort();
+  }
+}
+
+FlipSession::Work::Work(
+  const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
+  : Mesh(TriangleMesh()),
+    Cloud(points),
+    Options(options),
+    Observer(progress)
+{
+  CheckOptions(options);
+  CheckMeshSize(2 * points.Count, points.Count, "");
+  this->Options.Geometry = GeometryKind::PlanarXY;
+  this->Options.Criterion = CriterionKind::InCircle;
+  this->Options.TieRule = TieRuleKind::Canonical;
   try
   {
     this->Build();
@@ -211,22 +238,40 @@ catch (...)
   throw;
 }
 
-void FlipSession::Work::MakeEngine()
+/// @param backend CUDA or Threads.
+std::unique_ptr<FlipEngine> FlipSession::Work::MakeEngineOn(BackendKind backend)
 {
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
+  const bool onCuda = backend == BackendKind::CUDA;
+  if (this->Cloud)
+  {
+    return onCuda ? MakeCudaEngine(*this->Cloud, options, this->ByDivision, this->Building)
+                  : MakeThreadEngine(*this->Cloud, options, this->ByDivision, this->Building);
+  }
   const DeviceMesh* device = this->Start->GetOnDevice();
-  const bool wantsCuda = options.Backend == BackendKind::CUDA ||
-    (options.Backend == BackendKind::Auto &&
-      (device || (this->Mesh.CountTriangles() >= SmallestMeshForCuda && HasCudaDevice())));
+  if (onCuda)
+  {
+    return device ? MakeCudaEngine(*device, options, this->Building)
+                  : MakeCudaEngine(this->Start->GetOnHost(), options, this->Building);
+  }
+  return MakeThreadEngine(this->Start->GetOnHost(), options, this->Building);
+}
+
+void FlipSession::Work::MakeEngine()
+{
+  const std::int64_t triangles =
+    this->Cloud ? 2 * this->Cloud->Count : this->Mesh.CountTriangles();
+  const bool wantsCuda = this->Options.Backend == BackendKind::CUDA ||
+    (this->Options.Backend == BackendKind::Auto &&
+      (this->Start->GetOnDevice() || (triangles >= SmallestMeshForCuda && HasCudaDevice())));
   if (!wantsCuda)
   {
-    this->Engine = MakeThreadEngine(this->Start->GetOnHost(), options, this->Building);
+    this->Engine = this->MakeEngineOn(BackendKind::Threads);
     return;
   }
   try
   {
-    this->Engine = device ? MakeCudaEngine(*device, options, this->Building)
-                          : MakeCudaEngine(this->Start->GetOnHost(), options, this->Building);
+    this->Engine = this->MakeEngineOn(BackendKind::CUDA);
   }
   catch (const BackendUnavailable& error)
   {
@@ -244,8 +289,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
   }
   this->Fallback = error.what();
   this->Engine.reset();
-  this->Engine = MakeThreadEngine(
-    this->Start->GetOnHost(), this->Insertion.GetOptions(this->Options), this->Building);
+  this->Engine = this->MakeEngineOn(BackendKind::Threads);
   if (!this->HasDetected)
   {
     return;
@@ -284,6 +328,31 @@ void FlipSession::Work::Abort()
 {
   this->Reset();
   this->Report.StopReason = StopReasonKind::Aborted;
+}
+
+/// Replaces the triangles of points by those of divide and conquer once flips have taken as long as
+/// these would: their chains go on for as long as the points lie along curves.
+void FlipSession::Work::DivideIfLong()
+{
+  // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an iteration
+  // as long as some hundred flips.
+  constexpr std::int64_t FlipsPerPoint = 8;
+  constexpr std::int64_t FlipsPerIteration = 256;
+  const std::int64_t done =
+    this->Report.TotalFlips + FlipsPerIteration * this->CountIterations();
+  constexpr std::int64_t Least = 100000;
+  if (!this->Cloud || this->ByDivision || !this->IsRunning() ||
+    done < FlipsPerPoint * this->Cloud->Count + Least)
+  {
+    return;
+  }
+  this->ByDivision = true;
+  this->HasDetected = false;
+  this->Engine.reset();
+  this->MakeEngine();
+  this->KeepFound(this->OnEngine([](FlipEngine& engine) { return engine.GetLoop().Detect(); }));
+  this->HasDetected = true;
+  this->Resume();
 }
 
 //------------------------------------------------------------------------------
@@ -375,6 +444,12 @@ FlipSession::FlipSession(
 {
 }
 
+FlipSession::FlipSession(
+  const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
+  : Own(std::make_unique<Work>(points, options, progress))
+{
+}
+
 FlipSession::~FlipSession() = default;
 FlipSession::FlipSession(FlipSession&&) noexcept = default;
 FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
@@ -421,6 +496,7 @@ try
     work.OnEngine([](const FlipEngine& engine) { engine.Audit(); });
 #endif
     work.Resume();
+    work.DivideIfLong();
     bool continues = true;
     for (std::int64_t i = first; observer && i < work.CountIterations(); ++i)
     {
@@ -509,6 +585,16 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
     const int slot = static_cast<int>(id % 3);
     triangles.Set(id / 3, slot, input.Get(id / 3, slot));
   }
+}
+
+void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
+{
+  this->Own->TryOnEngine([&](const FlipEngine& engine) { engine.StoreNeighbors(neighbors); });
+}
+
+void FlipSession::StoreUsedPoints(std::int64_t* ids) const
+{
+  this->Own->TryOnEngine([&](const FlipEngine& engine) { engine.StoreUsedPoints(ids); });
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
