@@ -5,7 +5,6 @@
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
 #include "FlipError.h"
-#include "LocalDeviceMesh.cuh"
 
 #include <algorithm>
 #include <atomic>

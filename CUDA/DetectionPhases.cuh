@@ -3,11 +3,9 @@
 #ifndef DELAUNAYFLIP_DETECTIONPHASES_CUH
 #define DELAUNAYFLIP_DETECTIONPHASES_CUH
 
-#include "EdgeBits.h"
+#include "DeviceWorklist.cuh"
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
-#include "IterationSums.h"
-#include "LoopView.cuh"
 #include "Team.cuh"
 
 /// @file

@@ -5,14 +5,13 @@
 
 #include "Atomics.h"
 #include "DeviceWorklist.cuh"
-#include "EdgeBits.h"
 #include "EdgeMesh.h"
 #include "FlipSteps.h"
-#include "IterationSums.h"
-#include "LoopView.cuh"
-#include "RecordStore.cuh"
 #include "StepCounts.h"
 #include "Team.cuh"
+
+#include <cstddef>
+#include <cstdint>
 
 /// @file
 /// The passes of an iteration that choose and flip (4 to 6 of FlipLoop.h), on a worklist of the
@@ -21,6 +20,161 @@
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// How the threads of a warp load the triangles that they flip, and store them.
+
+// Half of a record may be loaded while another thread stores it, so each access must be atomic: as
+// a number of 128 bits, which PTX has from CUDA 12.3 on. Before that, vectors of four words give
+// the same instructions.
+#if __CUDACC_VER_MAJOR__ > 12 || (__CUDACC_VER_MAJOR__ == 12 && __CUDACC_VER_MINOR__ >= 3)
+#define DELAUNAYFLIP_HAS_B128 1
+#else
+#define DELAUNAYFLIP_HAS_B128 0
+#endif
+
+/// Stores with one instruction for all lanes, whatever branch chose their values.
+__device__ inline void StoreHalf(uint4* address, const uint4& value)
+{
+#if DELAUNAYFLIP_HAS_B128
+  const std::uint64_t low = value.x | std::uint64_t(value.y) << 32;
+  const std::uint64_t high = value.z | std::uint64_t(value.w) << 32;
+  asm volatile("{\n\t"
+               ".reg .b128 half;\n\t"
+               "mov.b128 half, {%1, %2};\n\t"
+               "st.relaxed.sys.global.b128 [%0], half;\n\t"
+               "}"
+               :
+               : "l"(__cvta_generic_to_global(address)), "l"(low), "l"(high)
+               : "memory");
+#else
+  asm volatile(
+    "st.relaxed.sys.global.v4.b32 [%0], {%1, %2, %3, %4};"
+    :
+    : "l"(__cvta_generic_to_global(address)), "r"(value.x), "r"(value.y), "r"(value.z), "r"(value.w)
+    : "memory");
+#endif
+}
+
+__device__ inline uint4 LoadHalf(const uint4* address)
+{
+  uint4 value;
+#if DELAUNAYFLIP_HAS_B128
+  std::uint64_t low, high;
+  asm volatile("{\n\t"
+               ".reg .b128 half;\n\t"
+               "ld.relaxed.sys.global.b128 half, [%2];\n\t"
+               "mov.b128 {%0, %1}, half;\n\t"
+               "}"
+               : "=l"(low), "=l"(high)
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+  value = { static_cast<unsigned>(low), static_cast<unsigned>(low >> 32),
+    static_cast<unsigned>(high), static_cast<unsigned>(high >> 32) };
+#else
+  asm volatile("ld.relaxed.sys.global.v4.b32 {%0, %1, %2, %3}, [%4];"
+               : "=r"(value.x), "=r"(value.y), "=r"(value.z), "=r"(value.w)
+               : "l"(__cvta_generic_to_global(address))
+               : "memory");
+#endif
+  return value;
+}
+
+/// A record that two neighbouring lanes store together, one half each, so that whole sectors are
+/// written at once.
+__device__ inline void StorePaired(
+  TriangleRecord* triangles, TriangleId triangle, const TriangleRecord& record)
+{
+  const bool isOdd = threadIdx.x % 2 != 0;
+  const uint4 first{ record.Vertices[0], record.Vertices[1], record.Vertices[2],
+    record.InputTriangle };
+  const uint4 second{ record.HalfEdges[0], record.HalfEdges[1], record.HalfEdges[2], record.Flips };
+  const auto exchange = [](std::uint32_t value) { return __shfl_xor_sync(WholeWarp, value, 1); };
+  const TriangleId other = exchange(triangle);
+  const uint4 mine = isOdd ? second : first;
+  const uint4 given = isOdd ? first : second;
+  const uint4 taken{ exchange(given.x), exchange(given.y), exchange(given.z), exchange(given.w) };
+  auto* halves = reinterpret_cast<uint4*>(triangles);
+  const TriangleId ofEven = isOdd ? other : triangle;
+  const TriangleId ofOdd = isOdd ? triangle : other;
+  const int half = isOdd ? 1 : 0;
+  if (ofEven != NoTriangle)
+  {
+    StoreHalf(&halves[2 * std::size_t(ofEven) + half], isOdd ? taken : mine);
+  }
+  if (ofOdd != NoTriangle)
+  {
+    StoreHalf(&halves[2 * std::size_t(ofOdd) + half], isOdd ? mine : taken);
+  }
+}
+
+/// Holds what a flip writes to its two records until the whole warp stores them.
+struct FlippedRecords
+{
+  TriangleId Triangles[2] = { NoTriangle, NoTriangle };
+  TriangleRecord Records[2] = {};
+
+  /// For FlipEdge.
+  __device__ auto Keep()
+  {
+    return [this](int i, TriangleId triangle, const TriangleRecord& record)
+    {
+      this->Triangles[i] = triangle;
+      this->Records[i] = record;
+    };
+  }
+
+  __device__ void Store(TriangleRecord* triangles) const
+  {
+    StorePaired(triangles, this->Triangles[0], this->Records[0]);
+    StorePaired(triangles, this->Triangles[1], this->Records[1]);
+  }
+};
+
+/// A triangle that another thread may be flipping. Its half-edges are all from before or all from
+/// after that flip; its vertices are valid only if no thread flips it.
+__device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
+{
+  const auto* halves = reinterpret_cast<const uint4*>(triangle);
+  const uint4 first = halves[0];
+  const uint4 second = LoadHalf(&halves[1]);
+  return { { first.x, first.y, first.z }, first.w, { second.x, second.y, second.z }, second.w };
+}
+
+/// The complete records of both triangles of an edge.
+struct RecordPair
+{
+  CornerPair Corners;
+  TriangleRecord Upper, Lower; ///< Of Corners.A and Corners.B.
+
+  __device__ RecordPair(const EdgeMeshView& mesh, const CornerPair& corners)
+    : Corners(corners),
+      Upper(LoadRecord(&mesh.Triangles[TriangleOf(corners.A)])),
+      Lower(LoadRecord(&mesh.Triangles[TriangleOf(corners.B)]))
+  {
+  }
+
+  __device__ Quad GetQuad() const
+  {
+    const int slot = SlotOf(this->Corners.A);
+    return { this->Corners.A, this->Corners.B, GetAt(this->Upper.Vertices, slot),
+      GetAt(this->Upper.Vertices, NextSlot(slot)), GetAt(this->Upper.Vertices, PreviousSlot(slot)),
+      GetAt(this->Lower.Vertices, SlotOf(this->Corners.B)) };
+  }
+  __device__ OuterHalfEdges GetOuter() const
+  {
+    return GetOuterHalfEdges(this->Upper.HalfEdges, SlotOf(this->Corners.A), this->Lower.HalfEdges,
+      SlotOf(this->Corners.B));
+  }
+  /// Whether both triangles have the edge there.
+  __device__ bool Hold(EdgeId edge) const
+  {
+    return EdgeOf(GetAt(this->Upper.HalfEdges, SlotOf(this->Corners.A))) == edge &&
+      EdgeOf(GetAt(this->Lower.HalfEdges, SlotOf(this->Corners.B))) == edge;
+  }
+};
+
+//------------------------------------------------------------------------------
 
 /// Makes the outer edges of a flip candidates.
 template <typename Rule>

@@ -50,21 +50,15 @@ void VertexFans::AddFan(CornerId first, std::vector<bool>& isKnown)
 
 void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfEdgeId fromQ)
 {
-  this->Replace(quad.P, edge, fromP);
-  this->Replace(quad.Q, edge, fromQ);
-}
-
-void VertexFans::Replace(VertexId vertex, EdgeId gone, HalfEdgeId halfEdge)
-{
-  if (EdgeOf(this->First[vertex]) == gone)
+  for (const auto& [vertex, halfEdge] : { std::pair(quad.P, fromP), std::pair(quad.Q, fromQ) })
   {
-    this->First[vertex] = halfEdge;
-    return;
-  }
-  const auto [begin, end] = this->Others.equal_range(vertex);
-  for (auto other = begin; other != end; ++other)
-  {
-    other->second = EdgeOf(other->second) == gone ? halfEdge : other->second;
+    HalfEdgeId& first = this->First[vertex];
+    first = EdgeOf(first) == edge ? halfEdge : first;
+    const auto [begin, end] = this->Others.equal_range(vertex);
+    for (auto other = begin; other != end; ++other)
+    {
+      other->second = EdgeOf(other->second) == edge ? halfEdge : other->second;
+    }
   }
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 /// @file
-/// How to walk through an edge mesh in the plane, on the host.
+/// The way of a constraint through an edge mesh in the plane, on the host.
 
 namespace delaunayflip
 {
@@ -148,7 +148,6 @@ private:
   }
 
   void AddFan(CornerId first, std::vector<bool>& isKnown);
-  void Replace(VertexId vertex, EdgeId gone, HalfEdgeId halfEdge);
 
   const PlaneMesh& Mesh;
   std::vector<HalfEdgeId> First; ///< One a vertex, or NoHalfEdge.

@@ -25,10 +25,14 @@
 #include <vector>
 
 /// @file
-/// Decides which edges stay; done once, while the edge mesh is built.
+/// Makes an edge mesh of triangles, in linear time whatever the vertex degrees, and decides which
+/// edges stay.
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Which edges stay.
 
 struct EdgeMeshInput
 {
@@ -46,21 +50,6 @@ struct EdgeMeshResult
   Defect DuplicateTriangles;
   std::int64_t MissingConstraints = 0;
 };
-
-/// Whether no edge of a triangle may flip: by request of the caller, because of a repeated id, or
-/// because a coordinate is not finite. `uses` may be null if all coordinates are finite.
-DELAUNAYFLIP_HOST_DEVICE inline bool IsUntouchable(
-  const TriangleMesh& mesh, const PointUse* uses, TriangleId inputTriangle)
-{
-  const std::int64_t p = mesh.Triangles.Get(inputTriangle, 0);
-  const std::int64_t q = mesh.Triangles.Get(inputTriangle, 1);
-  const std::int64_t r = mesh.Triangles.Get(inputTriangle, 2);
-  return (mesh.FrozenTriangles && mesh.FrozenTriangles[inputTriangle] != 0) || p == q || q == r ||
-    r == p ||
-    (uses &&
-      (uses[p] == PointUse::NotFinite || uses[q] == PointUse::NotFinite ||
-        uses[r] == PointUse::NotFinite));
-}
 
 /// Why edges were fixed. Edges are counted, a non-manifold one once.
 struct FixedSums
@@ -336,7 +325,6 @@ void FixEdges(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend&
 }
 
 //------------------------------------------------------------------------------
-// Makes an edge mesh of triangles, in linear time whatever the vertex degrees.
 
 /// Finds or makes the table entries of the edges opposite corners 3 * triangle + slot, if they are
 /// of the table's slice, and adds the corners to them.
@@ -352,19 +340,13 @@ struct PairStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, PairSums& sums) const
   {
     TriangleRecord& triangle = this->Triangles[i / 3];
-    const std::uint64_t key = KeyOpposite(triangle, static_cast<int>(i % 3));
+    const int slot = static_cast<int>(i % 3);
+    const std::uint64_t key = KeyOpposite(triangle, slot);
     // A table that has failed once is discarded.
-    if (sums.Failures == 0 && this->Table.Slice.Holds(key))
+    if (sums.Failures > 0 || !this->Table.Slice.Holds(key))
     {
-      this->Pair(
-        key, triangle, MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)), sums);
+      return;
     }
-  }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE void Pair(
-    std::uint64_t key, TriangleRecord& triangle, CornerId corner, PairSums& sums) const
-  {
     bool inserted = false;
     const std::uint32_t entry = this->Table.FindOrInsert(key, inserted);
     if (entry == EdgeTableView::NoSlot)
@@ -372,8 +354,18 @@ private:
       ++sums.Failures;
       return;
     }
-    const int slot = SlotOf(corner);
-    const bool many = AttachCorner(this->Table, entry, corner, inserted);
+    const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), slot);
+    bool many = false; // this makes the edge non-manifold
+    if (inserted)
+    {
+      this->Table.First[entry] = corner; // the first word belongs to the corner that inserted it
+    }
+    else
+    {
+      CornerId* second = &this->Table.Second[entry];
+      many = AtomicCompareExchange(second, NoCorner, corner) != NoCorner &&
+        AtomicExchange(second, ManyCorners) != ManyCorners;
+    }
     const bool isEdge = !IsLoop(triangle, slot);
     sums.Edges += isEdge && inserted ? 1 : 0;
     sums.NonManifold += isEdge && many ? 1 : 0;
@@ -488,13 +480,23 @@ struct LoadStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
   {
     TriangleRecord& record = this->Triangles[t];
-    record.InputTriangle = this->Order.GetTriangle(t);
-    record.Flips = IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      record.Vertices[slot] =
-        this->Order.GetRank(this->Mesh.Triangles.Get(record.InputTriangle, slot));
-    }
+    const TriangleId own = this->Order.GetTriangle(t);
+    const std::int64_t p = this->Mesh.Triangles.Get(own, 0);
+    const std::int64_t q = this->Mesh.Triangles.Get(own, 1);
+    const std::int64_t r = this->Mesh.Triangles.Get(own, 2);
+    // No edge may flip: by request of the caller, because of a repeated id, or because a coordinate
+    // is not finite.
+    const bool isUntouchable =
+      (this->Mesh.FrozenTriangles && this->Mesh.FrozenTriangles[own] != 0) || p == q || q == r ||
+      r == p ||
+      (this->Uses &&
+        (this->Uses[p] == PointUse::NotFinite || this->Uses[q] == PointUse::NotFinite ||
+          this->Uses[r] == PointUse::NotFinite));
+    record.InputTriangle = own;
+    record.Flips = isUntouchable ? UntouchableBit : 0;
+    record.Vertices[0] = this->Order.GetRank(p);
+    record.Vertices[1] = this->Order.GetRank(q);
+    record.Vertices[2] = this->Order.GetRank(r);
   }
 };
 
@@ -515,30 +517,13 @@ EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
   return edges;
 }
 
-/// Pairs the corners of a slice, by a table for `expected` edges. @returns false if that is too
-/// small.
-template <typename Backend>
-bool TryPairSlice(
-  EdgeMeshResult& result, const VertexSlice& slice, std::int64_t expected, const Backend& backend)
-{
-  result.Table = EdgeTable();
-  result.Table = EdgeTable(expected, slice, true, backend);
-  const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
-    PairStep{ result.Table.View(), result.Edges.Triangles.Data() });
-  // With a larger share of slots in use, later searches would be long.
-  constexpr double LargestFill = 0.8;
-  result.Counts.Edges += sums.Edges;
-  result.Counts.NonManifold += sums.NonManifold;
-  const auto capacity = static_cast<double>(result.Table.GetCapacity());
-  return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
-}
-
-/// Pairs the corners slice by slice, and numbers the edges. @returns whether all tables were large
-/// enough.
+/// Pairs the corners slice by slice, and numbers the edges. @returns whether all tables, for
+/// `expected` edges together, were large enough.
 template <typename Backend>
 bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t slices,
   std::int64_t expected, typename Backend::Numbering& numbering, const Backend& backend)
 {
+  TriangleRecord* records = result.Edges.Triangles.Data();
   const std::int64_t triangles = result.Edges.NumberOfTriangles;
   result.Counts.Edges = 0;
   result.Counts.NonManifold = 0;
@@ -546,17 +531,28 @@ bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t s
   {
     const VertexSlice slice{ static_cast<VertexId>(vertices * i / slices),
       static_cast<VertexId>(vertices * (i + 1) / slices) };
-    if (!TryPairSlice(result, slice, expected / slices, backend))
+    result.Table = EdgeTable(); // frees the memory first
+    result.Table = EdgeTable(expected / slices, slice, true, backend);
+    const PairSums sums =
+      backend.template Sum<PairSums>(3 * triangles, PairStep{ result.Table.View(), records });
+    result.Counts.Edges += sums.Edges;
+    result.Counts.NonManifold += sums.NonManifold;
+    // With a larger share of slots in use, later searches would be long.
+    constexpr double LargestFill = 0.8;
+    const auto capacity = static_cast<double>(result.Table.GetCapacity());
+    if (sums.Failures > 0 || static_cast<double>(sums.Edges) > LargestFill * capacity)
     {
       return false;
     }
-    const RoleStep setRoles{ result.Table.View(), result.Edges.Triangles.Data() };
+    const RoleStep setRoles{ result.Table.View(), records };
     if (i + 1 < slices)
     {
       backend.ForEach(triangles, setRoles);
-      continue;
     }
-    numbering = backend.Count(triangles, setRoles);
+    else
+    {
+      numbering = backend.Count(triangles, setRoles);
+    }
   }
   return true;
 }
@@ -586,19 +582,14 @@ typename Backend::Numbering PairByTable(
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
-/// Whether the builder will search for edges. A guard makes its own table, which needs no words.
-inline bool NeedsTable(const EdgeMeshInput& input)
-{
-  return input.Input.Caller.NumberOfConstraintEdges > 0;
-}
-
 /// Finds the other corner of every corner's edge, in the way that suits the backend.
 /// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  if (NeedsTable(input))
+  // Constraints are searched for in it. A guard makes its own table, which needs no words.
+  if (input.Input.Caller.NumberOfConstraintEdges > 0)
   {
     return PairByTable(input, result, 1, backend);
   }

@@ -296,20 +296,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int 
   return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
 }
 
-/// Adds a corner to the table entry of its edge. The first word belongs to the corner that inserted
-/// the entry. @returns whether this made the edge non-manifold.
-DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner, bool inserted)
-{
-  if (inserted)
-  {
-    table.First[slot] = corner;
-    return false;
-  }
-  return AtomicCompareExchange(&table.Second[slot], NoCorner, corner) != NoCorner &&
-    AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
-}
-
 /// @param other receives the other corner of an edge with two triangles, else NoCorner.
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
   const EdgeTableView& table, std::uint32_t slot, CornerId corner, CornerId& other)

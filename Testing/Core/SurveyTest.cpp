@@ -94,14 +94,14 @@ TEST(PlanarSurvey, OfTwoOppositeTrianglesTheRightOneIsInverted)
 
 TEST(PlanarSurvey, SumsOfPartsAreWhole)
 {
-  StarSums stars, part;
+  PlaneSums stars, part;
   part.SeveralFans = 1;
   part.Covers = 2;
-  part.Uncertain = 3; // only on a device
+  part.UncertainCovers = 3; // only on a device
   stars += part;
   EXPECT_EQ(1, stars.SeveralFans);
   EXPECT_EQ(2, stars.Covers);
-  EXPECT_EQ(3, stars.Uncertain);
+  EXPECT_EQ(3, stars.UncertainCovers);
   AreaSum area, small;
   small.Add(1.0);
   small.Add(0x1p-58);
@@ -125,7 +125,7 @@ TEST(PlanarSurvey, TouchingCornersAreNotSimple)
   EXPECT_FALSE(Survey(bowTie).StarsAreSimple);
 }
 
-TEST(PlaneFinder, TakesTheFirstOfTheFarthest)
+TEST(GeometryChoice, TakesTheFirstOfTheFarthest)
 {
   Farthest farthest;
   farthest += { 7, 2.0, {} };
@@ -148,12 +148,12 @@ TEST(PlaneScale, BringsTheLargestCoordinateToOneToTwo)
     {
       BoundingBox box;
       box.Lower[axis] = -extent;
-      const Vector3 scaled = PlaneScale(box)(extent, extent, extent);
+      const Vector3 scaled = PlaneScale(box)({ extent, extent, extent });
       EXPECT_GE(scaled.X, 1.0) << extent;
       EXPECT_LT(scaled.X, 2.0) << extent;
     }
   }
-  const Vector3 same = PlaneScale(BoundingBox())(3.0, 4.0, 5.0);
+  const Vector3 same = PlaneScale(BoundingBox())({ 3.0, 4.0, 5.0 });
   EXPECT_EQ(3.0, same.X);
   EXPECT_EQ(5.0, same.Z);
 }

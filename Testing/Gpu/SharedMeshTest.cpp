@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaDevice.h"
 #include "CudaError.h"
+#include "DeviceMemory.h"
 #include "FlipError.h"
 #include "FlipTestSupport.h"
 #include "GpuTestSupport.h"
-#include "SharedMemory.h"
 
 #include <gtest/gtest.h>
 
