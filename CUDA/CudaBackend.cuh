@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -326,6 +327,27 @@ public:
 
   template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
+
+  /// 0 .. size - 1, on the first GPU.
+  Array<std::uint32_t> MakeIndices(std::int64_t size) const
+  {
+    Array<std::uint32_t> indices = this->MakeArrayOnFirst<std::uint32_t>(size);
+    std::uint32_t* index = indices.Data();
+    this->ForEach(size,
+      [=] __device__(std::int64_t i) { index[i] = static_cast<std::uint32_t>(i); });
+    return indices;
+  }
+
+  /// Sorts `order`, which names items, by keyOf(item); equal keys keep their order.
+  template <typename Key, typename KeyOf>
+  void SortBy(
+    Array<std::uint32_t>& order, std::int64_t size, int keyBits, const KeyOf& keyOf) const;
+
+  /// Calls work(task) for task = 0 .. count - 1 on CPU threads.
+  void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const
+  {
+    this->Threads.ForTasks(count, work);
+  }
 
   /// A device always uses the edge table.
   bool PairCorners(EdgeMesh&, std::int64_t, PairSums&, Numbering&) const { return false; }
@@ -705,33 +727,37 @@ private:
   ThreadBackend Threads;
 };
 
-template <int KeyBits, typename KeyOf>
-Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
+template <typename Key, typename KeyOf>
+void CudaBackend::SortBy(
+  Array<std::uint32_t>& order, std::int64_t size, int keyBits, const KeyOf& keyOf) const
 {
-  // One GPU sorts.
-  Array<std::uint32_t> keys = this->MakeArrayOnFirst<std::uint32_t>(size);
-  Array<std::uint32_t> sortedKeys = this->MakeArrayOnFirst<std::uint32_t>(size);
-  Array<std::uint32_t> indices = this->MakeArrayOnFirst<std::uint32_t>(size);
+  Array<Key> keys = this->MakeArrayOnFirst<Key>(size);
+  Array<Key> sortedKeys = this->MakeArrayOnFirst<Key>(size);
   Array<std::uint32_t> sorted = this->MakeArrayOnFirst<std::uint32_t>(size);
-  std::uint32_t* keyOfItem = keys.Data();
-  std::uint32_t* indexOfItem = indices.Data();
-  this->ForEach(size,
-    [=] __device__(std::int64_t i)
-    {
-      keyOfItem[i] = keyOf(i);
-      indexOfItem[i] = static_cast<std::uint32_t>(i);
-    });
-  cub::DoubleBuffer<std::uint32_t> keyBuffer(keys.Data(), sortedKeys.Data());
-  cub::DoubleBuffer<std::uint32_t> indexBuffer(indices.Data(), sorted.Data());
+  Key* keyOfPlace = keys.Data();
+  const std::uint32_t* item = order.Data();
+  this->ForEach(size, [=] __device__(std::int64_t i) { keyOfPlace[i] = keyOf(item[i]); });
+  cub::DoubleBuffer<Key> keyBuffer(keys.Data(), sortedKeys.Data());
+  cub::DoubleBuffer<std::uint32_t> buffer(order.Data(), sorted.Data());
   this->RunCub(
     [&](void* temporary, std::size_t& bytes)
     {
       return cub::DeviceRadixSort::SortPairs(
-        temporary, bytes, keyBuffer, indexBuffer, size, 0, KeyBits, this->GetStream());
+        temporary, bytes, keyBuffer, buffer, size, 0, keyBits, this->GetStream());
     });
-  Array<std::uint32_t> found =
-    indexBuffer.Current() == sorted.Data() ? std::move(sorted) : std::move(indices);
-  return this->CountDevices() == 1 ? std::move(found) : this->Share(found);
+  if (buffer.Current() == sorted.Data())
+  {
+    order = std::move(sorted);
+  }
+}
+
+template <int KeyBits, typename KeyOf>
+Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
+{
+  // One GPU sorts.
+  Array<std::uint32_t> order = this->MakeIndices(size);
+  this->SortBy<std::uint32_t>(order, size, KeyBits, keyOf);
+  return this->CountDevices() == 1 ? std::move(order) : this->Share(order);
 }
 
 }

@@ -4,6 +4,7 @@
 #include "BackendEngine.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
+#include "DeviceStripSorting.cuh"
 #include "FlipError.h"
 
 #include <algorithm>
@@ -142,6 +143,22 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   return MakeEngine(mesh, options, progress);
+}
+
+std::unique_ptr<FlipEngine> MakeCudaEngine(const PlaneArray& points, const FlipOptions& options,
+  bool byDivision, const BuildProgress& progress)
+{
+  try
+  {
+    CudaBackend backend({ options.Device }, options.NumberOfThreads);
+    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+    return std::unique_ptr<FlipEngine>(
+      new CudaEngine(points, options, byDivision, std::move(backend), progress));
+  }
+  catch (const BeyondDevice& error)
+  {
+    throw BackendUnavailable(error.what());
+  }
 }
 
 }
