@@ -338,13 +338,29 @@ void FlipSession::Work::DivideIfLong()
   // as long as some hundred flips.
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
-  const std::int64_t done =
-    this->Report.TotalFlips + FlipsPerIteration * this->CountIterations();
   constexpr std::int64_t Least = 100000;
-  if (!this->Cloud || this->ByDivision || !this->IsRunning() ||
-    done < FlipsPerPoint * this->Cloud->Count + Least)
+  if (!this->Cloud || this->ByDivision || !this->IsRunning())
   {
     return;
+  }
+  const std::int64_t most = FlipsPerPoint * this->Cloud->Count + Least;
+  std::int64_t done = 0;
+  std::size_t iterations = 0;
+  std::vector<IterationRecord>& made = this->Report.Iterations;
+  while (iterations < made.size() && done < most)
+  {
+    done += made[iterations++].Flipped + FlipsPerIteration;
+  }
+  if (done < most)
+  {
+    return;
+  }
+  // Iterations beyond belong to a batch, whose size depends on the backend.
+  for (; made.size() > iterations; made.pop_back())
+  {
+    this->Report.TotalFlips -= made.back().Flipped;
+    this->Report.TotalExcluded -= made.back().Excluded;
+    this->Report.TotalBlocked -= made.back().Blocked;
   }
   this->ByDivision = true;
   this->HasDetected = false;
