@@ -128,6 +128,7 @@ struct FlipSession::Work
   CallerMesh Mesh; ///< Empty in a session from points.
   std::optional<PlaneArray> Cloud; ///< Of a session from points.
   bool ByDivision = false; ///< Whether these are triangulated by divide and conquer.
+  std::int64_t IterationsBeforeDivision = 0;
   FlipOptions Options;
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   FlipReport Report;
@@ -299,10 +300,11 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
   loop.Detect();
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
   std::int64_t batch = 1;
-  for (std::int64_t done = 0; done < this->CountIterations();)
+  const std::int64_t iterations = this->CountIterations() - this->IterationsBeforeDivision;
+  for (std::int64_t done = 0; done < iterations;)
   {
     const StopWatch watch;
-    const AdvancePlan plan{ std::min(batch, this->CountIterations() - done), false, false };
+    const AdvancePlan plan{ std::min(batch, iterations - done), false, false };
     done += static_cast<std::int64_t>(loop.Advance(plan).size());
     batch = watch.GetSeconds() < 0.05 ? 2 * batch : batch;
     this->Building.Tell(0.0);
@@ -315,6 +317,8 @@ void FlipSession::Work::Reset()
   this->Start.reset();
   this->Fallback.clear();
   this->HasDetected = false;
+  this->ByDivision = false;
+  this->IterationsBeforeDivision = 0;
   this->Insertion = ConstraintInsertion();
   this->Report = FlipReport();
   this->Report.Points = this->Mesh.CountPoints();
@@ -339,7 +343,7 @@ void FlipSession::Work::DivideIfLong()
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
   constexpr std::int64_t Least = 100000;
-  if (!this->Cloud || this->ByDivision || !this->IsRunning())
+  if (!this->Cloud || this->ByDivision)
   {
     return;
   }
@@ -351,7 +355,7 @@ void FlipSession::Work::DivideIfLong()
   {
     done += made[iterations++].Flipped + FlipsPerIteration;
   }
-  if (done < most)
+  if (done < most || (iterations == made.size() && !this->IsRunning()))
   {
     return;
   }
@@ -363,6 +367,7 @@ void FlipSession::Work::DivideIfLong()
     this->Report.TotalBlocked -= made.back().Blocked;
   }
   this->ByDivision = true;
+  this->IterationsBeforeDivision = this->CountIterations();
   this->HasDetected = false;
   this->Engine.reset();
   this->MakeEngine();
