@@ -333,8 +333,8 @@ public:
   {
     Array<std::uint32_t> indices = this->MakeArrayOnFirst<std::uint32_t>(size);
     std::uint32_t* index = indices.Data();
-    this->ForEach(size,
-      [=] __device__(std::int64_t i) { index[i] = static_cast<std::uint32_t>(i); });
+    this->ForEach(
+      size, [=] __device__(std::int64_t i) { index[i] = static_cast<std::uint32_t>(i); });
     return indices;
   }
 

@@ -135,8 +135,9 @@ public:
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    points.Floats ? this->Triangulate<float>(points, points.Floats, options, byDivision, progress)
-                  : this->Triangulate<double>(points, points.Doubles, options, byDivision, progress);
+    points.Floats
+      ? this->Triangulate<float>(points, points.Floats, options, byDivision, progress)
+      : this->Triangulate<double>(points, points.Doubles, options, byDivision, progress);
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -272,13 +273,14 @@ private:
     report.GeometryReason = "points are triangulated in x and y";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
-    this->AddDefect({ "points with NaN or infinite coordinates", points.Count - finite, {},
-      DefectIds::Points });
-    this->AddDefect({ "points at the place of another one", finite - places, {}, DefectIds::Points });
+    this->AddDefect(
+      { "points with NaN or infinite coordinates", points.Count - finite, {}, DefectIds::Points });
+    this->AddDefect(
+      { "points at the place of another one", finite - places, {}, DefectIds::Points });
     Array<unsigned char> none;
-    this->Loop = MakePlanarLoop(
-      { this->Points, survey, options, report, this->Mesh, WholeMesh(), none }, 1, EdgeGuard(),
-      this->Backend);
+    this->Loop =
+      MakePlanarLoop({ this->Points, survey, options, report, this->Mesh, WholeMesh(), none }, 1,
+        EdgeGuard(), this->Backend);
   }
 
   /// In the plane the caller's points are not needed once they are packed; on surfaces feature

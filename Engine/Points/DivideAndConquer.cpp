@@ -62,7 +62,7 @@ public:
       finer.back() = size;
       levels.push_back(finer);
     }
-      std::vector<Part> parts(levels.back().size() - 1);
+    std::vector<Part> parts(levels.back().size() - 1);
     int axis = static_cast<int>(levels.size() - 1) % 2;
     this->Run(static_cast<std::int64_t>(parts.size()),
       [&](std::int64_t i)
@@ -72,8 +72,7 @@ public:
       axis = 1 - axis;
       std::vector<Part> merged(parts.size() / 2);
       this->Run(static_cast<std::int64_t>(merged.size()),
-        [&](std::int64_t i)
-        { merged[i] = this->Merge(parts[2 * i], parts[2 * i + 1], axis); });
+        [&](std::int64_t i) { merged[i] = this->Merge(parts[2 * i], parts[2 * i + 1], axis); });
       parts = std::move(merged);
     }
     return this->Collect(parts.front());
@@ -294,8 +293,7 @@ private:
     {
       return None;
     }
-    for (Edge next = step(candidate);
-         this->IsInCircle(this->Destination(base), this->Origin[base],
+    for (Edge next = step(candidate); this->IsInCircle(this->Destination(base), this->Origin[base],
            this->Destination(candidate), this->Destination(next));
          next = step(candidate))
     {

@@ -12,8 +12,8 @@
 /// @file
 /// The Delaunay triangulation of points on the host, by divide and conquer (Guibas and Stolfi, ACM
 /// Transactions on Graphics 4, 1985) with cuts that alternate between x and y (Dwyer, Algorithmica
-/// 2, 1987). It takes O(n log n) steps whatever the points are. Where strips leave a start from which
-/// flips are a long chain, as for points along curves, this takes over.
+/// 2, 1987). It takes O(n log n) steps whatever the points are. Where strips leave a start from
+/// which flips are a long chain, as for points along curves, this takes over.
 
 namespace delaunayflip
 {

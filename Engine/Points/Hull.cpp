@@ -105,8 +105,8 @@ struct LabelledPath
 };
 }
 
-HullTriangles FillHull(const Boundary& boundary,
-  const std::vector<CoordinatePair<double>>& places, std::int64_t firstTriangle)
+HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePair<double>>& places,
+  std::int64_t firstTriangle)
 {
   HullTriangles result;
   const std::size_t size = places.size();

@@ -9,20 +9,20 @@
 #include <vector>
 
 /// @file
-/// The third part of a triangulation of points: what lies between the outermost chains and diagonals
-/// and the convex hull. For uniform points that is a path of about 6 sqrt(n) points, so the host does
-/// it, for every backend.
+/// The third part of a triangulation of points: what lies between the outermost chains and
+/// diagonals and the convex hull. For uniform points that is a path of about 6 sqrt(n) points, so
+/// the host does it, for every backend.
 ///
-/// First each part of the outer boundary is filled alone: the lowest chain, the highest one, and the
-/// two ends of every gap. Then the whole boundary rises from its lowest point to its highest and falls
-/// back, so that cutting ears along all of it ends at the convex hull. Without the first pass that
-/// is not valid: triangles would overlap.
+/// First each part of the outer boundary is filled alone: the lowest chain, the highest one, and
+/// the two ends of every gap. Then the whole boundary rises from its lowest point to its highest
+/// and falls back, so that cutting ears along all of it ends at the convex hull. Without the first
+/// pass that is not valid: triangles would overlap.
 
 namespace delaunayflip
 {
 
-/// Names a side of an open edge: word 2 * place + side of the edges of chains, or, complemented, word
-/// 2 * slot + side of the diagonals.
+/// Names a side of an open edge: word 2 * place + side of the edges of chains, or, complemented,
+/// word 2 * slot + side of the diagonals.
 using SideWord = std::int64_t;
 
 /// The outer boundary, counter-clockwise.
@@ -47,8 +47,8 @@ struct HullTriangles
 
 /// @param places the coordinates of boundary.Places.
 /// @param firstTriangle the number of the first triangle to make.
-HullTriangles FillHull(const Boundary& boundary,
-  const std::vector<CoordinatePair<double>>& places, std::int64_t firstTriangle);
+HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePair<double>>& places,
+  std::int64_t firstTriangle);
 
 }
 

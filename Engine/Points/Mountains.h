@@ -13,12 +13,12 @@
 /// @file
 /// The second part of a triangulation of points: the gaps between neighbouring chains.
 ///
-/// The points of two neighbouring chains, merged by (x, y), are the slots of their gap. Wherever two
-/// consecutive slots are of different chains, the segment between their points crosses nothing:
-/// this is a diagonal. The diagonals cut the gap into mountains: a mountain is a run of slots of one
-/// chain and, as its base, the edge of the other chain that spans it. (Fournier and Montuno, ACM
-/// Transactions on Graphics 3, 1984; Chazelle and Incerpi, the same volume.) A run of k points is
-/// triangulated by k triangles, by cutting ears. The runs at the two ends of a gap have no base;
+/// The points of two neighbouring chains, merged by (x, y), are the slots of their gap. Wherever
+/// two consecutive slots are of different chains, the segment between their points crosses nothing:
+/// this is a diagonal. The diagonals cut the gap into mountains: a mountain is a run of slots of
+/// one chain and, as its base, the edge of the other chain that spans it. (Fournier and Montuno,
+/// ACM Transactions on Graphics 3, 1984; Chazelle and Incerpi, the same volume.) A run of k points
+/// is triangulated by k triangles, by cutting ears. The runs at the two ends of a gap have no base;
 /// what lies beyond the outermost diagonals is left to Hull.h.
 
 namespace delaunayflip
@@ -136,9 +136,9 @@ DELAUNAYFLIP_HOST_DEVICE Gap MeasureGap(const ChainView<Real>& chains, std::int6
 }
 
 /// A path of vertices from left to right of which ears are cut until only what is convex, or in a
-/// mountain its base, is left. The path between its two ends is kept in records of triangles that are
-/// made later: a vertex in InputTriangle, the label of the edge before it in Flips. A label is the
-/// corner of the triangle that has been cut off there, or says that there is none yet.
+/// mountain its base, is left. The path between its two ends is kept in records of triangles that
+/// are made later: a vertex in InputTriangle, the label of the edge before it in Flips. A label is
+/// the corner of the triangle that has been cut off there, or says that there is none yet.
 template <typename Real, typename Open>
 struct EarCutter
 {
@@ -334,8 +334,8 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountains(
     const std::int64_t firstSlot = chains.FirstSlot(gap);
     const std::int64_t nextGap = firstSlot + (last - lower);
     const std::int64_t endOfMountains = nextGap - chains.Gaps[gap].RightRun;
-    slot = slot > firstSlot + chains.Gaps[gap].LeftRun ? slot
-                                                       : firstSlot + chains.Gaps[gap].LeftRun;
+    slot =
+      slot > firstSlot + chains.Gaps[gap].LeftRun ? slot : firstSlot + chains.Gaps[gap].LeftRun;
     // How many of the slots before are of the lower chain: on the merge path.
     const auto before = static_cast<std::uint32_t>(slot - firstSlot);
     std::uint32_t a = before > last - upper ? before - (last - upper) : 0;
@@ -354,10 +354,9 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountains(
         ? 1
         : 0;
     };
-    int previous = place[0] == lower ||
-        (place[1] > upper && chains.IsBefore(place[0] - 1, place[1] - 1))
-      ? 1
-      : 0;
+    int previous =
+      place[0] == lower || (place[1] > upper && chains.IsBefore(place[0] - 1, place[1] - 1)) ? 1
+                                                                                             : 0;
     const std::int64_t stop = end < endOfMountains ? end : endOfMountains;
     while (slot < stop)
     {

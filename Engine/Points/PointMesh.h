@@ -61,7 +61,7 @@ void NumberJoinedEdges(EdgeMesh& edges, const Backend& backend)
       for (int slot = 0; slot < 3; ++slot)
       {
         const CornerId other = GetAt(triangle.HalfEdges, slot);
-        const CornerRole role = other == NoCorner ? CornerRole::Alone
+        const CornerRole role = other == NoCorner                ? CornerRole::Alone
           : MakeCorner(static_cast<TriangleId>(t), slot) < other ? CornerRole::Leader
                                                                  : CornerRole::Follower;
         triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
@@ -125,8 +125,7 @@ struct PointMeshBuilder
   {
     const std::int64_t strips = this->Mesh.Points.Strips;
     this->HostStarts.resize(strips + 1);
-    this->Device.Download(
-      this->Mesh.Points.Starts.Data(), strips + 1, this->HostStarts.data());
+    this->Device.Download(this->Mesh.Points.Starts.Data(), strips + 1, this->HostStarts.data());
     this->Gaps = this->Device.template MakeArray<Gap>(strips - 1);
     Gap* gaps = this->Gaps.Data();
     const ChainView<Real> chains = this->View();
@@ -157,8 +156,9 @@ struct PointMeshBuilder
     CoordinatePair<double>* to = gathered.Data();
     const CoordinatePair<Real>* places = this->Mesh.Points.Places();
     this->Device.ForEach(size,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { to[i] = { places[list[i]].U, places[list[i]].V }; });
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
+        to[i] = { places[list[i]].U, places[list[i]].V };
+      });
     std::vector<CoordinatePair<double>> coordinates(size);
     this->Device.Download(to, size, coordinates.data());
     return FillHull(boundary, coordinates, firstTriangle);
@@ -175,10 +175,10 @@ struct PointMeshBuilder
     this->SidesOfDiagonal = this->Device.template MakeArray<CornerId>(2 * slots + 2);
     CornerId* ofEdge = this->SidesOfEdge.Data();
     CornerId* ofDiagonal = this->SidesOfDiagonal.Data();
-    this->Device.ForEach(2 * places,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofEdge[i] = NoCorner; });
-    this->Device.ForEach(2 * slots + 2,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofDiagonal[i] = NoCorner; });
+    this->Device.ForEach(
+      2 * places, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofEdge[i] = NoCorner; });
+    this->Device.ForEach(
+      2 * slots + 2, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofDiagonal[i] = NoCorner; });
   }
 
   std::int64_t CountSlots() const
@@ -202,7 +202,8 @@ struct PointMeshBuilder
     this->Device.ForEach(size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
-        CornerId& side = word[i] < 0 ? chains.SidesOfDiagonal[~word[i]] : chains.SidesOfEdge[word[i]];
+        CornerId& side =
+          word[i] < 0 ? chains.SidesOfDiagonal[~word[i]] : chains.SidesOfEdge[word[i]];
         side = corner[i];
       });
   }
@@ -276,8 +277,7 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
 
 /// The same by divide and conquer, on the host. The places get another order.
 template <typename Real, typename Backend>
-PointMesh<Real> BuildDividedMesh(
-  StripPoints<Real> strips, const Backend& backend)
+PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backend)
 {
   const std::int64_t count = strips.Count;
   std::vector<CoordinatePair<Real>> places(count);
@@ -286,7 +286,9 @@ PointMesh<Real> BuildDividedMesh(
   backend.Download(strips.Ids.Data(), count, ids.data());
   std::vector<CoordinatePair<double>> exact(count);
   std::transform(places.begin(), places.end(), exact.begin(),
-    [](const CoordinatePair<Real>& p) { return CoordinatePair<double>{ p.U, p.V }; });
+    [](const CoordinatePair<Real>& p) {
+      return CoordinatePair<double>{ p.U, p.V };
+    });
   const DividedPoints divided = DivideAndConquer(exact,
     [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
     { backend.ForTasks(tasks, work); });

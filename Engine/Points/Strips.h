@@ -46,8 +46,9 @@ struct StripFinder
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindCell(double y) const
   {
     const double cell = (0.5 * y - this->HalfLower) * this->Scale;
-    return cell > 0.0 ? (cell < this->Cells - 1 ? static_cast<std::uint32_t>(cell) : this->Cells - 1)
-                      : 0;
+    return cell > 0.0
+      ? (cell < this->Cells - 1 ? static_cast<std::uint32_t>(cell) : this->Cells - 1)
+      : 0;
   }
 
   /// The strip: how many of the bounds are not above y.
@@ -89,8 +90,7 @@ struct StripBounds
     {
       ++this->FirstOfCell[finder.FindCell(bound) + 1];
     }
-    std::partial_sum(
-      this->FirstOfCell.begin(), this->FirstOfCell.end(), this->FirstOfCell.begin());
+    std::partial_sum(this->FirstOfCell.begin(), this->FirstOfCell.end(), this->FirstOfCell.begin());
   }
 
   std::int64_t CountStrips() const { return static_cast<std::int64_t>(this->Bounds.size()) + 1; }
@@ -223,8 +223,7 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
 
 /// Whether a point of the strips is the first at its place.
 template <typename Real>
-DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(
-  const CoordinatePair<Real>* places, std::int64_t i)
+DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(const CoordinatePair<Real>* places, std::int64_t i)
 {
   return i == 0 || places[i].U != places[i - 1].U || places[i].V != places[i - 1].V;
 }
@@ -279,8 +278,8 @@ Array<VertexId> MergePlaces(
     });
   Array<VertexId> used = backend.template MakeArray<VertexId>(callerPoints);
   VertexId* usedPoint = used.Data();
-  backend.ForEach(callerPoints,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[i] = NoVertex; });
+  backend.ForEach(
+    callerPoints, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[i] = NoVertex; });
   backend.ForEach(count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { usedPoint[ids[i]] = toIds[toNumbers[i]]; });
   strips = std::move(kept);

@@ -260,8 +260,7 @@ std::unique_ptr<FlipEngine> FlipSession::Work::MakeEngineOn(BackendKind backend)
 
 void FlipSession::Work::MakeEngine()
 {
-  const std::int64_t triangles =
-    this->Cloud ? 2 * this->Cloud->Count : this->Mesh.CountTriangles();
+  const std::int64_t triangles = this->Cloud ? 2 * this->Cloud->Count : this->Mesh.CountTriangles();
   const bool wantsCuda = this->Options.Backend == BackendKind::CUDA ||
     (this->Options.Backend == BackendKind::Auto &&
       (this->Start->GetOnDevice() || (triangles >= SmallestMeshForCuda && HasCudaDevice())));
@@ -338,8 +337,8 @@ void FlipSession::Work::Abort()
 /// these would: their chains go on for as long as the points lie along curves.
 void FlipSession::Work::DivideIfLong()
 {
-  // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an iteration
-  // as long as some hundred flips.
+  // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an
+  // iteration as long as some hundred flips.
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
   constexpr std::int64_t Least = 100000;

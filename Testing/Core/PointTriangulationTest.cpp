@@ -1,8 +1,438 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CgalReference.h"
-#include "DelaunayFlip.h"
 #include "FlipTestSupport.h"
-#include "PointFamilies.h"
+#include "RandomInputs.h"
+#include "References.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+/// @file
+/// Triangulations of points, judged by CGAL, rational numbers and the flips of other
+/// triangulations.
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Places = std::vector<std::array<double, 2>>;
+
+struct Triangulation
+{
+  std::vector<std::int32_t> Triangles, Neighbors;
+  std::vector<std::int64_t> UsedPoints;
+  FlipReport Report;
+};
+
+PlaneArray View(const Places& points)
+{
+  return PlaneArray(
+    points.empty() ? nullptr : points.front().data(), static_cast<std::int64_t>(points.size()), 2);
+}
+
+Triangulation Triangulate(const PlaneArray& points, const FlipOptions& options = {})
+{
+  FlipSession session(points, OnTestBackend(options));
+  session.Advance();
+  Triangulation result;
+  result.Report = session.GetReport();
+  result.Triangles = StoreTriangles(session);
+  result.Neighbors.resize(result.Triangles.size());
+  session.StoreNeighbors(result.Neighbors.data());
+  result.UsedPoints.resize(points.Count);
+  session.StoreUsedPoints(result.UsedPoints.data());
+  return result;
+}
+
+Triangulation Triangulate(const Places& points, const FlipOptions& options = {})
+{
+  return Triangulate(View(points), options);
+}
+
+std::vector<double> Lift(const Places& points)
+{
+  std::vector<double> xyz;
+  for (const auto& point : points)
+  {
+    xyz.insert(xyz.end(), { point[0], point[1], 0.0 });
+  }
+  return xyz;
+}
+
+Point3 ToPoint(const std::array<double, 2>& place) { return { place[0], place[1], 0.0 }; }
+
+/// The triangles by the places of their corners, so that they can be compared across orders.
+std::set<std::array<std::array<double, 2>, 3>> ByPlaces(
+  const std::vector<std::int32_t>& triangles, const Places& points)
+{
+  std::set<std::array<std::array<double, 2>, 3>> result;
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+  {
+    std::array<std::array<double, 2>, 3> corners{ points[triangles[i]], points[triangles[i + 1]],
+      points[triangles[i + 2]] };
+    std::sort(corners.begin(), corners.end());
+    result.insert(corners);
+  }
+  return result;
+}
+
+/// How many edges have one triangle.
+std::int64_t CountBorder(const std::vector<std::int32_t>& neighbors)
+{
+  return std::count(neighbors.begin(), neighbors.end(), -1);
+}
+
+/// Neighbor k of a triangle must be across its corner k, and have it as a neighbor there.
+void ExpectNeighbors(const Triangulation& result)
+{
+  std::map<VertexPair, std::int32_t> triangleOf;
+  const auto edge = [&](std::size_t t, int slot)
+  {
+    return VertexPair(
+      result.Triangles[3 * t + (slot + 1) % 3], result.Triangles[3 * t + (slot + 2) % 3]);
+  };
+  for (std::size_t t = 0; t < result.Triangles.size() / 3; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      ASSERT_TRUE(triangleOf.emplace(edge(t, slot), static_cast<std::int32_t>(t)).second);
+    }
+  }
+  for (std::size_t t = 0; t < result.Triangles.size() / 3; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexPair pair = edge(t, slot);
+      const auto across = triangleOf.find({ pair.second, pair.first });
+      ASSERT_EQ(across == triangleOf.end() ? -1 : across->second, result.Neighbors[3 * t + slot]);
+    }
+  }
+}
+
+/// By rational numbers: every triangle turns left, no place is inside a circle, and the triangles
+/// are as many as those of the hull.
+void ExpectDelaunay(const Places& points, const Triangulation& result)
+{
+  const std::set<std::array<double, 2>> places(points.begin(), points.end());
+  for (std::size_t i = 0; i < result.Triangles.size(); i += 3)
+  {
+    const Point3 a = ToPoint(points[result.Triangles[i]]);
+    const Point3 b = ToPoint(points[result.Triangles[i + 1]]);
+    const Point3 c = ToPoint(points[result.Triangles[i + 2]]);
+    ASSERT_EQ(1, RationalTurn(a, b, c));
+    for (const auto& place : places)
+    {
+      ASSERT_GE(0, RationalInCircle(a, b, c, ToPoint(place)));
+    }
+  }
+  ExpectNeighbors(result);
+  const bool isLine = std::all_of(places.begin(), places.end(),
+    [&](const auto& place) {
+      return RationalTurn(ToPoint(*places.begin()), ToPoint(*places.rbegin()), ToPoint(place)) == 0;
+    });
+  const auto count = static_cast<std::int64_t>(places.size());
+  const auto triangles = static_cast<std::int64_t>(result.Triangles.size()) / 3;
+  ASSERT_EQ(isLine ? 0 : 2 * count - 2 - CountBorder(result.Neighbors), triangles);
+  ASSERT_EQ(triangles, result.Report.Triangles);
+  ASSERT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+}
+
+Places DrawOnGrid(std::mt19937& random, std::size_t count, int columns, int rows)
+{
+  Places points(count);
+  for (auto& point : points)
+  {
+    point = { static_cast<double>(DrawIndex(random, columns)),
+      static_cast<double>(DrawIndex(random, rows)) };
+  }
+  return points;
+}
+
+//------------------------------------------------------------------------------
+TEST(PointTriangulation, SmallGrids)
+{
+  std::mt19937 random(1);
+  for (int i = 0; i < 3000 / Reduction; ++i)
+  {
+    const std::size_t count = 3 + random() % 22;
+    const Places points =
+      DrawOnGrid(random, count, 1 + DrawIndex(random, 6), 1 + DrawIndex(random, 6));
+    ExpectDelaunay(points, Triangulate(points));
+    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+  }
+}
+
+TEST(PointTriangulation, AllOrdersOfSixPoints)
+{
+  std::mt19937 random(2);
+  for (int i = 0; i < 4; ++i)
+  {
+    const Places points = DrawOnGrid(random, 6, 3, 3);
+    const auto expected = ByPlaces(Triangulate(points).Triangles, points);
+    std::array<int, 6> order{ 0, 1, 2, 3, 4, 5 };
+    do
+    {
+      Places shuffled;
+      for (const int k : order)
+      {
+        shuffled.push_back(points[k]);
+      }
+      ASSERT_EQ(expected, ByPlaces(Triangulate(shuffled).Triangles, shuffled));
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+}
+
+class PointFamiliesTest : public testing::TestWithParam<PointFamily>
+{
+};
+
+TEST_P(PointFamiliesTest, AreDelaunay)
+{
+  std::mt19937 random(3);
+  for (int i = 0; i < 60 / Reduction; ++i)
+  {
+    Places points;
+    for (std::uint32_t draws = 1 + random() % 8; draws > 0; --draws)
+    {
+      for (const Point3& point : GetParam().Draw(random))
+      {
+        if (std::isfinite(point[0]) && std::isfinite(point[1]))
+        {
+          points.push_back({ point[0], point[1] });
+        }
+      }
+    }
+    FlipOptions options;
+    options.Backend = BackendKind::Auto; // coordinates may need the CPU's arithmetic
+    ExpectDelaunay(points, Triangulate(points, options));
+    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Draws, PointFamiliesTest, testing::ValuesIn(ListPointFamilies()),
+  [](const auto& info) { return std::string(info.param.Name); });
+
+//------------------------------------------------------------------------------
+struct NamedPoints
+{
+  const char* Name;
+  std::array<double, 2> (*Draw)(double u, double v, std::uint32_t i);
+};
+
+void PrintTo(const NamedPoints& points, std::ostream* stream) { *stream << points.Name; }
+
+constexpr double Pi = 3.14159265358979;
+
+/// Sets on which triangulations differ in cost; most of the curves are taken over by divide and
+/// conquer.
+const NamedPoints Sets[] = { { "Uniform",
+                               [](double u, double v, std::uint32_t) {
+                                 return std::array<double, 2>{ u, v };
+                               } },
+  { "Outlier",
+    [](double u, double v, std::uint32_t i) {
+      return i == 7 ? std::array<double, 2>{ 0.5, 1e4 } : std::array<double, 2>{ u, v };
+    } },
+  { "Tall",
+    [](double u, double v, std::uint32_t) {
+      return std::array<double, 2>{ u, 1e4 * v };
+    } },
+  { "Clusters",
+    [](double u, double v, std::uint32_t i)
+    {
+      const double size = std::pow(10.0, -static_cast<double>(i % 4));
+      return std::array<double, 2>{ static_cast<double>(i % 5) + size * u,
+        static_cast<double>(i % 3) + size * v };
+    } },
+  { "Contours",
+    [](double u, double, std::uint32_t i)
+    {
+      const double radius = (1 + i % 40) * (1 + 0.25 * std::sin(6 * Pi * u));
+      return std::array<double, 2>{ radius * std::cos(2 * Pi * u), radius * std::sin(2 * Pi * u) };
+    } },
+  { "Ellipse",
+    [](double u, double, std::uint32_t) {
+      return std::array<double, 2>{ 1000 * std::cos(2 * Pi * u), std::sin(2 * Pi * u) };
+    } },
+  { "Hyperbola",
+    [](double u, double, std::uint32_t) {
+      return std::array<double, 2>{ 10 * u + 0.1, 1 / (10 * u + 0.1) };
+    } },
+  { "TwoCircles",
+    [](double u, double, std::uint32_t i) {
+      return std::array<double, 2>{ std::cos(2 * Pi * u), std::sin(2 * Pi * u) + 2.0 * (i % 2) };
+    } },
+  { "Offset",
+    [](double u, double v, std::uint32_t)
+    {
+      return std::array<double, 2>{ 500000 + std::round(1e6 * u) / 1e3,
+        5.4e6 + std::round(1e6 * v) / 1e3 };
+    } } };
+
+class PointSetsTest : public testing::TestWithParam<NamedPoints>
+{
+protected:
+  static Places Draw(std::uint32_t count)
+  {
+    std::mt19937_64 random(4);
+    const auto next = [&]() { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::set<std::array<double, 2>> places;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      const double u = next(), v = next();
+      places.insert(GetParam().Draw(u, v, i));
+    }
+    Places points(places.begin(), places.end());
+    std::shuffle(points.begin(), points.end(), random);
+    return points;
+  }
+};
+
+TEST_P(PointSetsTest, EqualCgal)
+{
+  const Places points = Draw(30000 / Reduction);
+  const std::vector<double> xyz = Lift(points);
+  const PointArray lifted(xyz.data(), static_cast<std::int64_t>(points.size()));
+  const Triangulation result = Triangulate(points);
+  EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+  const TriangleSet expected = MakeCgalDelaunay(lifted);
+  EXPECT_EQ(expected.size(), result.Triangles.size() / 3);
+  TriangleMesh mesh;
+  mesh.Points = lifted;
+  mesh.Triangles = ViewTriangles(result.Triangles);
+  EXPECT_EQ(0, CountCgalViolations(mesh));
+  ExpectNeighbors(result);
+}
+
+TEST_P(PointSetsTest, DependOnThePointsAlone)
+{
+  const Places points = Draw(20000 / Reduction);
+  const Triangulation one = Triangulate(points,
+    []
+    {
+      FlipOptions o;
+      o.NumberOfThreads = 1;
+      return o;
+    }());
+  const Triangulation many = Triangulate(points,
+    []
+    {
+      FlipOptions o;
+      o.NumberOfThreads = 5;
+      return o;
+    }());
+  EXPECT_EQ(one.Triangles, many.Triangles);
+  EXPECT_EQ(one.Report.TotalFlips, many.Report.TotalFlips);
+  Places shuffled = points;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
+  EXPECT_EQ(ByPlaces(one.Triangles, points), ByPlaces(Triangulate(shuffled).Triangles, shuffled));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, PointSetsTest, testing::ValuesIn(Sets),
+  [](const auto& info) { return std::string(info.param.Name); });
+
+/// Ties are decided as by flips of any other triangulation.
+TEST(PointTriangulation, EqualsCanonicalFlips)
+{
+  std::mt19937 random(6);
+  for (int i = 0; i < 40 / Reduction; ++i)
+  {
+    const Places drawn = DrawOnGrid(random, 400, 20, 30);
+    const std::set<std::array<double, 2>> places(drawn.begin(), drawn.end());
+    const Places points(places.begin(), places.end());
+    const OwnedMesh<double> swept = MakeSweptMesh(points);
+    const FlipResult flipped = Flip(swept.View(), InPlane(TieRuleKind::Canonical));
+    EXPECT_EQ(ByPlaces(flipped.Triangles, points), ByPlaces(Triangulate(points).Triangles, points));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(PointTriangulation, EqualPlacesAreOnePoint)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Places points = { { 1, 0 }, { 0.0, 0 }, { nan, 0 }, { -0.0, 0.0 }, { 0, 1 }, { 1, 0 },
+    { 1, 1 }, { 2, std::numeric_limits<double>::infinity() } };
+  const Triangulation result = Triangulate(points);
+  EXPECT_EQ(2, result.Report.Triangles);
+  const std::vector<std::int64_t> used = { 0, 1, -1, 1, 4, 0, 6, -1 };
+  EXPECT_EQ(used, result.UsedPoints);
+  ASSERT_EQ(2u, result.Report.Defects.size());
+  EXPECT_EQ(2, result.Report.Defects[0].Count);
+  EXPECT_EQ(2, result.Report.Defects[1].Count);
+}
+
+TEST(PointTriangulation, OfNothing)
+{
+  for (const Places& points : { Places{}, Places{ { 1, 2 } }, Places{ { 1, 2 }, { 3, 4 } },
+         Places(1000, { 5, 5 }), Places{ { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 } } })
+  {
+    const Triangulation result = Triangulate(points);
+    EXPECT_EQ(0, result.Report.Triangles);
+    EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+  }
+}
+
+/// Floats are judged as the floats they are; other numbers between points do not matter.
+TEST(PointTriangulation, FloatsAndStrides)
+{
+  std::mt19937 random(7);
+  std::vector<float> floats;
+  Places points;
+  for (int i = 0; i < 5000; ++i)
+  {
+    floats.push_back(static_cast<float>(random()) * 0x1p-32f);
+    floats.push_back(static_cast<float>(random()) * 0x1p-32f);
+    floats.push_back(std::numeric_limits<float>::quiet_NaN()); // z does not matter
+    points.push_back({ floats[3 * i], floats[3 * i + 1] });
+  }
+  const Triangulation result = Triangulate(PlaneArray(floats.data(), 5000, 3));
+  EXPECT_EQ(ToTriangleSet(Triangulate(points).Triangles), ToTriangleSet(result.Triangles));
+}
+
+TEST(PointTriangulation, ExtremeCoordinates)
+{
+  std::mt19937 random(8);
+  for (const double scale : { 1e300, 1e-300, 1e-310 })
+  {
+    Places points = DrawOnGrid(random, 20, 9, 9);
+    for (auto& point : points)
+    {
+      point = { scale * (point[0] - 4), scale * (point[1] - 4) };
+    }
+    points.push_back({ 0.3, 0.7 });
+    FlipOptions options;
+    options.Backend = BackendKind::Auto;
+    ExpectDelaunay(points, Triangulate(points, options));
+  }
+}
+
+TEST(PointTriangulation, CanBeStopped)
+{
+  std::mt19937 random(9);
+  const Places points = DrawOnGrid(random, 20000, 1 << 20, 1 << 20);
+  for (const double limit : { 0.0, 0.3, 0.45 })
+  {
+    FlipSession session(
+      View(points), OnTestBackend({}), [=](double share) { return share <= limit; });
+    EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
+    EXPECT_FALSE(session.Advance(-1, {}, {}));
+    EXPECT_EQ(StopReasonKind::Converged, session.GetReport().StopReason);
+    EXPECT_EQ(Triangulate(points).Triangles, StoreTriangles(session));
+  }
+}
+
+TEST(PointTriangulation, TooManyPoints)
+{
+  const double one[2] = { 0.0, 0.0 };
+  EXPECT_THROW(FlipSession(PlaneArray(one, std::int64_t(1) << 30, 2), {}), MeshTooLarge);
+}
+
+}
+}
