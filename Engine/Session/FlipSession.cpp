@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
+#include "Array.h"
 #include "BuildProgress.h"
 #include "CallerMesh.h"
 #include "ConstraintInsertion.h"
-#include "CotangentAngle.h"
 #include "CudaDevice.h"
-#include "DeviceCopies.h"
 #include "DividedCopy.h"
 #include "FlipEngine.h"
 #include "HostMemory.h"
 #include "InputChecks.h"
 #include "RunProgress.h"
 #include "StopWatch.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -28,14 +28,14 @@ namespace
 {
 
 using Polygon = std::vector<PlaneVector>;
-using Triangles = EarClipper::Triangles;
+using Triangles = Triples;
 
 Triangles Clip(const Polygon& polygon, const ProgressObserver& progress = {})
 {
-  return EarClipper(polygon, progress).Clip();
+  return ClipEars(polygon, progress);
 }
 
-/// The order of cuts that EarClipper promises, in the obvious way: every vertex is looked at, and
+/// The order of cuts that ClipEars promises, in the obvious way: every vertex is looked at, and
 /// for each all others.
 class ObviousClipper
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeMesh.h"
 #include "CornerPairing.h"
-#include "EdgeMeshAudit.h"
 #include "EdgeMeshBuilder.h"
 #include "GeneratedMeshes.h"
 #include "MeshSurveyBuilder.h"

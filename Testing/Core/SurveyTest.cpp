@@ -5,7 +5,6 @@
 #include "GeometryChoice.h"
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"
-#include "PlaneFinder.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
