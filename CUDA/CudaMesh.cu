@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
-#include "BackendEngine.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
 #include "FlipError.h"
 #include "LocalDeviceMesh.cuh"
+#include "MeshOnBackend.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,10 +32,10 @@ struct StoreIdStep
 };
 
 /// Also stores into arrays in the memory of its device.
-class CudaEngine : public BackendEngine<CudaBackend>
+class CudaMesh : public MeshOnBackend<CudaBackend>
 {
 public:
-  using BackendEngine::BackendEngine;
+  using MeshOnBackend::MeshOnBackend;
 
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream& stream) const override
@@ -61,7 +61,7 @@ public:
     return true;
   }
 
-  EngineTriangles ViewTriangles() const override
+  DeviceTriangles ViewTriangles() const override
   {
     const StoreStep store = this->GetStoreStep();
     const CudaContext& context = this->GetBackend().GetContext();
@@ -115,7 +115,7 @@ std::vector<int> ChooseDevices(const DeviceMesh&, const FlipOptions& options)
 }
 
 template <typename Mesh>
-std::unique_ptr<FlipEngine> MakeEngine(
+std::unique_ptr<LoadedMesh> Load(
   const Mesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   try
@@ -123,8 +123,8 @@ std::unique_ptr<FlipEngine> MakeEngine(
     CudaBackend backend(ChooseDevices(mesh, options), options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
     LocalDeviceMesh local = backend.Localize(mesh);
-    return std::unique_ptr<FlipEngine>(
-      new CudaEngine(View(mesh), std::move(local), options, std::move(backend), progress));
+    return std::unique_ptr<LoadedMesh>(
+      new CudaMesh(View(mesh), std::move(local), options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {
@@ -133,16 +133,16 @@ std::unique_ptr<FlipEngine> MakeEngine(
 }
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return MakeEngine(mesh, options, progress);
+  return Load(mesh, options, progress);
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return MakeEngine(mesh, options, progress);
+  return Load(mesh, options, progress);
 }
 
 }
