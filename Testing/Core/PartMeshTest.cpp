@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartMesh.h"
 
-#include "FlipEngine.h"
 #include "FlipTestSupport.h"
+#include "LoadedMesh.h"
 #include "PartSurvey.h"
 #include "PieceTestSupport.h"
 
@@ -190,8 +190,8 @@ protected:
   std::unique_ptr<PieceGroup> Alone = MakeSingleGroup();
   MeshPiece Piece{ Triangles.View() };
   PartSurvey Survey = SurveyParts(Piece, MatchPoints(Piece, *Alone), FlipOptions(), *Alone);
-  std::unique_ptr<FlipEngine> First =
-    MakeThreadEngine(Triangles.View(), FlipOptions(), BuildProgress());
+  std::unique_ptr<LoadedMesh> First =
+    LoadOnThreads(Triangles.View(), FlipOptions(), BuildProgress());
   PartMesh Mesh{ Piece, MatchPoints(Piece, *Alone), 0, 0 };
 };
 

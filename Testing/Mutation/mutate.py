@@ -42,7 +42,7 @@ TOPICS = {
                "Mesh/GeometryChoice.h"],
 }
 # Together these include all of the files above.
-UNITS = ["Threads/ThreadEngine.cpp", "Geometry/ExactPredicates.cpp"]
+UNITS = ["Threads/ThreadMesh.cpp", "Geometry/ExactPredicates.cpp"]
 INCLUDES = ["Engine", "Engine/Geometry", "Engine/Mesh", "Engine/Flips", "Engine/Threads"]
 
 OPPOSITES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||",

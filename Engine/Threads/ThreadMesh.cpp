@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BackendEngine.h"
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
+#include "MeshOnBackend.h"
 #include "ThreadBackend.h"
 #include "ThreadFlipLoop.h"
 
@@ -11,13 +11,13 @@
 namespace delaunayflip
 {
 
-std::unique_ptr<FlipEngine> MakeThreadEngine(
+std::unique_ptr<LoadedMesh> LoadOnThreads(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   ThreadBackend backend(options.NumberOfThreads);
   const ThreadBackend::LocalMesh local = backend.Localize(mesh);
-  return std::unique_ptr<FlipEngine>(
-    new BackendEngine<ThreadBackend>(mesh, local, options, std::move(backend), progress));
+  return std::unique_ptr<LoadedMesh>(
+    new MeshOnBackend<ThreadBackend>(mesh, local, options, std::move(backend), progress));
 }
 
 std::vector<std::int64_t> FindFixedEdges(

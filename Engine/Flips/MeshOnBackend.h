@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_BACKENDENGINE_H
-#define DELAUNAYFLIP_BACKENDENGINE_H
+#ifndef DELAUNAYFLIP_MESHONBACKEND_H
+#define DELAUNAYFLIP_MESHONBACKEND_H
 
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
-#include "FlipEngine.h"
 #include "FlipLoopChoice.h"
 #include "GeometryChoice.h"
 #include "InputChecks.h"
+#include "LoadedMesh.h"
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -60,14 +63,14 @@ struct FlipCountStep
 
 /// Makes a loop from the caller's arrays, on a backend.
 template <typename BackendT>
-class BackendEngine : public FlipEngine
+class MeshOnBackend : public LoadedMesh
 {
 public:
   using LocalMesh = typename BackendT::LocalMesh;
 
   /// @param local `mesh` as made by the backend. No reference to either is kept.
   /// @throws RunAborted.
-  BackendEngine(const TriangleMesh& mesh, LocalMesh local, const FlipOptions& options,
+  MeshOnBackend(const TriangleMesh& mesh, LocalMesh local, const FlipOptions& options,
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
@@ -95,18 +98,29 @@ public:
     local.DropRegions();
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
-    this->StartReport(mesh, survey, built);
     this->Turns = survey.Turns;
-    this->Report.Tolerance = DescribeTolerance(options, survey.Geometry);
+    FlipReport& report = this->Report;
+    report.Points = mesh.Points.Count;
+    report.Triangles = mesh.Triangles.Count;
+    report.Edges = built.Counts;
+    report.UnmatchedConstraints = built.MissingConstraints;
+    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
+    report.GeometryUsed = survey.Geometry;
+    report.GeometryReason = survey.GeometryReason;
+    report.Tolerance = DescribeTolerance(options, survey.Geometry);
+    report.Backend = this->Backend.GetName();
     Array<unsigned char> shared = this->RankSharedPoints(mesh);
     FlipLoopResult made = ChooseFlipLoop(
       { this->Points, survey, options, this->Report, this->Mesh, mesh.Whole, shared },
       std::move(built.Table), this->Backend);
     this->Loop = std::move(made.Loop);
-    for (const Defect& defect : made.Defects)
-    {
-      this->AddDefect(defect);
-    }
+    std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
+      survey.NearlyHeightField, built.DuplicateTriangles,
+      { "constraint edges that are not edges of the mesh", built.MissingConstraints, {},
+        DefectIds::Points } };
+    defects.insert(defects.end(), made.Defects.begin(), made.Defects.end());
+    std::copy_if(defects.begin(), defects.end(), std::back_inserter(report.Defects),
+      [](const Defect& defect) { return defect.Count > 0; });
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -197,33 +211,6 @@ private:
       this->Order.RestoreVertices(this->Backend);
     }
     return loaded;
-  }
-
-  void StartReport(const TriangleMesh& mesh, const MeshSurvey& survey, const EdgeMeshResult& built)
-  {
-    FlipReport& report = this->Report;
-    report.Points = mesh.Points.Count;
-    report.Triangles = mesh.Triangles.Count;
-    report.Edges = built.Counts;
-    report.UnmatchedConstraints = built.MissingConstraints;
-    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
-    report.GeometryUsed = survey.Geometry;
-    report.GeometryReason = survey.GeometryReason;
-    report.Backend = this->Backend.GetName();
-    this->AddDefect(survey.NonFinitePoints);
-    this->AddDefect(survey.RepeatedIds);
-    this->AddDefect(survey.NearlyHeightField);
-    this->AddDefect(built.DuplicateTriangles);
-    this->AddDefect({ "constraint edges that are not edges of the mesh", built.MissingConstraints,
-      {}, DefectIds::Points });
-  }
-
-  void AddDefect(const Defect& defect)
-  {
-    if (defect.Count > 0)
-    {
-      this->Report.Defects.push_back(defect);
-    }
   }
 
   BackendT Backend;

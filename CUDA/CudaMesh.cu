@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
-#include "BackendEngine.h"
+#include "MeshOnBackend.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
 #include "FlipError.h"
@@ -31,10 +31,10 @@ struct StoreIdStep
 };
 
 /// Also stores into arrays in the memory of its device.
-class CudaEngine : public BackendEngine<CudaBackend>
+class CudaMesh : public MeshOnBackend<CudaBackend>
 {
 public:
-  using BackendEngine::BackendEngine;
+  using MeshOnBackend::MeshOnBackend;
 
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream& stream) const override
@@ -60,7 +60,7 @@ public:
     return true;
   }
 
-  EngineTriangles ViewTriangles() const override
+  DeviceTriangles ViewTriangles() const override
   {
     const StoreStep store = this->GetStoreStep();
     const CudaContext& context = this->GetBackend().GetContext();
@@ -69,7 +69,7 @@ public:
   }
 
 private:
-  static std::uint64_t CountEngines()
+  static std::uint64_t CountMeshes()
   {
     static std::atomic<std::uint64_t> engines{ 0 };
     return ++engines;
@@ -80,12 +80,12 @@ private:
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
 
-  const std::uint64_t Number = CountEngines();
+  const std::uint64_t Number = CountMeshes();
 };
 
 /// @param view the caller's arrays, wherever they are.
 template <typename Mesh>
-std::unique_ptr<FlipEngine> MakeEngine(const Mesh& mesh, const TriangleMesh& view,
+std::unique_ptr<LoadedMesh> Load(const Mesh& mesh, const TriangleMesh& view,
   const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
 {
   try
@@ -93,8 +93,8 @@ std::unique_ptr<FlipEngine> MakeEngine(const Mesh& mesh, const TriangleMesh& vie
     CudaBackend backend(devices, options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
     LocalDeviceMesh local = backend.Localize(mesh);
-    return std::unique_ptr<FlipEngine>(
-      new CudaEngine(view, std::move(local), options, std::move(backend), progress));
+    return std::unique_ptr<LoadedMesh>(
+      new CudaMesh(view, std::move(local), options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {
@@ -103,7 +103,7 @@ std::unique_ptr<FlipEngine> MakeEngine(const Mesh& mesh, const TriangleMesh& vie
 }
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   std::vector<int> devices = { options.Device };
@@ -113,11 +113,11 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
     devices = options.Devices;
     devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
   }
-  return MakeEngine(mesh, mesh, devices, options, progress);
+  return Load(mesh, mesh, devices, options, progress);
 }
 
 /// A mesh that is on a GPU stays there.
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   TriangleMesh view;
@@ -126,7 +126,7 @@ std::unique_ptr<FlipEngine> MakeCudaEngine(
   view.Points.Doubles = mesh.Points.Doubles;
   view.Points.Count = mesh.Points.Count;
   view.Triangles = mesh.Triangles;
-  return MakeEngine(mesh, view, { options.Device }, options, progress);
+  return Load(mesh, view, { options.Device }, options, progress);
 }
 
 }

@@ -3,8 +3,8 @@
 #include "Array.h"
 #include "CudaDevice.h"
 #include "DeviceColors.h"
-#include "FlipEngine.h"
 #include "FlipError.h"
+#include "LoadedMesh.h"
 
 /// @file
 /// Replaces the CUDA backend in a build without it.
@@ -18,14 +18,13 @@ constexpr const char* NoArrays =
   "this build has no CUDA backend, so it can use no arrays in the memory of a GPU";
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh&, const FlipOptions&, const BuildProgress&)
 {
   throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
-  const DeviceMesh&, const FlipOptions&, const BuildProgress&)
+std::unique_ptr<LoadedMesh> LoadOnCuda(const DeviceMesh&, const FlipOptions&, const BuildProgress&)
 {
   throw BackendUnavailable(NoArrays);
 }
