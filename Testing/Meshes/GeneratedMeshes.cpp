@@ -22,27 +22,10 @@ struct CirclePoint
     const double t = quarters - std::floor(quarters);
     const double c = (1.0 - t * t) / (1.0 + t * t);
     const double s = 2.0 * t / (1.0 + t * t);
-    switch (static_cast<int>(quarters) % 4)
-    {
-      case 0:
-        this->Set(c, s);
-        break;
-      case 1:
-        this->Set(-s, c);
-        break;
-      case 2:
-        this->Set(-c, -s);
-        break;
-      default:
-        this->Set(s, -c);
-        break;
-    }
-  }
-
-  void Set(double cosine, double sine)
-  {
-    this->Cosine = cosine;
-    this->Sine = sine;
+    const double cosines[] = { c, -s, -c, s };
+    const double sines[] = { s, c, -s, -c };
+    this->Cosine = cosines[static_cast<int>(quarters) % 4];
+    this->Sine = sines[static_cast<int>(quarters) % 4];
   }
 
   double Cosine = 1.0;
