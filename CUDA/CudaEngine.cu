@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Array.h"
 #include "BackendEngine.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
-#include "DeviceCopies.h"
 #include "FlipError.h"
 #include "LocalDeviceMesh.cuh"
 

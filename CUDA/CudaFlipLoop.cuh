@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 #define DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 
-#include "AngleSurvey.h"
 #include "BadEdgeCounts.h"
 #include "CudaBackend.cuh"
 #include "DeviceEdgeBits.cuh"
@@ -12,6 +11,7 @@
 #include "FlipError.h"
 #include "FlipKernels.cuh"
 #include "FlipLoop.h"
+#include "SmallestAngle.h"
 
 #include <algorithm>
 #include <cstdint>

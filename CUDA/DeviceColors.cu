@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviceColors.h"
 
+#include "Array.h"
 #include "ColorTable.cuh"
 #include "CudaBackend.cuh"
-#include "DeviceCopies.h"
 #include "FlipError.h"
 #include "LocalDeviceMesh.cuh"
 #include "SmallestAngle.h"

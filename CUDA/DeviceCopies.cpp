@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DeviceCopies.h"
+#include "Array.h"
 
 #include "CudaContext.h"
 #include "CudaError.h"

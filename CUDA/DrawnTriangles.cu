@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Array.h"
 #include "ColorTable.cuh"
 #include "CudaBackend.cuh"
 #include "DelaunayFlip.h"
 #include "DeviceColors.h"
-#include "DeviceCopies.h"
 #include "EngineTriangles.h"
 #include "LocalDeviceMesh.cuh"
 #include "SmallestAngle.h"

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
 
-#include "AuditAngles.h"
 #include "MeshSurveyBuilder.h"
 #include "Predicates.h"
-#include "ScaledOffsets.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
 
@@ -22,11 +21,81 @@ namespace delaunayflip
 namespace
 {
 
-using audit::Angle;
-using audit::Cross;
-using audit::Length;
-using audit::Subtract;
-using audit::Vector;
+// The opposite-angle test of MeshAudit and its tolerance. It does not use the engine's
+// SurfaceAngles.h and works differently, with divisions, hypot and inverse trigonometry: if both
+// shared code, a mistake in it would confirm itself.
+using Vector = std::array<double, 3>;
+
+Vector Subtract(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector Cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double Length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// Cosine and sine, times any positive number, of the angle at `apex` towards `p` and `q`.
+struct Angle
+{
+  Angle(const Vector& apex, const Vector& p, const Vector& q)
+  {
+    const Vector first = Subtract(p, apex);
+    const Vector second = Subtract(q, apex);
+    this->Cosine = Dot(first, second);
+    this->Sine = Length(Cross(first, second));
+  }
+
+  double Cosine;
+  double Sine;
+};
+
+/// Whether the angles sum to more than pi + tolerance. The sum lies in [0, 2 pi].
+bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
+{
+  if (a.Cosine >= 0.0 && b.Cosine >= 0.0)
+  {
+    return false;
+  }
+  const double sine = a.Sine * b.Cosine + a.Cosine * b.Sine;
+  const double cosine = a.Cosine * b.Cosine - a.Sine * b.Sine;
+  const bool isAboveThreeHalvesPi = a.Cosine < 0.0 && b.Cosine < 0.0 && cosine > 0.0;
+  return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
+}
+
+/// The automatic tolerance of a quad in radians: how much its angle sum may change when every
+/// coordinate moves by a unit in the last place. Infinite if the change has no bound.
+/// @param apqb the points of the quad.
+/// @param epsilon that of the coordinates' type.
+double FindTolerance(const std::array<Vector, 4>& apqb, double epsilon)
+{
+  // Differences and lengths of a quarter of the coordinates are finite.
+  std::array<Vector, 4> quarters = apqb;
+  double farthest = 0.0;
+  for (Vector& point : quarters)
+  {
+    point = { 0.25 * point[0], 0.25 * point[1], 0.25 * point[2] };
+    farthest = std::max(farthest, Length(point));
+  }
+  double turns = 0.0;
+  for (int apex : { 0, 3 })
+  {
+    for (int end : { 1, 2 })
+    {
+      const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
+      turns += moved / Length(Subtract(quarters[end], quarters[apex]));
+    }
+  }
+  // The rounding of the engine's test is less than this.
+  turns += 32.0 * std::numeric_limits<double>::epsilon();
+  return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
+}
+
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
 
 /// One side of a triangle.
@@ -230,7 +299,7 @@ private:
   {
     const double tolerance = this->GetTolerance(quad);
     return tolerance < Pi &&
-      audit::IsSumAbovePi(this->FindAngle(quad[0], quad[1], quad[2]),
+      IsSumAbovePi(this->FindAngle(quad[0], quad[1], quad[2]),
         this->FindAngle(quad[3], quad[1], quad[2]), tolerance);
   }
 
@@ -257,7 +326,7 @@ private:
         apqb[i][axis] = this->Mesh.Points.Get(quad[i], axis);
       }
     }
-    return audit::FindTolerance(apqb,
+    return FindTolerance(apqb,
       this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
                                : std::numeric_limits<double>::epsilon());
   }
@@ -272,8 +341,7 @@ private:
     const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
     const Vector n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
     const Vector m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
-    return audit::Dot(n, m) <
-      std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
+    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
   }
 
   const TriangleMesh& Mesh;

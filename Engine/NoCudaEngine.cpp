@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Array.h"
 #include "CudaDevice.h"
 #include "DeviceColors.h"
-#include "DeviceCopies.h"
 #include "FlipEngine.h"
 #include "FlipError.h"
 

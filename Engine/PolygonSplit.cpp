@@ -4,7 +4,7 @@
 
 #include "EarClipper.h"
 #include "Predicates.h"
-#include "ScaledOffsets.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@ namespace
 {
 
 using SpaceVector = std::array<double, 3>;
-using Triples = EarClipper::Triangles;
 
 /// Twice the area of the polygon's projection along each axis (Newell), up to a positive factor.
 /// @param offsets the vertices relative to the first one.
@@ -133,7 +132,7 @@ public:
     }
     else
     {
-      this->Triangles = EarClipper(this->Polygon, this->Progress).Clip();
+      this->Triangles = ClipEars(this->Polygon, this->Progress);
     }
     return std::move(this->Triangles);
   }

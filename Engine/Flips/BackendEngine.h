@@ -3,18 +3,17 @@
 #ifndef DELAUNAYFLIP_BACKENDENGINE_H
 #define DELAUNAYFLIP_BACKENDENGINE_H
 
-#include "EdgeMeshAudit.h"
+#include "Array.h"
+#include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipEngine.h"
 #include "FlipLoopChoice.h"
+#include "GeometryChoice.h"
 #include "InputChecks.h"
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
-#include "OutputSlice.h"
-#include "PackedPoints.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
-#include "TurnedTriangles.h"
 
 #include <utility>
 

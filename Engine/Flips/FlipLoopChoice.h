@@ -11,8 +11,8 @@
 #include "FlipReport.h"
 #include "FlipRules.h"
 #include "MeshSurvey.h"
-#include "PackedPoints.h"
 #include "PlanarSurvey.h"
+#include "SpatialOrder.h"
 
 #include <cmath>
 #include <memory>

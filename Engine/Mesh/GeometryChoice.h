@@ -3,23 +3,476 @@
 #ifndef DELAUNAYFLIP_GEOMETRYCHOICE_H
 #define DELAUNAYFLIP_GEOMETRYCHOICE_H
 
-#include "Defects.h"
+#include "Array.h"
+#include "Atomics.h"
+#include "EdgeMesh.h"
+#include "ExactPredicates.h"
+#include "FilteredPredicates.h"
 #include "FlipError.h"
 #include "FlipOptions.h"
-#include "HeightFieldSurvey.h"
+#include "HostDevice.h"
 #include "MeshSurvey.h"
-#include "PlaneFinder.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
+#include "TriangleMesh.h"
+#include "WideAngles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 
-/// @file
-/// Chooses the space in which the edges of a mesh are judged, and says why.
-
 namespace delaunayflip
 {
+
+/// Scales by a power of two, in two steps, so that the largest coordinate is in 1 .. 2 and lengths
+/// neither overflow nor vanish. The same on every backend.
+struct PlaneScale
+{
+  double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.
+
+  explicit PlaneScale(const BoundingBox& box)
+  {
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
+    }
+    const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    this->Factors[0] = std::scalbn(1.0, exponent / 2);
+    this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(double x, double y, double z) const
+  {
+    return { x * this->Factors[0] * this->Factors[1], y * this->Factors[0] * this->Factors[1],
+      z * this->Factors[0] * this->Factors[1] };
+  }
+};
+
+/// Points closer to a plane than this share of the bounding box's diagonal lie in it.
+constexpr double PlanarTolerance = 1e-6;
+
+/// A point, its scaled position, and a value to be maximised; the first of equals wins.
+struct Farthest
+{
+  std::int64_t Point = -1;
+  double Value = -1.0;
+  Vector3 Position;
+
+  DELAUNAYFLIP_HOST_DEVICE Farthest& operator+=(const Farthest& other)
+  {
+    const bool first = other.Value == this->Value && other.Point < this->Point;
+    if (other.Value > this->Value || first)
+    {
+      *this = other;
+    }
+    return *this;
+  }
+};
+
+/// The measure to maximise: squared distance from an origin, squared area with a vector, or
+/// distance from a plane times the length of its normal.
+struct DistanceFrom
+{
+  Vector3 Origin;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    const Vector3 d = p - this->Origin;
+    return Dot(d, d);
+  }
+};
+
+struct AreaWith
+{
+  Vector3 Origin, Along;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    const Vector3 n = Cross(this->Along, p - this->Origin);
+    return Dot(n, n);
+  }
+};
+
+struct HeightAbove
+{
+  Vector3 Origin, Normal;
+  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
+  {
+    return std::fabs(Dot(this->Normal, p - this->Origin));
+  }
+};
+
+/// Finds the plane of a survey's points.
+template <typename Backend>
+class PlaneFinder
+{
+public:
+  PlaneFinder(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
+    : Input(input),
+      Uses(survey.Uses.Data()),
+      Scale(survey.Box),
+      Engine(backend)
+  {
+    const BoundingBox& box = survey.Box;
+    this->Level = box.Lower[2] == box.Upper[2];
+    this->Diagonal = Length(this->Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
+      this->Scale(box.Lower[0], box.Lower[1], box.Lower[2]));
+  }
+
+  /// Whether all used points lie in one plane; its normal is then known.
+  bool Find()
+  {
+    this->Normal = { 0.0, 0.0, 1.0 };
+    if (this->Level)
+    {
+      return true;
+    }
+    // This finds the first used point: the measure is the same for all.
+    const Farthest first = this->ArgMax(HeightAbove{});
+    if (first.Point < 0)
+    {
+      return true;
+    }
+    const Vector3 origin = first.Position;
+    const Vector3 along = this->ArgMax(DistanceFrom{ origin }).Position - origin;
+    const Vector3 across = this->ArgMax(AreaWith{ origin, along }).Position - origin;
+    this->Normal = Cross(along, across);
+    const HeightAbove height{ origin, this->Normal };
+    const Farthest off = this->ArgMax(height);
+    this->Off = off.Point;
+    return height(off.Position) <= PlanarTolerance * this->Diagonal * Length(this->Normal);
+  }
+
+  int DominantAxis() const
+  {
+    const double x = std::fabs(this->Normal.X);
+    const double y = std::fabs(this->Normal.Y);
+    const double z = std::fabs(this->Normal.Z);
+    if (z >= x && z >= y)
+    {
+      return 2;
+    }
+    return y >= x ? 1 : 0;
+  }
+
+  std::int64_t FarthestOff() const { return this->Off; }
+
+  /// The used point with the largest measure. Public because device lambdas require it.
+  template <typename Measure>
+  Farthest ArgMax(const Measure& measure) const
+  {
+    const PointArray points = this->Input.Local.Points;
+    const PointUse* uses = this->Uses;
+    const PlaneScale scale = this->Scale;
+    return this->Engine.template Sum<Farthest>(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
+      {
+        if (uses[i] == PointUse::Used)
+        {
+          const Vector3 position = scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2));
+          farthest += { i, measure(position), position };
+        }
+      });
+  }
+
+private:
+  const MeshInput& Input;
+  const PointUse* Uses;
+  PlaneScale Scale;
+  const Backend& Engine;
+  double Diagonal = 0.0;
+  bool Level; ///< All z are equal, as in most planar meshes.
+  Vector3 Normal;
+  std::int64_t Off = -1;
+};
+
+//------------------------------------------------------------------------------
+// Whether a mesh is a height field over x and y, and how steep it is. Decided before edges are
+// known. Only integers are summed, so that both backends come to the same answer.
+
+/// The turn of a, b, c in x and y. Also 0 if the filter finds almost no area and fixed-point
+/// integers do not suffice, because a device has no wider ones.
+DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const PlanePoint p{ a.X, a.Y, 0.0 }, q{ b.X, b.Y, 0.0 }, r{ c.X, c.Y, 0.0 };
+  int sign = FilteredOrientation(p, q, r);
+  if (sign == UncertainSign)
+  {
+    sign = FixedPointOrientation(p, q, r);
+  }
+  return sign == UncertainSign ? 0 : sign;
+}
+
+/// Whether a triangle slopes below 45 degrees: its plane or, of a sliver, its three edges. A sliver
+/// is less than a fifth as high as its longest edge is long.
+///
+/// An edge joins two points of the terrain, so its slope is one that the terrain has. The plane of
+/// a sliver may be steep in the gentlest terrain.
+/// @param normal of length twice the area.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const Vector3& normal)
+{
+  constexpr double Fifth = 0.2;
+  const double squaredArea = Dot(normal, normal);
+  bool isSliver = false;
+  bool areEdgesGentle = true;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const Vector3 edge = corners[(slot + 1) % 3] - corners[slot];
+    const double square = Dot(edge, edge);
+    isSliver = isSliver || squaredArea < Fifth * Fifth * square * square;
+    areEdgesGentle = areEdgesGentle && edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
+  }
+  const bool isPlaneGentle = normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y;
+  return isPlaneGentle || (isSliver && areEdgesGentle);
+}
+
+/// A sum of areas in units of 2^-60, in two words so that a billion of them fit.
+struct AreaSum
+{
+  static constexpr int LowBits = 30;
+
+  std::int64_t High = 0;
+  std::int64_t Low = 0;
+
+  /// @param area below 4.
+  DELAUNAYFLIP_HOST_DEVICE void Add(double area)
+  {
+    constexpr double Units = 1152921504606846976.0; // 2^60
+    const auto units = static_cast<std::int64_t>(Units * area);
+    this->High += units >> LowBits;
+    this->Low += units & ((std::int64_t(1) << LowBits) - 1);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE AreaSum& operator+=(const AreaSum& part)
+  {
+    this->High += part.High;
+    this->Low += part.Low;
+    return *this;
+  }
+
+  Integer128 Get() const { return (Integer128(this->High) << LowBits) + this->Low; }
+};
+
+struct TurnSums
+{
+  IdSample Left, Right, Flat; ///< Triangles by their turn in x and y.
+  AreaSum All, Gentle; ///< Area in space: of all, and of those that slope below 45 degrees.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnSums& operator+=(const TurnSums& part)
+  {
+    this->Left += part.Left;
+    this->Right += part.Right;
+    this->Flat += part.Flat;
+    this->All += part.All;
+    this->Gentle += part.Gentle;
+    return *this;
+  }
+};
+
+/// The finite triangles of the caller, scaled.
+struct ScaledTriangles
+{
+  TriangleMesh Mesh;
+  const PointUse* Uses; ///< Null: all points are finite.
+  PlaneScale Scale; ///< Brings coordinates near 1, where the filters apply.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Mesh.Points.Prefetch(this->Mesh.Triangles.Get(t, slot));
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsFinite(std::int64_t t) const
+  {
+    return !this->Uses ||
+      (this->Uses[this->Mesh.Triangles.Get(t, 0)] == PointUse::Used &&
+        this->Uses[this->Mesh.Triangles.Get(t, 1)] == PointUse::Used &&
+        this->Uses[this->Mesh.Triangles.Get(t, 2)] == PointUse::Used);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 GetCorner(std::int64_t t, int slot) const
+  {
+    const std::int64_t point = this->Mesh.Triangles.Get(t, slot);
+    const PointArray& points = this->Mesh.Points;
+    return this->Scale(points.Get(point, 0), points.Get(point, 1), points.Get(point, 2));
+  }
+};
+
+/// Adds up the turn, area and slope of a triangle.
+struct TurnStep
+{
+  ScaledTriangles Triangles;
+  double Factor; ///< Power of two that brings the scaled bounding box's diagonal to 1 .. 2.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const { this->Triangles.Prefetch(t); }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnSums& sums) const
+  {
+    if (!this->Triangles.IsFinite(t))
+    {
+      return;
+    }
+    const Vector3 corners[3] = { this->Triangles.GetCorner(t, 0), this->Triangles.GetCorner(t, 1),
+      this->Triangles.GetCorner(t, 2) };
+    const int turn = FindTurn(corners[0], corners[1], corners[2]);
+    (turn == 0 ? sums.Flat : (turn > 0 ? sums.Left : sums.Right)).Note(t);
+    const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
+    const double area = Length(normal) * this->Factor * this->Factor;
+    sums.All.Add(area);
+    if (IsGentle(corners, normal))
+    {
+      sums.Gentle.Add(area);
+    }
+  }
+};
+
+/// Adds the angles of a triangle's corners, in x and y, to the sums of its points.
+///
+/// An angle is the difference of two directions. Both triangles of an edge compute the same number
+/// for its direction. So the angles around an inner point add up exactly to a whole number of
+/// turns; at the boundary, to within the rounding of two directions. Triangles that are turned over
+/// count as negative.
+struct StarStep
+{
+  static constexpr std::uint32_t QuarterTurn = 1u << 22;
+  static constexpr std::uint32_t FullTurn = 4 * QuarterTurn;
+
+  ScaledTriangles Triangles;
+  std::uint32_t* Angles; ///< One sum per point, modulo 2^32, for stars of up to 128 turns.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    this->Triangles.Prefetch(t);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)]);
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
+  {
+    if (!this->Triangles.IsFinite(t))
+    {
+      return;
+    }
+    const Vector3 a = this->Triangles.GetCorner(t, 0);
+    const Vector3 b = this->Triangles.GetCorner(t, 1);
+    const Vector3 c = this->Triangles.GetCorner(t, 2);
+    const int turn = FindTurn(a, b, c);
+    if (turn == 0)
+    {
+      return;
+    }
+    const std::uint32_t ab = FindDirection(a, b);
+    const std::uint32_t bc = FindDirection(b, c);
+    const std::uint32_t ca = FindDirection(c, a);
+    this->AddAngle(t, 0, FindAngle(ab, ca, turn));
+    this->AddAngle(t, 1, FindAngle(bc, ab, turn));
+    this->AddAngle(t, 2, FindAngle(ca, bc, turn));
+  }
+
+private:
+  /// From 0 (along x) to FullTurn, increasing with the angle. The directions from a to b and from b
+  /// to a differ by exactly half a turn.
+  DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindDirection(const Vector3& a, const Vector3& b)
+  {
+    const double x = b.X - a.X;
+    const double y = b.Y - a.Y;
+    const double sum = std::fabs(x) + std::fabs(y);
+    const double share = sum > 0.0 ? std::fabs(y) / sum : 0.0;
+    const auto part = static_cast<std::uint32_t>(QuarterTurn * share);
+    if (y >= 0.0)
+    {
+      return x >= 0.0 ? part : 2 * QuarterTurn - part;
+    }
+    return x < 0.0 ? 2 * QuarterTurn + part : FullTurn - part;
+  }
+
+  /// The angle of a corner, from the directions to the next point and from the previous one: up to
+  /// half a turn, to the side to which the triangle turns. Rounding may exceed this range a little.
+  DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindAngle(
+    std::uint32_t toNext, std::uint32_t fromPrevious, int turn)
+  {
+    const std::uint32_t angle = (fromPrevious + 2 * QuarterTurn - toNext) & (FullTurn - 1);
+    const std::uint32_t most = turn > 0 ? 3 * QuarterTurn : QuarterTurn;
+    return angle < most ? angle : angle - FullTurn;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void AddAngle(std::int64_t t, int slot, std::uint32_t angle) const
+  {
+    AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)], angle);
+  }
+};
+
+/// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
+/// at the points that they share with this one.
+template <typename Backend>
+void JoinPointSums(const Backend&, std::uint32_t*)
+{
+}
+
+/// Finds how triangles turn, then whether stars overlap, on a backend.
+template <typename Backend>
+class HeightFieldSurvey
+{
+public:
+  HeightFieldSurvey(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
+    : Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
+        PlaneScale(survey.Box) },
+      Engine(backend)
+  {
+    const BoundingBox& box = survey.Box;
+    const Vector3 diagonal = this->Triangles.Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
+      this->Triangles.Scale(box.Lower[0], box.Lower[1], box.Lower[2]);
+    // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
+    constexpr int SmallestExponent = -500;
+    const double length = Length(diagonal);
+    this->Factor =
+      length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
+  }
+
+  TurnSums SumTurns() const
+  {
+    return this->Engine.template Sum<TurnSums>(
+      this->Triangles.Mesh.Triangles.Count, TurnStep{ this->Triangles, this->Factor });
+  }
+
+  /// The points around which triangles turn more than once.
+  /// @param side the side to which most triangles turn.
+  IdSample FindOverlaps(int side) const
+  {
+    // At both ends of an open fan, directions are rounded.
+    constexpr std::int64_t Slack = 8;
+    const std::int64_t points = this->Triangles.Mesh.Points.Count;
+    Array<std::uint32_t> angles = this->Engine.template MakeArray<std::uint32_t>(points);
+    std::uint32_t* angleOfPoint = angles.Data();
+    this->Engine.ForEach(
+      points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
+    this->Engine.ForEach(
+      this->Triangles.Mesh.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
+    JoinPointSums(this->Engine, angleOfPoint);
+    return this->Engine.template Sum<IdSample>(points,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
+      {
+        const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
+        if (side * angle > StarStep::FullTurn + Slack)
+        {
+          sum.Note(i);
+        }
+      });
+  }
+
+private:
+  ScaledTriangles Triangles;
+  const Backend& Engine;
+  double Factor;
+};
+
+//------------------------------------------------------------------------------
+// Chooses the space in which the edges of a mesh are judged, and says why.
 
 /// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
 /// @param times how many times as high, at least.
@@ -240,6 +693,72 @@ private:
   MeshSurvey& Survey;
   const Backend& Engine;
 };
+
+struct TurnedSums
+{
+  std::int64_t All = 0;
+  IdSample Flipped; ///< Triangles that flips have made.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
+  {
+    this->All += part.All;
+    this->Flipped += part.Flipped;
+    return *this;
+  }
+};
+
+/// Counts a triangle that turns to the less common side in x and y.
+struct TurnedStep
+{
+  const TriangleRecord* Triangles;
+  PackedPointsView Points;
+  int Side; ///< The side to which most triangles turned at first.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Points.Address(vertex));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnedSums& sums) const
+  {
+    const TriangleRecord& triangle = this->Triangles[t];
+    Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
+    Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
+    Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
+    if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+    {
+      return;
+    }
+    BringNearOne(a, b, c);
+    if (FindTurn(a, b, c) == -this->Side)
+    {
+      ++sums.All;
+      if (triangle.Flips >= OneFlip)
+      {
+        sums.Flipped.Note(triangle.InputTriangle);
+      }
+    }
+  }
+};
+
+/// How many more triangles turn to the less common side than at first.
+/// @param points the points in space.
+template <typename Backend>
+Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
+  const TurnCounts& before, const Backend& backend)
+{
+  const TurnedSums sums = backend.template Sum<TurnedSums>(
+    mesh.NumberOfTriangles, TurnedStep{ mesh.Triangles.Data(), points.View(), before.Side });
+  Defect defect = MakeDefect("triangles that flips in space have turned over in x and y, although "
+                             "the input was a height field or nearly one; if it is terrain, use "
+                             "planar-xy",
+    sums.Flipped);
+  defect.Count = std::max<std::int64_t>(0, sums.All - before.Others);
+  defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
+  return defect;
+}
 
 }
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AngleSurvey.h"
-#include "CotangentAngle.h"
+#include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "JoinReports.h"
 #include "MeshInParts.h"
-#include "MissingConstraints.h"
 #include "PartMesh.h"
 #include "PieceFlip.h"
 #include "SeamSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshInParts.h"
 
-#include "FixedEdges.h"
+#include "EdgeMeshBuilder.h"
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"

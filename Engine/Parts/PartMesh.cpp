@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartMesh.h"
 
-#include "AngleSurvey.h"
-#include "CotangentAngle.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
 #include "PartSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "EngineTriangles.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
-#include "HostVector.h"
+#include "HostMemory.h"
 #include "PieceFlip.h"
 #include "PointMatch.h"
 #include "Records.h"

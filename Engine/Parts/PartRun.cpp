@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "HostVector.h"
+#include "HostMemory.h"
 #include "JoinReports.h"
 #include "MeshAudit.h"
 #include "PartConstraints.h"

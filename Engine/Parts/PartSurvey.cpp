@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartSurvey.h"
 
-#include "AngleSurvey.h"
 #include "Atomics.h"
-#include "CotangentAngle.h"
+#include "EdgeMeshBuilder.h"
 #include "ExactPredicates.h"
-#include "FixedEdges.h"
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshInParts.h"
 #include "MeshSurveyBuilder.h"
+#include "PlanarSurvey.h"
 #include "Records.h"
-#include "StarSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
 
@@ -59,7 +59,7 @@ struct PointSum
   std::uint32_t Sum;
 };
 
-/// Found in HeightFieldSurvey.h instead of the function that does nothing. The total of every point
+/// Found in GeometryChoice.h instead of the function that does nothing. The total of every point
 /// goes to the first rank that has it, and 0 to the others.
 void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
 {

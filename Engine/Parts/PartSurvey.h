@@ -36,7 +36,7 @@ struct PartSurvey
   bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
 };
 
-/// The squared cotangent of the smallest angle of a triangle, as defined in AngleSurvey.h.
+/// The squared cotangent of the smallest angle of a triangle, as defined in SmallestAngle.h.
 /// @param x the coordinates of its corners.
 double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey);
 

@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_POINTMATCH_H
 #define DELAUNAYFLIP_POINTMATCH_H
 
-#include "HostVector.h"
+#include "HostMemory.h"
 #include "PieceFlip.h"
 
 #include <cstdint>

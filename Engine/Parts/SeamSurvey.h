@@ -6,11 +6,11 @@
 #include "EdgeMesh.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
-#include "OppositeAngles.h"
-#include "PackedPoints.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
 #include "Records.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>

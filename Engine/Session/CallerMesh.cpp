@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CallerMesh.h"
 
-#include "DeviceCopies.h"
+#include "Array.h"
 #include "FlipError.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
-#include "DeviceCopies.h"
+#include "Array.h"
 #include "DividedSession.h"
 #include "FlipError.h"
 #include "InputChecks.h"

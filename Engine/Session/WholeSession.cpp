@@ -3,11 +3,11 @@
 #include "WholeSession.h"
 
 #include "BuildProgress.h"
-#include "CotangentAngle.h"
 #include "CudaDevice.h"
 #include "HostMemory.h"
 #include "InputChecks.h"
 #include "StopWatch.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,6 +5,7 @@
 
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -93,6 +94,17 @@ private:
   std::int64_t Flips = 0;
   std::vector<RefusedConstraint> Refused;
 };
+
+/// Constraint edges that are to be inserted and are no edges of the mesh.
+struct MissingConstraints
+{
+  std::vector<std::int64_t> First; ///< Their numbers, ascending; of equal ones the first.
+  std::vector<bool> IsMissing; ///< For every constraint edge; also of equal ones.
+};
+
+/// Does not trust the ids of triangles.
+/// @throws InvalidMesh for a constraint that names no point.
+MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const ThreadBackend& backend);
 
 }
 

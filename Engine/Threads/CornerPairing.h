@@ -6,7 +6,6 @@
 #include "Array.h"
 #include "Atomics.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
 #include "ThreadBackend.h"
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadBackend.h"
 
+#include "CornerPairing.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -236,6 +238,19 @@ void ThreadBackend::ForTasks(
   {
     work(task);
   }
+}
+
+bool ThreadBackend::PairCorners(
+  EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const
+{
+  CornerPairing pairing(mesh, vertices, *this);
+  if (!pairing.IsEven())
+  {
+    return false;
+  }
+  sums = pairing.Run();
+  numbering = this->Count(mesh.NumberOfTriangles, OtherCornerStep{ mesh.Triangles.Data() });
+  return true;
 }
 
 }

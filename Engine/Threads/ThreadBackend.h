@@ -5,10 +5,9 @@
 
 #include "Array.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
+#include "EdgeTable.h"
 #include "FlipEngine.h"
 #include "HostMemory.h"
-#include "OutputSlice.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>

@@ -3,11 +3,11 @@
 #ifndef DELAUNAYFLIP_THREADFLIPLOOP_H
 #define DELAUNAYFLIP_THREADFLIPLOOP_H
 
-#include "AngleSurvey.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "EdgeWorklist.h"
 #include "FlipLoop.h"
+#include "SmallestAngle.h"
 #include "ThreadBackend.h"
 #include "ThreadSteps.h"
 

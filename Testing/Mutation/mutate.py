@@ -33,17 +33,16 @@ SOURCE = FOLDER / "source"
 # The code that decides results: predicates, rules, the flip, the guard, claims and surveys.
 TOPICS = {
     "predicates": ["Geometry/FilteredPredicates.h", "Geometry/ExactPredicates.h",
-                   "Geometry/FixedPoint.h", "Geometry/WideInteger.cpp",
-                   "Geometry/OppositeAngles.h", "Geometry/SurfaceAngles.h"],
+                   "Geometry/ExactPredicates.cpp", "Geometry/SurfaceAngles.h"],
     "rules": ["Flips/FlipRules.h"],
     "flip": ["Flips/EdgeFlip.h", "Flips/FlipSteps.h"],
     "guard": ["Flips/EdgeGuard.h", "Mesh/EdgeTable.h"],
     "claims": ["Flips/EdgeClaims.h"],
-    "survey": ["Mesh/PlanarSurvey.h", "Mesh/StarSurvey.h", "Mesh/HeightFieldSurvey.h",
-               "Mesh/MeshSurvey.h", "Mesh/MeshSurveyBuilder.h", "Mesh/GeometryChoice.h",
-               "Mesh/PlaneFinder.h", "Mesh/PlaneScale.h"],
+    "survey": ["Mesh/PlanarSurvey.h", "Mesh/MeshSurvey.h", "Mesh/MeshSurveyBuilder.h",
+               "Mesh/GeometryChoice.h"],
 }
-UNITS = ["Threads/ThreadEngine.cpp", "Geometry/WideInteger.cpp"]  # these include all of the files above
+# Together these include all of the files above.
+UNITS = ["Threads/ThreadEngine.cpp", "Geometry/ExactPredicates.cpp"]
 INCLUDES = ["Engine", "Engine/Geometry", "Engine/Mesh", "Engine/Flips", "Engine/Threads"]
 
 OPPOSITES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||",
