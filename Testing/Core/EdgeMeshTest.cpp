@@ -287,8 +287,7 @@ TEST(EdgeClaims, GoToTheSmallestPriorityInAnyOrder)
 TEST(EdgeGuard, RenewsItsTableInTime)
 {
   const ThreadBackend backend(1);
-  const EdgeMesh edges =
-    std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
+  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
   EdgeGuard guard(
     EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
   guard.Rebuild(edges, backend);
@@ -318,8 +317,7 @@ TEST(EdgeGuard, RenewsItsTableInTime)
 TEST(EdgeGuard, HearsOfFlips)
 {
   const ThreadBackend backend(1);
-  const EdgeMesh edges =
-    std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
+  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
   EdgeGuard owner(
     EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
   owner.Rebuild(edges, backend);

@@ -109,13 +109,6 @@ void ExpectTilesEverywhere(Polygon polygon)
 }
 
 //------------------------------------------------------------------------------
-using Triangles = Triples;
-
-Triangles Clip(const Polygon& polygon, const ProgressObserver& progress = {})
-{
-  return ClipEars(polygon, progress);
-}
-
 /// The order of cuts that ClipEars promises, in the obvious way: every vertex is looked at, and
 /// for each all others.
 class ObviousClipper
@@ -128,9 +121,9 @@ public:
     std::iota(this->Ring.begin(), this->Ring.end(), 0);
   }
 
-  Triangles Clip()
+  Triples Clip()
   {
-    Triangles cut;
+    Triples cut;
     std::size_t at = 0;
     while (this->Ring.size() > 3)
     {
@@ -261,22 +254,6 @@ Polygon DrawLattice(int size, std::mt19937& random)
   return polygon;
 }
 
-/// A square with many points in line on its sides, and a dent that touches the opposite side.
-Polygon MakeDentedSquare(int size, std::mt19937&)
-{
-  const int side = size / 4;
-  Polygon polygon;
-  const PlaneVector steps[] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
-  PlaneVector at = { 0, 0 };
-  for (int i = 0; i < 4 * side; ++i)
-  {
-    polygon.push_back(at);
-    at = { at[0] + steps[i / side][0], at[1] + steps[i / side][1] };
-  }
-  polygon.insert(polygon.begin() + 3 * side + side / 2, { double(side), double(side / 2) });
-  return polygon;
-}
-
 /// A ring of holes, each joined to the next by a bridge that the polygon runs through twice.
 Polygon MakeKeyholes(int size, std::mt19937&)
 {
@@ -326,7 +303,6 @@ const Family Families[] = {
   { "FewPlaces", DrawLattice<4> },
   { "SmallLattice", DrawLattice<30> },
   { "Crossing", DrawLattice<1000000> },
-  { "DentedSquare", MakeDentedSquare },
   { "Keyholes", MakeKeyholes },
   { "Coil", MakeCoil },
   { "BrokenStar", MakeBrokenStar },
@@ -351,7 +327,7 @@ TEST_P(EarClipperTest, CutsInTheOrderOfTheWalk)
     {
       std::reverse(polygon.begin(), polygon.end());
     }
-    ASSERT_EQ(ObviousClipper(polygon).Clip(), Clip(polygon)) << "case " << i;
+    ASSERT_EQ(ObviousClipper(polygon).Clip(), ClipEars(polygon, {})) << "case " << i;
   }
 }
 
@@ -367,12 +343,12 @@ TEST_P(EarClipperTest, NeedsFewStepsForTenThousandCorners)
     ++calls;
     return true;
   };
-  const Triangles triangles = Clip(polygon, count);
+  const Triples triangles = ClipEars(polygon, count);
   EXPECT_EQ(polygon.size() - 2, triangles.size());
   EXPECT_GT(60, calls);
   if (calls > 0)
   {
-    EXPECT_TRUE(Clip(polygon, [](double) { return false; }).empty());
+    EXPECT_TRUE(ClipEars(polygon, [](double) { return false; }).empty());
   }
 }
 
@@ -418,7 +394,7 @@ TEST(EarClipper, TilesSimplePolygons)
     SCOPED_TRACE(i);
     const Polygon polygon = DrawSimplePolygon(5 + i / 4, random);
     Ids triangles;
-    for (const auto& triangle : Clip(polygon))
+    for (const auto& triangle : ClipEars(polygon, {}))
     {
       triangles.insert(triangles.end(), triangle.begin(), triangle.end());
     }

@@ -11,68 +11,49 @@ namespace delaunayflip
 namespace
 {
 
-/// Some triangles of a mesh, which may be put into another order.
-struct TriangleRange
+/// Three times the centre of a triangle; NaN counts as 0.
+double GetCenter(const TriangleMesh& mesh, std::int64_t triangle, int axis)
 {
-  std::int64_t* Begin;
-  std::int64_t* End;
-};
-
-class SpaceDivider
-{
-  /// Three times the centre of a triangle; NaN counts as 0.
-  double GetCenter(std::int64_t triangle, int axis) const
+  double sum = 0.0;
+  for (int slot = 0; slot < 3; ++slot)
   {
-    double sum = 0.0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      sum += this->Mesh.Points.Get(this->Mesh.Triangles.Get(triangle, slot), axis);
-    }
-    return std::isnan(sum) ? 0.0 : sum;
+    sum += mesh.Points.Get(mesh.Triangles.Get(triangle, slot), axis);
   }
+  return std::isnan(sum) ? 0.0 : sum;
+}
 
-  auto CompareAlong(int axis) const
+using Triangles = std::vector<std::int64_t>;
+
+/// Cuts triangles until each part has one rank, from `first` on.
+void Cut(const TriangleMesh& mesh, Triangles triangles, int first, int ranks, Owners& owners)
+{
+  const auto compareAlong = [&mesh](int axis)
   {
-    return [this, axis](std::int64_t a, std::int64_t b)
+    return [&mesh, axis](std::int64_t a, std::int64_t b)
     {
-      const double left = this->GetCenter(a, axis), right = this->GetCenter(b, axis);
+      const double left = GetCenter(mesh, a, axis), right = GetCenter(mesh, b, axis);
       return left < right || (left == right && a < b);
     };
-  }
-
-public:
-  explicit SpaceDivider(const TriangleMesh& mesh)
-    : RankOf(mesh.Triangles.Count),
-      Mesh(mesh)
+  };
+  if (ranks == 1 || triangles.empty())
   {
+    std::for_each(triangles.begin(), triangles.end(), [&](std::int64_t t) { owners[t] = first; });
+    return;
   }
-
-  /// Cuts a range until each part has one rank.
-  void Cut(const TriangleRange& range, int first, int ranks)
+  double extents[3];
+  for (int axis = 0; axis < 3; ++axis)
   {
-    if (ranks == 1 || range.Begin == range.End)
-    {
-      std::for_each(range.Begin, range.End, [&](std::int64_t t) { this->RankOf[t] = first; });
-      return;
-    }
-    double extents[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto ends = std::minmax_element(range.Begin, range.End, this->CompareAlong(axis));
-      extents[axis] = this->GetCenter(*ends.second, axis) - this->GetCenter(*ends.first, axis);
-    }
-    const auto longest = static_cast<int>(std::max_element(extents, extents + 3) - extents);
-    std::int64_t* middle = range.Begin + (range.End - range.Begin) / ranks * (ranks / 2);
-    std::nth_element(range.Begin, middle, range.End, this->CompareAlong(longest));
-    this->Cut({ range.Begin, middle }, first, ranks / 2);
-    this->Cut({ middle, range.End }, first + ranks / 2, ranks - ranks / 2);
+    const auto [low, high] =
+      std::minmax_element(triangles.begin(), triangles.end(), compareAlong(axis));
+    extents[axis] = GetCenter(mesh, *high, axis) - GetCenter(mesh, *low, axis);
   }
-
-  Owners RankOf;
-
-private:
-  const TriangleMesh& Mesh;
-};
+  const auto longest = static_cast<int>(std::max_element(extents, extents + 3) - extents);
+  const auto middle =
+    triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size()) / ranks * (ranks / 2);
+  std::nth_element(triangles.begin(), middle, triangles.end(), compareAlong(longest));
+  Cut(mesh, { triangles.begin(), middle }, first, ranks / 2, owners);
+  Cut(mesh, { middle, triangles.end() }, first + ranks / 2, ranks - ranks / 2, owners);
+}
 
 /// @param localOf the id of every point in the piece, or -1.
 std::int32_t AddPoint(
@@ -93,7 +74,7 @@ std::int32_t AddPoint(
   return local;
 }
 
-OwnPiece MakePiece(const TriangleMesh& mesh, std::vector<std::int64_t> triangles)
+OwnPiece MakePiece(const TriangleMesh& mesh, Triangles triangles)
 {
   std::vector<std::int32_t> localOf(mesh.Points.Count, -1);
   OwnPiece piece;
@@ -157,22 +138,22 @@ MeshPiece OwnPiece::View(bool withNumbers) const
 
 Owners DivideBySpace(const TriangleMesh& mesh, int ranks)
 {
-  std::vector<std::int64_t> order(mesh.Triangles.Count);
-  std::iota(order.begin(), order.end(), 0);
-  SpaceDivider divider(mesh);
-  divider.Cut({ order.data(), order.data() + order.size() }, 0, ranks);
-  return divider.RankOf;
+  Triangles all(mesh.Triangles.Count);
+  std::iota(all.begin(), all.end(), 0);
+  Owners owners(all.size());
+  Cut(mesh, std::move(all), 0, ranks, owners);
+  return owners;
 }
 
 std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, const Owners& owners, int ranks)
 {
-  std::vector<std::vector<std::int64_t>> triangles(ranks);
+  std::vector<Triangles> triangles(ranks);
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
     triangles[owners[t]].push_back(t);
   }
   std::vector<OwnPiece> pieces;
-  for (std::vector<std::int64_t>& own : triangles)
+  for (Triangles& own : triangles)
   {
     pieces.push_back(MakePiece(mesh, std::move(own)));
   }

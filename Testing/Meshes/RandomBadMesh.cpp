@@ -53,7 +53,15 @@ public:
   /// Adds a point inside the square, unless it is already there.
   void Insert(const LatticePoint& point)
   {
-    this->FindLeaves(point);
+    this->Leaves.clear();
+    const std::int64_t side = this->Turn(0, 2, point);
+    for (const std::int32_t root : { 1, 0 })
+    {
+      if (root == 0 ? side <= 0 : side >= 0)
+      {
+        this->FindLeaves(root, point);
+      }
+    }
     for (std::int32_t leaf : this->Leaves)
     {
       for (std::int32_t vertex : this->Nodes[leaf].Vertices)
@@ -104,39 +112,20 @@ private:
       this->Turn(child.Vertices[2], child.Vertices[0], point) >= 0;
   }
 
-  /// All leaves that contain the point: one, two if it lies on an edge, more if it is a vertex.
-  void FindLeaves(const LatticePoint& point)
-  {
-    this->Leaves.clear();
-    this->Pending.clear();
-    for (std::int32_t root = 0; root < 2; ++root)
-    {
-      const std::int64_t side = this->Turn(0, 2, point);
-      if (root == 0 ? side <= 0 : side >= 0)
-      {
-        this->Pending.push_back(root);
-      }
-    }
-    while (!this->Pending.empty())
-    {
-      const std::int32_t node = this->Pending.back();
-      this->Pending.pop_back();
-      this->Visit(node, point);
-    }
-  }
-
-  void Visit(std::int32_t index, const LatticePoint& point)
+  /// All leaves below a node that contain the point: one, two if it lies on an edge, more if it is
+  /// a vertex.
+  void FindLeaves(std::int32_t index, const LatticePoint& point)
   {
     const HistoryNode& node = this->Nodes[index];
     if (node.NumberOfChildren == 0)
     {
       this->Leaves.push_back(index);
     }
-    for (std::int32_t i = 0; i < node.NumberOfChildren; ++i)
+    for (std::int32_t i = node.NumberOfChildren; i-- > 0;)
     {
       if (this->ChildHolds(this->Nodes[node.FirstChild + i], point))
       {
-        this->Pending.push_back(node.FirstChild + i);
+        this->FindLeaves(node.FirstChild + i, point);
       }
     }
   }
@@ -161,30 +150,27 @@ private:
 
   std::vector<HistoryNode> Nodes;
   std::vector<std::int32_t> Leaves;
-  std::vector<std::int32_t> Pending;
 };
-
-/// A point strictly inside the square, so that the boundary keeps its four edges.
-std::int32_t DrawCoordinate(std::mt19937& random)
-{
-  std::int32_t coordinate = 0;
-  while (coordinate == 0)
-  {
-    coordinate = static_cast<std::int32_t>(random() >> 8);
-  }
-  return coordinate;
-}
 
 template <typename Real>
 OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
 {
   std::mt19937 random(seed);
   SplitHistory history(points, LatticeSize);
+  // Not 0: strictly inside the square, so that the boundary keeps its four edges.
+  const auto draw = [&random]()
+  {
+    std::uint32_t coordinate = 0;
+    while (coordinate == 0)
+    {
+      coordinate = random() >> 8;
+    }
+    return static_cast<std::int32_t>(coordinate);
+  };
   while (static_cast<std::int64_t>(history.Points.size()) < points)
   {
-    const std::int32_t x = DrawCoordinate(random);
-    const std::int32_t y = DrawCoordinate(random);
-    history.Insert({ x, y });
+    const std::int32_t x = draw();
+    history.Insert({ x, draw() });
   }
   OwnedMesh<Real> mesh;
   mesh.Points.reserve(3 * history.Points.size());
@@ -217,41 +203,22 @@ namespace
 
 /// Where the tiles of a mesh lie and how many points each contains. The corners of all tiles are
 /// the first points; the points inside follow, tile by tile.
-class TiledSquare
+struct TiledSquare
 {
-public:
-  TiledSquare(std::int64_t points, std::int32_t tilesPerSide)
-    : TilesPerSide(tilesPerSide),
-      TileSize(LatticeSize / tilesPerSide),
-      Corners((std::int64_t(tilesPerSide) + 1) * (tilesPerSide + 1)),
-      PointsInside(points - this->Corners)
+  std::int64_t TilesPerSide;
+  std::int64_t PointsInside;
+  std::int64_t CountTiles() const { return this->TilesPerSide * this->TilesPerSide; }
+  std::int64_t CountCorners() const { return (this->TilesPerSide + 1) * (this->TilesPerSide + 1); }
+  std::int32_t GetTileSize() const
   {
-  }
-
-  std::int64_t GetNumberOfTiles() const
-  {
-    return std::int64_t(this->TilesPerSide) * this->TilesPerSide;
-  }
-
-  std::int64_t GetNumberOfPoints() const { return this->Corners + this->PointsInside; }
-
-  std::int64_t GetNumberOfTriangles() const
-  {
-    return 2 * (this->PointsInside + this->GetNumberOfTiles());
+    return LatticeSize / static_cast<std::int32_t>(this->TilesPerSide);
   }
 
   /// The number of points inside the tiles before `tile`.
   std::int64_t CountBefore(std::int64_t tile) const
   {
-    const std::int64_t tiles = this->GetNumberOfTiles();
-    const std::int64_t rest = this->PointsInside % tiles;
-    return this->PointsInside / tiles * tile + std::min(tile, rest);
-  }
-
-  LatticePoint GetOrigin(std::int64_t tile) const
-  {
-    return { static_cast<std::int32_t>(tile % this->TilesPerSide) * this->TileSize,
-      static_cast<std::int32_t>(tile / this->TilesPerSide) * this->TileSize };
+    const std::int64_t rest = this->PointsInside % this->CountTiles();
+    return this->PointsInside / this->CountTiles() * tile + std::min(tile, rest);
   }
 
   /// The id in the mesh of a point of a tile.
@@ -259,43 +226,27 @@ public:
   {
     if (point >= 4)
     {
-      return static_cast<std::int32_t>(this->Corners + this->CountBefore(tile) + point - 4);
+      return static_cast<std::int32_t>(this->CountCorners() + this->CountBefore(tile) + point - 4);
     }
     const std::int64_t column = tile % this->TilesPerSide + (point == 1 || point == 2);
     const std::int64_t row = tile / this->TilesPerSide + (point >= 2);
     return static_cast<std::int32_t>(row * (this->TilesPerSide + 1) + column);
   }
-
-  const std::int32_t TilesPerSide;
-  const std::int32_t TileSize;
-
-private:
-  const std::int64_t Corners;
-  const std::int64_t PointsInside;
 };
 
-/// A random coordinate in [1, size - 1]: inside the tile, so that its border keeps its four edges.
-std::int32_t DrawInside(std::mt19937& random, std::int32_t size)
-{
-  return 1 + static_cast<std::int32_t>((std::uint64_t(random()) * std::uint64_t(size - 1)) >> 32);
-}
-
-void StorePoint(const LatticePoint& point, std::int32_t id, OwnedMesh<float>& mesh)
+/// Stores the corners of a tile, which others share, or the points inside of it.
+void StorePoints(const TiledSquare& square, std::int64_t tile,
+  const std::vector<LatticePoint>& points, bool corners, OwnedMesh<float>& mesh)
 {
   constexpr float Step = 1.0f / static_cast<float>(LatticeSize);
-  mesh.Points[3 * static_cast<std::size_t>(id)] = static_cast<float>(point.X) * Step;
-  mesh.Points[3 * static_cast<std::size_t>(id) + 1] = static_cast<float>(point.Y) * Step;
-}
-
-void StoreCorners(const TiledSquare& square, OwnedMesh<float>& mesh)
-{
-  std::int32_t id = 0;
-  for (std::int32_t row = 0; row <= square.TilesPerSide; ++row)
+  const std::int64_t x = tile % square.TilesPerSide * square.GetTileSize();
+  const std::int64_t y = tile / square.TilesPerSide * square.GetTileSize();
+  const auto last = corners ? 4 : static_cast<std::int32_t>(points.size());
+  for (std::int32_t i = corners ? 0 : 4; i < last; ++i)
   {
-    for (std::int32_t column = 0; column <= square.TilesPerSide; ++column)
-    {
-      StorePoint({ column * square.TileSize, row * square.TileSize }, id++, mesh);
-    }
+    float* place = &mesh.Points[3 * static_cast<std::size_t>(square.GetId(tile, i))];
+    place[0] = static_cast<float>(x + points[static_cast<std::size_t>(i)].X) * Step;
+    place[1] = static_cast<float>(y + points[static_cast<std::size_t>(i)].Y) * Step;
   }
 }
 
@@ -306,20 +257,20 @@ void MakeTile(
   const std::int64_t before = square.CountBefore(tile);
   const std::int64_t points = 4 + square.CountBefore(tile + 1) - before;
   std::mt19937 random(seed + 7919u * static_cast<std::uint32_t>(tile));
-  SplitHistory history(points, square.TileSize);
+  SplitHistory history(points, square.GetTileSize());
+  // In [1, size - 1]: inside the tile, so that its border keeps its four edges.
+  const auto draw = [&]()
+  {
+    const std::uint64_t most = static_cast<std::uint64_t>(square.GetTileSize() - 1);
+    return 1 + static_cast<std::int32_t>((std::uint64_t(random()) * most) >> 32);
+  };
   while (static_cast<std::int64_t>(history.Points.size()) < points)
   {
-    const std::int32_t x = DrawInside(random, square.TileSize);
-    const std::int32_t y = DrawInside(random, square.TileSize);
-    history.Insert({ x, y });
+    const std::int32_t x = draw();
+    history.Insert({ x, draw() });
   }
-  const LatticePoint origin = square.GetOrigin(tile);
-  for (std::int32_t i = 4; i < points; ++i)
-  {
-    const LatticePoint& point = history.Points[static_cast<std::size_t>(i)];
-    StorePoint({ origin.X + point.X, origin.Y + point.Y }, square.GetId(tile, i), mesh);
-  }
-  std::size_t next = static_cast<std::size_t>(3 * 2 * (before + tile));
+  StorePoints(square, tile, history.Points, false, mesh);
+  auto next = static_cast<std::size_t>(3 * 2 * (before + tile));
   history.ForEachTriangle(
     [&](const std::array<std::int32_t, 3>& ids)
     {
@@ -335,24 +286,29 @@ void MakeTile(
 OwnedMesh<float> MakeTiledBadMesh(
   std::int64_t points, std::int32_t tilesPerSide, std::uint32_t seed, int threads)
 {
-  const TiledSquare square(points, tilesPerSide);
+  TiledSquare square{ tilesPerSide, 0 };
+  square.PointsInside = points - square.CountCorners();
   OwnedMesh<float> mesh;
-  mesh.Points.resize(static_cast<std::size_t>(3 * square.GetNumberOfPoints()));
-  mesh.Triangles.resize(static_cast<std::size_t>(3 * square.GetNumberOfTriangles()));
-  StoreCorners(square, mesh);
+  mesh.Points.resize(static_cast<std::size_t>(3 * points));
+  mesh.Triangles.resize(static_cast<std::size_t>(6 * (square.PointsInside + square.CountTiles())));
+  const SplitHistory corners(0, square.GetTileSize());
+  for (std::int64_t tile = 0; tile < square.CountTiles(); ++tile)
+  {
+    StorePoints(square, tile, corners.Points, true, mesh);
+  }
   std::atomic<std::int64_t> nextTile{ 0 };
   const auto work = [&]
   {
-    for (std::int64_t tile; (tile = nextTile++) < square.GetNumberOfTiles();)
+    for (std::int64_t tile; (tile = nextTile++) < square.CountTiles();)
     {
       MakeTile(square, tile, seed, mesh);
     }
   };
   const unsigned available = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> workers(threads > 0 ? static_cast<unsigned>(threads) : available);
-  for (std::thread& worker : workers)
+  std::vector<std::thread> workers;
+  for (unsigned i = threads > 0 ? static_cast<unsigned>(threads) : available; i > 0; --i)
   {
-    worker = std::thread(work);
+    workers.emplace_back(work);
   }
   for (std::thread& worker : workers)
   {
@@ -360,4 +316,5 @@ OwnedMesh<float> MakeTiledBadMesh(
   }
   return mesh;
 }
+
 }
