@@ -20,7 +20,6 @@
 namespace delaunayflip
 {
 
-class SessionWork;
 struct EngineTriangles;
 struct HostTriangles;
 
@@ -92,7 +91,8 @@ private:
   friend class PartRun;
   HostTriangles ViewHostTriangles() const;
 
-  std::unique_ptr<SessionWork> Work;
+  struct Work;
+  std::unique_ptr<Work> Own;
 };
 
 /// Finds the interior edges (edges with two triangles) that never flip in a run with these options,

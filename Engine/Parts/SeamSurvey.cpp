@@ -68,16 +68,6 @@ std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
 //------------------------------------------------------------------------------
 namespace
 {
-/// What the engine knows of a mesh when it chooses a rule.
-MeshSurvey DescribeMesh(const PartSurvey& survey)
-{
-  MeshSurvey mesh;
-  mesh.Geometry = survey.Geometry;
-  mesh.Projection = survey.Projection;
-  mesh.Precision = survey.IsFloat ? FloatPrecision : DoublePrecision;
-  return mesh;
-}
-
 /// @param rule for the points 0 to 3.
 template <typename Rule>
 EdgeState Decide(const Rule& rule)
@@ -89,12 +79,12 @@ EdgeState Decide(const Rule& rule)
 }
 
 QuadJudge::QuadJudge(const PartSurvey& survey, const FlipOptions& options)
-  : Plan(PlanPacking(DescribeMesh(survey), options.Criterion, false)),
+  : Plan(PlanPacking(survey, options.Criterion, false)),
     Criterion(options.Criterion),
     IsSurface(survey.Geometry == GeometryKind::Surface),
     Canonical(options.TieRule == TieRuleKind::Canonical),
     FiltersApply(survey.FiltersApply),
-    Tolerance(GetTolerance(options, DescribeMesh(survey))),
+    Tolerance(GetTolerance(options, survey)),
     Range(survey.Range)
 {
 }

@@ -319,6 +319,14 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
   }
 }
 
+bool ConstraintInsertion::IsRequested(const FixedEdges& edges)
+{
+  const unsigned char* flags = edges.ConstraintsToInsert;
+  return flags &&
+    std::any_of(
+      flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
+}
+
 ConstraintInsertion::ConstraintInsertion(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
 {

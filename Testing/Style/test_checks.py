@@ -33,7 +33,7 @@ CLEAN = {
     "Engine/CMakeLists.txt": ENGINE,
     "Engine/FlipOptions.h": LICENCE + "#include <vector>\n",
     "Engine/Mesh/EdgeMesh.h": LICENCE + '#include "FlipOptions.h"\n// printf("%d") prints\n',
-    "Engine/Session/WholeSession.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
+    "Engine/Session/CallerMesh.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
     "CUDA/Team.cuh": LICENCE + '#include "EdgeMesh.h"\n',
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
     "Testing/Core/TestEdgeMesh.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
@@ -168,8 +168,8 @@ class StyleChecks(CheckedTree):
                 self.check_notices(
                     ["check_layering.py"],
                     path,
-                    '#include "WholeSession.h"\n',
-                    "CUDA includes WholeSession.h of Engine/Session",
+                    '#include "CallerMesh.h"\n',
+                    "CUDA includes CallerMesh.h of Engine/Session",
                 )
                 self.remove(path)
 
