@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RandomMess.h"
+#include "RandomInputs.h"
 #include "GpuTestSupport.h"
 
 /// @file
