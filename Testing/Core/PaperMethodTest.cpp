@@ -105,18 +105,6 @@ TEST(PaperMethod, CountsExcludedThreads)
   EXPECT_GT(result.CountFlips(), 0.6 * static_cast<double>(bad));
 }
 
-TEST(PaperMethod, FlipsClockwiseMeshesToo)
-{
-  OwnedMesh<float> mesh = MakeRandomBadMesh(2000, 6);
-  ReverseTriangles(mesh.Triangles);
-  TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
-  PaperOptions options = InDouble(1e-15);
-  options.Test = PaperTestKind::InCircle;
-  std::vector<std::int32_t> found = RunPaper(mesh.View(), options).Triangles;
-  ReverseTriangles(found);
-  EXPECT_EQ(expected, ToTriangleSet(found));
-}
-
 TEST(PaperMethod, StopsAtTheLimit)
 {
   const OwnedMesh<float> mesh = MakeRandomBadMesh(2000, 7);
