@@ -15,9 +15,7 @@ ITERATION = numpy.dtype(
 )
 # What VTK's field data and tables tell, by their names.
 FIELD_PREFIX = "DelaunayFlip:"
-COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
-           "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
-           "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+COLUMNS = {name.title().replace("_", ""): name for name in ITERATION.names}
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",

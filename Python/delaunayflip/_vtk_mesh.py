@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonCore import (
     vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
-from ._errors import InvalidOptions
+from ._library import InvalidOptions
 from ._surface import FlipInput, Surface, number_tuples
 
 

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkMultiBlockDataSet,
     vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGridAMR)
 
-from . import _errors, _library
+from . import _library
 from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
 from ._surface import Settings
 from ._vtk_mesh import MeshInput, add_arrays
@@ -31,9 +31,9 @@ class Failure(enum.IntEnum):
 
 def explain(error):
     """(Failure, message) of an exception."""
-    for kind, failure in ((_errors.InvalidOptions, Failure.OPTIONS),
-                          (_errors.BackendUnavailable, Failure.BACKEND),
-                          (_errors.FlipError, Failure.MESH)):
+    for kind, failure in ((_library.InvalidOptions, Failure.OPTIONS),
+                          (_library.BackendUnavailable, Failure.BACKEND),
+                          (_library.FlipError, Failure.MESH)):
         if isinstance(error, kind):
             return failure, str(error)
     is_memory = isinstance(error, MemoryError)
@@ -171,7 +171,7 @@ class Update:
             data = MeshInput(
                 mesh, constraints, self._get_settings(), self._observe_part(0.0, _SPLIT))
             session = data.open(progress=observe, **options)
-        except _errors.Stopped:
+        except _library.Stopped:
             return self._pass_after_abort(mesh, output)
         with session:
             self.totals = Totals.of_run(session, data)
