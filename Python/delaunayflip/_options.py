@@ -59,19 +59,11 @@ class Options(typing.TypedDict, total=False):
     track_quality: bool
 
 
-_CHOICES = {
-    "geometry": _library.GEOMETRIES,
-    "criterion": _library.CRITERIA,
-    "tie_rule": _library.TIE_RULES,
-    "backend": _library.BACKENDS,
-}
+CHOICES = {"geometry": _library.GEOMETRIES, "criterion": _library.CRITERIA,
+           "tie_rule": _library.TIE_RULES, "backend": _library.BACKENDS}
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
-_RANGES = {
-    "maximum_iterations": (-1, 2**63 - 1),
-    "threads": (0, 2**31 - 1),
-    "device": (-1, 2**31 - 1),
-    "pieces": (0, 255),
-}
+_RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
+           "device": (-1, 2**31 - 1), "pieces": (0, 255)}
 
 
 def make_options(**keywords):
@@ -91,7 +83,7 @@ def make_options(**keywords):
             value = _list_devices(value)
         elif keyword == "track_quality":
             value = check_integer(keyword, value, 0, 1, "True or False")
-        elif keyword in _CHOICES:
+        elif keyword in CHOICES:
             value = choose(keyword, value)
         elif keyword in _RANGES:
             value = check_integer(keyword, value, *_RANGES[keyword])
@@ -103,7 +95,7 @@ def make_options(**keywords):
 
 def choose(keyword, word):
     """The number of a word among the choices of an option."""
-    choices = _CHOICES[keyword]
+    choices = CHOICES[keyword]
     if not isinstance(word, str) or word not in choices:
         raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {word!r}")
     return choices.index(word)

@@ -153,13 +153,6 @@ class Totals:
         self.has_angles = self.has_angles or other.has_angles
         self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
 
-    def get_geometry(self):
-        """The number of the geometry, as vtkDelaunayFlip.GEOMETRY_... have it."""
-        return (*_library.GEOMETRIES, "mixed").index(self.geometry_used)
-
-    def get_stop_reason(self):
-        return _library.STOP_REASONS.index(self.stop_reason)
-
     def list_columns(self):
         """(name, values) with a value per iteration."""
         for name, field in COLUMNS.items():

@@ -290,12 +290,9 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
-    with Session(
-        points, triangles, constraints=constraints, insert_constraints=insert_constraints,
-        regions=regions, frozen=frozen, progress=progress, geometry=geometry, criterion=criterion,
-        tie_rule=tie_rule, tolerance=tolerance, feature_angle=feature_angle,
-        maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
-        devices=devices, pieces=pieces, track_quality=track_quality) as session:
+    arguments = dict(locals())
+    del arguments["on_iteration"]
+    with Session(**arguments) as session:
         if session.report.stop_reason != "aborted":
             session.advance(progress=progress, on_iteration=on_iteration)
         return Result(session.triangles, session.flip_counts, session.iterations, session.report)

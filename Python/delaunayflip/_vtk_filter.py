@@ -73,16 +73,6 @@ _PROPERTIES = (
     _Property("Paused", False, modifies=False),
 )
 
-_CONSTANTS = {
-    "GEOMETRY": ("AUTO", "PLANAR", "PLANAR_XY", "SURFACE", "MIXED"),
-    "CRITERION": ("IN_CIRCLE", "OPPOSITE_ANGLES"),
-    "TIE_RULE": ("KEEP", "CANONICAL"),
-    "BACKEND": ("AUTO", "CUDA", "THREADS"),
-    "STOP_REASON": ("NOT_STARTED", "CONVERGED", "ITERATION_LIMIT", "ABORTED", "RUNNING", "FAILED"),
-    "FAILURE": ("NONE", "OPTIONS", "MESH", "BACKEND", "OTHER"),
-}
-
-
 def _accessors(item):
     def get(self):
         return self._values[item.name]
@@ -99,9 +89,14 @@ def _accessors(item):
 
 def _add_properties(cls):
     """Adds the constants to a class, and for each property the methods that VTK's macros make."""
-    for group, names in _CONSTANTS.items():
+    constants = {item.name: item.choices for item in _PROPERTIES if item.choices}
+    constants["Geometry"] += ("Mixed",)
+    constants["StopReason"] = (*_library.STOP_REASONS, "failed")
+    constants["Failure"] = [failure.name for failure in Failure]
+    for group, names in constants.items():
         for value, name in enumerate(names):
-            setattr(cls, f"{group}_{name}", value)
+            name = _to_snake_case(f"{group}_{name.replace(' ', '_')}").upper()
+            setattr(cls, name, value)
     for item in _PROPERTIES:
         get, set_ = _accessors(item)
         setattr(cls, "Get" + item.name, get)
@@ -265,62 +260,49 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     def GetIterations(self):
         return self.GetOutputDataObject(1)
 
-    def Advance(self):
-        return False  # for live updates, which this class does not have
-
-    def Step(self):
-        return False
-
     def Restart(self):
         self.Modified()
-
-    def GetNeedsUpdate(self):
-        return False
 
     def ReleaseDeviceMemory(self):
         _library.release_cuda_memory()
 
-    def GetNumberOfIterations(self):
-        return len(self._update.totals.iterations)
 
-    def GetConverged(self):
-        return self.GetFailure() == Failure.NONE and self._update.totals.converged
+def _get_stop_reason(update):
+    return "failed: " + update.error_message if update.failure else update.totals.stop_reason
 
-    def GetStopReason(self):
-        if self.GetFailure():
-            return self.STOP_REASON_FAILED
-        return self._update.totals.get_stop_reason()
 
-    def GetStopReasonAsString(self):
-        failed = self.GetFailure() != Failure.NONE
-        return "failed: " + self.GetErrorMessage() if failed else self._update.totals.stop_reason
-
-    def GetGeometryUsed(self):
-        return self._update.totals.get_geometry()
-
-    def GetGeometryUsedAsString(self):
-        return self._update.totals.geometry_used
-
-    def GetNumberOfRounds(self):
-        return 0  # of pieces on several ranks
-
-    def GetNumberOfMovedTriangles(self):
-        return 0
-
-    def GetGeometryReason(self):
-        return self._update.totals.texts["geometry_reason"]
-
-    def GetBackendUsed(self):
-        return self._update.totals.texts["backend"]
-
-    def GetFailure(self):
-        return int(self._update.failure)
-
-    def GetErrorMessage(self):
-        return self._update.error_message
-
-    def GetErrorCode(self):
-        return _USER_ERROR + self.GetFailure() if self.GetFailure() else 0
+# What the last update did, and what only the class in C++ has: live updates, pieces on ranks.
+_ANSWERS = {
+    "Advance": lambda update: False,
+    "Step": lambda update: False,
+    "GetNeedsUpdate": lambda update: False,
+    "GetNumberOfRounds": lambda update: 0,
+    "GetNumberOfMovedTriangles": lambda update: 0,
+    "GetNumberOfIterations": lambda update: len(update.totals.iterations),
+    "GetConverged": lambda update: not update.failure and update.totals.converged,
+    "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
+    else _library.STOP_REASONS.index(update.totals.stop_reason),
+    "GetStopReasonAsString": _get_stop_reason,
+    "GetGeometryUsed":
+    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
+    "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
+    "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
+    "GetBackendUsed": lambda update: update.totals.texts["backend"],
+    "GetFailure": lambda update: int(update.failure),
+    "GetErrorMessage": lambda update: update.error_message,
+    "GetErrorCode": lambda update: int(update.failure and _USER_ERROR + update.failure),
+}
+for _name, _count in (("TotalFlips", "total_flips"),
+                      ("NumberOfConstraintEdges", "constraint_edges"),
+                      ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
+                      ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
+                      ("NumberOfConstraintFlips", "constraint_flips"),
+                      ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
+                      ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
+                      ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
+    _ANSWERS["Get" + _name] = lambda update, count=_count: update.totals.counts[count]
+for _name, _answer in _ANSWERS.items():
+    setattr(vtkDelaunayFlip, _name, lambda self, answer=_answer: answer(self._update))
 
 
 def _add_snake_case(cls):
@@ -332,19 +314,6 @@ def _add_snake_case(cls):
             setattr(cls, key, property(methods.get("Get" + name), methods.get("Set" + name)))
 
 
-def _add_counts(cls):
-    for name, count in (("TotalFlips", "total_flips"),
-                        ("NumberOfConstraintEdges", "constraint_edges"),
-                        ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
-                        ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
-                        ("NumberOfConstraintFlips", "constraint_flips"),
-                        ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
-                        ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
-                        ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
-        setattr(cls, "Get" + name, lambda self, count=count: self._update.totals.counts[count])
-
-
-_add_counts(vtkDelaunayFlip)
 _add_snake_case(vtkDelaunayFlip)
 
 

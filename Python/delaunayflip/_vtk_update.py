@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGridAMR)
 
 from . import _library
+from ._options import CHOICES
 from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
 from ._surface import Settings
 from ._vtk_mesh import MeshInput, add_arrays
@@ -83,21 +84,20 @@ class Update:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _flip_mesh(self, source, constraints, output):
+        trouble = Failure.MESH, "the input is not a surface; apply Extract Surface first"
         try:
             mesh = self._filter.get_mesh(source)
         except Exception as error:
-            self.fail(explain(error))
-            output.Initialize()
-            return
+            mesh, trouble = None, explain(error)
+        if constraints is not None and not isinstance(constraints, vtkPolyData) and mesh is not None:
+            mesh = None
+            trouble = (Failure.OPTIONS,
+                       "the constraints of a single mesh cannot be a composite dataset")
         if mesh is None:
-            self.fail((Failure.MESH, "the input is not a surface; apply Extract Surface first"))
-        elif constraints is not None and not isinstance(constraints, vtkPolyData):
-            self.fail((Failure.OPTIONS,
-                       "the constraints of a single mesh cannot be a composite dataset"))
+            self.fail(trouble)
+            output.Initialize()
         else:
             self._try_to_flip(mesh, constraints, output)
-            return
-        output.Initialize()
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.stop_reason = "converged"  # the result for an input without blocks
@@ -195,20 +195,11 @@ class Update:
 
     def _get_options(self):
         filter_ = self._filter
-        return {
-            "geometry": _library.GEOMETRIES[filter_.GetGeometry()],
-            "criterion": _library.CRITERIA[filter_.GetCriterion()],
-            "tie_rule": _library.TIE_RULES[filter_.GetTieRule()],
-            "backend": _library.BACKENDS[filter_.GetBackend()],
-            "tolerance": filter_.GetTolerance(),
-            "feature_angle": filter_.GetFeatureAngle(),
-            "maximum_iterations": filter_.GetMaximumIterations(),
-            "threads": filter_.GetNumberOfThreads(),
-            "device": filter_.GetDeviceId(),
-            "devices": filter_.GetDevices(),
-            "pieces": filter_.GetNumberOfPieces(),
-            "track_quality": filter_.GetTrackQuality(),
-        }
+        options = {name: words[getattr(filter_, name)] for name, words in CHOICES.items()}
+        for name in ("tolerance", "feature_angle", "maximum_iterations", "devices", "track_quality"):
+            options[name] = getattr(filter_, name)
+        return {**options, "threads": filter_.GetNumberOfThreads(), "device": filter_.GetDeviceId(),
+                "pieces": filter_.GetNumberOfPieces()}
 
     def _is_abort_requested(self):
         """Whether an abort was requested: directly or, from VTK 9.3 on, through a filter upstream.

@@ -16,6 +16,7 @@ plugin can read the state files of the other, but only one of the two can be loa
 The file is not called paraview.py, because ParaView imports a plugin under its name, which would
 then hide ParaView's own module.
 """
+import itertools
 import pathlib
 import sys
 from xml.etree import ElementTree
@@ -64,12 +65,12 @@ def _read_properties():
     return "".join(ElementTree.tostring(element, encoding="unicode") for element in proxy)
 
 
-#: The place of each cell type among the four cell arrays of a vtkPolyData.
-_VERTS, _LINES, _POLYS, _STRIPS = range(4)
+#: The kinds of cells of a vtkPolyData, and the types of cells that become such.
 _KINDS = {
-    VTK_VERTEX: _VERTS, VTK_POLY_VERTEX: _VERTS, VTK_LINE: _LINES, VTK_POLY_LINE: _LINES,
-    VTK_TRIANGLE: _POLYS, VTK_QUAD: _POLYS, VTK_PIXEL: _POLYS, VTK_POLYGON: _POLYS,
-    VTK_TRIANGLE_STRIP: _STRIPS,
+    "Verts": (VTK_VERTEX, VTK_POLY_VERTEX),
+    "Lines": (VTK_LINE, VTK_POLY_LINE),
+    "Polys": (VTK_TRIANGLE, VTK_QUAD, VTK_PIXEL, VTK_POLYGON),
+    "Strips": (VTK_TRIANGLE_STRIP,),
 }
 
 
@@ -85,13 +86,19 @@ def _to_poly_data(data):
         return None
     _require_whole_cells(data)
     types = [data.GetCellType(cell) for cell in range(data.GetNumberOfCells())]
-    if not set(types) <= {VTK_EMPTY_CELL, *_KINDS}:
+    if not set(types) <= {VTK_EMPTY_CELL, *itertools.chain(*_KINDS.values())}:
         return None
-    output = vtkPolyData()
+    output, sources = vtkPolyData(), []
     output.SetPoints(_get_points(data))
     output.GetPointData().PassData(data.GetPointData())
     output.GetFieldData().PassData(data.GetFieldData())
-    for array in copy_cell_data(data, _copy_cells(data, types, output), output.GetCellData()):
+    for kind, wanted in _KINDS.items():
+        cells, chosen = vtkCellArray(), [i for i, one in enumerate(types) if one in wanted]
+        for cell in chosen:
+            cells.InsertNextCell(_get_corners(data, cell))
+        getattr(output, "Set" + kind)(cells)
+        sources += chosen
+    for array in copy_cell_data(data, sources, output.GetCellData()):
         empty = array.NewInstance()  # the filter warns of it
         empty.SetName(array.GetName())
         output.GetCellData().AddArray(empty)
@@ -115,40 +122,23 @@ def _get_points(data):
         return data.GetPoints()
     points = vtkPoints()
     points.SetDataTypeToDouble()
-    points.SetNumberOfPoints(data.GetNumberOfPoints())
     for point in range(data.GetNumberOfPoints()):
-        points.SetPoint(point, data.GetPoint(point))
+        points.InsertNextPoint(data.GetPoint(point))
     return points
 
 
-def _copy_cells(data, types, output):
-    """Sets the output's cells. Returns the input's cells in the order of the output."""
-    arrays = [vtkCellArray() for _ in range(4)]
-    sources = [[] for _ in range(4)]
+def _get_corners(data, cell):
+    """The points of a cell; those of a pixel, which come row by row, in the order of a quad."""
     ids = vtkIdList()
-    for cell, kind in enumerate(types):
-        if kind == VTK_EMPTY_CELL:
-            continue
-        data.GetCellPoints(cell, ids)
-        if kind == VTK_PIXEL:
-            _turn_pixel(cell, ids)
-        arrays[_KINDS[kind]].InsertNextCell(ids)
-        sources[_KINDS[kind]].append(cell)
-    output.SetVerts(arrays[_VERTS])
-    output.SetLines(arrays[_LINES])
-    output.SetPolys(arrays[_POLYS])
-    output.SetStrips(arrays[_STRIPS])
-    return [cell for some in sources for cell in some]
-
-
-def _turn_pixel(cell, ids):
-    """Reorders the points of a pixel from row by row to around the quad."""
-    if ids.GetNumberOfIds() != 4:
-        raise delaunayflip.InvalidMesh(
-            f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
-    third, fourth = ids.GetId(2), ids.GetId(3)
-    ids.SetId(2, fourth)
-    ids.SetId(3, third)
+    data.GetCellPoints(cell, ids)
+    if data.GetCellType(cell) == VTK_PIXEL:
+        if ids.GetNumberOfIds() != 4:
+            raise delaunayflip.InvalidMesh(
+                f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
+        third, fourth = ids.GetId(2), ids.GetId(3)
+        ids.SetId(2, fourth)
+        ids.SetId(3, third)
+    return ids
 
 
 _require_no_other()
