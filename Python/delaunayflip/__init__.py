@@ -52,9 +52,9 @@ _HOMES = {
     "smallest_angles": "_session", "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk",
     "vtkPDelaunayFlip": "_vtk",
 }
-# The modules without which these names cannot be had.
+# What these need beside VTK.
 _NEEDS = {
-    "vtkDelaunayFlip": "vtkmodules",
+    "vtkDelaunayFlip": "numpy",
     "vtkDelaunayFlipLiveView": f"{__name__}.vtkDelaunayFlipRendering",
     "vtkPDelaunayFlip": f"{__name__}.vtkDelaunayFlipFiltersParallel",
 }
@@ -74,5 +74,6 @@ def __getattr__(name: str) -> typing.Any:
 
 def __dir__() -> typing.List[str]:
     """Only names that can be had: help() and inspect.getmembers() look all of them up."""
-    absent = {name for name, needed in _NEEDS.items() if importlib.util.find_spec(needed) is None}
+    find = importlib.util.find_spec
+    absent = {name for name, needed in _NEEDS.items() if not find("vtkmodules") or not find(needed)}
     return sorted({*globals(), *__all__, *_HOMES, "__version__"} - absent)

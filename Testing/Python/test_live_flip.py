@@ -52,13 +52,20 @@ def read_triangles(mesh):
     return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).tolist()
 
 
+def flip_at_once():
+    flip = vtkDelaunayFlip()
+    flip.SetInputData(make_bad_mesh())
+    flip.Update()
+    return flip.GetOutput()
+
+
 class Viewer(unittest.TestCase):
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        self.prefix = os.path.join(self.folder, "frame")
+        self.prefix = self.path("frame")
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -70,158 +77,83 @@ class Viewer(unittest.TestCase):
         writer.Write()
         return self.path(name)
 
-    def write_text(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(text)
-        return self.path(name)
-
-    def run_viewer(self, *arguments):
+    def run_viewer(self, status, *arguments):
+        """What it prints."""
         command = os.environ["EXAMPLE"].split(";") + list(arguments)
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result.stdout + result.stderr
 
-    def run_well(self, *arguments):
-        result = self.run_viewer(*arguments)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-
-    def read_result(self):
+    def flip(self, *arguments):
+        """Runs the viewer. Returns the mesh that it wrote."""
+        self.run_viewer(0, *arguments, "--frames", self.prefix)
         reader = vtkXMLPolyDataReader()
         reader.SetFileName(self.prefix + ".vtp")
         reader.Update()
         return reader.GetOutput()
 
-    def flip_file(self, *arguments):
-        """Runs the viewer on a file. Returns the mesh that it wrote, and its flips."""
-        self.run_well(*arguments, "--frames", self.prefix)
-        mesh = self.read_result()
-        return mesh, mesh.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
-
-    def expect_failure(self, status, *arguments, saying):
-        result = self.run_viewer(*arguments)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        self.assertIn(saying, result.stderr)
-        return result
-
-    def list_frames(self):
-        return sorted(name for name in os.listdir(self.folder) if name.endswith(".png"))
-
-
-class Frames(Viewer):
-
     def test_frames(self):
-        self.run_well("--frames", self.prefix)
-        frames = self.list_frames()
-        steps = self.read_result().GetFieldData().GetArray("DelaunayFlip:Flipped").GetNumberOfTuples()
+        mesh = self.flip()
+        steps = mesh.GetFieldData().GetArray("DelaunayFlip:Flipped").GetNumberOfTuples()
+        frames = sorted(name for name in os.listdir(self.folder) if name.endswith(".png"))
         self.assertEqual(frames, [f"frame{i:04d}.png" for i in range(steps + 1)])
         for number in ("0000", "0005", "0010"):
             frame, baseline = f"{self.prefix}{number}.png", f"{BASELINES}/LiveFlip{number}.png"
             self.assertLess(difference(frame, baseline), TOLERANCE, number)
-        paths = [os.path.join(self.folder, name) for name in frames]
-        for before, after in zip(paths, paths[1:]):
-            self.assertGreater(difference(before, after), 0.0, after)
+        for before, after in zip(frames, frames[1:]):
+            self.assertGreater(difference(self.path(before), self.path(after)), 0.0, after)
+        self.assertEqual(read_triangles(mesh), read_triangles(flip_at_once()))
 
-    def test_last_mesh_is_that_of_a_run_at_once(self):
-        self.run_well("--frames", self.prefix)
-        flip = vtkDelaunayFlip()
-        flip.SetInputData(make_bad_mesh())
-        flip.Update()
-        self.assertEqual(read_triangles(self.read_result()), read_triangles(flip.GetOutput()))
-
-    def test_what_cannot_be_written_fails(self):
-        prefix = self.path("missing/frame")
-        self.expect_failure(3, "--frames", prefix, saying=f"{prefix}.vtp: cannot be written")
-
-
-class Files(Viewer):
-
-    def test_formats(self):
-        flip = vtkDelaunayFlip()
-        flip.SetInputData(make_bad_mesh())
-        flip.Update()
+    def test_files(self):
+        expected = flip_at_once()
         for name in [f"mesh{extension}" for extension in WRITERS] + ["UPPER.VTP"]:
             with self.subTest(name):
-                mesh, flips = self.flip_file(self.write(name, make_bad_mesh()))
-                self.assertEqual(mesh.GetNumberOfPolys(), flip.GetOutput().GetNumberOfPolys())
-                self.assertEqual(mesh.GetNumberOfPoints(), flip.GetOutput().GetNumberOfPoints())
-                self.assertEqual(flips, flip.GetTotalFlips())
+                mesh = self.flip(self.write(name, make_bad_mesh()))
+                self.assertEqual(mesh.GetNumberOfPolys(), expected.GetNumberOfPolys())
+                self.assertEqual(mesh.GetNumberOfPoints(), expected.GetNumberOfPoints())
+                flips = [one.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
+                         for one in (mesh, expected)]
+                self.assertEqual(*flips)
 
-    def test_points_that_a_format_repeats_are_joined(self):
-        """vtkOBJReader gives each of these triangles its own points."""
-        file = self.write_text("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\n"
-                               "vn 0 0 1\nvn 0 1 1\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n")
-        mesh, flips = self.flip_file(file)
-        self.assertEqual(mesh.GetNumberOfPoints(), 4)
-        self.assertEqual(flips, 1)
-
-    def test_begins_where_the_file_is(self):
-        flip = vtkDelaunayFlip()
-        flip.SetInputData(make_bad_mesh())
-        flip.SetMaximumIterations(8)
-        flip.Update()
-        self.flip_file(self.write("mesh.vtp", flip.GetOutput()))
-        self.assertEqual(len(self.list_frames()), 3)  # the input, iterations 9 and 10
-
-    def test_what_cannot_be_read(self):
-        missing, empty = self.path("missing.vtp"), self.write_text("empty.ply", "")
-        folder = self.path("folder.vtp")
-        os.mkdir(folder)
-        for file, reason in ((missing, "no such file"), (folder, "no such file"),
-                             (empty, "cannot be read"), (self.cut("a.ply"), "cannot be read"),
-                             (self.cut("a.vtk"), "cannot be read"),
-                             (self.cut("a.vtp"), "cannot be read"),
-                             (self.cut("b.vtk", version=51), "cannot be read: Error reading"),
-                             (self.write_grid("grid.vtk"), "cannot be read")):
+    def test_what_cannot_be_read_or_written(self):
+        for file, reason in ((self.path("missing.vtp"), "no such file"), (self.folder, "unknown file"),
+                             (self.cut("a.ply"), "cannot be read"), (self.cut("a.vtp"), "cannot be read"),
+                             (self.cut("a.vtk", 42), "cannot be read"),
+                             (self.cut("b.vtk", 51), "cannot be read: Error reading"),
+                             (self.write("grid.vtk", vtkUnstructuredGrid(), vtkUnstructuredGridWriter()),
+                              "cannot be read")):
             with self.subTest(file):
-                self.expect_failure(3, file, saying=f"error: {file}: {reason}")
+                told = self.run_viewer(2 if file == self.folder else 3, file)
+                self.assertIn(f"{file}: {reason}", told)
+        prefix = self.path("missing/frame")
+        self.assertIn(f"{prefix}.vtp: cannot be written", self.run_viewer(3, "--frames", prefix))
 
-    def cut(self, name, version=42):
+    def cut(self, name, version=None):
         """Half of a file. VTK 9.1 crashes on such .ply files, and on .vtk files of version 4.2; for
         other formats it returns a part of the mesh."""
         writer = WRITERS[os.path.splitext(name)[1]]()
-        if name.endswith(".vtk"):
+        if version:
             writer.SetFileVersion(version)
             writer.SetFileTypeToBinary()
         file = self.write(name, make_bad_mesh(), writer)
         os.truncate(file, os.path.getsize(file) // 2)
         return file
 
-    def write_grid(self, name):
-        return self.write(name, vtkUnstructuredGrid(), vtkUnstructuredGridWriter())
-
-
-class Options(Viewer):
-
-    def make_hill(self):
-        """A height field whose points lie in no plane."""
-        mesh = make_bad_mesh()
-        points = mesh.GetPoints()
-        for i in range(points.GetNumberOfPoints()):
-            x, y, _ = points.GetPoint(i)
-            points.SetPoint(i, x, y, 0.3 * x * y)
-        return mesh
-
-    def test_geometry(self):
-        hill = self.write("hill.vtp", self.make_hill())
+    def test_options(self):
+        hill = make_bad_mesh()  # no plane holds its points
+        for i in range(hill.GetNumberOfPoints()):
+            x, y, _ = hill.GetPoint(i)
+            hill.GetPoints().SetPoint(i, x, y, 0.3 * x * y)
+        file = self.write("hill.vtp", hill)
         for geometry in ("planar-xy", "surface"):
-            mesh, _ = self.flip_file(hill, "--geometry", geometry)
-            used = mesh.GetFieldData().GetAbstractArray("DelaunayFlip:GeometryUsed").GetValue(0)
-            self.assertEqual(used, geometry)
-
-    def test_geometry_that_does_not_fit(self):
-        hill = self.write("hill.vtp", self.make_hill())
-        self.expect_failure(2, hill, "--geometry", "planar", "--frames", self.prefix,
-                            saying="error: geometry 'planar' was requested")
-
-    def test_help(self):
-        result = self.run_viewer("--help")
-        self.assertEqual(result.returncode, 0)
+            field = self.flip(file, "--geometry", geometry).GetFieldData()
+            self.assertEqual(field.GetAbstractArray("DelaunayFlip:GeometryUsed").GetValue(0), geometry)
+        self.assertIn("geometry 'planar' was requested",
+                      self.run_viewer(2, file, "--geometry", "planar", "--frames", self.prefix))
+        for wrong in (("--colour",), ("--geometry", "round"), ("mesh.xyz",), ("a.vtp", "b.vtp")):
+            self.assertIn(wrong[-1], self.run_viewer(2, *wrong))
         for word in ("MESH", "--geometry", "planar-xy", "--frames", ".vtk .vtp .ply .stl .obj"):
-            self.assertIn(word, result.stdout)
-
-    def test_wrong_usage(self):
-        self.expect_failure(2, "--colour", saying="--colour")
-        self.expect_failure(2, "--geometry", "round", saying="round")
-        self.expect_failure(2, "mesh.xyz", saying="mesh.xyz: unknown file extension")
-        self.expect_failure(2, "a.vtp", "b.vtp", saying="b.vtp")
+            self.assertIn(word, self.run_viewer(0, "--help"))
 
 
 if __name__ == "__main__":
