@@ -169,12 +169,6 @@ class Meshes(unittest.TestCase):
         self.assertEqual(get_cells(output.GetPolys()), [(0, 1, 2, 3)])
         self.assertEqual(get_cells(output.GetStrips()), [(3, 2, 4, 5)])
 
-    def test_id_width_is_kept(self):
-        for bits in (32, 64):
-            mesh = make_bad_mesh()
-            getattr(mesh.GetPolys(), f"ConvertTo{bits}BitStorage")()
-            self.assertEqual(bool(Watched(mesh).run().GetPolys().IsStorage64Bit()), bits == 64)
-
     def test_constraints(self):
         lines, names = vtkPolyData(), vtkStringArray()
         lines.SetLines(make_cells([(0, 2)]))
@@ -190,13 +184,6 @@ class Meshes(unittest.TestCase):
             set_up(watched.filter)
             self.assertEqual(frozenset((0, 2)) in get_edges(watched.run()), is_kept)
             self.assertEqual(FLIPPED in get_edges(watched.run()), not is_kept)
-
-    def test_cells_added_afterwards(self):
-        mesh = make_rhombus()
-        output = Watched(mesh).run()
-        for _ in range(1000):
-            mesh.GetPolys().InsertNextCell(3, (0, 1, 2))
-        self.assertEqual(len(get_cells(output.GetPolys())), 2)
 
 
 class Faults(unittest.TestCase):
@@ -261,22 +248,6 @@ class Faults(unittest.TestCase):
 
 
 class Observers(unittest.TestCase):
-
-    def test_progress_and_abort(self):
-        watched = Watched(make_bad_mesh())
-        seen = []
-
-        def stop(flip, _event):
-            seen.append(flip.GetProgress())
-            if flip.GetNumberOfIterations() == 2:
-                flip.SetAbortExecute(1)
-
-        watched.filter.AddObserver("ProgressEvent", stop)
-        mesh = watched.run()
-        self.assertEqual(seen, sorted(seen))
-        self.assertEqual(watched.filter.GetStopReason(), vtkDelaunayFlip.STOP_REASON_ABORTED)
-        self.assertEqual(watched.filter.GetNumberOfIterations(), 2)
-        self.assertEqual(count_violations(mesh), watched.filter.GetNumberOfNonDelaunayEdges())
 
     def test_abort_before_the_first_iteration(self):
         mesh = make_bad_mesh()
