@@ -4,10 +4,9 @@
 import math
 import random
 import re
-import threading
 import unittest
 
-from delaunayflip import flip, vtkDelaunayFlip as CxxFilter
+from delaunayflip import vtkDelaunayFlip as CxxFilter
 from delaunayflip._vtk_filter import _ANSWERS, vtkDelaunayFlip as PythonFilter
 
 import numpy
@@ -339,24 +338,6 @@ class TwoEngines(unittest.TestCase):
                    if name.startswith(("libdelaunayflip.so", "libvtkDelaunayFlipFilters.so"))}
         self.assertEqual(len(engines), 2, loaded)
         self.assertEqual(len([name for name in loaded if re.match(r"libtbb[-.]", name)]), 1)
-
-    def test_at_the_same_time(self):
-        mesh = make_bad_mesh(20000)
-        arrays = (vtk_to_numpy(mesh.GetPoints().GetData()),
-                  vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3))
-        results = []
-        thread = threading.Thread(
-            target=lambda: results.extend(flip(*arrays).triangles for _ in range(3)))
-        watched = Watched(mesh)
-        thread.start()
-        for _ in range(3):
-            watched.filter.Modified()
-            cells = watched.run().GetPolys().GetConnectivityArray()
-            results.append(vtk_to_numpy(cells).reshape(-1, 3).copy())
-        thread.join()
-        self.assertEqual(len(results), 6)
-        for triangles in results:
-            numpy.testing.assert_array_equal(triangles, results[0])
 
 
 if __name__ == "__main__":

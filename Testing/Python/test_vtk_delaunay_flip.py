@@ -28,8 +28,6 @@ HAS_PIPELINES = vtkVersion.GetVTKMajorVersion() * 100 + vtkVersion.GetVTKMinorVe
 
 
 FLIPPED = frozenset((1, 3))
-COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
-           "MinimumAngle", "Seconds"]
 
 
 def make_cells(cells):
@@ -234,37 +232,8 @@ class Faults(unittest.TestCase):
                 self.assertIn(FLIPPED, get_edges(output))
                 self.assertIs(output.GetCellData().GetAbstractArray("Short"), kept)
 
-    def test_a_backend_that_is_not_there(self):
-        watched = Watched(make_rhombus())
-        watched.filter.SetDeviceId(1000000)
-        watched.run()  # too small for a GPU
-        self.assertEqual(watched.errors + watched.warnings, [])
-        watched.filter.SetBackendToCUDA()
-        self.assertEqual(watched.run().GetNumberOfCells(), 0)
-        self.assertEqual(watched.filter.GetFailure(), vtkDelaunayFlip.FAILURE_BACKEND)
-        self.assertEqual(len(watched.errors), 1)
-        self.assertIn("CUDA", watched.errors[0])
-        watched.filter.ReleaseDeviceMemory()
-
 
 class Observers(unittest.TestCase):
-
-    def test_abort_before_the_first_iteration(self):
-        mesh = make_bad_mesh()
-        watched = Watched(mesh)
-        told = []
-
-        def stop(flip, _event):
-            told.append(flip.GetProgress())
-            flip.SetAbortExecute(flip.GetProgress() > 0.1)
-
-        watched.filter.AddObserver("ProgressEvent", stop)
-        output = watched.run()
-        self.assertEqual(watched.filter.GetStopReasonAsString(), "aborted")
-        self.assertEqual(watched.filter.GetNumberOfIterations(), 0)
-        # VTK tells of 1 at the end, from 9.2 on also after an abort.
-        self.assertLess(max(share for share in told if share < 1), 0.5)
-        self.assertEqual(get_edges(output), get_edges(mesh))
 
     def test_an_aborted_update_is_followed_by_a_whole_one(self):
         watched = Watched(make_bad_mesh())
@@ -379,27 +348,6 @@ assert not [name for name in sys.modules if "Rendering" in name]
 """)
 
 
-@unittest.skipIf("_vtk_filter" in vtkDelaunayFlip.__module__, "the filter in Python has none")
-class LiveUpdate(unittest.TestCase):
-
-    def test_live_update(self):
-        mesh = make_bad_mesh()
-        at_once = Watched(mesh).run()
-        live = Watched(mesh)
-        live.filter.LiveUpdateOn()
-        live.filter.SetIterationsPerUpdate(2)
-        self.assertFalse(live.filter.GetNeedsUpdate())
-        iterations = []
-        while True:
-            output = live.run()
-            iterations.append(live.filter.GetNumberOfIterations())
-            if not live.filter.Advance():
-                break
-        self.assertEqual(iterations[:3], [2, 4, 6])
-        self.assertEqual(live.filter.GetStopReasonAsString(), "converged")
-        self.assertEqual(get_cells(output.GetPolys()), get_cells(at_once.GetPolys()))
-
-
 class LiveView(unittest.TestCase):
 
     @unittest.skipUnless(
@@ -444,25 +392,6 @@ class Properties(unittest.TestCase):
             self.assertTrue(change_property(flip, name))
             after = read(flip)
             self.assertEqual({line for line in after if after[line] != before.get(line)}, {name})
-
-
-class Report(unittest.TestCase):
-
-    def test_table_and_field_data(self):
-        watched = Watched(make_bad_mesh())
-        output = watched.run()
-        table = watched.filter.GetIterations()
-        self.assertEqual(
-            [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())], COLUMNS)
-        columns = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in COLUMNS}
-        rows = watched.filter.GetNumberOfIterations()
-        self.assertEqual(columns["Iteration"].tolist(), list(range(1, rows + 1)))
-        self.assertEqual(columns["Flipped"].sum(), watched.filter.GetTotalFlips())
-        numpy.testing.assert_array_equal(
-            columns["NonDelaunay"], columns["Flipped"] + columns["Excluded"] + columns["Blocked"])
-        for name in COLUMNS:
-            numpy.testing.assert_array_equal(
-                vtk_to_numpy(output.GetFieldData().GetArray("DelaunayFlip:" + name)), columns[name])
 
 
 @unittest.skipUnless(HAS_PIPELINES, "needs VTK 9.4")
