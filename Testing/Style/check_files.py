@@ -133,10 +133,12 @@ def check_release(root):
 
 def check_format(root):
     require(FORMATTER[0])
-    for path in list_files(root, CPP_SUFFIXES):
-        run = subprocess.run([*FORMATTER, path], capture_output=True, cwd=root, check=False)
-        if run.returncode != 0:
-            yield f"{path}: run clang-format -i on it"
+    run = subprocess.run([*FORMATTER, *list_files(root, CPP_SUFFIXES)], capture_output=True, text=True,
+                         cwd=root, check=False)
+    for path in sorted(set(re.findall(r"^(\S+):\d+:\d+: error:", run.stderr, re.MULTILINE))):
+        yield f"{path}: run clang-format -i on it"
+    if run.returncode != 0 and "error:" not in run.stderr:
+        yield run.stderr
 
 
 def check_functions(root):
