@@ -12,67 +12,52 @@ from ._arrays import address
 from ._library import TYPES
 
 
-class _CuPy:
-    """The functions of CuPy that the package needs."""
+# Each class has the functions of a library that the package needs; there are no objects of it.
 
-    @staticmethod
+
+class _CuPy:
     def as_contiguous(array):
         return importlib.import_module("cupy").ascontiguousarray(array)
 
-    @staticmethod
     def make_empty(like, shape, dtype):
         with like.device:
             return importlib.import_module("cupy").empty(shape, dtype)
 
-    @staticmethod
     def get_stream(array):
         with array.device:
             return importlib.import_module("cupy").cuda.get_current_stream().ptr
 
-    @staticmethod
     def to_host(array):
         return array.get()
 
 
 class _Torch:
-    """The functions of PyTorch that the package needs."""
-
-    @staticmethod
     def as_contiguous(array):
         return array.detach().contiguous()
 
-    @staticmethod
     def make_empty(like, shape, dtype):
         torch = importlib.import_module("torch")
         return torch.empty(shape, dtype=getattr(torch, dtype), device=like.device)
 
-    @staticmethod
     def get_stream(array):
         return importlib.import_module("torch").cuda.current_stream(array.device).cuda_stream
 
-    @staticmethod
     def to_host(array):
         return array.detach().cpu().numpy()
 
 
 class _Numba:
-    """The functions of Numba that the package needs."""
-
-    @staticmethod
     def as_contiguous(array):
         if not array.is_c_contiguous():
             raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
-    @staticmethod
     def make_empty(like, shape, dtype):
         return importlib.import_module("numba.cuda").device_array(shape, dtype)
 
-    @staticmethod
     def get_stream(array):
         return array.__cuda_array_interface__.get("stream") or 0
 
-    @staticmethod
     def to_host(array):
         return array.copy_to_host()
 

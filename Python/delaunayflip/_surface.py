@@ -344,23 +344,20 @@ def _unite(pairs, flags, count):
     return numpy.ascontiguousarray(pairs[first[order]]), united[order]
 
 
-def _list_other_pairs(others, count):
-    """The edges of the second input, which names `count` points."""
-    lines, polygons = (others.read(kind, "constraint cell") for kind in ("Lines", "Polys"))
-    for cells in (lines, polygons):
-        cells.require_points(count)
-    return numpy.concatenate([_list_pairs(lines, False), _list_pairs(polygons, True)])
-
-
 def _find_others(others, points, triangles):
     """The pairs of the second input, and how many of its edges end at no point of the mesh."""
     other_points = others.points
     has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
                      and other_points.tobytes() == points.tobytes())
-    if len(other_points) == 0 or has_same_bits:
-        return _drop_points(_list_other_pairs(others, len(points))), 0
-    pairs = _list_other_pairs(others, len(other_points))
-    return _match_places(pairs, other_points, points, triangles)
+    is_by_id = len(other_points) == 0 or has_same_bits
+    pairs = []
+    for kind in ("Lines", "Polys"):
+        cells = others.read(kind, "constraint cell")
+        cells.require_points(len(points if is_by_id else other_points))
+        pairs.append(_list_pairs(cells, are_closed=kind == "Polys"))
+    pairs = numpy.concatenate(pairs)
+    return (_drop_points(pairs), 0) if is_by_id else _match_places(
+        pairs, other_points, points, triangles)
 
 
 def _number_places(points, other_points):

@@ -134,7 +134,9 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         self._interrupt = None
         self._update = Update(self)
         for name, value in properties.items():
-            setattr(self, _require_property(name), value)
+            if name not in {item.key for item in _PROPERTIES}:
+                raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
+            setattr(self, name, value)
 
     # Methods of every filter of VTK.
 
@@ -145,7 +147,9 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         names = [item.name for item in _PROPERTIES]
         names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
                   "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge"]
-        lines = [f"  {name}: {_print(getattr(self, 'Get' + name)())}" for name in names]
+        values = ((name, getattr(self, "Get" + name)()) for name in names)
+        lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
+                 for name, value in values]
         lines += [f"  StopReason: {self.GetStopReasonAsString()}",
                   f"  GeometryUsed: {self.GetGeometryUsedAsString()}",
                   f"  GeometryReason: {self.GetGeometryReason()}"]
@@ -315,13 +319,3 @@ def _add_snake_case(cls):
 
 
 _add_snake_case(vtkDelaunayFlip)
-
-
-def _require_property(name):
-    if name not in {item.key for item in _PROPERTIES}:
-        raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
-    return name
-
-
-def _print(value):
-    return int(value) if isinstance(value, bool) else value

@@ -32,13 +32,11 @@ class Failure(enum.IntEnum):
 
 def explain(error):
     """(Failure, message) of an exception."""
-    for kind, failure in ((_library.InvalidOptions, Failure.OPTIONS),
-                          (_library.BackendUnavailable, Failure.BACKEND),
-                          (_library.FlipError, Failure.MESH)):
-        if isinstance(error, kind):
-            return failure, str(error)
-    is_memory = isinstance(error, MemoryError)
-    return Failure.OTHER, "not enough memory" if is_memory else str(error) or type(error).__name__
+    kinds = {_library.InvalidOptions: Failure.OPTIONS, _library.BackendUnavailable: Failure.BACKEND,
+             _library.FlipError: Failure.MESH, Exception: Failure.OTHER}
+    failure = next(failure for kind, failure in kinds.items() if isinstance(error, kind))
+    message = "not enough memory" if isinstance(error, MemoryError) else str(error)
+    return failure, message or type(error).__name__
 
 
 class Update:
@@ -168,8 +166,10 @@ class Update:
         filter_, options = self._filter, self._get_options()
         observe = self._observe_part(_SPLIT, _FLIPPED)
         try:
-            data = MeshInput(
-                mesh, constraints, self._get_settings(), self._observe_part(0.0, _SPLIT))
+            settings = Settings(filter_.GetTriangulate(), filter_.GetLinesAsConstraints(),
+                                filter_.GetInsertLines(), filter_.GetInsertConstraints(),
+                                filter_.GetRegionArray())
+            data = MeshInput(mesh, constraints, settings, self._observe_part(0.0, _SPLIT))
             session = data.open(progress=observe, **options)
         except _library.Stopped:
             return self._pass_after_abort(mesh, output)
@@ -186,12 +186,6 @@ class Update:
         add_arrays(output.GetFieldData(), FIELD_PREFIX, self.totals.list_fields())
         defects = [report.defects] if report.defects else []
         return describe_trouble("; ".join(defects + data.list_defects()), report, options)
-
-    def _get_settings(self):
-        filter_ = self._filter
-        return Settings(filter_.GetTriangulate(), filter_.GetLinesAsConstraints(),
-                        filter_.GetInsertLines(), filter_.GetInsertConstraints(),
-                        filter_.GetRegionArray())
 
     def _get_options(self):
         filter_ = self._filter
