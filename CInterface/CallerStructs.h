@@ -1,20 +1,38 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_CALLERINPUT_H
-#define DELAUNAYFLIP_CALLERINPUT_H
+#ifndef DELAUNAYFLIP_CALLERSTRUCTS_H
+#define DELAUNAYFLIP_CALLERSTRUCTS_H
 
 #include "delaunayflip_c.h"
 
 #include "DelaunayFlip.h"
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 /// @file
-/// Converts the structs of a C program to the engine's types. Every function throws InvalidCall if
-/// the program breaks a rule of delaunayflip_c.h.
+/// Converts the structs of a C program to the engine's types, and reports of the engine to structs.
+/// Every function throws InvalidCall if the program breaks a rule of delaunayflip_c.h.
 
 namespace delaunayflip
 {
+
+/// A call that breaks a rule of the header.
+class InvalidCall : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// @throws InvalidCall
+inline void Require(bool isKept, const char* rule)
+{
+  if (!isKept)
+  {
+    throw InvalidCall(rule);
+  }
+}
 
 /// A struct with its size; all other members are 0.
 template <typename Struct>
@@ -31,8 +49,8 @@ delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given);
 /// The polygons with all members that this library knows.
 delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
 
-/// Views of the arrays of a complete mesh in the host's memory.
-TriangleMesh ToMesh(const delaunayflip_mesh& mesh);
+/// Views of the arrays of a mesh in the host's memory.
+TriangleMesh ToMesh(const delaunayflip_mesh* given);
 
 /// Views of the arrays of a complete mesh in device memory.
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& mesh);
@@ -55,6 +73,23 @@ struct Observers
 
   ProgressObserver Progress;
   FlipObserver Iteration;
+};
+
+delaunayflip_iteration ToC(const IterationRecord& record);
+
+/// A report, kept for the C struct that points to its strings.
+class KeptReport
+{
+public:
+  /// @param numbers the numbers by which the report names triangles; null: their indices.
+  KeptReport(FlipReport report, const std::int64_t* numbers);
+
+  /// Fills as many bytes of `target` as target.size says.
+  void Fill(delaunayflip_report& target) const;
+
+private:
+  FlipReport Report;
+  std::string Defects;
 };
 
 }
