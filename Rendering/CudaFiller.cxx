@@ -6,12 +6,15 @@
 
 #include "vtkDelaunayFlip.h"
 
+#ifdef DELAUNAYFLIP_HAS_CUDA
 #include <cuda_runtime_api.h>
 // After the runtime's:
 #include <cuda_gl_interop.h>
+#endif
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +23,10 @@ namespace delaunayflip
 
 namespace
 {
+
+std::unique_ptr<BufferFiller> (*MakeFiller)() = &MakeCudaFiller;
+
+#ifdef DELAUNAYFLIP_HAS_CUDA
 
 /// @throws std::runtime_error.
 void Require(cudaError_t error, const char* action)
@@ -318,8 +325,18 @@ private:
   DrawnTriangles Drawn;
 };
 
+#endif
+
 }
 
+#ifdef DELAUNAYFLIP_HAS_CUDA
 std::unique_ptr<BufferFiller> MakeCudaFiller() { return std::make_unique<CudaFiller>(); }
+#else
+std::unique_ptr<BufferFiller> MakeCudaFiller() { return nullptr; }
+#endif
+
+std::unique_ptr<BufferFiller> MakeBufferFiller() { return MakeFiller(); }
+
+void ReplaceBufferFiller(std::unique_ptr<BufferFiller> (*make)()) { MakeFiller = make; }
 
 }

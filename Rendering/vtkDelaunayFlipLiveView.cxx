@@ -2,21 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "FrameFile.h"
+#include "LiveRun.h"
 #include "LiveScene.h"
-#include "LiveState.h"
-#include "LiveTexts.h"
-#include "ShownMesh.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkExecutive.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPNGWriter.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
 
 using namespace delaunayflip;
 
@@ -41,6 +46,38 @@ public:
 private:
   bool& IsBusy;
 };
+
+/// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
+std::string MakeFrameName(const std::string& prefix, int frame)
+{
+  const std::string number = std::to_string(frame);
+  return prefix + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".png";
+}
+
+/// Writes the picture in a window to a PNG file. Encodes it in memory first, because VTK's writer
+/// does not report a full disk.
+/// @returns whether the whole file could be written.
+bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
+{
+  vtkNew<vtkWindowToImageFilter> picture;
+  picture->SetInput(window);
+  picture->ReadFrontBufferOff();
+  picture->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(picture->GetOutputPort());
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (!bytes || bytes->GetNumberOfValues() == 0)
+  {
+    return false;
+  }
+  std::ofstream file(fileName, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)),
+    static_cast<std::streamsize>(bytes->GetNumberOfValues()));
+  file.close();
+  return file.good();
+}
 
 }
 
@@ -340,6 +377,87 @@ std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->De
 bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
 
 vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->GetRenderer(); }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::StartTimer()
+{
+  if (!this->IsRunning() && this->AwaitStep())
+  {
+    this->Render();
+    this->InvokeEvent(vtkCommand::StartEvent);
+  }
+}
+
+/// Uses one-shot timers, so that none has to be destroyed: VTK 9.1 crashes if a timer is destroyed
+/// while timers fire.
+bool vtkDelaunayFlipLiveView::AwaitStep()
+{
+  this->TimerId = this->Interactor
+    ? this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(this->FrameInterval))
+    : 0;
+  if (this->TimerId == 0)
+  {
+    vtkErrorMacro("The interactor has no timer.");
+  }
+  return this->TimerId != 0;
+}
+
+/// A timer that was already started still fires, and is ignored.
+void vtkDelaunayFlipLiveView::StopTimer() { this->TimerId = 0; }
+
+bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
+{
+  const int awaited = this->TimerId;
+  if (!this->IsRunning() || (id && *static_cast<const int*>(id) != awaited))
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
+  if (!this->IsBusy)
+  {
+    this->TakeStep();
+  }
+  if (this->TimerId == awaited && this->Interactor)
+  {
+    this->AwaitStep();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
+{
+  using Self = vtkDelaunayFlipLiveView;
+  static const std::map<std::string, void (*)(Self*)> actions = {
+    { "space", [](Self* self) { self->IsRunning() ? self->Pause() : self->Run(); } },
+    { "n", [](Self* self) { self->Step(); } },
+    { "b", [](Self* self) { self->Restart(); } },
+    { "k", [](Self* self) { self->SetColorBy((self->ColorBy + 1) % (COLOR_BY_FLIP_COUNT + 1)); } },
+    { "g",
+      [](Self* self)
+      {
+        const bool areShown = self->Scene->GetEdgeVisibility();
+        self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
+      } },
+    { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },
+    { "d", [](Self* self) { self->SetShowDrawing(!self->ShowDrawing); } },
+  };
+  const char* key = this->Interactor->GetKeySym();
+  const auto action = actions.find(key ? key : "");
+  if (action == actions.end() || this->Interactor->GetControlKey())
+  {
+    return false;
+  }
+  if (event == vtkCommand::KeyPressEvent)
+  {
+    const vtkSmartPointer<Self> self(this); // An observer may drop it.
+    action->second(this);
+    this->Render();
+  }
+  return true;
+}
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)

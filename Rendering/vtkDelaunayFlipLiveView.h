@@ -303,10 +303,6 @@ private:
   void StopTimer();
   void OnTimer(vtkObject* caller, unsigned long event, void* id);
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
-  void CycleColors();
-  void ToggleEdges();
-  void ToggleStatistics();
-  void ToggleDrawing();
 
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
