@@ -149,24 +149,6 @@ private:
 
 vtkStandardNewMacro(LiveMeshSource);
 
-/// Keeps a mapper from updating its input, without marking the mapper as modified.
-class StaticScope
-{
-public:
-  StaticScope(vtkTypeBool& flag, bool isStatic)
-    : Flag(flag),
-      Before(std::exchange(flag, isStatic))
-  {
-  }
-  ~StaticScope() { this->Flag = this->Before; }
-  StaticScope(const StaticScope&) = delete;
-  StaticScope& operator=(const StaticScope&) = delete;
-
-private:
-  vtkTypeBool& Flag;
-  vtkTypeBool Before;
-};
-
 /// Draws a mesh whose triangles and their colours are written into OpenGL's buffers by a filler.
 /// VTK makes the buffers, once, from the input; then the buffers are filled again and again, and
 /// the input may be behind them. The input is brought up to date only to make the buffers anew and
@@ -195,21 +177,56 @@ public:
 
   /// Takes the buffers from OpenGL until they are filled or drawn, if they are there. OpenGL's
   /// context must be current, here and below.
-  void MapBuffers();
+  void MapBuffers()
+  {
+    if (this->IsRegistered)
+    {
+      this->TryToWrite([this]() { this->Filler->Map(); });
+    }
+  }
 
   /// Fills the buffers now, if they are there and must be, and gives them back to OpenGL.
-  void FillIfNeeded();
+  void FillIfNeeded()
+  {
+    if (this->IsRegistered)
+    {
+      const bool isBehind = std::exchange(this->IsBehind, false);
+      this->TryToWrite([=]() { isBehind ? this->Fill() : this->Filler->Unmap(); });
+    }
+  }
 
   /// Calls nothing of the above any more, after a last release.
-  void Stop();
+  void Stop()
+  {
+    this->ReleaseGraphicsResources(nullptr);
+    this->Failure = "stopped";
+    this->Fill = nullptr;
+    this->IsQuiet = nullptr;
+  }
 
   /// Why the buffers can no longer be filled; empty if they can. The mapper then draws its input.
   const std::string& GetFailure() const { return this->Failure; }
 
-  double* GetBounds() override;
+  double* GetBounds() override
+  {
+    const ScopedValue<vtkTypeBool> scope(this->Static, this->IsQuiet && this->IsQuiet());
+    return this->Superclass::GetBounds();
+  }
+
   using vtkOpenGLPolyDataMapper::GetBounds;
-  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
-  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  /// A selector looks into the input, for the ids of what it has found.
+  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override
+  {
+    const ScopedValue<vtkTypeBool> scope(this->Static, !renderer->GetSelector());
+    this->Superclass::RenderPiece(renderer, actor);
+  }
+
+  void ReleaseGraphicsResources(vtkWindow* window) override
+  {
+    this->Release();
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
 
 protected:
   DeviceMapper() = default;
@@ -224,13 +241,53 @@ protected:
 private:
   using Stamps = std::array<vtkMTimeType, 3>;
 
-  bool Try(const std::function<void()>& call);
-  void TryToWrite(const std::function<void()>& call);
-  void Release();
-  bool CanMovePoints() const;
+  bool Try(const std::function<void()>& call)
+  {
+    try
+    {
+      call();
+      return true;
+    }
+    catch (const std::exception& error)
+    {
+      this->Failure = error.what();
+      return false;
+    }
+  }
+
+  /// Does without the buffers from now on if a call fails.
+  void TryToWrite(const std::function<void()>& call)
+  {
+    if (!this->Try(call))
+    {
+      this->AreSpoiled = true;
+      this->Release();
+    }
+  }
+
+  void Release()
+  {
+    if (std::exchange(this->IsRegistered, false))
+    {
+      this->Filler->Release();
+    }
+  }
+
+  /// Whether the registered buffers, which are those of triangles and colours, can stay.
+  bool CanMovePoints() const
+  {
+    vtkPointData* data = this->CurrentInput->GetPointData();
+    return this->IsRegistered && !data->GetNormals() && !data->GetTCoords() &&
+      this->CurrentInput->GetNumberOfPoints() == this->BuiltPlaces;
+  }
+
   void MovePoints(vtkRenderer* renderer);
   DrawnBuffers GetBuffers() const;
-  void UpdateInput();
+  void UpdateInput()
+  {
+    this->GetInputAlgorithm()->Update();
+    this->CurrentInput = this->GetInput();
+  }
 
   std::string Failure;
   Stamps Built{}; ///< What the buffers were made from, but for points, triangles and colours.
@@ -243,39 +300,6 @@ private:
 };
 
 vtkStandardNewMacro(DeviceMapper);
-
-void DeviceMapper::Stop()
-{
-  this->ReleaseGraphicsResources(nullptr);
-  this->Failure = "stopped";
-  this->Fill = nullptr;
-  this->IsQuiet = nullptr;
-}
-
-double* DeviceMapper::GetBounds()
-{
-  const StaticScope scope(this->Static, this->IsQuiet && this->IsQuiet());
-  return this->Superclass::GetBounds();
-}
-
-/// A selector looks into the input, for the ids of what it has found.
-void DeviceMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
-{
-  const StaticScope scope(this->Static, !renderer->GetSelector());
-  this->Superclass::RenderPiece(renderer, actor);
-}
-
-void DeviceMapper::ReleaseGraphicsResources(vtkWindow* window)
-{
-  this->Release();
-  this->Superclass::ReleaseGraphicsResources(window);
-}
-
-void DeviceMapper::UpdateInput()
-{
-  this->GetInputAlgorithm()->Update();
-  this->CurrentInput = this->GetInput();
-}
 
 /// New cells alone are no reason: the buffers have them already. Of new points only the places are
 /// written anew.
@@ -308,14 +332,6 @@ void DeviceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   }
   this->Superclass::BuildBufferObjects(renderer, actor);
   this->BuiltPlaces = this->CurrentInput->GetNumberOfPoints();
-}
-
-/// Whether the registered buffers, which are those of triangles and colours, can stay.
-bool DeviceMapper::CanMovePoints() const
-{
-  vtkPointData* data = this->CurrentInput->GetPointData();
-  return this->IsRegistered && !data->GetNormals() && !data->GetTCoords() &&
-    this->CurrentInput->GetNumberOfPoints() == this->BuiltPlaces;
 }
 
 void DeviceMapper::MovePoints(vtkRenderer* renderer)
@@ -360,56 +376,6 @@ void DeviceMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-//------------------------------------------------------------------------------
-bool DeviceMapper::Try(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-    return true;
-  }
-  catch (const std::exception& error)
-  {
-    this->Failure = error.what();
-    return false;
-  }
-}
-
-void DeviceMapper::MapBuffers()
-{
-  if (this->IsRegistered)
-  {
-    this->TryToWrite([this]() { this->Filler->Map(); });
-  }
-}
-
-void DeviceMapper::FillIfNeeded()
-{
-  if (this->IsRegistered)
-  {
-    const bool isBehind = std::exchange(this->IsBehind, false);
-    this->TryToWrite([=]() { isBehind ? this->Fill() : this->Filler->Unmap(); });
-  }
-}
-
-/// Does without the buffers from now on if a call fails.
-void DeviceMapper::TryToWrite(const std::function<void()>& call)
-{
-  if (!this->Try(call))
-  {
-    this->AreSpoiled = true;
-    this->Release();
-  }
-}
-
-void DeviceMapper::Release()
-{
-  if (std::exchange(this->IsRegistered, false))
-  {
-    this->Filler->Release();
-  }
-}
-
 /// @throws std::runtime_error.
 DrawnBuffers DeviceMapper::GetBuffers() const
 {
@@ -443,74 +409,69 @@ struct DeviceDrawing::Parts
   DrawnColors Colors;
   bool IsCalm = false; ///< SetQuiet().
 
-  Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
-  ~Parts();
-  std::string FindObstacle();
-  void MakeCurrent() const;
-};
-
-DeviceDrawing::Parts::Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter)
-  : Window(window),
-    Actor(actor),
-    Filter(filter)
-{
-  this->Source->Filter = filter;
-  this->Mapper->SetInputConnection(this->Source->GetOutputPort());
-  this->Mapper->SetScalarModeToUseCellFieldData();
-  this->Mapper->SetColorModeToDirectScalars();
-  this->Mapper->SelectColorArray(ColorName);
-  this->Mapper->Fill = [this]()
+  Parts(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter)
+    : Window(window),
+      Actor(actor),
+      Filter(filter)
   {
-    if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
+    this->Source->Filter = filter;
+    this->Mapper->SetInputConnection(this->Source->GetOutputPort());
+    this->Mapper->SetScalarModeToUseCellFieldData();
+    this->Mapper->SetColorModeToDirectScalars();
+    this->Mapper->SelectColorArray(ColorName);
+    this->Mapper->Fill = [this]()
     {
-      vtkPolyData* mesh = this->Mapper->GetInput();
-      this->Mapper->Filler->Fill(
-        { *session, ViewPoints(mesh), mesh->GetPoints()->GetMTime(), this->Colors });
+      if (const FlipSession* session = this->Filter->GetSession()) // else the last mesh stays
+      {
+        vtkPolyData* mesh = this->Mapper->GetInput();
+        this->Mapper->Filler->Fill(
+          { *session, ViewPoints(mesh), mesh->GetPoints()->GetMTime(), this->Colors });
+      }
+    };
+    this->Mapper->IsQuiet = [this]()
+    {
+      return this->IsCalm || !this->Window || this->Window->CheckInRenderStatus() ||
+        IsInteracting(this->Window);
+    };
+  }
+
+  /// Others may keep the mapper.
+  ~Parts()
+  {
+    if (this->Window && this->Mapper->IsReady())
+    {
+      this->Window->MakeCurrent();
     }
-  };
-  this->Mapper->IsQuiet = [this]()
-  {
-    return this->IsCalm || !this->Window || this->Window->CheckInRenderStatus() ||
-      IsInteracting(this->Window);
-  };
-}
+    this->Mapper->Stop();
+    this->Source->Filter = nullptr;
+  }
 
-/// Others may keep the mapper.
-DeviceDrawing::Parts::~Parts()
-{
-  if (this->Window && this->Mapper->IsReady())
+  std::string FindObstacle()
   {
-    this->Window->MakeCurrent();
+    auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
+    if (!window)
+    {
+      return "the window does not draw by OpenGL";
+    }
+    auto* mesh = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
+    const std::string inMesh = FindObstacleInMesh(mesh, this->Filter->GetSession());
+    if (!inMesh.empty())
+    {
+      return inMesh;
+    }
+    window->MakeCurrent();
+    BufferFiller* filler = this->Mapper->Filler.get();
+    return filler ? filler->FindObstacle(this->Filter) : "this build has no CUDA backend";
   }
-  this->Mapper->Stop();
-  this->Source->Filter = nullptr;
-}
 
-std::string DeviceDrawing::Parts::FindObstacle()
-{
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
-  if (!window)
+  void MakeCurrent() const
   {
-    return "the window does not draw by OpenGL";
+    if (!this->Window->IsCurrent()) // else a context may be flushed for nothing
+    {
+      this->Window->MakeCurrent();
+    }
   }
-  auto* mesh = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0));
-  const std::string inMesh = FindObstacleInMesh(mesh, this->Filter->GetSession());
-  if (!inMesh.empty())
-  {
-    return inMesh;
-  }
-  window->MakeCurrent();
-  BufferFiller* filler = this->Mapper->Filler.get();
-  return filler ? filler->FindObstacle(this->Filter) : "this build has no CUDA backend";
-}
-
-void DeviceDrawing::Parts::MakeCurrent() const
-{
-  if (!this->Window->IsCurrent()) // else a context may be flushed for nothing
-  {
-    this->Window->MakeCurrent();
-  }
-}
+};
 
 //------------------------------------------------------------------------------
 DeviceDrawing::DeviceDrawing() = default;

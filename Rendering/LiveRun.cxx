@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveRun.h"
 
-#include "vtkAlgorithm.h"
-#include "vtkAlgorithmOutput.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -203,17 +201,6 @@ LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
 }
 
 bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }
-
-vtkDataObject* UpdateInput(vtkAlgorithm* filter)
-{
-  if (filter->GetNumberOfInputConnections(0) == 0)
-  {
-    return nullptr;
-  }
-  vtkAlgorithmOutput* connection = filter->GetInputConnection(0, 0);
-  connection->GetProducer()->Update(connection->GetIndex());
-  return filter->GetInputDataObject(0, 0);
-}
 
 bool IsComposite(vtkDataObject* data) { return vtkCompositeDataSet::SafeDownCast(data) != nullptr; }
 

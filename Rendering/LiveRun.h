@@ -7,8 +7,8 @@
 #include "vtkType.h"
 
 #include <string>
+#include <utility>
 
-class vtkAlgorithm;
 class vtkDataObject;
 class vtkDelaunayFlip;
 class vtkPolyData;
@@ -18,6 +18,25 @@ class vtkPolyData;
 
 namespace delaunayflip
 {
+
+/// Gives a variable another value for as long as it lives.
+template <typename T>
+class ScopedValue
+{
+public:
+  ScopedValue(T& variable, T value)
+    : Variable(variable),
+      Before(std::exchange(variable, value))
+  {
+  }
+  ~ScopedValue() { this->Variable = this->Before; }
+  ScopedValue(const ScopedValue&) = delete;
+  ScopedValue& operator=(const ScopedValue&) = delete;
+
+private:
+  T& Variable;
+  T Before;
+};
 
 /// The state of the mesh in a live view.
 enum class LiveState
@@ -44,9 +63,6 @@ LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh);
 
 /// Whether a step with this outcome ends a run. An abort only pauses it.
 bool IsEnd(LiveState state);
-
-/// Updates the first input of an algorithm and returns it; null if there is none.
-vtkDataObject* UpdateInput(vtkAlgorithm* filter);
 
 bool IsComposite(vtkDataObject* data);
 

@@ -59,9 +59,10 @@ void Paint(vtkTextProperty* text, const double* color)
   text->SetColor(color[0], color[1], color[2]);
 }
 
-/// Fills the table, for 0 to `largest`, with bands of colours interpolated between `stops`.
-void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, int bands, double largest)
+/// Fills the table, for 0 to `largest`, with twelve bands of colours interpolated between `stops`.
+void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, double largest)
 {
+  constexpr int bands = 12;
   vtkNew<vtkColorTransferFunction> function;
   for (std::size_t i = 0; i < stops.size(); ++i)
   {
@@ -75,27 +76,6 @@ void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, int band
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
   table->SetRange(0.0, largest);
-}
-
-/// Colours for the smallest angles of triangles, 0 to 60 degrees in steps of five: from red for
-/// slivers to blue for equilateral triangles.
-void FillAngleColors(vtkLookupTable* table)
-{
-  FillColors(table,
-    { { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 }, { 0.82, 0.90, 0.94 },
-      { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } },
-    12, 60.0);
-}
-
-/// Colours for numbers of flips, in twelve steps from nearly white to dark violet. The range is 0
-/// to `largest`, rounded up to a multiple of four for whole labels at its quarters, and at least
-/// 12.
-void FillCountColors(vtkLookupTable* table, double largest)
-{
-  FillColors(table,
-    { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
-      { 0.25, 0.0, 0.49 } },
-    12, 4.0 * std::ceil(std::max(largest, 12.0) / 4.0));
 }
 
 /// The colours of a table for a GPU.
@@ -281,11 +261,20 @@ void LiveScene::FillTable(int what)
   this->TableCount = this->LargestCount;
   if (what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT)
   {
-    FillCountColors(this->Colors, this->LargestCount);
+    // From nearly white to dark violet. The range is 0 to the largest count, rounded up to a
+    // multiple of four for whole labels at its quarters, and at least 12.
+    FillColors(this->Colors,
+      { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
+        { 0.25, 0.0, 0.49 } },
+      4.0 * std::ceil(std::max(this->LargestCount, 12.0) / 4.0));
   }
   else
   {
-    FillAngleColors(this->Colors);
+    // 0 to 60 degrees in steps of five: from red for slivers to blue for equilateral triangles.
+    FillColors(this->Colors,
+      { { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 }, { 0.82, 0.90, 0.94 },
+        { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } },
+      60.0);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "LiveRun.h"
 #include "LiveScene.h"
 
+#include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
@@ -29,23 +30,6 @@ namespace
 {
 
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
-
-/// Sets a flag during its lifetime: for work that must not be started again meanwhile.
-class BusyScope
-{
-public:
-  explicit BusyScope(bool& isBusy)
-    : IsBusy(isBusy)
-  {
-    this->IsBusy = true;
-  }
-  ~BusyScope() { this->IsBusy = false; }
-  BusyScope(const BusyScope&) = delete;
-  BusyScope& operator=(const BusyScope&) = delete;
-
-private:
-  bool& IsBusy;
-};
 
 /// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
 std::string MakeFrameName(const std::string& prefix, int frame)
@@ -181,7 +165,7 @@ void vtkDelaunayFlipLiveView::Attach()
 
 void vtkDelaunayFlipLiveView::Detach()
 {
-  this->StopTimer();
+  this->TimerId = 0;
   if (this->Interactor)
   {
     for (const unsigned long observer : this->Observers)
@@ -201,7 +185,9 @@ void vtkDelaunayFlipLiveView::Detach()
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowInput()
 {
-  vtkDataObject* input = UpdateInput(this->Filter);
+  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
+  source->GetProducer()->Update(source->GetIndex());
+  vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
   this->Filter->SetLiveUpdate(!IsComposite(input));
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
@@ -224,14 +210,14 @@ void vtkDelaunayFlipLiveView::Run()
 void vtkDelaunayFlipLiveView::Pause()
 {
   this->IsMeantToRun = false;
-  this->StopTimer();
+  this->TimerId = 0;
   this->Render();
 }
 
 bool vtkDelaunayFlipLiveView::Step()
 {
   this->IsMeantToRun = false;
-  this->StopTimer();
+  this->TimerId = 0;
   return this->BeginIfNeeded() && this->TakeStep();
 }
 
@@ -243,7 +229,7 @@ void vtkDelaunayFlipLiveView::Restart()
   }
   else if (!this->IsBusy && this->IsReady())
   {
-    this->StopTimer();
+    this->TimerId = 0;
     this->ShowInput();
     if (this->IsMeantToRun)
     {
@@ -256,7 +242,13 @@ void vtkDelaunayFlipLiveView::Restart()
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  const LiveStep step = this->UpdateFilter();
+  LiveStep step;
+  {
+    const ScopedValue<bool> busy(this->IsBusy, true);
+    const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+    this->Scene->BeginStep();
+    step = MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
+  }
   const LiveState next = step.State;
   if (this->State == LiveState::NotStarted)
   {
@@ -265,7 +257,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const bool isNews = next != LiveState::Unchanged || this->IsRunning();
   if (next != LiveState::UnderWay)
   {
-    this->StopTimer();
+    this->TimerId = 0;
   }
   this->State = next == LiveState::Unchanged ? this->State : next;
   this->ShowStep(step);
@@ -274,14 +266,6 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     this->InvokeEvent(vtkCommand::EndEvent);
   }
   return !IsEnd(next);
-}
-
-LiveStep vtkDelaunayFlipLiveView::UpdateFilter()
-{
-  const BusyScope busy(this->IsBusy);
-  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-  this->Scene->BeginStep();
-  return MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
 }
 
 /// If the filter failed, the last mesh stays.
@@ -298,27 +282,19 @@ void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
   }
   else
   {
-    this->ShowOutput();
+    const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
+    if (!this->ZeroCopy)
+    {
+      this->Scene->SetMesh(mesh);
+      this->Scene->DeclineRun("ZeroCopy is off");
+    }
+    else if (!this->Scene->TakeNextRun(this->Filter, mesh))
+    {
+      this->Scene->SetMesh(mesh);
+      this->Scene->OfferRun(this->Filter);
+    }
   }
   this->ShowFrame(this->FrameNumber + 1);
-}
-
-void vtkDelaunayFlipLiveView::ShowOutput()
-{
-  const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
-  if (this->ZeroCopy && this->Scene->TakeNextRun(this->Filter, mesh))
-  {
-    return;
-  }
-  this->Scene->SetMesh(mesh);
-  if (this->ZeroCopy)
-  {
-    this->Scene->OfferRun(this->Filter);
-  }
-  else
-  {
-    this->Scene->DeclineRun("ZeroCopy is off");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -328,7 +304,7 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   this->Render();
   if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
   {
-    const BusyScope busy(this->IsBusy);
+    const ScopedValue<bool> busy(this->IsBusy, true);
     const std::string name = MakeFrameName(this->FramePrefix, number);
     this->CanWrite = WriteFrame(this->Window, name);
     if (!this->CanWrite)
@@ -345,31 +321,25 @@ void vtkDelaunayFlipLiveView::Render()
   {
     return;
   }
-  const BusyScope busy(this->IsBusy);
+  const ScopedValue<bool> busy(this->IsBusy, true);
   const bool isSmall = this->Scene->GetMesh()->GetNumberOfCells() < SmallMesh;
   const bool showKeys = this->ShowKeys && !this->Window->GetOffScreenRendering();
   this->Scene->SetKeys(showKeys ? KeyHelp : "");
   this->Scene->SetColorBy(this->ColorBy);
   this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  this->ShowStatus();
-  this->Scene->Draw();
-}
-
-void vtkDelaunayFlipLiveView::ShowStatus()
-{
   const bool hasFailed = this->State == LiveState::Failed;
-  if (!this->ShowStatistics && !hasFailed)
+  std::string status;
+  if (this->ShowStatistics || hasFailed)
   {
-    this->Scene->SetStatus("", false);
-    return;
+    // Off screen there are no keys: the program calls Step().
+    const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
+    status = DescribeStatus({ this->Filter, this->State, isRunning, this->FrameNumber,
+      this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
+      this->ShowDrawing ? this->Scene->DescribeDrawing() : "" });
   }
-  // Off screen there are no keys: the program calls Step().
-  const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
-  const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
-    this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
-    this->ShowDrawing ? this->Scene->DescribeDrawing() : "" };
-  this->Scene->SetStatus(DescribeStatus(status), hasFailed);
+  this->Scene->SetStatus(status, hasFailed);
+  this->Scene->Draw();
 }
 
 std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->DescribeDrawing(); }
@@ -401,9 +371,6 @@ bool vtkDelaunayFlipLiveView::AwaitStep()
   }
   return this->TimerId != 0;
 }
-
-/// A timer that was already started still fires, and is ignored.
-void vtkDelaunayFlipLiveView::StopTimer() { this->TimerId = 0; }
 
 bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
 
