@@ -3,7 +3,7 @@
 #include "FlipError.h"
 #include "GpuTestSupport.h"
 #include "PieceFlip.h"
-#include "SharedMemory.h"
+#include "DeviceMemory.h"
 
 #include <string>
 #include <vector>
