@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PendingFile.h"
+#include "OutputFiles.h"
 
 #include "CommandError.h"
-#include "DiskSpace.h"
-#include "FollowLinks.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
 namespace delaunayflip
 {
@@ -26,20 +23,6 @@ namespace
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void Fail(const std::string& target, const std::string& reason)
-{
-  throw CommandError(ExitCode::BadFile, target + ": cannot be written: " + reason);
-}
-
-/// The extension in lower case: vtkPLYWriter appends ".ply" to any name that lacks it.
-std::string ExtensionOf(const fs::path& path)
-{
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
-
 /// Calls `make` with different names in the folder of `path`, as long as the name is in use.
 /// Returns the name, or an empty string if `make` fails for another reason, which errno holds.
 template <typename Function>
@@ -48,7 +31,7 @@ std::string MakeUnused(const fs::path& path, const Function& make)
   const std::string stem = ".delaunay-flip-" + std::to_string(getpid()) + "-";
   for (int number = 0;; ++number)
   {
-    const fs::path name = path.parent_path() / (stem + std::to_string(number) + ExtensionOf(path));
+    const fs::path name = path.parent_path() / (stem + std::to_string(number));
     if (make(name.c_str()))
     {
       return name.string();
@@ -58,12 +41,6 @@ std::string MakeUnused(const fs::path& path, const Function& make)
       return {};
     }
   }
-}
-
-bool MakeEmpty(const char* name)
-{
-  const int file = open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  return file >= 0 && close(file) == 0;
 }
 
 /// Copies the owner, group and mode of a file to another, as far as the system permits.
@@ -83,21 +60,22 @@ void CopyOwner(const std::string& from, const std::string& to)
   chmod(to.c_str(), status.st_mode & (isOwned ? 07777 : 0777));
 }
 
-/// The number of the open file of this process that a path such as /dev/stdout or /dev/fd/3 leads
-/// to; -1 if it leads elsewhere.
-int FindOpenFile(const std::string& target)
+}
+
+fs::path FollowLinks(const std::string& path, int* openFile)
 {
+  constexpr int most = 40; // the limit of Linux
   std::error_code error;
-  fs::path file = fs::absolute(target, error);
-  constexpr int most = 40; // the limit of Linux for links
+  fs::path file = fs::absolute(path, error);
   for (int links = 0; links < most; ++links)
   {
     const std::string folder = fs::weakly_canonical(file.parent_path(), error).string();
     const std::string name = file.filename().string();
     const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
-    if (isNumber && (folder == "/dev/fd" || folder == "/proc/" + std::to_string(getpid()) + "/fd"))
+    if (openFile && isNumber &&
+      (folder == "/dev/fd" || folder == "/proc/" + std::to_string(getpid()) + "/fd"))
     {
-      return std::atoi(name.c_str());
+      *openFile = std::atoi(name.c_str());
     }
     if (!fs::is_symlink(fs::symlink_status(file, error)))
     {
@@ -105,40 +83,63 @@ int FindOpenFile(const std::string& target)
     }
     file = file.parent_path() / fs::read_symlink(file, error);
   }
-  return -1;
+  const fs::path resolved = fs::weakly_canonical(file, error);
+  return error ? file : resolved;
 }
 
+std::string ExplainFailedWrite(const std::string& path)
+{
+  constexpr std::uintmax_t least = 1 << 20; // file systems keep some space back, or round sizes
+  std::error_code error;
+  const fs::space_info space = fs::space(fs::absolute(path).parent_path(), error);
+  if (!error && space.available < least)
+  {
+    return "; the disk is full";
+  }
+  rlimit limit = {};
+  const std::uintmax_t size = fs::file_size(path, error); // VTK may have removed it
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+    (error || size >= limit.rlim_cur))
+  {
+    return "; the size of files is limited to " +
+      Counted(static_cast<std::int64_t>(limit.rlim_cur), "byte") + " here";
+  }
+  return {};
 }
 
 PendingFile::PendingFile(const std::string& target, bool mayBeStream)
   : Target(target),
-    OpenFile(FindOpenFile(target))
+    Resolved(FollowLinks(target, &this->OpenFile))
 {
-  const fs::path resolved = FollowLinks(target);
   std::error_code error;
-  const fs::file_status status = fs::status(resolved, error);
+  const fs::file_status status = fs::status(this->Resolved, error);
+  const bool exists = fs::exists(status);
   if (error && status.type() != fs::file_type::not_found)
   {
-    Fail(target, error.message());
+    this->Fail(error.message());
   }
-  const bool isStream = this->OpenFile >= 0 || (fs::exists(status) && !fs::is_regular_file(status));
+  const bool isStream = this->OpenFile >= 0 || (exists && !fs::is_regular_file(status));
   if (isStream && (!mayBeStream || fs::is_directory(status)))
   {
-    Fail(target, "it exists and is not a regular file");
+    this->Fail("it exists and is not a regular file");
   }
-  if (fs::exists(status) && access(resolved.c_str(), W_OK) != 0)
+  if (exists && access(this->Resolved.c_str(), W_OK) != 0)
   {
-    Fail(target, std::strerror(errno));
+    this->Fail(std::strerror(errno));
   }
   if (isStream)
   {
     return;
   }
-  this->Resolved = resolved.string();
-  this->Temporary = MakeUnused(resolved, MakeEmpty);
+  this->Temporary = MakeUnused(this->Resolved,
+    [](const char* name)
+    {
+      const int file = open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+      return file >= 0 && close(file) == 0;
+    });
   if (this->Temporary.empty())
   {
-    Fail(target, std::strerror(errno));
+    this->Fail(std::strerror(errno));
   }
 }
 
@@ -167,9 +168,8 @@ void PendingFile::Write(const std::string& text) const
   const int problem = errno;
   if (file < 0 || close(file) != 0 || done < text.size())
   {
-    Fail(this->Target,
-      std::strerror(problem) +
-        (this->Temporary.empty() ? std::string() : ExplainFailedWrite(path)));
+    this->Fail(std::strerror(problem) +
+      (this->Temporary.empty() ? std::string() : ExplainFailedWrite(path)));
   }
 }
 
@@ -186,17 +186,13 @@ void PendingFile::Commit()
   this->HadNone = this->Backup.empty() && errno == ENOENT;
   if (std::rename(this->Temporary.c_str(), this->Resolved.c_str()) != 0)
   {
-    Fail(this->Target, std::strerror(errno));
+    this->Fail(std::strerror(errno));
   }
   this->Temporary.clear();
 }
 
 void PendingFile::Undo()
 {
-  if (this->Resolved.empty())
-  {
-    return;
-  }
   if (this->HadNone)
   {
     unlink(this->Resolved.c_str());
@@ -205,6 +201,49 @@ void PendingFile::Undo()
   {
     std::rename(this->Backup.c_str(), this->Resolved.c_str());
     this->Backup.clear();
+  }
+}
+
+void PendingFile::Fail(const std::string& reason) const
+{
+  throw CommandError(ExitCode::BadFile, this->Target + ": cannot be written: " + reason);
+}
+
+OutputFiles::OutputFiles(const Arguments& arguments)
+  : Mesh(arguments.Output)
+{
+  if (!arguments.Statistics.empty())
+  {
+    this->Statistics.emplace(arguments.Statistics, true);
+  }
+  if (!arguments.Report.empty())
+  {
+    this->Report.emplace(arguments.Report, true);
+  }
+}
+
+void OutputFiles::Commit()
+{
+  std::vector<PendingFile*> done;
+  try
+  {
+    for (PendingFile* file : { this->Statistics ? &*this->Statistics : nullptr,
+           this->Report ? &*this->Report : nullptr, &this->Mesh })
+    {
+      if (file)
+      {
+        file->Commit();
+        done.push_back(file);
+      }
+    }
+  }
+  catch (...)
+  {
+    for (PendingFile* file : done)
+    {
+      file->Undo();
+    }
+    throw;
   }
 }
 
