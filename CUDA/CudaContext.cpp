@@ -211,45 +211,47 @@ ContextLease::ContextLease(const std::vector<int>& devices)
 
 ContextLease::ContextLease(ContextLease&&) noexcept = default;
 
-namespace
+/// Waits for all GPUs, also after an exception between Fork and Join. A context in which something
+/// failed is not kept for the next run.
+ContextLease::~ContextLease()
 {
-/// Waits for all GPUs, also after an exception between Fork and Join. @returns whether nothing
-/// failed.
-bool Finish(const CudaContext& context)
-{
-  bool isGood = cudaStreamSynchronize(context.Stream) == cudaSuccess;
-  for (const DeviceStreams& other : context.Others)
+  if (!this->Context)
+  {
+    return;
+  }
+  bool isGood = cudaStreamSynchronize(this->Context->Stream) == cudaSuccess;
+  for (const DeviceStreams& other : this->Context->Others)
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
-  return isGood;
-}
-}
-
-ContextLease::~ContextLease()
-{
-  // A context in which something failed is not kept for the next run.
-  if (this->Context && Finish(*this->Context))
+  if (isGood)
   {
     IdleContexts::Get().Give(std::move(this->Context));
   }
+}
+
+namespace
+{
+cudaError_t CountDevices(int& devices)
+{
+  devices = 0;
+  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
+  cudaGetLastError();
+  return error;
+}
 }
 
 bool HasCudaDevice()
 {
   // A driver that is installed but too old deserves a warning.
   int devices = 0;
-  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
-  cudaGetLastError();
-  return error != cudaErrorNoDevice;
+  return CountDevices(devices) != cudaErrorNoDevice;
 }
 
 int CountCudaDevices()
 {
   int devices = 0;
-  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
-  cudaGetLastError();
-  return error == cudaSuccess ? devices : 0;
+  return CountDevices(devices) == cudaSuccess ? devices : 0;
 }
 
 void ReleaseCudaMemory() { ReleaseIdleMemory(); }

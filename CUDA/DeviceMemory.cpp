@@ -178,24 +178,23 @@ CUmemAllocationProp DescribeMemory(int device)
 
 CUdeviceptr ToAddress(const void* memory) { return reinterpret_cast<CUdeviceptr>(memory); }
 
-int AskAboutPair(cudaDeviceP2PAttr attribute, int first, int second)
-{
-  int answer = 0;
-  CallCuda("ask how GPUs are connected",
-    [&] { return cudaDeviceGetP2PAttribute(&answer, attribute, first, second); });
-  return answer;
-}
-
 /// @throws BackendUnavailable.
 void RequireConnected(const std::vector<int>& devices)
 {
+  const auto ask = [](cudaDeviceP2PAttr attribute, int first, int second)
+  {
+    int answer = 0;
+    CallCuda("ask how GPUs are connected",
+      [&] { return cudaDeviceGetP2PAttribute(&answer, attribute, first, second); });
+    return answer;
+  };
   for (const int first : devices)
   {
     for (const int second : devices)
     {
       if (first != second &&
-        (AskAboutPair(cudaDevP2PAttrAccessSupported, first, second) == 0 ||
-          AskAboutPair(cudaDevP2PAttrNativeAtomicSupported, first, second) == 0))
+        (ask(cudaDevP2PAttrAccessSupported, first, second) == 0 ||
+          ask(cudaDevP2PAttrNativeAtomicSupported, first, second) == 0))
       {
         throw BackendUnavailable("GPUs " + std::to_string(first) + " and " +
           std::to_string(second) +
@@ -206,10 +205,6 @@ void RequireConnected(const std::vector<int>& devices)
   }
 }
 
-std::size_t RoundUp(std::size_t bytes, std::size_t step)
-{
-  return (bytes + step - 1) / step * step;
-}
 }
 
 SharedMemory::SharedMemory(std::vector<int> devices, DeviceMemory& small)
@@ -251,8 +246,8 @@ bool SharedMemory::IsSmall(std::size_t bytes) const
 
 std::size_t SharedMemory::GetPartSize(std::size_t bytes) const
 {
-  const std::size_t devices = this->Devices.size();
-  return RoundUp((bytes + devices - 1) / devices, this->Granularity);
+  const std::size_t step = this->Devices.size() * this->Granularity;
+  return (bytes + step - 1) / step * this->Granularity;
 }
 
 void* SharedMemory::Allocate(std::size_t bytes)
@@ -262,8 +257,14 @@ void* SharedMemory::Allocate(std::size_t bytes)
     return this->Small.Allocate(bytes);
   }
   const std::size_t part = this->GetPartSize(bytes);
-  void* memory = this->TakeIdle(part);
-  if (!memory)
+  const auto idle = this->Idle.find(part);
+  void* memory = nullptr;
+  if (idle != this->Idle.end())
+  {
+    memory = idle->second;
+    this->Idle.erase(idle);
+  }
+  else
   {
     try
     {
@@ -300,18 +301,6 @@ void SharedMemory::Free(void* memory, std::size_t bytes) noexcept
 }
 
 std::size_t SharedMemory::TakePeak() { return std::exchange(this->Peak, this->Used); }
-
-void* SharedMemory::TakeIdle(std::size_t part)
-{
-  const auto found = this->Idle.find(part);
-  if (found == this->Idle.end())
-  {
-    return nullptr;
-  }
-  void* memory = found->second;
-  this->Idle.erase(found);
-  return memory;
-}
 
 void* SharedMemory::Map(std::size_t part) const
 {

@@ -101,7 +101,6 @@ public:
 private:
   bool IsSmall(std::size_t bytes) const;
   std::size_t GetPartSize(std::size_t bytes) const;
-  void* TakeIdle(std::size_t part);
   void* Map(std::size_t part) const;
   void Unmap(void* memory, std::size_t part) const noexcept;
   void ReleaseIdle() noexcept;

@@ -187,12 +187,12 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   }
 }
 
-/// A launch of IterateKernel ends
+/// When a launch of IterateKernel ends: when no bad edge is left, or at a limit.
 struct IterationLimits
 {
-  int Iterations; ///< after this many iterations,
-  long long Bad; ///< the first of which begins with this many bad edges; when none is left;
-  unsigned long long FreshSlots; ///< or when more new slots of the guard table are in use.
+  int Iterations; ///< The most iterations.
+  long long Bad; ///< The number of bad edges at the start.
+  unsigned long long FreshSlots; ///< The most slots of the guard table that may come into use.
 };
 
 __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum sum)
@@ -291,8 +291,8 @@ private:
   const LoopView<Rule>& Loop;
   const IterationLimits& Limits;
   Team Members;
-  BadList List; ///< Of this warp. The lists of all warps hold all bad edges
-  bool IsListed = false; ///< while this is true.
+  BadList List; ///< The bad edges that this warp has found, while IsListed.
+  bool IsListed = false; ///< Whether the lists of all warps hold all bad edges.
   long long Bad; ///< Edges.
   long long MostListed; ///< Up to this many bad edges, detections make lists.
   unsigned long long FreshSlots = 0;

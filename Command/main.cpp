@@ -4,7 +4,6 @@
 #include "ChildProcess.h"
 #include "CommandError.h"
 #include "Console.h"
-#include "DiskSpace.h"
 #include "FlipJob.h"
 #include "OutputFiles.h"
 

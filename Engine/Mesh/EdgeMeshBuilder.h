@@ -402,8 +402,13 @@ struct RoleStep
       if (known[slot])
       {
         const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
+        const CornerId first = this->Table.First[triangle.HalfEdges[slot]];
+        const CornerId second = this->Table.Second[triangle.HalfEdges[slot]];
+        const bool isPair = second != NoCorner && second != ManyCorners;
+        others[slot] = isPair ? (first == corner ? second : first) : NoCorner;
+        const CornerRole ofPair = corner < others[slot] ? CornerRole::Leader : CornerRole::Follower;
         const CornerRole role =
-          FindRole(this->Table, triangle.HalfEdges[slot], corner, others[slot]);
+          isPair ? ofPair : (second == NoCorner ? CornerRole::Alone : CornerRole::OneOfMany);
         roles |= static_cast<std::uint32_t>(role) << (2 * slot);
       }
     }
@@ -437,7 +442,7 @@ struct NumberStep
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, std::int64_t first) const
   {
-    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    TriangleRecord& triangle = this->Mesh.Triangles[t];
     auto next = static_cast<EdgeId>(first);
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -446,8 +451,15 @@ struct NumberStep
       {
         this->Mesh.States[next] =
           role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
-        NumberEdge(this->Mesh, MakeCorner(static_cast<TriangleId>(t), slot),
-          triangle.HalfEdges[slot], next++);
+        const CornerId other = triangle.HalfEdges[slot];
+        this->Mesh.CornerOfHalfEdge[2 * next] = MakeCorner(static_cast<TriangleId>(t), slot);
+        this->Mesh.CornerOfHalfEdge[2 * next + 1] = other;
+        triangle.HalfEdges[slot] = 2 * next;
+        if (other != NoCorner)
+        {
+          this->Mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * next + 1;
+        }
+        ++next;
       }
     }
   }

@@ -296,25 +296,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int 
   return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
 }
 
-/// @param other receives the other corner of an edge with two triangles, else NoCorner.
-DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner, CornerId& other)
-{
-  const CornerId first = table.First[slot];
-  const CornerId second = table.Second[slot];
-  other = NoCorner;
-  if (second == NoCorner)
-  {
-    return CornerRole::Alone;
-  }
-  if (second == ManyCorners)
-  {
-    return CornerRole::OneOfMany;
-  }
-  other = first == corner ? second : first;
-  return corner < other ? CornerRole::Leader : CornerRole::Follower;
-}
-
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
 {
   return static_cast<CornerRole>((triangle.Flips >> (2 * slot)) & 3);
@@ -329,19 +310,6 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
     leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
   }
   return leaders;
-}
-
-/// Numbers an edge; `other` is its other corner or NoCorner.
-DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(
-  const EdgeMeshView& mesh, CornerId corner, CornerId other, EdgeId edge)
-{
-  mesh.CornerOfHalfEdge[2 * edge] = corner;
-  mesh.CornerOfHalfEdge[2 * edge + 1] = other;
-  mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)] = 2 * edge;
-  if (other != NoCorner)
-  {
-    mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * edge + 1;
-  }
 }
 
 }

@@ -252,12 +252,13 @@ struct StarStep
     {
       return;
     }
-    const std::uint32_t ab = FindDirection(a, b);
-    const std::uint32_t bc = FindDirection(b, c);
-    const std::uint32_t ca = FindDirection(c, a);
-    this->AddAngle(t, 0, FindAngle(ab, ca, turn));
-    this->AddAngle(t, 1, FindAngle(bc, ab, turn));
-    this->AddAngle(t, 2, FindAngle(ca, bc, turn));
+    const std::uint32_t directions[3] = { FindDirection(a, b), FindDirection(b, c),
+      FindDirection(c, a) };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)],
+        FindAngle(directions[slot], directions[(slot + 2) % 3], turn));
+    }
   }
 
 private:
@@ -286,11 +287,6 @@ private:
     const std::uint32_t most = turn > 0 ? 3 * QuarterTurn : QuarterTurn;
     return angle < most ? angle : angle - FullTurn;
   }
-
-  DELAUNAYFLIP_HOST_DEVICE void AddAngle(std::int64_t t, int slot, std::uint32_t angle) const
-  {
-    AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)], angle);
-  }
 };
 
 /// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
@@ -311,13 +307,6 @@ inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
   const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
   const auto extent = [&](int axis) { return unit * box.Upper[axis] - unit * box.Lower[axis]; };
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
-}
-
-/// How many percent of the area slope less than 45 degrees, rounded down; 0 without area.
-inline int GetGentlePercent(const TurnSums& sums)
-{
-  const Integer128 all = sums.All.Get();
-  return all > 0 ? static_cast<int>(100 * sums.Gentle.Get() / all) : 0;
 }
 
 inline TurnCounts CountTurns(const TurnSample& turns)
@@ -346,14 +335,14 @@ inline std::string DescribeStrays(const TurnCounts& turns)
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
-template <typename Backend>
+template <typename BackendT>
 class GeometryChoice
 {
 public:
-  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const Backend& backend)
+  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const BackendT& backend)
     : Input(input),
       Survey(survey),
-      Engine(backend),
+      Backend(backend),
       Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
         PlaneScale(survey.Box) }
   {
@@ -384,7 +373,7 @@ public:
     const PointArray points = this->Input.Local.Points;
     const PointUse* uses = this->Survey.Uses.Data();
     const PlaneScale scale = this->Triangles.Scale;
-    return this->Engine.template Sum<Farthest>(points.Count,
+    return this->Backend.template Sum<Farthest>(points.Count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
       {
         if (uses[i] == PointUse::Used)
@@ -440,7 +429,7 @@ public:
     const double length = this->Triangles.Scale.FindDiagonal(this->Survey.Box);
     const double factor =
       length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
-    return this->Engine.template Sum<TurnSums>(
+    return this->Backend.template Sum<TurnSums>(
       this->Input.Local.Triangles.Count, TurnStep{ this->Triangles, factor });
   }
 
@@ -451,14 +440,14 @@ public:
     constexpr std::int64_t Slack = 8;
     const int side = this->Survey.Turns.Side;
     const std::int64_t points = this->Input.Local.Points.Count;
-    Array<std::uint32_t> angles = this->Engine.template MakeArray<std::uint32_t>(points);
+    Array<std::uint32_t> angles = this->Backend.template MakeArray<std::uint32_t>(points);
     std::uint32_t* angleOfPoint = angles.Data();
-    this->Engine.ForEach(
+    this->Backend.ForEach(
       points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
-    this->Engine.ForEach(
+    this->Backend.ForEach(
       this->Input.Local.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
-    JoinPointSums(this->Engine, angleOfPoint);
-    return this->Engine.template Sum<IdSample>(points,
+    JoinPointSums(this->Backend, angleOfPoint);
+    return this->Backend.template Sum<IdSample>(points,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
       {
         const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
@@ -529,7 +518,9 @@ private:
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
     // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
     const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
-    const int gentle = GetGentlePercent(sums);
+    const Integer128 area = sums.All.Get();
+    const int gentle = // percent, rounded down
+      area > 0 ? static_cast<int>(100 * sums.Gentle.Get() / area) : 0;
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
     const std::string field = "a height field over x and y" +
@@ -596,7 +587,7 @@ private:
 
   const MeshInput& Input;
   MeshSurvey& Survey;
-  const Backend& Engine;
+  const BackendT& Backend;
   const ScaledTriangles Triangles;
 };
 

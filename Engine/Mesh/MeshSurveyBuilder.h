@@ -65,37 +65,6 @@ struct IdSurvey
   }
 };
 
-/// Most points are marked already, and a load costs less than a store.
-DELAUNAYFLIP_HOST_DEVICE inline void MarkUsed(PointUse& use)
-{
-  if (AtomicLoad(&use) != PointUse::Used)
-  {
-    AtomicStore(&use, PointUse::Used);
-  }
-}
-
-/// Checks the ids of a triangle and marks its points as used.
-DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
-  const TriangleMesh& mesh, PointUse* uses, std::int64_t t, IdSurvey& survey)
-{
-  const std::int64_t p = mesh.Triangles.Get(t, 0);
-  const std::int64_t q = mesh.Triangles.Get(t, 1);
-  const std::int64_t r = mesh.Triangles.Get(t, 2);
-  const std::int64_t count = mesh.Points.Count;
-  if (p < 0 || p >= count || q < 0 || q >= count || r < 0 || r >= count)
-  {
-    survey.Invalid.Note(t);
-    return;
-  }
-  MarkUsed(uses[p]);
-  MarkUsed(uses[q]);
-  MarkUsed(uses[r]);
-  if (p == q || q == r || r == p)
-  {
-    survey.Repeated.Note(t);
-  }
-}
-
 /// Bounding box and counts of the used points.
 struct PointSurvey
 {
@@ -129,29 +98,6 @@ struct PointSurvey
   }
 };
 
-DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, GeometryKind geometry,
-  PointUse* uses, std::int64_t i, PointSurvey& survey)
-{
-  if (uses[i] == PointUse::Unused)
-  {
-    return;
-  }
-  ++survey.Used;
-  const bool isFinite = IsFinitePoint(points, i, geometry);
-  uses[i] = isFinite ? PointUse::Used : PointUse::NotFinite;
-  if (!isFinite)
-  {
-    survey.NonFinite.Note(i);
-    return;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double x = points.Get(i, axis);
-    survey.Include(axis, x, x);
-    survey.IncludeMagnitude(std::fabs(x));
-  }
-}
-
 /// Finds the range of the coordinates, and what follows from it.
 inline void ResolveRange(MeshSurvey& survey)
 {
@@ -182,7 +128,28 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { uses[i] = PointUse::Unused; });
   const IdSurvey ids = backend.template Sum<IdSurvey>(mesh.Triangles.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, IdSurvey & sum)
-    { SurveyIds(mesh, uses, t, sum); });
+    {
+      const std::int64_t p[3] = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+        mesh.Triangles.Get(t, 2) };
+      const std::int64_t count = mesh.Points.Count;
+      if (p[0] < 0 || p[0] >= count || p[1] < 0 || p[1] >= count || p[2] < 0 || p[2] >= count)
+      {
+        sum.Invalid.Note(t);
+        return;
+      }
+      for (const std::int64_t point : p)
+      {
+        // Most points are marked already, and a load costs less than a store.
+        if (AtomicLoad(&uses[point]) != PointUse::Used)
+        {
+          AtomicStore(&uses[point], PointUse::Used);
+        }
+      }
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0])
+      {
+        sum.Repeated.Note(t);
+      }
+    });
   if (ids.Invalid.Count > 0)
   {
     const std::int64_t first = ids.Invalid.Smallest[0];
@@ -200,7 +167,25 @@ void SurveyPoints(
   PointUse* uses = survey.Uses.Data();
   const PointSurvey points = backend.template Sum<PointSurvey>(array.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
-    { SurveyPoint(array, geometry, uses, i, sum); });
+    {
+      if (uses[i] == PointUse::Unused)
+      {
+        return;
+      }
+      ++sum.Used;
+      uses[i] = IsFinitePoint(array, i, geometry) ? PointUse::Used : PointUse::NotFinite;
+      if (uses[i] == PointUse::NotFinite)
+      {
+        sum.NonFinite.Note(i);
+        return;
+      }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double x = array.Get(i, axis);
+        sum.Include(axis, x, x);
+        sum.IncludeMagnitude(std::fabs(x));
+      }
+    });
   survey.Precision = input.Caller.Points.Floats ? FloatPrecision : DoublePrecision;
   survey.UsedPoints = points.Used;
   survey.NonFinitePoints =

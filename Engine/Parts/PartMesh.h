@@ -3,10 +3,10 @@
 #ifndef DELAUNAYFLIP_PARTMESH_H
 #define DELAUNAYFLIP_PARTMESH_H
 
-#include "EngineTriangles.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
 #include "HostMemory.h"
+#include "LoadedMesh.h"
 #include "PieceFlip.h"
 #include "PointMatch.h"
 #include "Records.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 
-#include "BackendEngine.h"
+#include "MeshOnBackend.h"
 #include "ConstraintFlips.h"
 #include "EdgeMeshBuilder.h"
 #include "MeshSurveyBuilder.h"

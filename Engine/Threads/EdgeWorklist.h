@@ -120,14 +120,36 @@ public:
   template <typename Step>
   void Filter(const ThreadBackend& backend, const Step& step)
   {
-    this->ForTasks(backend, [&](Task& task) { return FilterTask(task, step); });
+    this->ForTasks(backend,
+      [&](Task& task)
+      {
+        EdgeId* edges = task.Edges.data();
+        std::int64_t kept = 0;
+        ForEdges(step, edges, task.Size,
+          [&](std::int64_t i, const auto& item)
+          {
+            const EdgeId edge = edges[i];
+            edges[kept] = edge;
+            kept += step(edge, item) ? 1 : 0;
+          });
+        task.Size = kept;
+        return StepCounts();
+      });
   }
 
   /// Runs a step on the edges of the lists. @returns its counts.
   template <typename Step>
   StepCounts Run(const ThreadBackend& backend, const Step& step)
   {
-    return this->ForTasks(backend, [&](Task& task) { return RunOnTask(step, task); });
+    return this->ForTasks(backend,
+      [&](Task& task)
+      {
+        StepCounts counts;
+        const EdgeId* edges = task.Edges.data();
+        ForEdges(step, task.Edges.data(), task.Size,
+          [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+        return counts;
+      });
   }
 
   /// Filters the lists by the step's choice and runs the step on the winners, a few edges at a
@@ -135,9 +157,30 @@ public:
   StepCounts ChooseAndFlip(const ChooseAndFlipStep& step)
   {
     StepCounts counts;
+    EdgeId winners[ChoicesAtOnce + 1];
+    int size = 0;
+    const auto flip = [&]()
+    {
+      for (int i = 0; i < size; ++i)
+      {
+        step(winners[i], counts);
+      }
+      size = 0;
+    };
     for (Task& task : this->Tasks)
     {
-      ChooseAndFlip(step, task, counts);
+      EdgeId* edges = task.Edges.data();
+      ForEdges(step, edges, task.Size,
+        [&](std::int64_t i, const OuterHalfEdges& outer)
+        {
+          winners[size] = edges[i];
+          size += step.Choose(edges[i], outer) ? 1 : 0;
+          if (size == ChoicesAtOnce)
+          {
+            flip();
+          }
+        });
+      flip();
     }
     return counts;
   }
@@ -254,58 +297,6 @@ private:
       requestTriangles(i + 2 * Ahead);
       request(i + 3 * Ahead);
     }
-  }
-
-  template <typename Step>
-  static StepCounts RunOnTask(const Step& step, Task& task)
-  {
-    StepCounts counts;
-    EdgeId* edges = task.Edges.data();
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
-    return counts;
-  }
-
-  template <typename Step>
-  static StepCounts FilterTask(Task& task, const Step& step)
-  {
-    EdgeId* edges = task.Edges.data();
-    std::int64_t kept = 0;
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const auto& item)
-      {
-        const EdgeId edge = edges[i];
-        edges[kept] = edge;
-        kept += step(edge, item) ? 1 : 0;
-      });
-    task.Size = kept;
-    return {};
-  }
-
-  static void ChooseAndFlip(const ChooseAndFlipStep& step, Task& task, StepCounts& counts)
-  {
-    EdgeId* edges = task.Edges.data();
-    EdgeId winners[ChoicesAtOnce + 1];
-    int size = 0;
-    const auto flip = [&]()
-    {
-      for (int i = 0; i < size; ++i)
-      {
-        step(winners[i], counts);
-      }
-      size = 0;
-    };
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const OuterHalfEdges& outer)
-      {
-        winners[size] = edges[i];
-        size += step.Choose(edges[i], outer) ? 1 : 0;
-        if (size == ChoicesAtOnce)
-        {
-          flip();
-        }
-      });
-    flip();
   }
 
   template <typename Step>

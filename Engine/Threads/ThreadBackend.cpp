@@ -12,10 +12,7 @@
 #include <optional>
 #include <thread>
 
-#if defined(DELAUNAYFLIP_STD_THREADS)
-#include <exception>
-#include <mutex>
-#else
+#if !defined(DELAUNAYFLIP_STD_THREADS)
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -118,37 +115,22 @@ public:
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
     std::atomic<std::int64_t> next{ 0 };
-    std::exception_ptr error;
-    std::mutex errorMutex;
     const auto drain = [&]()
     {
       for (std::int64_t task = next++; task < count; task = next++)
       {
-        try
-        {
-          work(task);
-        }
-        catch (...)
-        {
-          const std::lock_guard<std::mutex> lock(errorMutex);
-          error = std::current_exception();
-        }
+        work(task);
       }
     };
-    std::vector<std::thread> helpers;
-    helpers.reserve(this->Size);
+    std::vector<std::future<void>> helpers; // their destructors wait, too
     for (std::int64_t i = 1; i < std::min<std::int64_t>(this->Size, count); ++i)
     {
-      helpers.emplace_back(drain);
+      helpers.push_back(std::async(std::launch::async, drain));
     }
     drain();
-    for (std::thread& helper : helpers)
+    for (std::future<void>& helper : helpers)
     {
-      helper.join();
-    }
-    if (error)
-    {
-      std::rethrow_exception(error);
+      helper.get();
     }
   }
 

@@ -6,7 +6,7 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
-#include "FlipEngine.h"
+#include "LoadedMesh.h"
 #include "HostMemory.h"
 #include "TriangleMesh.h"
 
@@ -223,24 +223,25 @@ private:
   /// Items between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 32;
 
-  template <typename Work, typename = void>
-  struct Prefetches : std::false_type
-  {
-  };
+  /// Call work.Prefetch(i) and work.PrefetchFar(i), if they exist.
   template <typename Work>
-  struct Prefetches<Work, std::void_t<decltype(std::declval<const Work&>().Prefetch(0))>>
-    : std::true_type
+  static auto Request(const Work& work, std::int64_t i, int) -> decltype(work.Prefetch(i))
   {
-  };
-  template <typename Work, typename = void>
-  struct PrefetchesFar : std::false_type
-  {
-  };
+    work.Prefetch(i);
+  }
   template <typename Work>
-  struct PrefetchesFar<Work, std::void_t<decltype(std::declval<const Work&>().PrefetchFar(0))>>
-    : std::true_type
+  static auto RequestFar(const Work& work, std::int64_t i, int) -> decltype(work.PrefetchFar(i))
   {
-  };
+    work.PrefetchFar(i);
+  }
+  template <typename Work>
+  static void Request(const Work&, std::int64_t, long)
+  {
+  }
+  template <typename Work>
+  static void RequestFar(const Work&, std::int64_t, long)
+  {
+  }
 
   /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i) and, still earlier,
   /// work.PrefetchFar(i), if they exist.
@@ -249,14 +250,8 @@ private:
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      if constexpr (PrefetchesFar<Work>::value)
-      {
-        work.PrefetchFar(std::min(i + 2 * PrefetchDistance, end - 1));
-      }
-      if constexpr (Prefetches<Work>::value)
-      {
-        work.Prefetch(std::min(i + PrefetchDistance, end - 1));
-      }
+      RequestFar(work, std::min(i + 2 * PrefetchDistance, end - 1), 0);
+      Request(work, std::min(i + PrefetchDistance, end - 1), 0);
       call(i);
     }
   }

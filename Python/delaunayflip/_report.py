@@ -15,9 +15,7 @@ ITERATION = numpy.dtype(
 )
 # What VTK's field data and tables tell, by their names.
 FIELD_PREFIX = "DelaunayFlip:"
-COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
-           "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
-           "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+COLUMNS = {name.title().replace("_", ""): name for name in ITERATION.names}
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
@@ -154,13 +152,6 @@ class Totals:
         self.has_triangles = self.has_triangles or other.has_triangles
         self.has_angles = self.has_angles or other.has_angles
         self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
-
-    def get_geometry(self):
-        """The number of the geometry, as vtkDelaunayFlip.GEOMETRY_... have it."""
-        return (*_library.GEOMETRIES, "mixed").index(self.geometry_used)
-
-    def get_stop_reason(self):
-        return _library.STOP_REASONS.index(self.stop_reason)
 
     def list_columns(self):
         """(name, values) with a value per iteration."""

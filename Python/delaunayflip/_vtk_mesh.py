@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonCore import (
     vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
-from ._errors import InvalidOptions
+from ._library import InvalidOptions
 from ._surface import FlipInput, Surface, number_tuples
 
 
@@ -40,54 +40,40 @@ class MeshInput(FlipInput):
 
     def store(self, session, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
-        mesh = self.mesh
+        mesh, slots = self.mesh, self.slots
+        given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
+        is_wide = _is_wide(given) or 3 * len(slots.triangles) > VTK_INT_MAX
+        polygons, corners = _new_cells(self.polygon_sizes, is_wide)
+        self.fill_polygons(session, corners)
+        chosen = slots.kept_strips - slots.strips.first
+        strips, corners = _new_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
+        corners[:] = slots.strips.gather(chosen)
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
-        output.SetPolys(self._build_polygons(session))
-        output.SetStrips(self._build_strips())
+        output.SetPolys(polygons)
+        output.SetStrips(strips)
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
-        self._pass_cell_data(output)
-        self._pass_normals(session, output)
+        self._pass_cell_data(session, output)
         add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
 
-    def _build_polygons(self, session):
-        mesh = self.mesh
-        given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
-        wide = _is_wide(given) or 3 * len(self.slots.triangles) > VTK_INT_MAX
-        cells, corners = _new_cells(self.polygon_sizes, wide)
-        self.fill_polygons(session, corners)
-        return cells
-
-    def _build_strips(self):
-        strips, chosen = self.mesh.GetStrips(), self.slots.kept_strips - self.slots.strips.first
-        if len(chosen) == strips.GetNumberOfCells():
-            return strips
-        cells, corners = _new_cells(self.slots.strips.sizes[chosen], _is_wide(strips))
-        corners[:] = self.slots.strips.gather(chosen)
-        return cells
-
-    def _pass_cell_data(self, output):
-        data = output.GetCellData()
-        if self.slots.in_place:
+    def _pass_cell_data(self, session, output):
+        data, slots = output.GetCellData(), self.slots
+        if slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
-            return
-        copy_cell_data(self.mesh, self.cell_sources, data)
-        ids = data.GetGlobalIds()
-        if self.slots.divides_cells and ids is not None:  # several cells share an id
+        else:
+            copy_cell_data(self.mesh, self.cell_sources, data)
+        ids, shared = data.GetGlobalIds(), data.GetNormals()
+        if slots.divides_cells and ids is not None:  # several cells share an id
             data.SetActiveAttribute(-1, data.GLOBALIDS)
             if data.GetPedigreeIds() is None:
                 data.SetPedigreeIds(ids)
-
-    def _pass_normals(self, session, output):
-        shared = output.GetCellData().GetNormals()
-        if (shared is None or shared.GetNumberOfComponents() != 3
-                or shared.GetNumberOfTuples() < output.GetNumberOfCells()):
-            return
-        normals = _copy(shared)
-        self.renew_normals(_view(normals), session.triangles)
-        output.GetCellData().SetNormals(normals)
+        if (shared is not None and shared.GetNumberOfComponents() == 3
+                and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
+            normals = _copy(shared)
+            self.renew_normals(_view(normals), session.triangles)
+            data.SetNormals(normals)
 
 
 def add_arrays(data, prefix, arrays):

@@ -19,12 +19,12 @@ import warnings
 import numpy
 import pyvista
 
-from ._errors import InvalidOptions
-from ._flip import smallest_angles as _angles_of_arrays
-from ._options import check_integer
+from ._library import InvalidOptions
+from ._session import smallest_angles as _angles_of_arrays
+from ._options import Array, check_integer
+from ._options import Options as _Options
 from ._report import FIELD_PREFIX, Totals, describe_trouble
 from ._surface import FlipInput, Settings, Slots, Surface, number_tuples
-from ._types import Array, Criterion, Geometry, TieRule
 
 _QUALITY = "Smallest angle"
 _SETTINGS = {"triangulate": "triangulate", "lines_as_constraints": "lines",
@@ -32,25 +32,14 @@ _SETTINGS = {"triangulate": "triangulate", "lines_as_constraints": "lines",
 _GLOBAL_IDS, _PEDIGREE_IDS, _ATTRIBUTES = 5, 6, 11  # of vtkDataSetAttributes; how many there are
 
 
-class Options(typing.TypedDict, total=False):
+class Options(_Options, total=False):
     """Keywords of `flip`; see there and at delaunayflip.flip."""
 
-    geometry: Geometry
-    criterion: Criterion
-    tie_rule: TieRule
-    tolerance: float
-    feature_angle: float
     region_array: str
     lines_as_constraints: bool
     insert_lines: bool
     insert_constraints: bool
     triangulate: bool
-    maximum_iterations: int
-    backend: str
-    threads: int
-    device: int
-    devices: str
-    pieces: int
 
 
 if typing.TYPE_CHECKING:
@@ -71,7 +60,7 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads, device, devices ("0,1") and pieces as for delaunayflip.flip;
+            backend, threads, device, devices, pieces and track_quality as for delaunayflip.flip;
             region_array: a cell array, edges between its values stay; lines_as_constraints,
             insert_lines, insert_constraints and triangulate as in vtkDelaunayFlip.
 

@@ -59,64 +59,52 @@ class PlyTest(BadFileTest):
 
 
 class Elements(PlyTest):
-    def test_triangle_strips(self):
-        """The original form of igea.ply; -1 separates strips."""
-        strips = [([0, 1, 2, 3, -1, 3, 2, 1],), ([0, 1, 3],), ([-1, 2, -1],)]
-        for mesh, _ in self.read_all(
-            ("vertex", XYZ, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]),
-            ("tristrips", ["list int int vertex_indices"], strips),
-        ):
-            triangles = triangles_of(mesh)
-            self.assertEqual(triangles, [(0, 1, 2), (2, 1, 3), (3, 2, 1), (0, 1, 3)])
-
-    def test_faces_and_strips_and_edges(self):
-        for mesh, _ in self.read_all(
+    def test_faces_and_edges(self):
+        for mesh, said in self.read_all(
             ("edge", ["int vertex1", "int vertex2", "uchar red"], [(0, 1, 9), (2, 3, 9)]),
             ("vertex", XYZ, SQUARE),
-            ("tristrips", INDICES, [([0, 2, 3],)]),
             ("face", INDICES + ["short mark"], [([0, 1, 2], -7)]),
         ):
-            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
             self.assertEqual(cells_of(mesh.GetLines()), [(0, 1), (2, 3)])
             marks = [int(mark) for (mark,) in tuples_of(mesh.GetCellData().GetArray("mark"))]
-            self.assertEqual(marks, [0, 0, -7, 0])
+            self.assertEqual(marks, [0, 0, -7])
+            self.assertIn("a.ply: left out the other properties of its edges", said)
 
     def test_unknown_element_with_lists_is_refused(self):
         vertices = ("vertex", XYZ, SQUARE)
         polygons = ("polygons", INDICES, [([0, 1, 2],)])
         self.refuse_all((vertices, polygons), "'polygons'")
-        self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)]), polygons), "'polygons'")
-        self.refuse_all((vertices, ("triangle", ["int a", "int b"], [(0, 1)])), "'triangle'")
+        strips = ("tristrips", ["list int int vertex_indices"], [([0, 1, 2, -1],)])
+        self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)]), strips), "'tristrips'")
 
-    def test_other_elements_are_left_out_with_a_note(self):
+    def test_other_elements_are_left_out_with_a_warning(self):
         for mesh, said in self.read_all(
             ("camera", ["float view", "double far"], [(1, 2)]),
             ("vertex", XYZ, SQUARE),
             ("face", INDICES, [([0, 1, 2],)]),
         ):
-            self.assertIn("a.ply: ignored 1 element of the unknown type 'camera'", said)
+            self.assertIn("warning: a.ply: left out 1 element of the unknown type 'camera'", said)
             self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
 
     def test_vertices_that_do_not_exist(self):
         for bad in (4, -1, -2):
             faces = ("face", INDICES, [([0, 1, 2],), ([0, 1, bad],)])
             self.refuse_all((("vertex", XYZ, SQUARE), faces), f"vertex {bad} is out of range")
-        strips = ("tristrips", INDICES, [([0, 1, 4],)])
-        self.refuse_all((("vertex", XYZ, SQUARE), strips), "vertex 4 is out of range")
         edges = ("edge", ["int vertex1", "int vertex2"], [(0, 4)])
-        self.refuse_all((("vertex", XYZ, SQUARE), edges), "edge 0")
+        self.refuse_all((("vertex", XYZ, SQUARE), edges), "edge 0", "vertex 4 is out of range")
 
     def test_rows_of_another_length(self):
         content = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        for row, line in ((b"3 0 1", 15), (b"3 0 1 2 3", 15), (b"", 16)):
+        for row, place in ((b"3 0 1", "line 15:"), (b"3 0 1 2 3", "line 15:"), (b"", "face 0:")):
             self.write("a.ply", content.replace(b"3 0 1 2\n", row + b"\n"))
-            self.refuse("a.ply", f"line {line}:")
+            self.refuse("a.ply", place)
 
     def test_bytes_behind_the_end_are_named(self):
         for encoding in ENCODINGS:
             content = make_ply(encoding, ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
             self.write("a.ply", content + b"3 0 2 3")
-            self.assertIn("a.ply: ignored 7 bytes after its last", self.succeed("a.ply", "out.vtp").stderr)
+            self.assertIn("a.ply: left out 7 bytes after its last", self.succeed("a.ply", "out.vtp").stderr)
 
 
 class Properties(PlyTest):
@@ -193,32 +181,15 @@ class Properties(PlyTest):
                 for text in properties:
                     self.assertEqual(head.count("property " + text), 2, head)
 
-    def test_texture_of_corners(self):
-        face = ["list uchar float texcoord", "list uchar int vertex_index"]
-        first, last = ([0, 0, 1, 0, 1, 1], [0, 1, 2]), ([], [3, 2, 1])
-        for middle, fits in ([0, 0, 1, 1, 0, 1], True), ([0, 0, 0.5, 1, 0, 1], False):
-            rows = [first, (middle, [0, 2, 3]), last]
-            for mesh, said in self.read_all(("vertex", XYZ, SQUARE), ("face", face, rows)):
-                self.assertEqual(points_of(mesh), SQUARE)
-                coordinates = mesh.GetPointData().GetTCoords()
-                if fits:
-                    self.assertEqual(tuples_of(coordinates), [(0, 0), (1, 0), (1, 1), (0, 1)])
-                else:
-                    self.assertIsNone(coordinates)
-                    self.assertIn("warning: a.ply: left out its texture coordinates: 1 point", said)
-        self.refuse_all(
-            (("vertex", XYZ, SQUARE), ("face", face, [([0, 0, 1, 0], [0, 1, 2])])), "face 0"
-        )
-
-    def test_other_lists_are_left_out_with_a_note(self):
+    def test_other_lists_are_left_out_with_a_warning(self):
         vertex = ["list uchar int neighbours"] + XYZ
         rows = [([1, 2, 3], *point) for point in SQUARE]
-        face = ["list int float weights"] + INDICES
+        face = ["list int float texcoord"] + INDICES
         for mesh, said in self.read_all(
             ("vertex", vertex, rows), ("face", face, [([0.5], [0, 1, 2]), ([], [0, 2, 3])])
         ):
-            self.assertIn("a.ply: ignored the lists neighbours of the element vertex", said)
-            self.assertIn("a.ply: ignored the lists weights of the element face", said)
+            self.assertIn("warning: a.ply: left out the lists neighbours of the element vertex", said)
+            self.assertIn("warning: a.ply: left out the lists texcoord of the element face", said)
             self.assertEqual(points_of(mesh), SQUARE)
             self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
 
@@ -227,11 +198,9 @@ class Heads(PlyTest):
     def test_what_is_wrong_is_on_its_line(self):
         good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
         for old, new, line in (
-            (b"format ascii", b"format utf8", 2),
             (b"vertex 4", b"vertex four", 4),
             (b"vertex 4", b"vertex -4", 4),
             (b"float y", b"quad y", 6),
-            (b"list uchar", b"list float", 9),
             (b"element face", b"elements face", 8),
             (b"element face 1", b"element vertex 1", 8),
         ):
@@ -250,6 +219,9 @@ class Heads(PlyTest):
         for old, new, naming in (
             (b"float z", b"float w", "x, y and z"),
             (b"vertex_indices", b"corners", "vertex_indices"),
+            (b"format ascii", b"format utf8", "utf8"),
+            (b"list uchar", b"list float", "must be an integer"),
+            (b"float y", b"float x", "two properties x"),
             (b"element vertex", b"element points", "number of vertices is 0"),
         ):
             self.write("a.ply", good.replace(old, new))

@@ -65,7 +65,7 @@ class Report(CommandTest):
         with open(self.path("in.obj"), "w", encoding="ascii") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 2/1\n")
         (texture, _) = self.report("in.obj", "out.vtk")["warnings"]
-        self.assertIn("in.obj: left out its texture coordinates: 1 point", texture)
+        self.assertIn("in.obj: left out vt (2)", texture)
 
     def test_tolerance_is_only_warned_of_without_effect(self):
         path = write_mesh(bumpy_grid(6, 0), self.path("in.vtk"))
