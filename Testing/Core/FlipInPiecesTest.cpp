@@ -301,8 +301,9 @@ TEST_P(FlipInPiecesTest, IterationLimit)
   }
 }
 
-/// The smallest angle after an iteration is that of the whole mesh.
-TEST_P(FlipInPiecesTest, SmallestAngleAfterEveryIteration)
+/// The smallest angle after the last iteration is that of the whole mesh; it is not known after the
+/// others.
+TEST_P(FlipInPiecesTest, SmallestAngleAfterTheLastIteration)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 52);
   FlipOptions options = MakeCanonical();
@@ -316,7 +317,8 @@ TEST_P(FlipInPiecesTest, SmallestAngleAfterEveryIteration)
     TriangleMesh after = mesh.View();
     after.Triangles = ViewTriangles(part.Triangles);
     const double angle = MinimumAngle(after, GeometryKind::Planar);
-    EXPECT_NEAR(angle, report.Iterations[limit - 1].MinimumAngle, 1e-9);
+    EXPECT_NEAR(angle, part.Report.Iterations.back().MinimumAngle, 1e-9);
+    EXPECT_EQ(limit < count, std::isnan(report.Iterations[limit - 1].MinimumAngle));
     EXPECT_NEAR(angle, part.Report.MinimumAngleAfter, 1e-9);
   }
 }
