@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RandomMess.h"
 #include "GpuTestSupport.h"
+#include "RandomInputs.h"
 
 /// @file
 /// Thousands of small meshes with every kind of defect: the GPU's bits are the CPU's.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuTestSupport.h"
-#include "RandomMess.h"
+#include "RandomInputs.h"
 
 /// @file
 /// One small mesh of each kind. run.sh runs these tests under compute-sanitizer, which makes every

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PointFamilies.h"
-
-#include "FlipTestSupport.h"
+#include "RandomInputs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -57,16 +57,6 @@ FourPoints DrawCircle(std::mt19937& random)
 namespace
 {
 
-FourPoints DrawUniform(std::mt19937& random)
-{
-  return FillPoints([&] { return DrawUnit(random) - 0.5; });
-}
-
-FourPoints DrawFloats(std::mt19937& random)
-{
-  return FillPoints([&] { return static_cast<float>(DrawUnit(random)); });
-}
-
 /// Moves one coordinate of one point by a few units in the last place.
 FourPoints Nudge(FourPoints points, std::mt19937& random)
 {
@@ -100,26 +90,6 @@ FourPoints DrawNearDiagonal(std::mt19937& random)
   const auto near = [&] { return 0.5 + std::ldexp(DrawIndex(random, 64), -53); };
   return { { { near(), near(), 0.0 }, { 12.0, 12.0, 0.0 }, { 24.0, 24.0, 0.0 },
     { near(), near(), near() } } };
-}
-
-FourPoints DrawTiny(std::mt19937& random)
-{
-  return FillPoints([&] { return 1e-300 * (DrawUnit(random) - 0.5); });
-}
-
-FourPoints DrawHuge(std::mt19937& random)
-{
-  return FillPoints([&] { return 3e300 * (DrawUnit(random) - 0.5); });
-}
-
-FourPoints DrawTinyGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), -1000); });
-}
-
-FourPoints DrawHugeGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); });
 }
 
 /// Subnormal numbers around zero, and numbers around the smallest normal one.
@@ -162,11 +132,6 @@ FourPoints DrawVanishingProducts(std::mt19937& random)
 {
   const int exponent = DrawIndex(random, 2) ? -269 : -538;
   return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), exponent); });
-}
-
-FourPoints DrawWithOffset(std::mt19937& random)
-{
-  return FillPoints([&] { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); });
 }
 
 /// Integers of any size up to 2^61, so that differences and sums reach 2^62.
@@ -300,23 +265,43 @@ FourPoints DrawRectangle(std::mt19937& random)
 std::vector<PointFamily> ListPointFamilies()
 {
   return {
-    { "Uniform", DrawUniform, Fit::Always },
+    { "Uniform",
+      [](std::mt19937& random) { return FillPoints([&] { return DrawUnit(random) - 0.5; }); },
+      Fit::Always },
     { "SmallGrid", DrawSmallGrid, Fit::Always },
-    { "Floats", DrawFloats, Fit::Always },
+    { "Floats",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return static_cast<float>(DrawUnit(random)); }); },
+      Fit::Always },
     { "Circle", DrawCircle, Fit::Always },
     { "NudgedCircle", DrawNudgedCircle, Fit::Sometimes },
     { "NudgedLine", DrawNudgedLine, Fit::Sometimes },
     { "NearDiagonal", DrawNearDiagonal, Fit::Always },
-    { "Tiny", DrawTiny, Fit::Always },
-    { "Huge", DrawHuge, Fit::Always },
-    { "TinyGrid", DrawTinyGrid, Fit::Always },
-    { "HugeGrid", DrawHugeGrid, Fit::Always },
+    { "Tiny",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return 1e-300 * (DrawUnit(random) - 0.5); }); },
+      Fit::Always },
+    { "Huge",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return 3e300 * (DrawUnit(random) - 0.5); }); },
+      Fit::Always },
+    { "TinyGrid",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), -1000); }); },
+      Fit::Always },
+    { "HugeGrid",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); }); },
+      Fit::Always },
     { "Subnormal", DrawSubnormal, Fit::Always },
     { "MixedMagnitudes", DrawMixedMagnitudes, Fit::Sometimes },
     { "AnyExponents", DrawAnyExponents, Fit::Sometimes },
     { "WideExponents", DrawWideExponents, Fit::Always },
     { "VanishingProducts", DrawVanishingProducts, Fit::Always },
-    { "Offset", DrawWithOffset, Fit::Always },
+    { "Offset",
+      [](std::mt19937& random)
+      { return FillPoints([&] { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); }); },
+      Fit::Always },
     { "LargestOffsets", DrawLargestOffsets, Fit::Always },
     { "OffsetsAbove62Bits", DrawOffsetsAbove62Bits, Fit::Always },
     { "GridAboutOrigin", DrawGridAboutOrigin, Fit::Always },
@@ -329,6 +314,109 @@ std::vector<PointFamily> ListPointFamilies()
     { "Extremes", DrawExtremes, Fit::Never },
     { "Rectangle", DrawRectangle, Fit::Always },
   };
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/// Random triangles on a small lattice: every kind of edge and degenerate triangle.
+OwnedMesh<double> MakeSoup(std::mt19937& random)
+{
+  constexpr double Scales[] = { 1.0, 1e-3, 1e6 };
+  const double scale = Scales[random() % 3];
+  const std::uint32_t points = 3 + random() % 60;
+  OwnedMesh<double> mesh;
+  for (std::uint32_t i = 0; i < points; ++i)
+  {
+    mesh.Points.push_back(scale * (random() % 16));
+    mesh.Points.push_back(scale * (random() % 16));
+    mesh.Points.push_back(random() % 3 == 0 ? scale * (random() % 16) : 0.0);
+  }
+  for (std::uint32_t i = 3 * (1 + random() % 150); i > 0; --i)
+  {
+    mesh.Triangles.push_back(static_cast<std::int32_t>(random() % points));
+  }
+  return mesh;
+}
+
+void SpoilPoints(OwnedMesh<double>& mesh, std::mt19937& random)
+{
+  for (std::uint32_t i = random() % 3; i > 0; --i)
+  {
+    const double moved = (random() % 8) / 8.0;
+    const bool isNaN = random() % 4 == 0;
+    mesh.Points[random() % mesh.Points.size()] =
+      isNaN ? std::numeric_limits<double>::quiet_NaN() : moved;
+  }
+  const double roughness = (random() % 2) * 0.01;
+  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i] += roughness * (random() % 100);
+  }
+}
+
+/// Turns some triangles over and repeats some.
+void SpoilTriangles(OwnedMesh<double>& mesh, std::mt19937& random)
+{
+  for (std::uint32_t i = random() % 4; i > 0; --i)
+  {
+    const std::size_t t = random() % (mesh.Triangles.size() / 3);
+    std::swap(mesh.Triangles[3 * t + random() % 3], mesh.Triangles[3 * t + random() % 3]);
+  }
+  for (std::uint32_t i = random() % 3; i > 0; --i)
+  {
+    const std::size_t t = random() % (mesh.Triangles.size() / 3);
+    for (std::size_t slot = 0; slot < 3; ++slot)
+    {
+      mesh.Triangles.push_back(mesh.Triangles[3 * t + slot]);
+    }
+  }
+}
+
+OwnedMesh<double> MakeMesh(std::mt19937& random)
+{
+  if (random() % 2 == 0)
+  {
+    return MakeSoup(random);
+  }
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(4 + random() % 80, random());
+  SpoilPoints(mesh, random);
+  SpoilTriangles(mesh, random);
+  return mesh;
+}
+
+/// Options that are valid for any mesh: not Planar, which needs a plane, nor Canonical, which is
+/// not for surfaces.
+FlipOptions MakeOptions(std::mt19937& random)
+{
+  constexpr GeometryKind Geometries[] = { GeometryKind::Auto, GeometryKind::PlanarXY,
+    GeometryKind::Surface };
+  FlipOptions options;
+  options.Geometry = Geometries[random() % 3];
+  options.Criterion = random() % 4 == 0 ? CriterionKind::OppositeAngles : CriterionKind::InCircle;
+  options.FeatureAngle = random() % 2 == 0 ? 180.0 : 30.0;
+  options.NumberOfThreads = 1 + static_cast<int>(random() % 2);
+  if (options.Geometry == GeometryKind::PlanarXY && options.Criterion == CriterionKind::InCircle)
+  {
+    options.TieRule = random() % 2 == 0 ? TieRuleKind::Canonical : TieRuleKind::Keep;
+  }
+  return options;
+}
+
+}
+
+RandomMess MakeRandomMess(std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  RandomMess mess;
+  mess.Mesh = MakeMesh(random);
+  for (std::uint32_t i = 2 * (random() % 5); i > 0; --i)
+  {
+    mess.Constraints.push_back(static_cast<std::int64_t>(random() % mess.Mesh.NumberOfPoints()));
+  }
+  mess.Options = MakeOptions(random);
+  return mess;
 }
 
 }

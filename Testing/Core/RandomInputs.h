@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_POINTFAMILIES_H
-#define DELAUNAYFLIP_POINTFAMILIES_H
+#ifndef DELAUNAYFLIP_RANDOMINPUTS_H
+#define DELAUNAYFLIP_RANDOMINPUTS_H
 
-#include "ExactReference.h"
+#include "FlipTestSupport.h"
 
-#include <array>
 #include <ostream>
-#include <random>
-#include <vector>
 
 /// @file
-/// Four points at a time on which predicates go wrong: ties, near ties, and exponents at the limits
-/// of each kind of arithmetic.
+/// Random points on which predicates go wrong, and random meshes with every kind of defect. A seed
+/// gives the same on every machine.
 
 namespace delaunayflip
 {
@@ -27,6 +24,7 @@ enum class Fit
   Never
 };
 
+/// Four points at a time: ties, near ties, and exponents at the limits of each kind of arithmetic.
 struct PointFamily
 {
   const char* Name;
@@ -43,6 +41,18 @@ FourPoints DrawSmallGrid(std::mt19937& random);
 
 /// Lattice points on one circle.
 FourPoints DrawCircle(std::mt19937& random);
+
+/// A small random mesh with every kind of defect, random constraints and random options.
+struct RandomMess
+{
+  OwnedMesh<double> Mesh;
+  std::vector<std::int64_t> Constraints; ///< Pairs of point ids.
+  FlipOptions Options;
+
+  TriangleMesh View() const { return WithConstraints(this->Mesh.View(), this->Constraints); }
+};
+
+RandomMess MakeRandomMess(std::uint32_t seed);
 
 }
 
