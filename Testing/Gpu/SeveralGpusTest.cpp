@@ -3,10 +3,10 @@
 #include "FlipError.h"
 #include "GpuTestSupport.h"
 #include "PieceFlip.h"
-#if __has_include("DeviceMemory.h")
-#include "DeviceMemory.h"
-#else
+#if __has_include("SharedMemory.h")
 #include "SharedMemory.h"
+#else
+#include "DeviceMemory.h"
 #endif
 
 #include <string>
