@@ -3,7 +3,11 @@
 #include "FlipError.h"
 #include "GpuTestSupport.h"
 #include "PieceFlip.h"
+#if __has_include("DeviceMemory.h")
 #include "DeviceMemory.h"
+#else
+#include "DeviceMemory.h"
+#endif
 
 #include <string>
 #include <vector>
