@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._vtk_mesh import add_arrays
+from ._vtk_mesh import vtk_of
 from ._vtk_update import Failure, Update, explain
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
@@ -235,7 +235,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         finally:
             self._is_at_work = False
         self._update = update
-        add_arrays(table.GetRowData(), "", update.totals.list_columns())
+        vtk_of(table).add_arrays(table.GetRowData(), "", update.totals.list_columns())
         update.tell(self._tell)
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1

@@ -1,30 +1,134 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts a vtkPolyData to the engine's arrays, and back."""
+"""Converts a vtkPolyData of any VTK to the engine's arrays, and back."""
+import functools
+import importlib
+
 import numpy
-from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    VTK_ID_TYPE, VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList,
-    vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
 from ._library import InvalidOptions
+from ._report import FIELD_PREFIX, describe_trouble
 from ._surface import FlipInput, Surface, number_tuples
+
+_GHOSTS = "vtkGhostType"
+
+
+class Vtk:
+    """The modules and arrays of one VTK. PyVista may use another one than vtkmodules."""
+
+    def __init__(self, package):
+        self.core = importlib.import_module(f"{package}.vtkCommonCore")
+        self.model = importlib.import_module(f"{package}.vtkCommonDataModel")
+        self.support = importlib.import_module(f"{package}.util.numpy_support")
+
+    def add_arrays(self, data, prefix, arrays):
+        """`arrays`: (name, values, a number or a text) of each."""
+        for name, values in arrays:
+            if isinstance(values, str):
+                array = self.core.vtkStringArray()
+                array.InsertNextValue(values)
+            else:
+                values = numpy.atleast_1d(values)
+                kind = self.core.VTK_ID_TYPE if values.dtype == numpy.int64 else None
+                array = self.support.numpy_to_vtk(values, deep=True, array_type=kind)
+            array.SetName(prefix + name)
+            data.AddArray(array)
+
+    def copy_cell_data(self, mesh, sources, target):
+        """Copies the tuples of the source cells. Returns the arrays that are too short for that, and
+        are left out."""
+        whole, short = self.model.vtkDataSetAttributes(), []
+        whole.ShallowCopy(mesh.GetCellData())
+        for i in reversed(range(whole.GetNumberOfArrays())):
+            if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
+                short.append(whole.GetAbstractArray(i))
+                whole.RemoveArray(i)
+        target.CopyAllOn()
+        target.CopyAllocate(whole, len(sources))
+        target.CopyData(whole, self._make_ids(sources), self._make_ids(range(len(sources))))
+        return short
+
+    def read(self, mesh):
+        """A Surface. Its arrays are copies: observers may change the input during the run."""
+        return Surface(mesh, lambda array: self.view(array).copy())
+
+    def view(self, array):
+        """The values of a vtkDataArray, (n,) or (n, components)."""
+        if not array.HasStandardMemoryLayout() or isinstance(array, self.core.vtkBitArray):
+            array = self.copy_array(array)
+        if array.GetNumberOfValues() == 0:
+            width, kind = array.GetNumberOfComponents(), array.GetDataType()
+            return numpy.empty((0, width) if width > 1 else 0, self.support.get_numpy_array_type(kind))
+        return self.support.vtk_to_numpy(array)
+
+    def copy_array(self, array):
+        """A deep copy in contiguous memory, of the same type (bits become bytes)."""
+        is_bits = isinstance(array, self.core.vtkBitArray)
+        plain = self.core.vtkDataArray.CreateDataArray(
+            self.core.VTK_UNSIGNED_CHAR if is_bits else array.GetDataType())
+        plain.DeepCopy(array)
+        return plain
+
+    def make_cells(self, sizes, is_wide):
+        """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
+        kind = self.core.vtkTypeInt64Array if is_wide else self.core.vtkTypeInt32Array
+        offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
+        offsets.SetNumberOfValues(len(sizes) + 1)
+        self.view(offsets)[0] = 0
+        self.view(offsets)[1:] = ends
+        corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
+        cells = self.model.vtkCellArray()
+        cells.SetData(offsets, corners)
+        return cells, self.view(cells.GetConnectivityArray())
+
+    def label_cells(self, mesh, name):
+        """One int32 label per cell; cells with equal tuples in the array have equal labels.
+
+        Raises:
+            InvalidOptions: There is no such array, or it does not have one tuple per cell.
+        """
+        array = mesh.GetCellData().GetAbstractArray(name)
+        if array is None:
+            raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+        if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
+            raise InvalidOptions(
+                f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
+        if isinstance(array, self.core.vtkDataArray):
+            return number_tuples(self.view(array))
+        texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
+        return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
+
+    def _make_ids(self, values):
+        ids = self.core.vtkIdList()
+        ids.SetNumberOfIds(len(values))
+        for place, value in enumerate(values):
+            ids.SetId(place, int(value))
+        return ids
+
+
+_load = functools.lru_cache(maxsize=None)(Vtk)
+
+
+def vtk_of(data):
+    """The Vtk of a data object."""
+    module = next(cls.__module__ for cls in type(data).__mro__ if cls.__name__ == "vtkDataObject")
+    return _load(module.rpartition(".")[0])
 
 
 class MeshInput(FlipInput):
     """Arrays for a Session, and the parts of the input that the output needs."""
 
-    def __init__(self, mesh, others, settings, progress):
-        self.mesh = mesh.NewInstance()
+    def __init__(self, mesh, others, settings, progress=None):
+        self.vtk = vtk_of(mesh)
+        self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
-        others = _read(others) if others is not None else None
-        super().__init__(_read(mesh), others, settings, progress)
+        others = self.vtk.read(others) if others is not None else None
+        super().__init__(self.vtk.read(mesh), others, settings, progress)
         if settings.region_array:
-            self.regions = _label_cells(mesh, settings.region_array)[self.slots.cells]
-        ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+            self.regions = self.vtk.label_cells(mesh, settings.region_array)[self.slots.cells]
+        ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
-            self.freeze(_view(ghosts))
+            self.freeze(self.vtk.view(ghosts))
 
     def list_defects(self):
         """Texts of a warning about the input's constraints and arrays."""
@@ -33,20 +137,27 @@ class MeshInput(FlipInput):
         texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
         texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                  passed if self.slots.in_place else "left out")
-        name = vtkDataSetAttributes.GhostArrayName()
-        ghosts = mesh.GetCellData().GetAbstractArray(name)
+        ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
-        return texts + ([f'1 ghost array {fault} ignored: "{name}"'] if fault else [])
+        return texts + ([f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else [])
+
+    def report(self, session, output, options, totals):
+        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or
+        ""."""
+        self.vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX, totals.list_fields())
+        report = session.report
+        defects = [report.defects] if report.defects else []
+        return describe_trouble("; ".join(defects + self.list_defects()), report, options)
 
     def store(self, session, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
         mesh, slots = self.mesh, self.slots
         given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
-        is_wide = _is_wide(given) or 3 * len(slots.triangles) > VTK_INT_MAX
-        polygons, corners = _new_cells(self.polygon_sizes, is_wide)
+        is_wide = _is_wide(given) or 3 * len(slots.triangles) > self.vtk.core.VTK_INT_MAX
+        polygons, corners = self.vtk.make_cells(self.polygon_sizes, is_wide)
         self.fill_polygons(session, corners)
         chosen = slots.kept_strips - slots.strips.first
-        strips, corners = _new_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
+        strips, corners = self.vtk.make_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
         corners[:] = slots.strips.gather(chosen)
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
@@ -56,14 +167,15 @@ class MeshInput(FlipInput):
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(session, output)
-        add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
+        self.vtk.add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
 
     def _pass_cell_data(self, session, output):
         data, slots = output.GetCellData(), self.slots
+        data.Initialize()
         if slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
         else:
-            copy_cell_data(self.mesh, self.cell_sources, data)
+            self.vtk.copy_cell_data(self.mesh, self.cell_sources, data)
         ids, shared = data.GetGlobalIds(), data.GetNormals()
         if slots.divides_cells and ids is not None:  # several cells share an id
             data.SetActiveAttribute(-1, data.GLOBALIDS)
@@ -71,109 +183,18 @@ class MeshInput(FlipInput):
                 data.SetPedigreeIds(ids)
         if (shared is not None and shared.GetNumberOfComponents() == 3
                 and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
-            normals = _copy(shared)
-            self.renew_normals(_view(normals), session.triangles)
+            normals = self.vtk.copy_array(shared)
+            self.renew_normals(self.vtk.view(normals), session.triangles)
             data.SetNormals(normals)
-
-
-def add_arrays(data, prefix, arrays):
-    """`arrays`: (name, values, a number or a text) of each."""
-    for name, values in arrays:
-        if isinstance(values, str):
-            array = vtkStringArray()
-            array.InsertNextValue(values)
-        else:
-            values = numpy.atleast_1d(values)
-            kind = VTK_ID_TYPE if values.dtype == numpy.int64 else None
-            array = numpy_to_vtk(values, deep=True, array_type=kind)
-        array.SetName(prefix + name)
-        data.AddArray(array)
-
-
-def copy_cell_data(mesh, sources, target):
-    """Copies the tuples of the source cells. Returns the arrays that are too short for that, and are
-    left out."""
-    whole, short = vtkDataSetAttributes(), []
-    whole.ShallowCopy(mesh.GetCellData())
-    for i in reversed(range(whole.GetNumberOfArrays())):
-        if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
-            short.append(whole.GetAbstractArray(i))
-            whole.RemoveArray(i)
-    target.CopyAllOn()
-    target.CopyAllocate(whole, len(sources))
-    target.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
-    return short
-
-
-def _read(mesh):
-    """The arrays are copies: observers may change the input during the run."""
-    return Surface(mesh, lambda array: _view(array).copy())
-
-
-def _view(array):
-    """The values of a vtkDataArray, (n,) or (n, components)."""
-    if not array.HasStandardMemoryLayout() or isinstance(array, vtkBitArray):
-        array = _copy(array)
-    if array.GetNumberOfValues() == 0:
-        width = array.GetNumberOfComponents()
-        return numpy.empty((0, width) if width > 1 else 0, get_numpy_array_type(array.GetDataType()))
-    return vtk_to_numpy(array)
-
-
-def _copy(array):
-    """A deep copy in contiguous memory, of the same type (bits become bytes)."""
-    kind = VTK_UNSIGNED_CHAR if isinstance(array, vtkBitArray) else array.GetDataType()
-    plain = vtkDataArray.CreateDataArray(kind)
-    plain.DeepCopy(array)
-    return plain
-
-
-def _make_ids(values):
-    ids = vtkIdList()
-    ids.SetNumberOfIds(len(values))
-    for place, value in enumerate(values):
-        ids.SetId(place, int(value))
-    return ids
 
 
 def _is_wide(cells):
     return cells.GetConnectivityArray().GetDataTypeSize() == 8
 
 
-def _new_cells(sizes, wide):
-    """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
-    kind = vtkTypeInt64Array if wide else vtkTypeInt32Array
-    offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
-    offsets.SetNumberOfValues(len(sizes) + 1)
-    _view(offsets)[0] = 0
-    _view(offsets)[1:] = ends
-    corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
-    cells = vtkCellArray()
-    cells.SetData(offsets, corners)
-    return cells, _view(cells.GetConnectivityArray())
-
-
-def _label_cells(mesh, name):
-    """One int32 label per cell; cells with equal tuples in the array have equal labels.
-
-    Raises:
-        InvalidOptions: There is no such array, or it does not have one tuple per cell.
-    """
-    array = mesh.GetCellData().GetAbstractArray(name)
-    if array is None:
-        raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
-    if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
-        raise InvalidOptions(
-            f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
-    if isinstance(array, vtkDataArray):
-        return number_tuples(_view(array))
-    texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
-    return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
-
-
 def _find_ghost_fault(ghosts):
     """Why a ghost array is ignored, or ""."""
-    if ghosts.GetDataType() != VTK_UNSIGNED_CHAR:
+    if ghosts.GetDataTypeAsString() != "unsigned char":
         return "that is not of type unsigned char"
     return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
 
