@@ -6,11 +6,14 @@ import importlib
 
 import numpy
 
-from ._library import InvalidOptions
+from . import _arrays, _library
+from ._library import InvalidMesh, InvalidOptions
 from ._report import FIELD_PREFIX, describe_trouble
-from ._surface import FlipInput, Surface, number_tuples
+from ._session import Session, smallest_angles
+from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
 
 _GHOSTS = "vtkGhostType"
+_GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
 
 class Vtk:
@@ -115,25 +118,51 @@ def vtk_of(data):
     return _load(module.rpartition(".")[0])
 
 
-class MeshInput(FlipInput):
-    """Arrays for a Session, and the parts of the input that the output needs."""
+class MeshInput:
+    """What a Session gets of a mesh, and the way back. `others`: the second input, or None."""
 
     def __init__(self, mesh, others, settings, progress=None):
         self.vtk = vtk_of(mesh)
         self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
         others = self.vtk.read(others) if others is not None else None
-        super().__init__(self.vtk.read(mesh), others, settings, progress)
+        surface = self.vtk.read(mesh)
+        self.points = surface.points
+        self.slots = Slots(surface, settings.triangulate, progress)
+        self.constraints = Constraints(surface, others, settings, self.slots.triangles)
+        self._regions, self._frozen = None, self.slots.frozen
         if settings.region_array:
-            self.regions = self.vtk.label_cells(mesh, settings.region_array)[self.slots.cells]
+            self._regions = self.vtk.label_cells(mesh, settings.region_array)[self.slots.cells]
         ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
-            self.freeze(self.vtk.view(ghosts))
+            self._freeze(self.vtk.view(ghosts))
+
+    def _freeze(self, ghosts):
+        """The edges of ghost cells stay. `ghosts`: VTK's types of the cells, of which there may be
+        too few."""
+        padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(ghosts)), numpy.uint8)
+        padded[:len(ghosts)] = ghosts
+        are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
+        self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
+
+    def open(self, **arguments):
+        """A Session. Errors name the cell, not the triangle."""
+        pairs = self.constraints.pairs
+        try:
+            return Session(
+                self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
+                constraints=pairs if len(pairs) else None,
+                insert_constraints=self.constraints.to_insert if len(pairs) else False,
+                triangle_numbers=self.slots.cells, **arguments)
+        except InvalidMesh as error:
+            raise name_out_of_range(
+                "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
 
     def list_defects(self):
         """Texts of a warning about the input's constraints and arrays."""
-        mesh, passed = self.mesh, "passed unchanged"
-        texts = self.describe_unmatched()
+        mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
+        texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
+                 "mesh does not have"] if count else []
         texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
         texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                  passed if self.slots.in_place else "left out")
@@ -186,6 +215,68 @@ class MeshInput(FlipInput):
             normals = self.vtk.copy_array(shared)
             self.renew_normals(self.vtk.view(normals), session.triangles)
             data.SetNormals(normals)
+
+    @property
+    def cell_sources(self):
+        """The cell of the input from which each cell of the output is made."""
+        return numpy.concatenate([numpy.arange(self.slots.first_polygon), self.slots.polygon_cells,
+                                  self.slots.kept_strips])
+
+    @property
+    def polygon_sizes(self):
+        """How many corners the polygons of the output have."""
+        slots = self.slots
+        sizes = numpy.full(len(slots.polygon_cells), 3)
+        whole = slots.polygon_triangles == NONE
+        if whole.any():
+            sizes[whole] = slots.polygons.sizes[slots.polygon_cells[whole] - slots.first_polygon]
+        return sizes
+
+    def fill_polygons(self, session, corners):
+        """Writes the corners of the output's polygons."""
+        slots = self.slots
+        polygons, chosen = slots.list_triangles()
+        if len(polygons) == len(slots.polygon_cells) == len(slots.triangles):
+            session.store_triangles(corners.reshape(-1, 3))
+            return
+        is_triangle = slots.polygon_triangles != NONE
+        of_triangle = numpy.repeat(is_triangle, self.polygon_sizes)
+        corners[of_triangle] = session.triangles[chosen].ravel()
+        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
+        corners[~of_triangle] = slots.polygons.gather(whole)
+
+    def renew_normals(self, values, triangles):
+        """Writes the normals of changed triangles to those of all output cells. Normals that pointed
+        against the winding still do."""
+        polygons, chosen = self.slots.list_triangles()
+        changed = (self.slots.triangles[chosen] != triangles[chosen]).any(axis=1)
+        cells, chosen = self.slots.first_polygon + polygons[changed], chosen[changed]
+        old, new = (self._find_normals(some[chosen]) for some in (self.slots.triangles, triangles))
+        against = (old * values[cells]).sum(axis=1) < 0
+        values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
+
+    def _find_normals(self, triangles):
+        """Unit normals by the right-hand rule; 0 for triangles without area."""
+        mesh = _arrays.Mesh(self.points, triangles)
+        normals = numpy.empty((len(triangles), 3))
+        _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
+        return normals
+
+    def list_numbers(self, session, counts, angles):
+        """(name, values per output cell) of the requested cell arrays."""
+        if counts:
+            yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
+        if angles:
+            used = session.report.geometry_used
+            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
+                yield "vtkDelaunayFlipAngle" + name, self._spread(
+                    smallest_angles(self.points, triangles, geometry=used), numpy.nan)
+
+    def _spread(self, values, elsewhere):
+        of_cells = numpy.full(len(self.cell_sources), elsewhere, dtype=values.dtype)
+        polygons, chosen = self.slots.list_triangles()
+        of_cells[self.slots.first_polygon + polygons] = values[chosen]
+        return of_cells
 
 
 def _is_wide(cells):

@@ -166,9 +166,7 @@ class Update:
         filter_, options = self._filter, self._get_options()
         observe = self._observe_part(_SPLIT, _FLIPPED)
         try:
-            settings = Settings(filter_.GetTriangulate(), filter_.GetLinesAsConstraints(),
-                                filter_.GetInsertLines(), filter_.GetInsertConstraints(),
-                                filter_.GetRegionArray())
+            settings = Settings(*(getattr(filter_, one.name) for one in dataclasses.fields(Settings)))
             data = MeshInput(mesh, constraints, settings, self._observe_part(0.0, _SPLIT))
             session = data.open(progress=observe, **options)
         except _library.Stopped:

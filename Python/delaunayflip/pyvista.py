@@ -28,8 +28,7 @@ from ._surface import Settings, Slots
 from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
-_SETTINGS = {"triangulate": "triangulate", "lines_as_constraints": "lines",
-             "insert_lines": "insert_lines", "insert_constraints": "insert_constraints"}
+_FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
 class Options(_Options, total=False):
@@ -207,12 +206,12 @@ class _Run:
         for keyword in options:
             if keyword not in Options.__annotations__:
                 raise TypeError(f"{keyword!r} is not an option")
-        settings = {name: bool(check_integer(keyword, options.pop(keyword), 0, 1, "True or False"))
-                    for keyword, name in _SETTINGS.items() if keyword in options}
+        flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
+                 for name in _FLAGS if name in options}
         regions = options.pop("region_array", None) or ""
         if regions and regions not in mesh.cell_data:
             raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r}")
-        self._input = MeshInput(mesh, constraints, Settings(**settings, region_array=regions))
+        self._input = MeshInput(mesh, constraints, Settings(**flags, region_array=regions))
         self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
         self.session = self._input.open(**options)
 
