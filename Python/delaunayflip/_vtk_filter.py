@@ -55,23 +55,19 @@ _PROPERTIES = (
     _Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
     _Property("FeatureAngle", 30.0, 0.0, 180.0),
     _Property("RegionArray", ""),
-    _Property("LinesAsConstraints", True),
-    _Property("InsertLines", False),
-    _Property("InsertConstraints", True),
-    _Property("Triangulate", True),
+    *(_Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
     _Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
     _Property("DeviceId", -1, -1, VTK_INT_MAX),
     _Property("Devices", ""),
     _Property("NumberOfPieces", 0, 0, 255),
     _Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
     _Property("MaximumIterations", -1, -1, VTK_ID_MAX),
-    _Property("TrackQuality", False),
-    _Property("GenerateFlipCount", False),
-    _Property("GenerateQuality", False),
-    _Property("LiveUpdate", False),
+    *(_Property(name, False) for name in (
+        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality", "LiveUpdate")),
     _Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
     _Property("Paused", False, modifies=False),
 )
+
 
 def _accessors(item):
     def get(self):

@@ -8,7 +8,7 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._report import FIELD_PREFIX, describe_trouble
+from ._report import FIELD_PREFIX
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
 
@@ -158,7 +158,7 @@ class MeshInput:
             raise name_out_of_range(
                 "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
 
-    def list_defects(self):
+    def _list_defects(self):
         """Texts of a warning about the input's constraints and arrays."""
         mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
         texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
@@ -171,12 +171,20 @@ class MeshInput:
         return texts + ([f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else [])
 
     def report(self, session, output, options, totals):
-        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or
-        ""."""
+        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or "".
+        Reaching a limit that the user has set gives no warning."""
         self.vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX, totals.list_fields())
         report = session.report
-        defects = [report.defects] if report.defects else []
-        return describe_trouble("; ".join(defects + self.list_defects()), report, options)
+        texts = ([report.defects] if report.defects else []) + self._list_defects()
+        if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
+            texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                         f"with {report.non_delaunay_after} edges left that are not Delaunay")
+        if options["tolerance"] >= 0 and report.tolerance == "none":
+            texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                         "opposite angles")
+        if report.fallback:
+            texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+        return "; ".join(texts)
 
     def store(self, session, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
