@@ -69,18 +69,13 @@ public:
   }
 
 private:
-  static std::uint64_t CountEngines()
-  {
-    static std::atomic<std::uint64_t> engines{ 0 };
-    return ++engines;
-  }
-
   bool IsHere(const void* memory) const
   {
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
 
-  const std::uint64_t Number = CountEngines();
+  inline static std::atomic<std::uint64_t> Engines{ 0 };
+  const std::uint64_t Number = ++Engines;
 };
 
 /// @param view the caller's arrays, wherever they are.
