@@ -356,20 +356,15 @@ public:
   template <typename T>
   void Fill(T* values, int byte, std::int64_t size) const
   {
-    CallCuda("fill memory",
-      [&] { return cudaMemsetAsync(values, byte, size * sizeof(T), this->GetStream()); });
+    CallCuda("fill memory", cudaMemsetAsync, values, byte, size * sizeof(T), this->GetStream());
   }
 
   /// Waits until the values have arrived.
   template <typename T>
   void Download(const T* values, std::int64_t size, T* host) const
   {
-    CallCuda("copy from the GPU",
-      [&]
-      {
-        return cudaMemcpyAsync(
-          host, values, size * sizeof(T), cudaMemcpyDeviceToHost, this->GetStream());
-      });
+    CallCuda("copy from the GPU", cudaMemcpyAsync, host, values, size * sizeof(T),
+      cudaMemcpyDeviceToHost, this->GetStream());
     this->Synchronize();
   }
 
@@ -382,18 +377,16 @@ public:
 
   void Synchronize() const
   {
-    CallCuda("finish the work", [&] { return cudaStreamSynchronize(this->GetStream()); });
+    CallCuda("finish the work", cudaStreamSynchronize, this->GetStream());
   }
 
   /// Lets the work that follows wait for what is in a stream of the caller.
   void WaitFor(const DeviceStream& stream) const
   {
     CudaContext& context = *this->Context;
-    CallCuda("record an event",
-      [&]
-      { return cudaEventRecord(context.CallerDone, static_cast<cudaStream_t>(stream.Handle)); });
-    CallCuda("wait for an event",
-      [&] { return cudaStreamWaitEvent(context.Stream, context.CallerDone, 0); });
+    CallCuda("record an event", cudaEventRecord, context.CallerDone,
+      static_cast<cudaStream_t>(stream.Handle));
+    CallCuda("wait for an event", cudaStreamWaitEvent, context.Stream, context.CallerDone, 0);
   }
 
   /// Copies the caller's arrays to the device.
@@ -640,7 +633,7 @@ private:
     const std::int64_t parts = (size + Step - 1) / Step;
     const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts + Slices - 1) / Slices);
     const std::int64_t sliceSize = partsPerSlice * Step;
-    const Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
+    Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
     const auto ahead = // copied while one is converted
       static_cast<std::int64_t>(this->Context->Staging.size()) - 1;
     const PartOrder order(parts, partsPerSlice, this->CountDevices());
@@ -651,8 +644,7 @@ private:
       {
         const std::int64_t first = order.FindSlice(turn) * sliceSize;
         this->Context->Join();
-        fill(OutputSlice{
-          const_cast<Value*>(values.Data()), first, std::min(size, first + sliceSize) });
+        fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
         this->Context->Fork();
       }
       if (fetched >= 0)
@@ -684,21 +676,20 @@ private:
   static void StartCopy(
     const StagingBuffer& buffer, void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)
   {
-    CallCuda("copy between host and GPU",
-      [&] { return cudaMemcpyAsync(to, from, bytes, kind, buffer.Stream); });
-    CallCuda("record an event", [&] { return cudaEventRecord(buffer.Done, buffer.Stream); });
+    CallCuda("copy between host and GPU", cudaMemcpyAsync, to, from, bytes, kind, buffer.Stream);
+    CallCuda("record an event", cudaEventRecord, buffer.Done, buffer.Stream);
   }
 
   static void WaitForCopy(const StagingBuffer& buffer)
   {
-    CallCuda("wait for a copy", [&] { return cudaEventSynchronize(buffer.Done); });
+    CallCuda("wait for a copy", cudaEventSynchronize, buffer.Done);
   }
 
   static std::vector<int> ResolveDevices(std::vector<int> devices)
   {
     if (devices.front() < 0)
     {
-      CallCuda("ask for the current device", [&] { return cudaGetDevice(&devices.front()); });
+      CallCuda("ask for the current device", cudaGetDevice, &devices.front());
     }
     return devices;
   }

@@ -80,16 +80,14 @@ struct IdleContexts
 CudaStream MakeStream()
 {
   cudaStream_t stream = nullptr;
-  CallCuda(
-    "make a stream", [&] { return cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking); });
+  CallCuda("make a stream", cudaStreamCreateWithFlags, &stream, cudaStreamNonBlocking);
   return CudaStream(stream);
 }
 
 CudaEvent MakeEvent()
 {
   cudaEvent_t event = nullptr;
-  CallCuda(
-    "make an event", [&] { return cudaEventCreateWithFlags(&event, cudaEventDisableTiming); });
+  CallCuda("make an event", cudaEventCreateWithFlags, &event, cudaEventDisableTiming);
   return CudaEvent(event);
 }
 
@@ -101,8 +99,7 @@ CudaContext::CudaContext(const std::vector<int>& devices)
   cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
   cudaDeviceProp properties;
-  CallCuda("read the device's properties",
-    [&] { return cudaGetDeviceProperties(&properties, this->Device); });
+  CallCuda("read the device's properties", cudaGetDeviceProperties, &properties, this->Device);
   this->Name = properties.name;
   this->Multiprocessors = properties.multiProcessorCount;
   this->CacheBytes = static_cast<std::size_t>(properties.l2CacheSize);
@@ -168,11 +165,10 @@ void CudaContext::Fork() const
   {
     return;
   }
-  CallCuda("record an event", [&] { return cudaEventRecord(this->StreamDone, this->Stream); });
+  CallCuda("record an event", cudaEventRecord, this->StreamDone, this->Stream);
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda(
-      "wait for an event", [&] { return cudaStreamWaitEvent(other.Stream, this->StreamDone, 0); });
+    CallCuda("wait for an event", cudaStreamWaitEvent, other.Stream, this->StreamDone, 0);
   }
 }
 
@@ -180,15 +176,15 @@ void CudaContext::Join() const
 {
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda("record an event", [&] { return cudaEventRecord(other.Done, other.Stream); });
-    CallCuda("wait for an event", [&] { return cudaStreamWaitEvent(this->Stream, other.Done, 0); });
+    CallCuda("record an event", cudaEventRecord, other.Done, other.Stream);
+    CallCuda("wait for an event", cudaStreamWaitEvent, this->Stream, other.Done, 0);
   }
 }
 
 CurrentDevice::CurrentDevice(int device)
 {
-  CallCuda("ask for the current device", [&] { return cudaGetDevice(&this->Previous); });
-  CallCuda("use the device", [&] { return cudaSetDevice(device); });
+  CallCuda("ask for the current device", cudaGetDevice, &this->Previous);
+  CallCuda("use the device", cudaSetDevice, device);
 }
 
 CurrentDevice::~CurrentDevice()
@@ -267,17 +263,16 @@ void Copy(void* to, const void* from, std::int64_t bytes, const void* device, De
 {
   const CurrentDevice current(FindDeviceOf(device)); // which the default stream belongs to
   const auto handle = static_cast<cudaStream_t>(stream.Handle);
-  CallCuda("copy between host and GPU",
-    [&] { return cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, handle); });
-  CallCuda("finish a copy", [&] { return cudaStreamSynchronize(handle); });
+  CallCuda(
+    "copy between host and GPU", cudaMemcpyAsync, to, from, bytes, cudaMemcpyDefault, handle);
+  CallCuda("finish a copy", cudaStreamSynchronize, handle);
 }
 }
 
 int FindDeviceOf(const void* memory)
 {
   cudaPointerAttributes attributes = {};
-  CallCuda("find the GPU that has an array",
-    [&] { return cudaPointerGetAttributes(&attributes, memory); });
+  CallCuda("find the GPU that has an array", cudaPointerGetAttributes, &attributes, memory);
   const bool isOnDevice =
     attributes.type == cudaMemoryTypeDevice || attributes.type == cudaMemoryTypeManaged;
   return isOnDevice ? attributes.device : -1;

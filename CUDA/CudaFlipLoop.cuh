@@ -291,10 +291,8 @@ private:
           return cudaOccupancyMaxActiveBlocksPerMultiprocessor(
             &perMultiprocessor, kernel, LoopThreads, 0);
         });
-      CallCuda("plan a launch",
-        [&] {
-          return cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device);
-        });
+      CallCuda("plan a launch", cudaDeviceGetAttribute, &multiprocessors,
+        cudaDevAttrMultiProcessorCount, device);
       fewest = std::min(fewest, perMultiprocessor * multiprocessors);
     }
     return fewest;

@@ -70,18 +70,13 @@ public:
   }
 
 private:
-  static std::uint64_t CountMeshes()
-  {
-    static std::atomic<std::uint64_t> engines{ 0 };
-    return ++engines;
-  }
-
   bool IsHere(const void* memory) const
   {
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
 
-  const std::uint64_t Number = CountMeshes();
+  inline static std::atomic<std::uint64_t> Meshes{ 0 };
+  const std::uint64_t Number = ++Meshes;
 };
 
 /// @param view the caller's arrays, wherever they are.

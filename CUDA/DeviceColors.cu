@@ -49,8 +49,9 @@ ColorTable MakeColorTable(
   {
     throw InvalidOptions("there must be at least one band of colours");
   }
-  memory = backend.MakeArray<std::uint32_t>(size);
-  backend.Upload(bands.Colors.data(), size, memory.Data());
+  Array<std::uint32_t> colors = backend.MakeArray<std::uint32_t>(size);
+  backend.Upload(bands.Colors.data(), size, colors.Data());
+  memory = std::move(colors);
   return { memory.Data(), size, bands.First, static_cast<double>(size) / (bands.Last - bands.First),
     bands.OfNaN };
 }
@@ -134,18 +135,13 @@ ValueRange FindSmallestAngles(const DeviceMesh& mesh, GeometryKind geometry, flo
   plain.Triangles = mesh.Triangles;
   plain.Stream = mesh.Stream;
   const LocalDeviceMesh local = backend->Localize(plain);
-  const TriangleMesh& view = local.View();
-  const PointArray points = view.Points;
-  const TriangleArray triangles = view.Triangles;
+  const TriangleMesh view = local.View();
   const auto measure = [=] __device__(std::int64_t t, Extremes & found)
   {
-    TriangleMesh triangle;
-    triangle.Points = points;
-    triangle.Triangles = triangles;
-    degrees[t] = static_cast<float>(FindSmallestAngle(triangle, geometry, t));
+    degrees[t] = static_cast<float>(FindSmallestAngle(view, geometry, t));
     found.Add(degrees[t]);
   };
-  return backend->Sum<Extremes>(triangles.Count, measure).Get();
+  return backend->Sum<Extremes>(view.Triangles.Count, measure).Get();
 }
 
 ValueRange FindRange(const std::int32_t* values, std::int64_t count, const DeviceStream& stream)
@@ -333,11 +329,6 @@ struct StoreColorStep
   __device__ void operator()(std::int64_t t) const { this->View.StoreColor(t); }
 };
 
-bool AreSame(const ColorBands& a, const ColorBands& b)
-{
-  return a.Colors == b.Colors && a.First == b.First && a.Last == b.Last && a.OfNaN == b.OfNaN;
-}
-
 /// Writes everything, with the values that colours show where the colours go.
 double StoreAll(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors)
 {
@@ -388,14 +379,23 @@ public:
     this->Backend.WaitFor(triangles.Stream);
     if (std::exchange(this->Engine, 0) != triangles.Engine)
     {
-      this->Begin(triangles.Count);
-      this->SortPoints(arrays, triangles.Order);
+      this->Resize(this->Degrees, triangles.Count);
+      this->Resize(this->Flips, triangles.Count);
+      this->Backend.Fill(this->Flips.Data(), 255, triangles.Count); // all seem changed
+      const DevicePointArray& points = arrays.Points;
+      points.Floats ? this->SortPoints(points.Floats, points, triangles.Order, this->Floats)
+                    : this->SortPoints(points.Doubles, points, triangles.Order, this->Doubles);
     }
     bool areOther = !colors.ByFlipCount && this->TakeColors(colors, 0.0);
     DrawnView view{ triangles.Records, triangles.Order, triangles.Count, this->Flips.Data(),
       this->Degrees.Data(), this->Points, arrays.Triangles, arrays.Colors, this->Table,
       colors.ByFlipCount };
-    this->UpdateChanged(view);
+    this->Resize(this->Found, 1);
+    this->Backend.Fill(this->Found.Data(), 255, 1);
+    const auto blocks =
+      static_cast<unsigned>((view.Count + TrianglesPerBlock - 1) / TrianglesPerBlock);
+    this->Backend.Launch([&](cudaStream_t stream)
+      { UpdateDrawnKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(view, this->Found.Data()); });
     if (colors.ByFlipCount)
     {
       areOther = this->TakeColors(colors, this->WaitForExtremes().LargestCount);
@@ -417,66 +417,35 @@ public:
   }
 
 private:
-  /// Lets all triangles seem changed.
-  void Begin(std::int64_t count)
+  /// Makes an array that has another size, after it has freed the old one.
+  template <typename T>
+  void Resize(Array<T>& values, std::int64_t count) const
   {
-    if (count != static_cast<std::int64_t>(this->Flips.Size()))
+    if (count != static_cast<std::int64_t>(values.Size()))
     {
-      this->Flips = Array<std::uint32_t>();
-      this->Degrees = Array<float>();
-      this->Degrees = this->Backend.MakeArray<float>(count);
-      this->Flips = this->Backend.MakeArray<std::uint32_t>(count);
+      values = Array<T>();
+      values = this->Backend.MakeArray<T>(count);
     }
-    this->Backend.Fill(this->Flips.Data(), 255, count);
-  }
-
-  void SortPoints(const DrawnArrays& arrays, const SpatialOrderView& order)
-  {
-    DeviceMesh mesh;
-    mesh.Points = arrays.Points;
-    mesh.Stream = arrays.Stream;
-    const LocalDeviceMesh local = this->Backend.Localize(mesh);
-    const PointArray& points = local.View().Points;
-    this->Points = points.Floats ? this->Sort(points.Floats, points.Count, order, this->Floats)
-                                 : this->Sort(points.Doubles, points.Count, order, this->Doubles);
   }
 
   template <typename T>
-  PointArray Sort(
-    const T* caller, std::int64_t count, const SpatialOrderView& order, Array<T>& sorted) const
+  void SortPoints(const T* values, const DevicePointArray& points, const SpatialOrderView& order,
+    Array<T>& sorted)
   {
-    if (static_cast<std::int64_t>(sorted.Size()) != 3 * count)
-    {
-      sorted = Array<T>();
-      sorted = this->Backend.MakeArray<T>(3 * count);
-    }
-    this->Backend.ForEach(3 * count, SortPointsStep<T>{ caller, order, sorted.Data() });
-    return PointArray(sorted.Data(), count);
-  }
-
-  void UpdateChanged(const DrawnView& view)
-  {
-    if (this->Found.Size() == 0)
-    {
-      this->Found = this->Backend.MakeArray<DrawnExtremes>(1);
-    }
-    this->Backend.Fill(this->Found.Data(), 255, 1);
-    const auto blocks =
-      static_cast<unsigned>((view.Count + TrianglesPerBlock - 1) / TrianglesPerBlock);
-    this->Backend.Launch([&](cudaStream_t stream)
-      { UpdateDrawnKernel<<<blocks, ThreadsPerBlock, 0, stream>>>(view, this->Found.Data()); });
+    Array<T> wide;
+    const T* caller = this->Backend.WithZ(values, points, wide);
+    this->Resize(sorted, 3 * points.Count);
+    this->Backend.ForEach(3 * points.Count, SortPointsStep<T>{ caller, order, sorted.Data() });
+    this->Points = PointArray(sorted.Data(), points.Count);
   }
 
   /// Lets later work in a stream wait for the update.
   void LetWait(const DeviceStream& stream) const
   {
     const CudaContext& context = this->Backend.GetContext();
-    CallCuda(
-      "record an event", [&] { return cudaEventRecord(context.CallerDone, context.Stream); });
-    CallCuda("wait for an event",
-      [&] {
-        return cudaStreamWaitEvent(static_cast<cudaStream_t>(stream.Handle), context.CallerDone, 0);
-      });
+    CallCuda("record an event", cudaEventRecord, context.CallerDone, context.Stream);
+    CallCuda("wait for an event", cudaStreamWaitEvent, static_cast<cudaStream_t>(stream.Handle),
+      context.CallerDone, 0);
   }
 
   DrawnExtremes WaitForExtremes() const
@@ -494,7 +463,9 @@ private:
   bool TakeColors(const DrawnColors& colors, std::int32_t largestCount)
   {
     const ColorBands bands = colors.Choose(colors.ByFlipCount ? largestCount : 0.0);
-    const bool isOther = !AreSame(this->Bands, bands);
+    const ColorBands& old = this->Bands;
+    const bool isOther = old.Colors != bands.Colors || old.First != bands.First ||
+      old.Last != bands.Last || old.OfNaN != bands.OfNaN;
     if (isOther || this->Table.Size == 0)
     {
       this->Table = MakeColorTable(bands, this->Backend, this->TableMemory);

@@ -22,8 +22,8 @@ DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
     Stream(stream)
 {
   int supported = 0;
-  CallCuda("ask for memory pools",
-    [&] { return cudaDeviceGetAttribute(&supported, cudaDevAttrMemoryPoolsSupported, device); });
+  CallCuda("ask for memory pools", cudaDeviceGetAttribute, &supported,
+    cudaDevAttrMemoryPoolsSupported, device);
   if (supported == 0)
   {
     return;
@@ -32,7 +32,7 @@ DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
   properties.allocType = cudaMemAllocationTypePinned;
   properties.location.type = cudaMemLocationTypeDevice;
   properties.location.id = device;
-  CallCuda("make a memory pool", [&] { return cudaMemPoolCreate(&this->Pool, &properties); });
+  CallCuda("make a memory pool", cudaMemPoolCreate, &this->Pool, &properties);
   std::uint64_t keepAll = UINT64_MAX;
   if (cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrReleaseThreshold, &keepAll) != cudaSuccess)
   {
@@ -92,7 +92,7 @@ void DeviceMemory::AllowAccess(const std::vector<int>& devices)
     access.location.type = cudaMemLocationTypeDevice;
     access.location.id = device;
     access.flags = cudaMemAccessFlagsProtReadWrite;
-    CallCuda("share memory", [&] { return cudaMemPoolSetAccess(this->Pool, &access, 1); });
+    CallCuda("share memory", cudaMemPoolSetAccess, this->Pool, &access, 1);
   }
 }
 
@@ -184,8 +184,8 @@ void RequireConnected(const std::vector<int>& devices)
   const auto ask = [](cudaDeviceP2PAttr attribute, int first, int second)
   {
     int answer = 0;
-    CallCuda("ask how GPUs are connected",
-      [&] { return cudaDeviceGetP2PAttribute(&answer, attribute, first, second); });
+    CallCuda(
+      "ask how GPUs are connected", cudaDeviceGetP2PAttribute, &answer, attribute, first, second);
     return answer;
   };
   for (const int first : devices)

@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_FLIPKERNELS_CUH
 
 #include "Atomics.h"
-#include "DetectionPhases.cuh"
 #include "FlipPhases.cuh"
 #include "Team.cuh"
 

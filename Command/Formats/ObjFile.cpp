@@ -14,7 +14,6 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <limits>
 #include <map>
 
 /// @file
@@ -46,36 +45,22 @@ vtkSmartPointer<vtkDoubleArray> MakeVectors(
 class ObjReader
 {
 public:
-  /// @param limits how many vertices, texture coordinates and normals the file has, as far as known
-  ObjReader(const InputFile& file, const Corner& limits)
+  explicit ObjReader(const InputFile& file)
     : File(file),
-      Lines(file, '#'),
-      Limits(limits)
+      Lines(file, '#')
   {
+    TextLines all(file, '#'); // indices may refer to later lines
+    all.ContinueLines();
+    while (all.Next())
+    {
+      const std::string_view keyword = all.Words[0];
+      ++this->Sizes[keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : 3];
+    }
     this->Lines.ContinueLines();
     while (this->Lines.Next())
     {
       this->ReadLine();
     }
-  }
-
-  /// @returns how many vertices, texture coordinates and normals there are.
-  Corner Count() const
-  {
-    Corner counts;
-    for (std::size_t kind = 0; kind < counts.size(); ++kind)
-    {
-      counts[kind] = static_cast<std::int64_t>(this->Values[kind].size() / Components[kind]);
-    }
-    return counts;
-  }
-
-  /// Checked at the end, because indices may refer to later lines.
-  bool HasInvalidIndices() const
-  {
-    const Corner counts = this->Count();
-    return !std::equal(
-      counts.begin(), counts.end(), this->Highest.begin(), std::greater_equal<std::int64_t>());
   }
 
   FileMesh Assemble()
@@ -201,11 +186,11 @@ private:
   Corner ReadCorner(std::string_view word)
   {
     Corner corner = { -1, -1, -1 };
-    const Corner seen = this->Count();
     const char* here = word.data();
     const char* const end = here + word.size();
     for (std::size_t kind = 0; kind < corner.size(); ++kind)
     {
+      const auto seen = static_cast<std::int64_t>(this->Values[kind].size()) / Components[kind];
       std::int64_t index = 0;
       const auto [next, error] = std::from_chars(here, end, index);
       const bool isLeftOut = kind > 0 && (here == end || *here == '/');
@@ -214,12 +199,11 @@ private:
         break;
       }
       // In the file, index 1 is the first element, and -1 the last one before this line.
-      if (!isLeftOut && (index == 0 || index < -seen[kind] || index > this->Limits[kind]))
+      if (!isLeftOut && (index == 0 || index < -seen || index > this->Sizes[kind]))
       {
         this->Lines.Fail("index " + std::to_string(index) + " is out of range");
       }
-      this->Highest[kind] = std::max(this->Highest[kind], index);
-      corner[kind] = isLeftOut ? -1 : index < 0 ? seen[kind] + index : index - 1;
+      corner[kind] = isLeftOut ? -1 : index < 0 ? seen + index : index - 1;
       here = isLeftOut ? here : next;
       if (here == end)
       {
@@ -236,7 +220,7 @@ private:
   {
     const std::vector<double>& values = this->Values[kind];
     const int size = Components[kind];
-    const auto points = static_cast<std::size_t>(this->Count()[0]);
+    const auto points = static_cast<std::size_t>(this->Sizes[0]);
     std::vector<double> ofPoints(points * size);
     std::vector<bool> isKnown(points);
     bool agree = true;
@@ -254,15 +238,14 @@ private:
     }
     if (!values.empty() && !agree)
     {
-      this->LeftOut[kind == 1 ? "vt" : "vn"] = this->Count()[kind];
+      this->LeftOut[kind == 1 ? "vt" : "vn"] = this->Sizes[kind];
     }
     return values.empty() || !agree ? nullptr : MakeVectors(name, ofPoints, size);
   }
 
   const InputFile& File;
   TextLines Lines;
-  Corner Limits;
-  Corner Highest = {};
+  std::array<std::int64_t, 4> Sizes = {}; ///< How many v, vt, vn and other lines there are.
   std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.
   std::vector<double> Colors; ///< 3 each.
   std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Of one, two, and more points.
@@ -299,16 +282,7 @@ void PutNumber(std::ostream& out, T number, char before)
 
 }
 
-FileMesh ReadObj(const InputFile& file)
-{
-  constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
-  ObjReader reader(file, { any, any, any });
-  if (reader.HasInvalidIndices())
-  {
-    const ObjReader again(file, reader.Count()); // fails, on the line
-  }
-  return reader.Assemble();
-}
+FileMesh ReadObj(const InputFile& file) { return ObjReader(file).Assemble(); }
 
 void WriteObj(vtkPolyData* mesh, const std::string& path)
 {

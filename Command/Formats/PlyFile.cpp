@@ -52,26 +52,21 @@ struct PlyGroup
 const char* const PointsName = "x y z"; // no property can have it
 
 /// Larger groups first.
-const std::vector<PlyGroup>& Groups()
-{
-  using Attributes = vtkDataSetAttributes;
-  static const std::vector<PlyGroup> groups = {
-    { PointsName, { "x", "y", "z" }, Attributes::VECTORS },
-    { "Normals", { "nx", "ny", "nz" }, Attributes::NORMALS },
-    { "RGBA", { "red", "green", "blue", "alpha" }, Attributes::SCALARS },
-    { "RGB", { "red", "green", "blue" }, Attributes::SCALARS },
-    { "RGB", { "diffuse_red", "diffuse_green", "diffuse_blue" }, Attributes::SCALARS },
-    { "TCoords", { "u", "v" }, Attributes::TCOORDS },
-    { "TCoords", { "s", "t" }, Attributes::TCOORDS },
-    { "TCoords", { "texture_u", "texture_v" }, Attributes::TCOORDS },
-  };
-  return groups;
-}
+const PlyGroup Groups[] = {
+  { PointsName, { "x", "y", "z" }, vtkDataSetAttributes::VECTORS },
+  { "Normals", { "nx", "ny", "nz" }, vtkDataSetAttributes::NORMALS },
+  { "RGBA", { "red", "green", "blue", "alpha" }, vtkDataSetAttributes::SCALARS },
+  { "RGB", { "red", "green", "blue" }, vtkDataSetAttributes::SCALARS },
+  { "RGB", { "diffuse_red", "diffuse_green", "diffuse_blue" }, vtkDataSetAttributes::SCALARS },
+  { "TCoords", { "u", "v" }, vtkDataSetAttributes::TCOORDS },
+  { "TCoords", { "s", "t" }, vtkDataSetAttributes::TCOORDS },
+  { "TCoords", { "texture_u", "texture_v" }, vtkDataSetAttributes::TCOORDS },
+};
 
 /// Replaces arrays of one component by the arrays of their groups.
 void JoinGroups(vtkDataSetAttributes* data)
 {
-  for (const PlyGroup& group : Groups())
+  for (const PlyGroup& group : Groups)
   {
     const bool isThere = std::all_of(group.Properties.begin(), group.Properties.end(),
       [data](const std::string& name) { return data->HasArray(name.c_str()); });
@@ -165,7 +160,7 @@ private:
       else if (keyword == "element")
       {
         const auto count = this->Lines.Number<std::int64_t>(2);
-        if (count < 0 || this->CountOf(this->Word(1)) > 0)
+        if (count < 0 || HasName(this->Elements, this->Word(1)))
         {
           this->Lines.Fail("a negative number of elements, or a second definition of them");
         }
@@ -175,8 +170,14 @@ private:
       {
         const bool isList = this->Word(1) == "list";
         const std::size_t type = isList ? 3 : 1;
-        this->Elements.back().Properties.push_back(
-          { this->Word(type + 1), this->TypeAt(type), isList ? this->TypeAt(2) : VTK_VOID });
+        const int countType = isList ? this->TypeAt(2) : VTK_VOID;
+        auto& properties = this->Elements.back().Properties;
+        if (countType == VTK_FLOAT || countType == VTK_DOUBLE ||
+          HasName(properties, this->Word(type + 1)))
+        {
+          this->Lines.Fail("a list whose length is no integer, or a second property of this name");
+        }
+        properties.push_back({ this->Word(type + 1), this->TypeAt(type), countType });
       }
       else if (keyword != "comment" && keyword != "obj_info" && keyword != "end_header" &&
         keyword != "Created") // by Open Asset Import Library
@@ -211,11 +212,21 @@ private:
     this->Lines.Fail("unknown type of a property");
   }
 
+  template <typename Things>
+  static bool HasName(const Things& things, const std::string& name)
+  {
+    return std::any_of(
+      things.begin(), things.end(), [&name](const auto& thing) { return thing.Name == name; });
+  }
+
   std::int64_t CountOf(const std::string& name) const
   {
-    const auto found = std::find_if(this->Elements.begin(), this->Elements.end(),
-      [&name](const PlyElement& element) { return element.Name == name; });
-    return found == this->Elements.end() ? 0 : found->Count;
+    std::int64_t count = 0;
+    for (const PlyElement& element : this->Elements)
+    {
+      count += element.Name == name ? element.Count : 0;
+    }
+    return count;
   }
 
   static bool IsIndexList(const PlyElement& element, const PlyProperty& property)
@@ -224,9 +235,15 @@ private:
       (property.Name == "vertex_indices" || property.Name == "vertex_index");
   }
 
-  /// Throws if the element is wrong, or unknown and may hold polygons. Warns of what is left out.
-  void CheckElement(const PlyElement& element)
+  void ReadElement(const PlyElement& element)
   {
+    const bool isFace = element.Name == "face";
+    const bool isVertex = element.Name == "vertex";
+    const bool isKnown = isFace || isVertex || element.Name == "edge";
+    if (element.Count == 0 && !isVertex)
+    {
+      return;
+    }
     // A value takes a byte at least.
     const std::size_t bytes = this->IsText ? this->Lines.GetRest().size() : this->Rest.size();
     const std::size_t values = std::max<std::size_t>(element.Properties.size(), 1);
@@ -236,66 +253,69 @@ private:
         std::to_string(element.Count) + "', too many for the " +
         Counted(static_cast<std::int64_t>(bytes), "byte") + " left (truncated or corrupt)");
     }
+    this->Element = element.Name;
+    const std::int64_t before = isFace ? this->CountOf("edge") : 0; // cell data begin with lines
+    const vtkNew<vtkCellData> data;
+    std::vector<vtkSmartPointer<vtkDataArray>> columns(element.Properties.size()); // null for lists
     int indexLists = 0;
-    bool hasLists = false;
-    for (const PlyProperty& property : element.Properties)
+    for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      const bool isList = property.CountType != VTK_VOID;
-      const bool isIndexList = IsIndexList(element, property);
-      indexLists += isIndexList ? 1 : 0;
-      hasLists = hasLists || isList;
-      if (property.CountType >= VTK_FLOAT && property.CountType <= VTK_DOUBLE)
+      const PlyProperty& property = element.Properties[i];
+      if (property.CountType == VTK_VOID)
       {
-        this->File.Fail("the length of the list " + property.Name + " must be an integer");
+        columns[i] = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(property.Type));
+        columns[i]->SetName(property.Name.c_str());
+        columns[i]->SetNumberOfTuples(before + element.Count);
+        columns[i]->Fill(0.0);
+        data->AddArray(columns[i]);
       }
-      if (isList && !isIndexList && element.Count > 0)
+      else if (IsIndexList(element, property))
+      {
+        ++indexLists;
+      }
+      else if (isKnown)
       {
         this->Warn("left out the lists " + property.Name + " of the element " + element.Name);
       }
-    }
-    const bool isFace = element.Name == "face";
-    if (isFace || element.Name == "vertex" || element.Name == "edge" || element.Count == 0)
-    {
-      if (isFace && element.Count > 0 && indexLists != 1)
+      else
       {
-        this->File.Fail("its element face needs one list of vertex_indices");
+        this->File.Fail("holds '" + element.Name +
+          "', which may hold polygons; known elements are vertex, face and edge");
       }
+    }
+    if (isFace && indexLists != 1)
+    {
+      this->File.Fail("its element face needs one list of vertex_indices");
+    }
+    if (!isKnown)
+    {
+      this->Warn("left out " + Counted(element.Count, "element") + " of the unknown type '" +
+        element.Name + "'");
+    }
+    this->ReadRows(element, columns, before);
+    if (element.Name == "edge")
+    {
+      this->TakeEdges(data);
       return;
     }
-    if (hasLists)
+    JoinGroups(data);
+    if (isVertex && data->HasArray(PointsName))
     {
-      this->File.Fail("holds '" + element.Name +
-        "', which may hold polygons; known elements are vertex, face and edge");
+      const vtkNew<vtkPoints> points;
+      points->SetData(data->GetArray(PointsName));
+      data->RemoveArray(PointsName);
+      this->Result.Mesh->SetPoints(points);
+      this->Result.Mesh->GetPointData()->ShallowCopy(data);
     }
-    this->Warn("left out " + Counted(element.Count, "element") + " of the unknown type '" +
-      element.Name + "'");
+    else if (isFace)
+    {
+      this->Result.Mesh->GetCellData()->ShallowCopy(data);
+    }
   }
 
-  void ReadElement(const PlyElement& element)
+  void ReadRows(const PlyElement& element,
+    const std::vector<vtkSmartPointer<vtkDataArray>>& columns, std::int64_t before)
   {
-    this->CheckElement(element);
-    this->Element = element.Name;
-    const bool isFace = element.Name == "face";
-    const std::int64_t before = isFace ? this->CountOf("edge") : 0; // cell data begin with lines
-    const vtkNew<vtkCellData> data;
-    std::vector<vtkSmartPointer<vtkDataArray>> columns; // null for lists
-    for (const PlyProperty& property : element.Properties)
-    {
-      const bool isList = property.CountType != VTK_VOID;
-      columns.push_back(
-        vtk::TakeSmartPointer(isList ? nullptr : vtkDataArray::CreateDataArray(property.Type)));
-      if (data->HasArray(property.Name.c_str()))
-      {
-        this->File.Fail("two properties " + property.Name + " of the element " + element.Name);
-      }
-      if (!isList)
-      {
-        columns.back()->SetName(property.Name.c_str());
-        columns.back()->SetNumberOfTuples(before + element.Count);
-        columns.back()->Fill(0.0);
-        data->AddArray(columns.back());
-      }
-    }
     const vtkNew<vtkCellArray> polys;
     for (this->Row = 0; this->Row < element.Count; ++this->Row)
     {
@@ -321,24 +341,9 @@ private:
         this->Fail("more values than the header says");
       }
     }
-    if (element.Name == "edge")
-    {
-      this->TakeEdges(data);
-      return;
-    }
-    JoinGroups(data);
-    if (element.Name == "vertex" && data->HasArray(PointsName))
-    {
-      const vtkNew<vtkPoints> points;
-      points->SetData(data->GetArray(PointsName));
-      data->RemoveArray(PointsName);
-      this->Result.Mesh->SetPoints(points);
-      this->Result.Mesh->GetPointData()->ShallowCopy(data);
-    }
-    else if (isFace)
+    if (element.Name == "face")
     {
       this->Result.Mesh->SetPolys(polys);
-      this->Result.Mesh->GetCellData()->ShallowCopy(data);
     }
   }
 
@@ -494,16 +499,14 @@ int TypeFor(vtkDataArray* array)
 Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
 {
   std::string name = array->GetName() && *array->GetName() ? array->GetName() : "values";
-  const bool isColor = name == "RGB" || name == "RGBA" ||
-    (array == data->GetScalars() && array->GetDataType() == VTK_UNSIGNED_CHAR);
-  const int kind = array == data->GetNormals() ? vtkDataSetAttributes::NORMALS
-    : array == data->GetTCoords()              ? vtkDataSetAttributes::TCOORDS
-    : isColor                                  ? vtkDataSetAttributes::SCALARS
-                                               : -1;
   const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
-  for (const PlyGroup& group : Groups())
+  for (const PlyGroup& group : Groups)
   {
-    if (group.Properties.size() == components && group.Attribute == kind)
+    const bool isColor = group.Attribute == vtkDataSetAttributes::SCALARS;
+    const bool isActive = array == data->GetAbstractAttribute(group.Attribute) &&
+      (!isColor || array->GetDataType() == VTK_UNSIGNED_CHAR);
+    if (group.Properties.size() == components && group.Array != PointsName &&
+      (isActive || (isColor && name == group.Array)))
     {
       return group.Properties;
     }
@@ -559,21 +562,21 @@ void WriteProperties(std::ostream& out, const std::vector<PlyColumn>& columns)
   }
 }
 
-void WriteValue(std::ostream& out, int type, double value)
+template <typename T>
+void WriteNumber(std::ostream& out, T number)
 {
-  const auto write = [&out](auto number)
-  { out.write(reinterpret_cast<const char*>(&number), sizeof(number)); };
-  switch (type)
-  {
-    vtkTemplateMacro(write(static_cast<VTK_TT>(value)));
-  }
+  out.write(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
 void WriteValues(std::ostream& out, const std::vector<PlyColumn>& columns, vtkIdType tuple)
 {
   for (const PlyColumn& column : columns)
   {
-    WriteValue(out, column.Type, column.Array->GetComponent(tuple, column.Component));
+    const double value = column.Array->GetComponent(tuple, column.Component);
+    switch (column.Type)
+    {
+      vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
+    }
   }
 }
 
@@ -595,14 +598,15 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   const std::vector<PlyColumn> ofPoints = PlanVertices(mesh);
   vertices.insert(vertices.end(), ofPoints.begin(), ofPoints.end());
   const std::vector<PlyColumn> faces = PlanFaces(mesh);
-  const int countType = mesh->GetPolys()->GetMaxCellSize() < 256 ? VTK_UNSIGNED_CHAR : VTK_INT;
-  std::vector<vtkIdType> edges; // two points each
+  const bool isShort = mesh->GetPolys()->GetMaxCellSize() < 256;
+  std::vector<std::int32_t> edges; // two points each
   ForEachCell(mesh->GetLines(),
     [&edges](vtkIdType count, const vtkIdType* points)
     {
       for (vtkIdType end = 1; end < count; ++end)
       {
-        edges.insert(edges.end(), points + end - 1, points + end + 1);
+        edges.push_back(static_cast<std::int32_t>(points[end - 1]));
+        edges.push_back(static_cast<std::int32_t>(points[end]));
       }
     });
 
@@ -610,8 +614,8 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   out << "ply\nformat binary_little_endian 1.0\ncomment written by delaunay-flip\nelement vertex "
       << size << '\n';
   WriteProperties(out, vertices);
-  out << "element face " << mesh->GetNumberOfPolys() << "\nproperty list " << NameOf(countType)
-      << " int vertex_indices\n";
+  out << "element face " << mesh->GetNumberOfPolys() << "\nproperty list "
+      << (isShort ? "uchar" : "int") << " int vertex_indices\n";
   WriteProperties(out, faces);
   if (!edges.empty())
   {
@@ -626,15 +630,14 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   ForEachCell(mesh->GetPolys(),
     [&](vtkIdType count, const vtkIdType* points)
     {
-      WriteValue(out, countType, static_cast<double>(count));
+      isShort ? WriteNumber(out, static_cast<std::uint8_t>(count))
+              : WriteNumber(out, static_cast<std::int32_t>(count));
       std::for_each(points, points + count,
-        [&out](vtkIdType point) { WriteValue(out, VTK_INT, static_cast<double>(point)); });
+        [&out](vtkIdType point) { WriteNumber(out, static_cast<std::int32_t>(point)); });
       WriteValues(out, faces, cell++);
     });
-  for (const vtkIdType point : edges)
-  {
-    WriteValue(out, VTK_INT, static_cast<double>(point));
-  }
+  out.write(reinterpret_cast<const char*>(edges.data()),
+    static_cast<std::streamsize>(edges.size() * sizeof(edges[0])));
   out.close();
   if (!out)
   {

@@ -33,13 +33,8 @@ struct BitsHash
 {
   std::size_t operator()(const Bits& bits) const
   {
-    std::uint64_t hash = 0;
-    for (const std::uint64_t word : bits)
-    {
-      hash = (hash ^ word) * 0x9e3779b97f4a7c15u; // 2^64 / golden ratio: spreads the bits
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
+    const auto* const bytes = reinterpret_cast<const char*>(bits.data());
+    return std::hash<std::string_view>()({ bytes, sizeof(bits) });
   }
 };
 

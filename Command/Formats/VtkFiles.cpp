@@ -28,6 +28,7 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <iterator>
 #include <map>
@@ -77,6 +78,22 @@ void RequireCount(
     file.Fail(what + ": the file says " + std::to_string(announced) + ", but " +
       std::to_string(found) + " can be read (truncated or corrupt)");
   }
+}
+
+struct MeshCount
+{
+  const char* Keyword; ///< Of a .vtk.
+  const char* Attribute; ///< Of a .vtp.
+  vtkIdType Number;
+};
+
+std::array<MeshCount, 5> CountsOf(vtkPolyData* mesh)
+{
+  return { { { "POINTS", "NumberOfPoints", mesh->GetNumberOfPoints() },
+    { "VERTICES", "NumberOfVerts", mesh->GetNumberOfVerts() },
+    { "LINES", "NumberOfLines", mesh->GetNumberOfLines() },
+    { "POLYGONS", "NumberOfPolys", mesh->GetNumberOfPolys() },
+    { "TRIANGLE_STRIPS", "NumberOfStrips", mesh->GetNumberOfStrips() } } };
 }
 
 /// The sum of the counts behind a keyword in a .vtk; `found` if it is not there.
@@ -330,13 +347,11 @@ FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
   {
     file.Fail("has no POINTS (truncated or corrupt)");
   }
-  const std::pair<const char*, vtkIdType> found[] = { { "POINTS", mesh->GetNumberOfPoints() },
-    { "VERTICES", mesh->GetNumberOfVerts() }, { "LINES", mesh->GetNumberOfLines() },
-    { "POLYGONS", mesh->GetNumberOfPolys() }, { "TRIANGLE_STRIPS", mesh->GetNumberOfStrips() } };
-  for (const auto& [section, count] : found)
+  for (const MeshCount& count : CountsOf(mesh))
   {
-    RequireCount(file, section,
-      CountInLegacy(bytes, section, hasOffsets && section != found[0].first, count), count);
+    const std::string keyword = count.Keyword;
+    RequireCount(file, keyword,
+      CountInLegacy(bytes, keyword, hasOffsets && keyword != "POINTS", count.Number), count.Number);
   }
   return result;
 }
@@ -358,12 +373,10 @@ FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
   reader->File = &file;
   FileMesh result = Run<CheckedXmlReader>(reader, file, messages);
   vtkPolyData* const mesh = result.Mesh;
-  auto& announced = reader->Announced;
-  RequireCount(file, "NumberOfPoints", announced["NumberOfPoints"], mesh->GetNumberOfPoints());
-  RequireCount(file, "NumberOfVerts", announced["NumberOfVerts"], mesh->GetNumberOfVerts());
-  RequireCount(file, "NumberOfLines", announced["NumberOfLines"], mesh->GetNumberOfLines());
-  RequireCount(file, "NumberOfStrips", announced["NumberOfStrips"], mesh->GetNumberOfStrips());
-  RequireCount(file, "NumberOfPolys", announced["NumberOfPolys"], mesh->GetNumberOfPolys());
+  for (const MeshCount& count : CountsOf(mesh))
+  {
+    RequireCount(file, count.Attribute, reader->Announced[count.Attribute], count.Number);
+  }
   if (!mesh->GetPoints())
   {
     mesh->SetPoints(vtkNew<vtkPoints>());

@@ -20,32 +20,26 @@ VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_
       const HalfEdgeId leaves = mesh.GetHalfEdge(PlaneMesh::Previous(corner));
       if (!isKnown[corner] && (!open || mesh.FindAcross(leaves) == NoCorner))
       {
-        this->AddFan(corner, isKnown);
+        const VertexId vertex = mesh.GetVertex(corner);
+        if (this->First[vertex] == NoHalfEdge)
+        {
+          this->First[vertex] = leaves;
+        }
+        else
+        {
+          this->Others.emplace(vertex, leaves);
+        }
+        this->SearchFan(leaves,
+          [&](CornerId known)
+          {
+            isKnown[known] = true;
+            return false;
+          });
       }
     }
   };
   addFans(true);
   addFans(false); // of these any corner is the first
-}
-
-void VertexFans::AddFan(CornerId first, std::vector<bool>& isKnown)
-{
-  const HalfEdgeId leaves = this->Mesh.GetHalfEdge(PlaneMesh::Previous(first));
-  HalfEdgeId& known = this->First[this->Mesh.GetVertex(first)];
-  if (known == NoHalfEdge)
-  {
-    known = leaves;
-  }
-  else
-  {
-    this->Others.emplace(this->Mesh.GetVertex(first), leaves);
-  }
-  this->SearchFan(leaves,
-    [&](CornerId corner)
-    {
-      isKnown[corner] = true;
-      return false;
-    });
 }
 
 void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfEdgeId fromQ)

@@ -147,8 +147,6 @@ private:
     return false;
   }
 
-  void AddFan(CornerId first, std::vector<bool>& isKnown);
-
   const PlaneMesh& Mesh;
   std::vector<HalfEdgeId> First; ///< One a vertex, or NoHalfEdge.
   std::multimap<VertexId, HalfEdgeId> Others;

@@ -16,11 +16,11 @@
 #include "WideAngles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -118,26 +118,21 @@ private:
     const bool duplicate = quad.A == quad.B;
     const bool region =
       this->Regions && this->Regions[a.InputTriangle] != this->Regions[b.InputTriangle];
-    const bool feature = this->HasFeatures && !wronglyWound &&
-      this->IsFeature({ this->GetPoint(quad.A), this->GetPoint(quad.P), this->GetPoint(quad.Q),
-        this->GetPoint(quad.B) });
+    bool feature = false;
+    if (this->HasFeatures && !wronglyWound)
+    {
+      const auto load = [this](VertexId rank)
+      { return LoadPoint(this->Points, this->Order.GetVertex(rank)); };
+      const QuadPoints points{ load(quad.A), load(quad.P), load(quad.Q), load(quad.B) };
+      feature = IsWide(this->Range, points) ? IsSharpWide(points, this->FeatureCosine)
+                                            : IsSharp(points, this->FeatureCosine);
+    }
     sums.WronglyWound += wronglyWound ? 1 : 0;
     sums.Region += region ? 1 : 0;
     sums.Duplicate += duplicate ? 1 : 0;
     sums.Feature += feature ? 1 : 0;
     return wronglyWound || duplicate || region || feature ||
       ((a.Flips | b.Flips) & UntouchableBit) != 0;
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE Vector3 GetPoint(VertexId rank) const
-  {
-    return LoadPoint(this->Points, this->Order.GetVertex(rank));
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE bool IsFeature(const QuadPoints& quad) const
-  {
-    return IsWide(this->Range, quad) ? IsSharpWide(quad, this->FeatureCosine)
-                                     : IsSharp(quad, this->FeatureCosine);
   }
 };
 
@@ -179,57 +174,47 @@ DELAUNAYFLIP_HOST_DEVICE inline bool MayBeRepeated(const EdgeMeshView& mesh, std
   return may;
 }
 
-/// Lists the triangles that may have a duplicate, in any order: none in a clean mesh.
+/// The triangles with the same points as one in a smaller slot.
 template <typename Backend>
-std::vector<TriangleRecord> FindSuspects(EdgeMesh& edges, const Backend& backend)
+Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
 {
   const EdgeMeshView mesh = edges.View();
   const std::int64_t count = backend.template Sum<std::int64_t>(edges.NumberOfTriangles,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & sum)
     { sum += MayBeRepeated(mesh, t) ? 1 : 0; });
-  std::vector<TriangleRecord> suspects(count);
-  if (count == 0)
+  std::vector<TriangleRecord> suspects(count); // none in a clean mesh
+  if (count > 0)
   {
-    return suspects;
-  }
-  Array<TriangleRecord> found = backend.template MakeArray<TriangleRecord>(count);
-  Array<std::uint32_t> cursor = backend.template MakeArray<std::uint32_t>(1);
-  TriangleRecord* records = found.Data();
-  std::uint32_t* next = cursor.Data();
-  backend.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *next = 0; });
-  backend.ForEach(edges.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-    {
-      if (MayBeRepeated(mesh, t))
+    Array<TriangleRecord> found = backend.template MakeArray<TriangleRecord>(count);
+    Array<std::uint32_t> cursor = backend.template MakeArray<std::uint32_t>(1);
+    TriangleRecord* records = found.Data();
+    std::uint32_t* next = cursor.Data();
+    backend.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *next = 0; });
+    backend.ForEach(edges.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
       {
-        records[AtomicAdd(next, 1u)] = mesh.Triangles[t];
-      }
-    });
-  backend.Download(records, count, suspects.data());
-  return suspects;
-}
-
-/// The triangles with the same points as one in a smaller slot.
-inline Defect FindDuplicates(std::vector<TriangleRecord> suspects)
-{
-  const auto pointsOf = [](const TriangleRecord& t)
-  { return std::tie(t.Vertices[0], t.Vertices[1], t.Vertices[2]); };
+        if (MayBeRepeated(mesh, t))
+        {
+          records[AtomicAdd(next, 1u)] = mesh.Triangles[t];
+        }
+      });
+    backend.Download(records, count, suspects.data());
+  }
+  using Key = std::array<std::uint32_t, 4>; // the points, ascending, and the caller's slot
+  std::vector<Key> keys;
   for (TriangleRecord& triangle : suspects)
   {
-    std::sort(triangle.Vertices, triangle.Vertices + 3);
+    std::uint32_t* v = triangle.Vertices;
+    std::sort(v, v + 3);
+    keys.push_back({ v[0], v[1], v[2], triangle.InputTriangle });
   }
-  std::sort(suspects.begin(), suspects.end(),
-    [&](const TriangleRecord& s, const TriangleRecord& t)
-    {
-      return std::make_tuple(pointsOf(s), s.InputTriangle) <
-        std::make_tuple(pointsOf(t), t.InputTriangle);
-    });
+  std::sort(keys.begin(), keys.end());
   IdSample repeated;
-  for (std::size_t i = 1; i < suspects.size(); ++i)
+  for (std::size_t i = 1; i < keys.size(); ++i)
   {
-    if (pointsOf(suspects[i]) == pointsOf(suspects[i - 1]))
+    if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin()))
     {
-      repeated.Note(suspects[i].InputTriangle);
+      repeated.Note(keys[i][3]);
     }
   }
   return MakeDefect("triangles that repeat another one's points", repeated);
@@ -260,28 +245,7 @@ struct ConstraintSums
   }
 };
 
-/// Fixes the edge between two points, if there is one. A repeated constraint counts once.
-DELAUNAYFLIP_HOST_DEVICE inline void FixConstraint(const EdgeTableView& table,
-  const EdgeMeshView& mesh, VertexId a, VertexId b, ConstraintSums& sums)
-{
-  const std::uint32_t slot = a == b ? EdgeTableView::NoSlot : table.Find(EdgeKey(a, b));
-  if (slot == EdgeTableView::NoSlot)
-  {
-    sums.Missing += a == b ? 0 : 1;
-    return;
-  }
-  constexpr CornerId Seen = 0xFFFFFFFDu;
-  const CornerId second = AtomicExchange(&table.Second[slot], Seen);
-  sums.Found += second == Seen ? 0 : 1;
-  if (second != Seen && second != ManyCorners)
-  {
-    const CornerId corner = table.First[slot];
-    const EdgeId edge = EdgeOf(mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)]);
-    sums.NewlyFixed += mesh.States[edge] == EdgeState::Fixed ? 0 : 1;
-    mesh.States[edge] = EdgeState::Fixed;
-  }
-}
-
+/// Fixes the edges that are constraints. A repeated constraint counts once.
 template <typename Backend>
 void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
@@ -305,23 +269,27 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
   const ConstraintSums sums = backend.template Sum<ConstraintSums>(count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, ConstraintSums & part)
     {
-      FixConstraint(
-        table, mesh, order.GetRank(points[2 * i]), order.GetRank(points[2 * i + 1]), part);
+      const VertexId a = order.GetRank(points[2 * i]), b = order.GetRank(points[2 * i + 1]);
+      const std::uint32_t slot = a == b ? EdgeTableView::NoSlot : table.Find(EdgeKey(a, b));
+      if (slot == EdgeTableView::NoSlot)
+      {
+        part.Missing += a == b ? 0 : 1;
+        return;
+      }
+      constexpr CornerId Seen = 0xFFFFFFFDu;
+      const CornerId second = AtomicExchange(&table.Second[slot], Seen);
+      part.Found += second == Seen ? 0 : 1;
+      if (second != Seen && second != ManyCorners)
+      {
+        const CornerId corner = table.First[slot];
+        const EdgeId edge = EdgeOf(mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)]);
+        part.NewlyFixed += mesh.States[edge] == EdgeState::Fixed ? 0 : 1;
+        mesh.States[edge] = EdgeState::Fixed;
+      }
     });
   result.Counts.Constraint = sums.Found;
   result.Counts.Fixed += sums.NewlyFixed;
   result.MissingConstraints = sums.Missing;
-}
-
-/// Fixes edges and counts why, by the roles that the builder left in Flips.
-template <typename Backend>
-void FixEdges(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
-{
-  if (FixByInput(input, result, backend))
-  {
-    result.DuplicateTriangles = FindDuplicates(FindSuspects(result.Edges, backend));
-  }
-  FixConstraints(input, result, backend);
 }
 
 //------------------------------------------------------------------------------
@@ -664,7 +632,11 @@ EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const 
     NumberEdges(result, numbering, backend);
   }
   progress.Reach(input.Survey.Geometry, BuildStep::Numbered);
-  FixEdges(input, result, backend);
+  if (FixByInput(input, result, backend))
+  {
+    result.DuplicateTriangles = FindDuplicates(result.Edges, backend);
+  }
+  FixConstraints(input, result, backend);
   result.Table.DropWords();
   return result;
 }

@@ -79,11 +79,7 @@ struct EdgeTableView
   {
     const std::uint64_t home =
       (std::uint64_t(smaller - this->Slice.First) * this->Stride) >> StrideBits;
-    return this->Wrap(home + scattered % NearSlots);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint64_t slot) const
-  {
+    const std::uint64_t slot = home + scattered % NearSlots;
     return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
   }
 

@@ -24,24 +24,6 @@ namespace delaunayflip
 
 using PointIds = std::array<std::int64_t, 3>;
 
-/// The ids of one triangle as the caller gave them.
-template <typename Backend>
-PointIds GetPointIds(const MeshInput& input, std::int64_t triangle, const Backend& backend)
-{
-  const TriangleArray& caller = input.Caller.Triangles;
-  if (input.IsOnHost)
-  {
-    return { caller.Get(triangle, 0), caller.Get(triangle, 1), caller.Get(triangle, 2) };
-  }
-  const auto download = [&](const auto* ids)
-  {
-    std::array<std::remove_const_t<std::remove_pointer_t<decltype(ids)>>, 3> values;
-    backend.Download(ids + 3 * triangle, 3, values.data());
-    return PointIds{ values[0], values[1], values[2] };
-  };
-  return caller.Ids32 ? download(caller.Ids32) : download(caller.Ids64);
-}
-
 [[noreturn]] inline void ThrowInvalidId(
   const PointIds& ids, std::int64_t triangle, std::int64_t points)
 {
@@ -153,7 +135,21 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
   if (ids.Invalid.Count > 0)
   {
     const std::int64_t first = ids.Invalid.Smallest[0];
-    ThrowInvalidId(GetPointIds(input, first, backend), first, mesh.Points.Count);
+    const TriangleArray& caller = input.Caller.Triangles;
+    const auto get = [&](const auto* given) // the ids as the caller gave them
+    {
+      std::array<std::remove_const_t<std::remove_pointer_t<decltype(given)>>, 3> values;
+      if (input.IsOnHost)
+      {
+        std::copy_n(given + 3 * first, 3, values.data());
+      }
+      else
+      {
+        backend.Download(given + 3 * first, 3, values.data());
+      }
+      return PointIds{ values[0], values[1], values[2] };
+    };
+    ThrowInvalidId(caller.Ids32 ? get(caller.Ids32) : get(caller.Ids64), first, mesh.Points.Count);
   }
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }

@@ -343,7 +343,7 @@ public:
   /// The rank that a point comes from, and its id there.
   PieceOrigin FindOrigin(std::int64_t point) const
   {
-    return this->WholeKeys.FindOrigin(this->Keys[point]);
+    return this->WholeKeys.Owners.Find(this->Keys[point]);
   }
 
 private:

@@ -64,41 +64,33 @@ int CountStartable(int most)
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
-/// Whether there is memory for what oneTBB allocates when it starts or gets an arena. The heap may
-/// have some of its own that oneTBB cannot use.
-bool HasRoomForTBB()
+/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
+/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
+/// for ever where memory fails meanwhile; one thread does without oneTBB.
+int ResolveThreads(int wanted)
 {
-  constexpr std::size_t room = 16 << 20; // many times what it takes
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int threads = wanted > 0 ? std::min(wanted, std::max(MostThreads, 2 * cores)) : cores;
+  if (threads > mostStarted)
+  {
+    threads = std::clamp((1 + CountStartable(2 * threads - 1)) / 2, 1, threads);
+  }
+  if (threads == 1)
+  {
+    return 1;
+  }
+  // The heap may have some memory of its own that oneTBB cannot use.
+  constexpr std::size_t room = 16 << 20; // many times what oneTBB takes at first or for an arena
   HostMemory memory;
   try
   {
     memory.Free(memory.AllocateSparse(room), room);
-    return true;
+    return threads;
   }
   catch (const std::bad_alloc&)
   {
-    return false;
+    return 1;
   }
-}
-
-/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
-/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
-/// for ever where memory fails meanwhile; one thread does without oneTBB.
-int LimitToStartable(int threads)
-{
-  if (threads > mostStarted)
-  {
-    const int startable = 1 + CountStartable(2 * threads - 1);
-    threads = std::clamp(startable / 2, 1, threads);
-  }
-  return threads == 1 || HasRoomForTBB() ? threads : 1;
-}
-
-int ResolveThreads(int threads)
-{
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int most = std::max(MostThreads, 2 * cores);
-  return LimitToStartable(threads > 0 ? std::min(threads, most) : cores);
 }
 }
 

@@ -87,20 +87,6 @@ def from_struct(struct: _library.Report) -> Report:
     return Report(**values)
 
 
-def describe_trouble(defects, report, options):
-    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
-    texts = [defects] if defects else []
-    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
-        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
-                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
-    if options["tolerance"] >= 0 and report.tolerance == "none":
-        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
-                     "opposite angles")
-    if report.fallback:
-        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
-    return "; ".join(texts)
-
-
 class Totals:
     """The report on one mesh, or the sum over several. Attributes that are not counts have the
     names of those of `Report`; `geometry_used` may be "mixed"."""
@@ -117,7 +103,7 @@ class Totals:
 
     @classmethod
     def of_run(cls, session, data):
-        """Of a session for `data`, a FlipInput with triangles."""
+        """Of a session for `data`, a MeshInput with triangles."""
         report = session.report
         totals = cls(report.stop_reason)
         totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}

@@ -1,17 +1,16 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A vtkPolyData of any VTK as arrays: its triangles, the edges along its lines that must stay, and the
-cells that the triangles become again. Nothing here imports VTK."""
+"""A vtkPolyData of any VTK as arrays: its triangles, and the edges along lines that must stay. Nothing
+here imports VTK."""
 import dataclasses
 
 import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh
-from ._session import Observers, Session, smallest_angles
+from ._session import Observers
 
 NONE = -1
-_GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
 
 @dataclasses.dataclass(frozen=True)
@@ -19,7 +18,7 @@ class Settings:
     """The properties that decide which edges exist and which stay."""
 
     triangulate: bool = True
-    lines: bool = True
+    lines_as_constraints: bool = True
     insert_lines: bool = False
     insert_constraints: bool = True
     region_array: str = ""
@@ -148,108 +147,6 @@ class Slots:
         return polygons, self.polygon_triangles[polygons]
 
 
-class FlipInput:
-    """What a Session gets of a surface, and the cells of its result. Subclasses and users set
-    `regions`, (m,) labels or None, and call `freeze`."""
-
-    def __init__(self, surface, others, settings, progress=None):
-        self.points = surface.points
-        self.slots = Slots(surface, settings.triangulate, progress)
-        self.constraints = Constraints(surface, others, settings, self.slots.triangles)
-        self.regions, self.frozen = None, self.slots.frozen
-
-    def freeze(self, ghosts):
-        """The edges of ghost cells stay. `ghosts`: VTK's types of the cells, of which there may be
-        too few, or None."""
-        if ghosts is not None:
-            padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(ghosts)), numpy.uint8)
-            padded[:len(ghosts)] = ghosts
-            are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
-            self.frozen = are_ghosts if self.frozen is None else are_ghosts | self.frozen
-
-    def open(self, **arguments):
-        """A Session. Errors name the cell, not the triangle."""
-        pairs = self.constraints.pairs
-        try:
-            return Session(
-                self.points, self.slots.triangles, regions=self.regions, frozen=self.frozen,
-                constraints=pairs if len(pairs) else None,
-                insert_constraints=self.constraints.to_insert if len(pairs) else False,
-                triangle_numbers=self.slots.cells, **arguments)
-        except InvalidMesh as error:
-            raise name_out_of_range(
-                "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
-
-    def describe_unmatched(self):
-        """Texts of a warning."""
-        count = self.constraints.unmatched
-        edges = "edge" if count == 1 else "edges"
-        text = f"{count} constraint {edges} of the second input that the mesh does not have"
-        return [text] if count else []
-
-    @property
-    def cell_sources(self):
-        """The cell of the input from which each cell of the output is made."""
-        return numpy.concatenate([numpy.arange(self.slots.first_polygon), self.slots.polygon_cells,
-                                  self.slots.kept_strips])
-
-    @property
-    def polygon_sizes(self):
-        """How many corners the polygons of the output have."""
-        slots = self.slots
-        sizes = numpy.full(len(slots.polygon_cells), 3)
-        whole = slots.polygon_triangles == NONE
-        if whole.any():
-            sizes[whole] = slots.polygons.sizes[slots.polygon_cells[whole] - slots.first_polygon]
-        return sizes
-
-    def fill_polygons(self, session, corners):
-        """Writes the corners of the output's polygons."""
-        slots = self.slots
-        polygons, chosen = slots.list_triangles()
-        if len(polygons) == len(slots.polygon_cells) == len(slots.triangles):
-            session.store_triangles(corners.reshape(-1, 3))
-            return
-        is_triangle = slots.polygon_triangles != NONE
-        of_triangle = numpy.repeat(is_triangle, self.polygon_sizes)
-        corners[of_triangle] = session.triangles[chosen].ravel()
-        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
-        corners[~of_triangle] = slots.polygons.gather(whole)
-
-    def renew_normals(self, values, triangles):
-        """Writes the normals of changed triangles to those of all output cells. Normals that pointed
-        against the winding still do."""
-        polygons, chosen = self.slots.list_triangles()
-        changed = (self.slots.triangles[chosen] != triangles[chosen]).any(axis=1)
-        cells, chosen = self.slots.first_polygon + polygons[changed], chosen[changed]
-        old, new = (self._find_normals(some[chosen]) for some in (self.slots.triangles, triangles))
-        against = (old * values[cells]).sum(axis=1) < 0
-        values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
-
-    def _find_normals(self, triangles):
-        """Unit normals by the right-hand rule; 0 for triangles without area."""
-        mesh = _arrays.Mesh(self.points, triangles)
-        normals = numpy.empty((len(triangles), 3))
-        _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
-        return normals
-
-    def list_numbers(self, session, counts, angles):
-        """(name, values per output cell) of the requested cell arrays."""
-        if counts:
-            yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
-        if angles:
-            used = session.report.geometry_used
-            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
-                yield "vtkDelaunayFlipAngle" + name, self._spread(
-                    smallest_angles(self.points, triangles, geometry=used), numpy.nan)
-
-    def _spread(self, values, elsewhere):
-        of_cells = numpy.full(len(self.cell_sources), elsewhere, dtype=values.dtype)
-        polygons, chosen = self.slots.list_triangles()
-        of_cells[self.slots.first_polygon + polygons] = values[chosen]
-        return of_cells
-
-
 def number_tuples(values):
     """A number per tuple; equal tuples have equal numbers, and so have all NaN, and 0 and -0."""
     values = values.reshape(len(values), -1)
@@ -300,7 +197,7 @@ class Constraints:
 
     def __init__(self, surface, others, settings, triangles):
         pairs, flags, self.unmatched, points = [], [], 0, surface.points
-        if settings.lines:
+        if settings.lines_as_constraints:
             lines = surface.read("Lines", "line, cell")
             lines.require_points(len(points))
             pairs.append(_drop_points(_list_pairs(lines, False)))

@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._vtk_mesh import add_arrays
+from ._vtk_mesh import vtk_of
 from ._vtk_update import Failure, Update, explain
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
@@ -55,23 +55,19 @@ _PROPERTIES = (
     _Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
     _Property("FeatureAngle", 30.0, 0.0, 180.0),
     _Property("RegionArray", ""),
-    _Property("LinesAsConstraints", True),
-    _Property("InsertLines", False),
-    _Property("InsertConstraints", True),
-    _Property("Triangulate", True),
+    *(_Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
     _Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
     _Property("DeviceId", -1, -1, VTK_INT_MAX),
     _Property("Devices", ""),
     _Property("NumberOfPieces", 0, 0, 255),
     _Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
     _Property("MaximumIterations", -1, -1, VTK_ID_MAX),
-    _Property("TrackQuality", False),
-    _Property("GenerateFlipCount", False),
-    _Property("GenerateQuality", False),
-    _Property("LiveUpdate", False),
+    *(_Property(name, False) for name in (
+        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality", "LiveUpdate")),
     _Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
     _Property("Paused", False, modifies=False),
 )
+
 
 def _accessors(item):
     def get(self):
@@ -235,7 +231,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         finally:
             self._is_at_work = False
         self._update = update
-        add_arrays(table.GetRowData(), "", update.totals.list_columns())
+        vtk_of(table).add_arrays(table.GetRowData(), "", update.totals.list_columns())
         update.tell(self._tell)
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1

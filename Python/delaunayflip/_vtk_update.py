@@ -12,9 +12,9 @@ from vtkmodules.vtkCommonDataModel import (
 
 from . import _library
 from ._options import CHOICES
-from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
+from ._report import ITERATION, Totals, describe
 from ._surface import Settings
-from ._vtk_mesh import MeshInput, add_arrays
+from ._vtk_mesh import MeshInput
 
 #: The shares of a mesh's update after which polygons are split, and edges flipped.
 _SPLIT, _FLIPPED = 0.02, 0.7
@@ -166,9 +166,7 @@ class Update:
         filter_, options = self._filter, self._get_options()
         observe = self._observe_part(_SPLIT, _FLIPPED)
         try:
-            settings = Settings(filter_.GetTriangulate(), filter_.GetLinesAsConstraints(),
-                                filter_.GetInsertLines(), filter_.GetInsertConstraints(),
-                                filter_.GetRegionArray())
+            settings = Settings(*(getattr(filter_, one.name) for one in dataclasses.fields(Settings)))
             data = MeshInput(mesh, constraints, settings, self._observe_part(0.0, _SPLIT))
             session = data.open(progress=observe, **options)
         except _library.Stopped:
@@ -180,12 +178,10 @@ class Update:
             angles = filter_.GetGenerateQuality()
             is_whole = not angles or self._observe_part(_FLIPPED, 1.0)(0.0)
             data.store(session, output, filter_.GetGenerateFlipCount(), angles and is_whole)
-            report, self.totals = session.report, Totals.of_run(session, data)
-        if not is_whole:
-            self.totals.stop_reason = "aborted"
-        add_arrays(output.GetFieldData(), FIELD_PREFIX, self.totals.list_fields())
-        defects = [report.defects] if report.defects else []
-        return describe_trouble("; ".join(defects + data.list_defects()), report, options)
+            self.totals = Totals.of_run(session, data)
+            if not is_whole:
+                self.totals.stop_reason = "aborted"
+            return data.report(session, output, options, self.totals)
 
     def _get_options(self):
         filter_ = self._filter

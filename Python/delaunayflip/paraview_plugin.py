@@ -37,7 +37,7 @@ from vtkmodules.vtkCommonDataModel import (
 
 import delaunayflip
 from delaunayflip._vtk_filter import vtkDelaunayFlip
-from delaunayflip._vtk_mesh import copy_cell_data
+from delaunayflip._vtk_mesh import vtk_of
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
@@ -98,7 +98,7 @@ def _to_poly_data(data):
             cells.InsertNextCell(_get_corners(data, cell))
         getattr(output, "Set" + kind)(cells)
         sources += chosen
-    for array in copy_cell_data(data, sources, output.GetCellData()):
+    for array in vtk_of(data).copy_cell_data(data, sources, output.GetCellData()):
         empty = array.NewInstance()  # the filter warns of it
         empty.SetName(array.GetName())
         output.GetCellData().AddArray(empty)

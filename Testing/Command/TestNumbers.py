@@ -7,8 +7,7 @@ import random
 import struct
 import unittest
 
-from CommandTesting import points_of, read_mesh
-from TestBadFiles import BadFileTest
+from CommandTesting import BadFileTest, points_of, read_mesh
 
 TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -67,25 +66,6 @@ class Exact(BadFileTest):
             mesh = self.read(name, as_text([map(repr, point) for point in points], name))
             self.assertEqual(points_of(mesh), points, name)
             self.assertTrue(mesh.GetPoints().GetData().IsA("vtkDoubleArray"))
-
-    def test_utm_grid_keeps_its_points(self):
-        """Rounded to single precision, the 400 points would become 4."""
-        size = 20
-        points = [
-            (581311.123 + 0.001 * i, 4785270.456 + 0.001 * j, 0)
-            for j in range(size)
-            for i in range(size)
-        ]
-        faces = [
-            (a, a + 1, a + size)
-            for j in range(size - 1)
-            for a in range(j * size, j * size + size - 1)
-        ]
-        rows = [f"v {x!r} {y!r} {z}" for x, y, z in points]
-        rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
-        read = points_of(self.read("a.obj", "\n".join(rows)))
-        self.assertEqual(read, points)
-        self.assertEqual(len(set(read)), 400)
 
     def test_ways_to_write_a_number(self):
         ways = {"+1.5": 1.5, "1.": 1.0, ".5": 0.5, "-0": 0.0, "1E3": 1e3, "1e-400": 0.0, "2e-324": 0.0}

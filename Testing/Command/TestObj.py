@@ -2,21 +2,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a .obj contains besides points and faces: what is kept, and what is named."""
 
+import math
 import unittest
 
-from CommandTesting import cells_of, points_of, read_mesh, triangles_of
-from TestBadFiles import BadFileTest
+import vtkmodules.vtkCommonCore as vtk
+
+from CommandTesting import (
+    ArrayTest,
+    bumpy_grid,
+    cells_of,
+    make_mesh,
+    make_values,
+    points_of,
+    read_mesh,
+    triangles_of,
+    tuples_of,
+    values_of,
+    write_mesh,
+)
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 TEXTURE = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 1 1\n"
 NORMALS = "vn 0 0 1\nvn 0 1 1\nvn 0 0 1\n"
 
 
-def tuples_of(array):
-    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
-
-
-class Obj(BadFileTest):
+class Obj(ArrayTest):
     def read(self, text):
         """The mesh of a file with this text, and the messages."""
         self.write("a.obj", text)
@@ -83,6 +93,62 @@ class Obj(BadFileTest):
         ):
             self.write("a.obj", text)
             self.refuse("a.obj", f"line {line}")
+
+    def round_trip(self, text):
+        """The mesh of an .obj, and the mesh of the file that the command makes from it."""
+        self.write("in.obj", text)
+        self.succeed("in.obj", "first.vtp")
+        self.assertNotIn("cannot store", self.succeed("in.obj", "out.obj").stderr)
+        self.succeed("out.obj", "second.vtp")
+        return read_mesh(self.path("first.vtp")), read_mesh(self.path("second.vtp"))
+
+    def assert_equal_data(self, first, second):
+        for index in range(first.GetNumberOfArrays()):
+            array = first.GetAbstractArray(index)
+            if not array.GetName().endswith("Ids"):
+                other = second.GetAbstractArray(array.GetName())
+                self.assert_array(other, array.GetClassName(), values_of(array))
+
+    def assert_round_trip(self, text):
+        first, second = self.round_trip(text)
+        self.assertEqual(points_of(first), points_of(second))
+        for kind in ("GetVerts", "GetLines", "GetPolys"):
+            self.assertEqual(cells_of(getattr(first, kind)()), cells_of(getattr(second, kind)()))
+        self.assert_equal_data(first.GetPointData(), second.GetPointData())
+        self.assert_equal_data(first.GetCellData(), second.GetCellData())
+        return first, second
+
+    def test_normals_texture_and_colors(self):
+        _, out = self.assert_round_trip(
+            "v 0 0 0 .1 .2 .3\nv 1 0 0 1 0 .5\nv 1 1 0 0 0 0\nv 0 1 0 1 1 1\nv 5 5 5 0 0 1\n"
+            "vt 0 0\nvt 1 .5\nvt .3333333333333333 1\nvn 0 0 1\nvn 0 .1 1\n"
+            "f 1/1/1 2/2/2 3/3/1\nf 1/1/1 3/3/1 4/2/2\nl 1 2 3\np 5\n"
+        )
+        data = out.GetPointData()
+        self.assertEqual(data.GetNormals().GetTuple(1), (0, 0.1, 1))
+        self.assertEqual(data.GetTCoords().GetTuple(2), (1 / 3, 1))
+        self.assertEqual(data.GetTCoords().GetTuple(4), (0, 0))  # of no polygon
+        self.assertEqual(data.GetArray("Colors").GetTuple(0), (0.1, 0.2, 0.3))
+        plain = read_mesh(self.path("out.obj"))
+        self.assertEqual(plain.GetNumberOfPolys(), 2)
+
+    def test_colors_of_bytes(self):
+        mesh = bumpy_grid(3, 0)
+        colors = make_values("vtkUnsignedCharArray", "RGB", [(i, 0, 255) for i in range(9)])
+        mesh.GetPointData().AddArray(colors)
+        out = self.convert(mesh, "out.obj", "out.vtp")
+        colors = out.GetPointData().GetArray("Colors")
+        self.assertEqual(colors.GetTuple(3), (3 / 255, 0, 1))
+
+    def test_float_points_stay_exact(self):
+        mesh = make_mesh([], [(0, 1, 2)])
+        points = vtk.vtkPoints()
+        for point in ((0.1, 1 / 3, 1e-30), (1, 0, 0), (0, 1, math.inf)):
+            points.InsertNextPoint(point)
+        mesh.SetPoints(points)
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.obj", "--quiet")
+        self.succeed("out.obj", "out.vtp", "--quiet")
+        self.assertEqual(points_of(read_mesh(self.path("out.vtp"))), points_of(mesh))
 
 
 if __name__ == "__main__":

@@ -1,13 +1,25 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every element and property of a .ply, as text and binary of both byte orders."""
+"""Every element and property of a .ply: read as text and binary of both byte orders, and written."""
 
+import math
 import struct
 import unittest
 
-from CommandTesting import cells_of, points_of, read_mesh, triangles_of
-from TestBadFiles import BadFileTest
-from TestObj import tuples_of
+from CommandTesting import (
+    ArrayTest,
+    BadFileTest,
+    bumpy_grid,
+    cells_of,
+    make_mesh,
+    make_values,
+    points_of,
+    read_mesh,
+    triangles_of,
+    tuples_of,
+    values_of,
+    write_mesh,
+)
 
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
          "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
@@ -108,26 +120,6 @@ class Elements(PlyTest):
 
 
 class Properties(PlyTest):
-    def test_double_coordinates(self):
-        points = [(581311.123 + i, 4785270.456 + i * i, 1 / 3) for i in range(3)]
-        axes = ["double x", "double y", "double z"]
-        for mesh, said in self.read_all(
-            ("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])
-        ):
-            self.assertEqual(points_of(mesh), points)
-            self.assertEqual(said, "")
-
-    def test_single_precision_stays(self):
-        points = [(0.5, 1.25, 3), (1, 0, 0), (0, 1, 0)]
-        for mesh, _ in self.read_all(("vertex", XYZ, points), ("face", INDICES, [([0, 1, 2],)])):
-            self.assertTrue(mesh.GetPoints().GetData().IsA("vtkFloatArray"))
-
-    def test_mixed_types_of_coordinates(self):
-        points = [(i, i * i, 0.1 * i) for i in range(3)]
-        axes = ["int x", "uchar y", "double z"]
-        for mesh, _ in self.read_all(("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])):
-            self.assertEqual(points_of(mesh), points)
-
     def test_every_type(self):
         """Values at both ends of the range of each type."""
         types = [kind for kind in CODES if kind[-1].isalpha()]
@@ -195,37 +187,121 @@ class Properties(PlyTest):
 
 
 class Heads(PlyTest):
-    def test_what_is_wrong_is_on_its_line(self):
+    def test_what_is_wrong_is_named(self):
         good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        for old, new, line in (
-            (b"vertex 4", b"vertex four", 4),
-            (b"vertex 4", b"vertex -4", 4),
-            (b"float y", b"quad y", 6),
-            (b"element face", b"elements face", 8),
-            (b"element face 1", b"element vertex 1", 8),
+        for old, new, naming in (
+            (b"vertex 4", b"vertex four", "line 4:"),
+            (b"vertex 4", b"vertex -4", "line 4:"),
+            (b"float y", b"quad y", "line 6:"),
+            (b"float y", b"float x", "line 6:"),
+            (b"list uchar", b"list float", "line 9:"),
+            (b"element face", b"elements face", "line 8:"),
+            (b"element face 1", b"element vertex 1", "line 8:"),
+            (b"format ascii", b"format utf8", "utf8"),
+            (b"float z", b"float w", "x, y and z"),
+            (b"vertex_indices", b"corners", "vertex_indices"),
+            (b"element vertex", b"element points", "number of vertices is 0"),
         ):
             self.assertIn(old, good)
             self.write("a.ply", good.replace(old, new))
-            self.refuse("a.ply", f"line {line}:")
-
-    def test_the_line_of_an_importer(self):
-        """Open Asset Import Library writes it without the word comment, and VTK reads it."""
-        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        self.write("a.ply", good.replace(b"comment made", b"Created by a test,"))
-        self.assertEqual(self.succeed("a.ply", "out.ply").stderr, "")
-
-    def test_what_is_missing(self):
-        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        for old, new, naming in (
-            (b"float z", b"float w", "x, y and z"),
-            (b"vertex_indices", b"corners", "vertex_indices"),
-            (b"format ascii", b"format utf8", "utf8"),
-            (b"list uchar", b"list float", "must be an integer"),
-            (b"float y", b"float x", "two properties x"),
-            (b"element vertex", b"element points", "number of vertices is 0"),
-        ):
-            self.write("a.ply", good.replace(old, new))
             self.refuse("a.ply", naming)
+
+# The type of an array, two values of it, and the type that comes back from a .ply.
+PLY_TYPES = [
+    ("vtkSignedCharArray", (-128, 127), None),
+    ("vtkUnsignedCharArray", (0, 255), None),
+    ("vtkShortArray", (-(2**15), 2**15 - 1), None),
+    ("vtkUnsignedShortArray", (0, 2**16 - 1), None),
+    ("vtkIntArray", (-(2**31), 2**31 - 1), None),
+    ("vtkUnsignedIntArray", (0, 2**32 - 1), None),
+    ("vtkFloatArray", (-math.inf, math.nan), None),
+    ("vtkDoubleArray", (1 / 3, -1e300), None),
+    ("vtkBitArray", (0, 1), "vtkUnsignedCharArray"),
+    ("vtkIdTypeArray", (-(2**31), 2**31 - 1), "vtkDoubleArray"),
+    ("vtkUnsignedLongArray", (0, 2**53 - 1), "vtkDoubleArray"),
+]
+
+
+class Written(ArrayTest):
+    def test_arrays_of_every_type(self):
+        mesh = bumpy_grid(3, 0)
+        for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8)):
+            for kind, (low, high), _ in PLY_TYPES:
+                tuples = [(high if i % 3 else low,) for i in range(size)]
+                data.AddArray(make_values(kind, "a " + kind, tuples))
+        out = self.convert(mesh, "out.ply", "out.vtp")
+        for data, size in ((out.GetPointData(), 9), (out.GetCellData(), 8)):
+            self.assertEqual(data.GetNumberOfArrays(), len(PLY_TYPES))
+            for kind, (low, high), back in PLY_TYPES:
+                values = [high if i % 3 else low for i in range(size)]
+                self.assert_array(data.GetArray("a_" + kind), back or kind, values)
+
+    def annotated(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.SetNormals(make_values("vtkDoubleArray", "N", [(i / 3, 1, -i) for i in range(9)]))
+        points.SetTCoords(make_values("vtkFloatArray", "T", [(i / 8, 0.5) for i in range(9)]))
+        points.SetScalars(make_values("vtkUnsignedCharArray", "C", [(i, 2, 255) for i in range(9)]))
+        points.AddArray(make_values("vtkFloatArray", "flow", [(i, -i, 0.5) for i in range(9)]))
+        cells.AddArray(make_values("vtkUnsignedCharArray", "RGBA", [(i, 1, 2, 3) for i in range(8)]))
+        return mesh
+
+    def test_normals_colors_texture_and_vectors(self):
+        out = self.convert(self.annotated(), "out.ply", "out.vtp")
+        points, cells = out.GetPointData(), out.GetCellData()
+        flat = [x for i in range(9) for x in (i / 3, 1, -i)]
+        self.assert_array(points.GetNormals(), "vtkDoubleArray", flat)
+        flat = [x for i in range(9) for x in (i / 8, 0.5)]
+        self.assert_array(points.GetTCoords(), "vtkFloatArray", flat)
+        flat = [x for i in range(9) for x in (i, 2, 255)]
+        self.assert_array(points.GetScalars(), "vtkUnsignedCharArray", flat)
+        for component, factor in enumerate((1, -1, 0)):
+            values = [0.5 if factor == 0 else factor * i for i in range(9)]
+            self.assert_array(points.GetArray(f"flow_{component}"), "vtkFloatArray", values)
+        flat = [x for i in range(8) for x in (i, 1, 2, 3)]
+        self.assert_array(cells.GetArray("RGBA"), "vtkUnsignedCharArray", flat)
+
+    def test_doubles_stay(self):
+        mesh = make_mesh([(581311.123, 1e300, 1 / 3), (1, 0, -0.0), (0, math.nan, 5e-324)], [(0, 1, 2)])
+        source = write_mesh(mesh, self.path("in.vtk"))
+        self.succeed(source, "out.ply", "--quiet")
+        self.succeed("out.ply", "out.vtk", "--quiet")
+        out = read_mesh(self.path("out.vtk"))
+        self.assert_array(out.GetPoints().GetData(), "vtkDoubleArray",
+                          values_of(mesh.GetPoints().GetData()))
+
+    def test_lines_become_edges(self):
+        mesh = bumpy_grid(3, 0)
+        mesh.SetLines(make_mesh([], [], [(0, 1, 2), (), (5,), (3, 4)]).GetLines())
+        out = self.convert_by_vtk(mesh, "out.ply")
+        self.assertEqual(cells_of(out.GetLines()), [(0, 1), (1, 2), (3, 4)])
+        self.read_plainly("out.ply")
+
+    def convert_by_vtk(self, mesh, name):
+        """Like convert, but from a .vtk, which can hold more."""
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        self.succeed(name, "out.vtk")
+        return read_mesh(self.path("out.vtk"))
+
+    def test_cells_of_few_and_many_points(self):
+        points = [(math.cos(i / 50), math.sin(i / 50), 0) for i in range(300)] + [(math.nan, 0, 0)]
+        for cell in ((), (4,), (4, 5), tuple(range(301))):
+            out = self.convert_by_vtk(make_mesh(points, [(0, 1, 2), cell]), "out.ply")
+            self.assertIn(cell, [(), (4,), (4, 5)] + triangles_of(out) + [tuple(range(301))])
+            if len(cell) < 3:
+                self.assertEqual(triangles_of(out), [(0, 1, 2), cell])
+
+    def test_what_does_not_fit_is_named(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.AddArray(make_values("vtkStringArray", "words", [("a",)] * 9))
+        points.AddArray(make_values("vtkLongLongArray", "huge", [(2**53,)] * 9))
+        points.AddArray(make_values("vtkFloatArray", "x", [(1,)] * 9))
+        cells.AddArray(make_values("vtkIntArray", "two words", [(1,)] * 8))
+        cells.AddArray(make_values("vtkIntArray", "two_words", [(1,)] * 8))
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        said = self.succeed(source, "out.ply").stderr
+        self.assertIn("point data (words, huge, x), cell data (two_words)\n", said)
 
 
 if __name__ == "__main__":

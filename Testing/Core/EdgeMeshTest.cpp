@@ -194,7 +194,8 @@ TEST(EdgeMesh, HubOfManyTriangles)
 {
   constexpr std::int32_t Spokes = 300000;
   const OwnedMesh<float> mesh = MakeHub(Spokes);
-  const Built built = Build(mesh.View(), ThreadBackend(2));
+  const ThreadBackend backend(2);
+  const Built built = Build(mesh.View(), backend);
   EXPECT_EQ(2 * Spokes + 1, built.Result.Counts.Edges);
   EXPECT_EQ(Spokes + 2, built.Result.Counts.Boundary);
 }
@@ -205,7 +206,8 @@ TEST(EdgeMesh, FindsRepeatedTrianglesOfOnePoint)
   OwnedMesh<float> mesh;
   mesh.Points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
   mesh.Triangles = { 0, 1, 2, 2, 2, 2, 1, 1, 1, 2, 2, 2 };
-  const Built built = Build(mesh.View(), ThreadBackend(1), GeometryKind::PlanarXY);
+  const ThreadBackend backend(1);
+  const Built built = Build(mesh.View(), backend, GeometryKind::PlanarXY);
   EXPECT_EQ(1, built.Result.DuplicateTriangles.Count);
 }
 

@@ -134,43 +134,6 @@ TEST(GeometryChoice, DegreesAndMetresArePlanarXY)
   EXPECT_EQ("", DescribeDefects(result.Report.Defects));
 }
 
-/// A hemisphere above x and y, of which 29 % slopes below 45 degrees.
-OwnedMesh<double> MakeDome()
-{
-  constexpr std::int32_t Columns = 90;
-  constexpr std::int32_t Rings = 30;
-  OwnedMesh<double> mesh = { { 0, 0, 1 }, {} };
-  for (std::int32_t ring = 1; ring <= Rings; ++ring)
-  {
-    const double latitude = 1.55 * ring / Rings;
-    for (std::int32_t i = 0; i < Columns; ++i)
-    {
-      const double longitude = 6.283185307179586 * i / Columns;
-      mesh.Points.insert(mesh.Points.end(),
-        { std::sin(latitude) * std::cos(longitude), std::sin(latitude) * std::sin(longitude),
-          std::cos(latitude) });
-      const std::int32_t here = 1 + (ring - 1) * Columns + i;
-      const std::int32_t next = 1 + (ring - 1) * Columns + (i + 1) % Columns;
-      if (ring == 1)
-      {
-        mesh.Triangles.insert(mesh.Triangles.end(), { 0, here, next });
-        continue;
-      }
-      mesh.Triangles.insert(
-        mesh.Triangles.end(), { here - Columns, here, next, here - Columns, next, next - Columns });
-    }
-  }
-  return mesh;
-}
-
-TEST(GeometryChoice, ADomeScanIsASurface)
-{
-  const OwnedMesh<double> dome = MakeDome();
-  ExpectChoice(dome, GeometryKind::Surface,
-    "a height field over x and y, but only 29 % of its area slopes below 45 degrees");
-  ExpectNoDefects(dome);
-}
-
 /// Random points in a square around the origin, badly triangulated: slivers, with heights.
 OwnedMesh<double> MakeSlivers(const HeightOf& height)
 {

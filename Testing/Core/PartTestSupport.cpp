@@ -140,6 +140,11 @@ void ExpectSameCounts(const FlipReport& alone, PiecesReport together)
   together.MinimumAngleAfter = alone.MinimumAngleAfter;
   together.StopReason = alone.StopReason;
   together.Defects = alone.Defects; // their ids are those of a rank
+  if (alone.InsertedConstraints > 0) // by flips, in some order
+  {
+    together.NonDelaunayBefore = alone.NonDelaunayBefore;
+    together.MinimumAngleBefore = alone.MinimumAngleBefore;
+  }
   ExpectSameStatistics(alone, together);
 }
 

@@ -3,8 +3,8 @@
 #include "EngineCase.h"
 
 #include "ByteSource.h"
-#include "References.h"
 #include "RandomInputs.h"
+#include "References.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DeviceMemory.h"
 #include "FlipError.h"
 #include "GpuTestSupport.h"
 #include "PieceFlip.h"
-#include "DeviceMemory.h"
 
 #include <string>
 #include <vector>

@@ -42,12 +42,18 @@ class SplitHistory
 {
 public:
   /// @param side the side of the square, at most LatticeSize.
-  SplitHistory(std::int64_t expectedPoints, std::int32_t side)
+  /// @param draw gives coordinates inside the square, until there are so many points.
+  template <typename Draw>
+  SplitHistory(std::int64_t points, std::int32_t side, const Draw& draw)
   {
-    this->Points.reserve(static_cast<std::size_t>(expectedPoints));
-    this->Nodes.reserve(static_cast<std::size_t>(3 * expectedPoints));
+    this->Nodes.reserve(static_cast<std::size_t>(3 * points));
     this->Points = { { 0, 0 }, { side, 0 }, { side, side }, { 0, side } };
     this->Nodes = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+    while (static_cast<std::int64_t>(this->Points.size()) < points)
+    {
+      const std::int32_t x = draw();
+      this->Insert({ x, draw() });
+    }
   }
 
   /// Adds a point inside the square, unless it is already there.
@@ -156,7 +162,6 @@ template <typename Real>
 OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  SplitHistory history(points, LatticeSize);
   // Not 0: strictly inside the square, so that the boundary keeps its four edges.
   const auto draw = [&random]()
   {
@@ -167,11 +172,7 @@ OwnedMesh<Real> MakeRandomBad(std::int64_t points, std::uint32_t seed)
     }
     return static_cast<std::int32_t>(coordinate);
   };
-  while (static_cast<std::int64_t>(history.Points.size()) < points)
-  {
-    const std::int32_t x = draw();
-    history.Insert({ x, draw() });
-  }
+  const SplitHistory history(points, LatticeSize, draw);
   OwnedMesh<Real> mesh;
   mesh.Points.reserve(3 * history.Points.size());
   for (const LatticePoint& point : history.Points)
@@ -257,18 +258,13 @@ void MakeTile(
   const std::int64_t before = square.CountBefore(tile);
   const std::int64_t points = 4 + square.CountBefore(tile + 1) - before;
   std::mt19937 random(seed + 7919u * static_cast<std::uint32_t>(tile));
-  SplitHistory history(points, square.GetTileSize());
   // In [1, size - 1]: inside the tile, so that its border keeps its four edges.
   const auto draw = [&]()
   {
     const std::uint64_t most = static_cast<std::uint64_t>(square.GetTileSize() - 1);
     return 1 + static_cast<std::int32_t>((std::uint64_t(random()) * most) >> 32);
   };
-  while (static_cast<std::int64_t>(history.Points.size()) < points)
-  {
-    const std::int32_t x = draw();
-    history.Insert({ x, draw() });
-  }
+  const SplitHistory history(points, square.GetTileSize(), draw);
   StorePoints(square, tile, history.Points, false, mesh);
   auto next = static_cast<std::size_t>(3 * 2 * (before + tile));
   history.ForEachTriangle(
@@ -291,7 +287,7 @@ OwnedMesh<float> MakeTiledBadMesh(
   OwnedMesh<float> mesh;
   mesh.Points.resize(static_cast<std::size_t>(3 * points));
   mesh.Triangles.resize(static_cast<std::size_t>(6 * (square.PointsInside + square.CountTiles())));
-  const SplitHistory corners(0, square.GetTileSize());
+  const SplitHistory corners(0, square.GetTileSize(), []() { return 0; });
   for (std::int64_t tile = 0; tile < square.CountTiles(); ++tile)
   {
     StorePoints(square, tile, corners.Points, true, mesh);
