@@ -118,6 +118,15 @@ TriangleMesh ToMesh(const delaunayflip_mesh* given)
   return mesh;
 }
 
+PlaneArray ToPlane(const delaunayflip_mesh* given)
+{
+  const delaunayflip_mesh c = CompleteMesh(given);
+  Require(!IsOnDevice(c), "points to triangulate must be in the host's memory");
+  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
+  Require(c.number_of_triangles == 0, "points to triangulate must have no triangles");
+  return ToPoints<PlaneArray>(c, c.point_components);
+}
+
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
 {
   DeviceMesh mesh;
@@ -231,6 +240,8 @@ void KeptReport::Fill(delaunayflip_report& target) const
   c.minimum_angle_after = report.MinimumAngleAfter;
   c.build_seconds = report.BuildSeconds;
   c.flip_seconds = report.FlipSeconds;
+  c.number_of_points = report.Points;
+  c.number_of_triangles = report.Triangles;
   c.edges = report.Edges.Edges;
   c.boundary_edges = report.Edges.Boundary;
   c.non_manifold_edges = report.Edges.NonManifold;

@@ -52,6 +52,9 @@ delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
 /// Views of the arrays of a mesh in the host's memory.
 TriangleMesh ToMesh(const delaunayflip_mesh* given);
 
+/// A view of the points to triangulate.
+PlaneArray ToPlane(const delaunayflip_mesh* given);
+
 /// Views of the arrays of a complete mesh in device memory.
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& mesh);
 

@@ -192,9 +192,22 @@ struct delaunayflip_session
   {
   }
 
+  delaunayflip_session(
+    const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
+    : Session(points, options, progress),
+      IsFromPoints(true)
+  {
+  }
+
+  std::int64_t CountTriangles() const
+  {
+    return this->IsFromPoints ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
+  }
+
   FlipSession Session;
-  std::int64_t NumberOfTriangles;
-  const std::int64_t* TriangleNumbers; ///< Of the caller, or null.
+  bool IsFromPoints = false;
+  std::int64_t NumberOfTriangles = 0;
+  const std::int64_t* TriangleNumbers = nullptr; ///< Of the caller, or null.
   std::optional<KeptReport> Report;
 };
 
@@ -255,6 +268,43 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_open_points(const delaunayflip_mesh* points,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
+    delaunayflip_session** session)
+  {
+    return Try(
+      [=]()
+      {
+        Require(session, "session is null");
+        *session = new delaunayflip_session(
+          ToPlane(points), ToOptions(options), Observers(callbacks).Progress);
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_neighbors(
+    delaunayflip_session* session, std::int32_t* neighbors)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(session->IsFromPoints, "the session is not from points");
+        Require(neighbors || session->CountTriangles() == 0, "neighbors is null");
+        session->Session.StoreNeighbors(neighbors);
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_used_points(
+    delaunayflip_session* session, std::int64_t* ids)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(session->IsFromPoints, "the session is not from points");
+        Require(ids || session->Session.GetReport().Points == 0, "ids is null");
+        session->Session.StoreUsedPoints(ids);
+      });
+  }
+
   delaunayflip_status delaunayflip_advance(delaunayflip_session* session, std::int64_t iterations,
     const delaunayflip_callbacks* callbacks, std::int32_t* is_running)
   {
@@ -311,7 +361,7 @@ extern "C"
   {
     return TryWith(session,
       [=]() {
-        session->Session.StoreTriangles(ToOutput(triangles, session->NumberOfTriangles, id_type));
+        session->Session.StoreTriangles(ToOutput(triangles, session->CountTriangles(), id_type));
       });
   }
 
@@ -321,7 +371,7 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        Require(counts || session->NumberOfTriangles == 0, "counts is null");
+        Require(counts || session->CountTriangles() == 0, "counts is null");
         session->Session.StoreFlipCounts(counts);
       });
   }
@@ -333,7 +383,7 @@ extern "C"
       [=]()
       {
         session->Session.StoreTriangles(
-          ToOutput(triangles, session->NumberOfTriangles, id_type), DeviceStream{ stream });
+          ToOutput(triangles, session->CountTriangles(), id_type), DeviceStream{ stream });
       });
   }
 
@@ -343,7 +393,7 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        Require(counts || session->NumberOfTriangles == 0, "counts is null");
+        Require(counts || session->CountTriangles() == 0, "counts is null");
         session->Session.StoreFlipCounts(counts, DeviceStream{ stream });
       });
   }

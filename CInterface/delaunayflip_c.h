@@ -219,6 +219,8 @@ extern "C"
     double minimum_angle_after;
     double build_seconds;
     double flip_seconds;
+    int64_t number_of_points; /**< Of the caller. */
+    int64_t number_of_triangles;
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -248,6 +250,27 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
+
+  /** Triangulates points in x and y: a session that begins with a valid triangulation of all
+   * places, which delaunayflip_advance makes Delaunay. Of `points` only the points are used: their
+   * array, number, type, and 2 or 3 components; they must be in the host's memory. Geometry,
+   * criterion and tie rule of the options are not used: the triangles depend on the points alone,
+   * not on their order. They turn counter-clockwise and have an area. Of points at equal places
+   * that with the lowest id is used; points with NaN or infinite x or y are not. The report's
+   * number_of_triangles says how many triangles to store; it is 0 if all places lie on one line. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open_points(const delaunayflip_mesh* points,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
+    delaunayflip_session** session);
+
+  /** Of a session from points: writes, for every triangle, the triangles across its edges: number k
+   * is opposite its vertex k, -1 where there is none. 3 * number_of_triangles integers. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_neighbors(
+    delaunayflip_session* session, int32_t* neighbors);
+
+  /** Of a session from points: writes, for every point, the id of the point that is used at its
+   * place, or -1 for one that is not finite. number_of_points integers. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_used_points(
+    delaunayflip_session* session, int64_t* ids);
 
   /** Runs at most `iterations` more iterations; -1: until nothing is left to flip or a limit is
    * reached.

@@ -9,6 +9,9 @@ With NumPy arrays:
     result = delaunayflip.flip(points, triangles)
     result.triangles  # better triangles of the same points
 
+    triangulation = delaunayflip.triangulate(points)
+    triangulation.triangles  # of points that have none
+
 Arrays of CuPy, PyTorch, Numba and all libraries with DLPack are flipped where they are, also on a
 GPU.
 
@@ -34,6 +37,7 @@ if typing.TYPE_CHECKING:
     from ._library import (
         BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge, has_cuda_device,
         release_cuda_memory)
+    from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
     from ._vtk import vtkDelaunayFlip
@@ -42,14 +46,14 @@ if typing.TYPE_CHECKING:
 
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
-    "Result", "Session", "flip", "has_cuda_device", "release_cuda_memory", "smallest_angles",
-    "vtkDelaunayFlip",
+    "Result", "Session", "Triangulation", "flip", "has_cuda_device", "release_cuda_memory",
+    "smallest_angles", "triangulate", "vtkDelaunayFlip",
 ]
 
 # Modules of the names that are not in _library.
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
-    "smallest_angles": "_session", "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk",
+    "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session", "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk",
     "vtkPDelaunayFlip": "_vtk",
 }
 # What these need beside VTK.

@@ -38,8 +38,8 @@ def _convert(array, kind):
     return numpy.require(array, kind, "CA")
 
 
-def as_points(points):
-    """Points of shape (n, 3), float32 or float64. (n, 2) gets z = 0; other numbers become float64."""
+def as_plane(points):
+    """Points of shape (n, 2) or (n, 3), float32 or float64; other numbers become float64."""
     points = _as_array("points", points)
     if points.size == 0 and points.ndim < 2:
         points = numpy.empty((0, 3))
@@ -47,7 +47,13 @@ def as_points(points):
         raise _shape_error("points", points, "(n, 3) or (n, 2)")
     if points.dtype.kind not in "fiu":
         raise TypeError(f"points must be real numbers, not {points.dtype}")
-    kind = _choose_type(points, numpy.float32, numpy.float64)
+    return _convert(points, _choose_type(points, numpy.float32, numpy.float64))
+
+
+def as_points(points):
+    """The same of shape (n, 3): (n, 2) gets z = 0."""
+    points = as_plane(points)
+    kind = points.dtype
     if points.shape[1] == 2:
         flat, points = points, numpy.zeros((len(points), 3), dtype=kind)
         points[:, :2] = flat

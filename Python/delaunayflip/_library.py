@@ -101,6 +101,7 @@ class Report(ctypes.Structure):
              region_edges fixed_edges unmatched_constraints inserted_constraints constraint_flips
              euler_characteristic"""),
         *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
+        *_of(c_int64, "number_of_points number_of_triangles"),
     ]
 
 
@@ -146,6 +147,10 @@ def library():
         *((f"{kind.__name__.lower()}_init", None, [pointer(kind)])
           for kind in (Mesh, Options, Report, Callbacks, Polygons)),
         ("open", c_int32, [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
+        ("open_points", c_int32,
+         [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
+        ("store_neighbors", c_int32, [c_void_p, c_void_p]),
+        ("store_used_points", c_int32, [c_void_p, c_void_p]),
         ("advance", c_int32, [c_void_p, c_int64, pointer(Callbacks), pointer(c_int32)]),
         ("get_report", c_int32, [c_void_p, pointer(Report)]),
         ("get_iterations", c_int32, [c_void_p, c_int64, c_int64, c_void_p, c_int64]),

@@ -67,6 +67,8 @@ class Report:
     minimum_angle_after: float
     build_seconds: float
     flip_seconds: float
+    number_of_points: int = 0
+    number_of_triangles: int = 0
 
     @property
     def converged(self) -> bool:
