@@ -53,8 +53,8 @@ __all__ = [
 # Modules of the names that are not in _library.
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
-    "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session", "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk",
-    "vtkPDelaunayFlip": "_vtk",
+    "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
+    "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk", "vtkPDelaunayFlip": "_vtk",
 }
 # What these need beside VTK.
 _NEEDS = {
