@@ -359,7 +359,8 @@ public:
   /**
    * Compute the smallest angle of the mesh after every iteration, instead of only after the first
    * and the last one. Costs one pass over the mesh per iteration. Default off. No effect with
-   * several processes (vtkPDelaunayFlip), which know only the one after the last iteration.
+   * several processes (vtkPDelaunayFlip) or pieces, which know only the one after the last
+   * iteration.
    */
   vtkSetMacro(TrackQuality, bool);
   vtkGetMacro(TrackQuality, bool);

@@ -133,7 +133,7 @@ protected:
   EdgeGuardTest()
     : Backend(1),
       Edges(BuildEdges(MakeGridMesh(8, 8), this->Backend)),
-      Guard(EdgeTable(this->Edges.NumberOfEdges, { 0, 81 }, false, this->Backend),
+      Guard(EdgeTable(this->Edges.NumberOfEdges, { 0, 81 }, false, this->Backend), {},
         this->Edges.NumberOfEdges, 81, this->Backend)
   {
     this->Guard.Rebuild(this->Edges, this->Backend);
