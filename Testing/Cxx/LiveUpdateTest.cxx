@@ -241,16 +241,6 @@ TEST(LiveUpdate, CompositeInputIsFlippedAtOnce)
   }
 }
 
-TEST(LiveUpdate, PiecesAreFlippedAtOnce)
-{
-  LiveFilter filter(MakeBadPlane());
-  filter->UpdatePiece(0, 2, 0);
-  EXPECT_TRUE(filter->GetConverged());
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_NE(filter.GetWarnings()[0].find("LiveUpdate is for one mesh"), std::string::npos);
-  EXPECT_FALSE(filter->GetNeedsUpdate());
-}
-
 TEST(LiveUpdate, EmptyInputHasNothingToDo)
 {
   LiveFilter filter(MakeBadPlane());
