@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
+#include "MeshOnBackend.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
 #include "FlipError.h"
-#include "LocalDeviceMesh.cuh"
-#include "MeshOnBackend.h"
 
 #include <algorithm>
 #include <atomic>
@@ -70,61 +69,27 @@ public:
   }
 
 private:
-  static std::uint64_t CountEngines()
-  {
-    static std::atomic<std::uint64_t> engines{ 0 };
-    return ++engines;
-  }
-
   bool IsHere(const void* memory) const
   {
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
 
-  const std::uint64_t Number = CountEngines();
+  inline static std::atomic<std::uint64_t> Meshes{ 0 };
+  const std::uint64_t Number = ++Meshes;
 };
 
-/// The caller's arrays, wherever they are.
-TriangleMesh View(const TriangleMesh& mesh) { return mesh; }
-TriangleMesh View(const DeviceMesh& mesh)
-{
-  TriangleMesh view;
-  static_cast<FixedEdges&>(view) = mesh;
-  view.Points.Floats = mesh.Points.Floats;
-  view.Points.Doubles = mesh.Points.Doubles;
-  view.Points.Count = mesh.Points.Count;
-  view.Triangles = mesh.Triangles;
-  return view;
-}
-
-std::vector<int> ChooseDevices(const TriangleMesh& mesh, const FlipOptions& options)
-{
-  if (options.Devices.empty())
-  {
-    return { options.Device };
-  }
-  const auto most = static_cast<std::size_t>(mesh.Triangles.Count / GetSmallestShare());
-  std::vector<int> devices = options.Devices;
-  devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
-  return devices;
-}
-/// A mesh that is on a GPU stays there.
-std::vector<int> ChooseDevices(const DeviceMesh&, const FlipOptions& options)
-{
-  return { options.Device };
-}
-
+/// @param view the caller's arrays, wherever they are.
 template <typename Mesh>
-std::unique_ptr<LoadedMesh> Load(
-  const Mesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+std::unique_ptr<LoadedMesh> Load(const Mesh& mesh, const TriangleMesh& view,
+  const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
 {
   try
   {
-    CudaBackend backend(ChooseDevices(mesh, options), options.NumberOfThreads);
+    CudaBackend backend(devices, options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
     LocalDeviceMesh local = backend.Localize(mesh);
     return std::unique_ptr<LoadedMesh>(
-      new CudaMesh(View(mesh), std::move(local), options, std::move(backend), progress));
+      new CudaMesh(view, std::move(local), options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {
@@ -136,13 +101,27 @@ std::unique_ptr<LoadedMesh> Load(
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return Load(mesh, options, progress);
+  std::vector<int> devices = { options.Device };
+  if (!options.Devices.empty())
+  {
+    const auto most = static_cast<std::size_t>(mesh.Triangles.Count / GetSmallestShare());
+    devices = options.Devices;
+    devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
+  }
+  return Load(mesh, mesh, devices, options, progress);
 }
 
+/// A mesh that is on a GPU stays there.
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return Load(mesh, options, progress);
+  TriangleMesh view;
+  static_cast<FixedEdges&>(view) = mesh;
+  view.Points.Floats = mesh.Points.Floats;
+  view.Points.Doubles = mesh.Points.Doubles;
+  view.Points.Count = mesh.Points.Count;
+  view.Triangles = mesh.Triangles;
+  return Load(mesh, view, { options.Device }, options, progress);
 }
 
 }

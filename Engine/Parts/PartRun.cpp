@@ -441,7 +441,7 @@ private:
     this->Own.MinimumAngleAfter =
       this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
     this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
-    if (this->HasBlocked)
+    if (this->HasBlocked || this->StopReason != StopReasonKind::Converged)
     {
       this->CountBad();
     }
@@ -515,7 +515,7 @@ private:
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
-  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (FlipWaiting).
+  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (AskForFlips).
   PartConstraints Constraints;
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 

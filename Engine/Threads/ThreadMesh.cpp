@@ -20,29 +20,6 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
     new MeshOnBackend<ThreadBackend>(mesh, local, options, std::move(backend), progress));
 }
 
-namespace
-{
-/// The vertex ids of the fixed edges with two triangles.
-std::vector<std::int64_t> ListFixedEdges(EdgeMesh& edges, const SpatialOrderView& order)
-{
-  const EdgeMeshView mesh = edges.View();
-  std::vector<std::int64_t> pairs;
-  for (std::int64_t e = 0; e < edges.NumberOfEdges; ++e)
-  {
-    const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
-    if (mesh.States[e] != EdgeState::Fixed || corners.A == NoCorner || corners.B == NoCorner ||
-      IsLoop(mesh.Triangles[TriangleOf(corners.A)], SlotOf(corners.A)))
-    {
-      continue;
-    }
-    const Quad quad = mesh.GetQuad(static_cast<EdgeId>(e));
-    pairs.push_back(order.GetVertex(quad.P));
-    pairs.push_back(order.GetVertex(quad.Q));
-  }
-  return pairs;
-}
-}
-
 std::vector<std::int64_t> FindFixedEdges(
   const TriangleMesh& caller, const FlipOptions& options, const ProgressObserver& observer)
 {
@@ -60,7 +37,19 @@ std::vector<std::int64_t> FindFixedEdges(
   const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, progress);
   progress.Reach(survey.Geometry, BuildStep::Fixed);
-  return ListFixedEdges(built.Edges, order.View());
+  const EdgeMeshView view = built.Edges.View();
+  std::vector<std::int64_t> pairs; // of the fixed edges with two triangles
+  for (std::int64_t e = 0; e < built.Edges.NumberOfEdges; ++e)
+  {
+    const CornerPair corners = view.GetCorners(static_cast<EdgeId>(e));
+    if (view.States[e] == EdgeState::Fixed && corners.A != NoCorner && corners.B != NoCorner &&
+      !IsLoop(view.Triangles[TriangleOf(corners.A)], SlotOf(corners.A)))
+    {
+      const Quad quad = view.GetQuad(corners);
+      pairs.insert(pairs.end(), { order.View().GetVertex(quad.P), order.View().GetVertex(quad.Q) });
+    }
+  }
+  return pairs;
 }
 
 GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)
