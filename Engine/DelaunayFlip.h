@@ -20,7 +20,7 @@
 namespace delaunayflip
 {
 
-struct EngineTriangles;
+struct DeviceTriangles;
 struct HostTriangles;
 
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
@@ -87,7 +87,7 @@ public:
 
 private:
   friend class DrawnTriangles; // of DeviceColors.h
-  EngineTriangles ViewTriangles() const;
+  DeviceTriangles ViewTriangles() const;
   friend class PartRun;
   HostTriangles ViewHostTriangles() const;
 

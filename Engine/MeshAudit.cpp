@@ -7,6 +7,7 @@
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
+#include "WideAngles.h"
 
 #include <algorithm>
 #include <array>
@@ -21,34 +22,21 @@ namespace delaunayflip
 namespace
 {
 
-// The opposite-angle test of MeshAudit and its tolerance. It does not use the engine's
-// SurfaceAngles.h and works differently, with divisions, hypot and inverse trigonometry: if both
-// shared code, a mistake in it would confirm itself.
-using Vector = std::array<double, 3>;
+using VertexPair = std::pair<std::int64_t, std::int64_t>;
 
-Vector Subtract(const Vector& a, const Vector& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
+// The opposite-angle test of MeshAudit and its tolerance. It shares only vectors with the engine's
+// test and works differently, with divisions, hypot and inverse trigonometry: if both shared more
+// code, a mistake in it would confirm itself.
 
-double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector Cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double Length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+double Hypot(const Vector3& a) { return std::hypot(a.X, a.Y, a.Z); }
 
 /// Cosine and sine, times any positive number, of the angle at `apex` towards `p` and `q`.
 struct Angle
 {
-  Angle(const Vector& apex, const Vector& p, const Vector& q)
+  Angle(const Vector3& apex, const Vector3& p, const Vector3& q)
+    : Cosine(Dot(p - apex, q - apex)),
+      Sine(Hypot(Cross(p - apex, q - apex)))
   {
-    const Vector first = Subtract(p, apex);
-    const Vector second = Subtract(q, apex);
-    this->Cosine = Dot(first, second);
-    this->Sine = Length(Cross(first, second));
   }
 
   double Cosine;
@@ -72,15 +60,15 @@ bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
 /// coordinate moves by a unit in the last place. Infinite if the change has no bound.
 /// @param apqb the points of the quad.
 /// @param epsilon that of the coordinates' type.
-double FindTolerance(const std::array<Vector, 4>& apqb, double epsilon)
+double FindTolerance(const std::array<Vector3, 4>& apqb, double epsilon)
 {
   // Differences and lengths of a quarter of the coordinates are finite.
-  std::array<Vector, 4> quarters = apqb;
+  std::array<Vector3, 4> quarters = apqb;
   double farthest = 0.0;
-  for (Vector& point : quarters)
+  for (Vector3& point : quarters)
   {
-    point = { 0.25 * point[0], 0.25 * point[1], 0.25 * point[2] };
-    farthest = std::max(farthest, Length(point));
+    point = 0.25 * point;
+    farthest = std::max(farthest, Hypot(point));
   }
   double turns = 0.0;
   for (int apex : { 0, 3 })
@@ -88,15 +76,13 @@ double FindTolerance(const std::array<Vector, 4>& apqb, double epsilon)
     for (int end : { 1, 2 })
     {
       const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
-      turns += moved / Length(Subtract(quarters[end], quarters[apex]));
+      turns += moved / Hypot(quarters[end] - quarters[apex]);
     }
   }
   // The rounding of the engine's test is less than this.
   turns += 32.0 * std::numeric_limits<double>::epsilon();
   return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
 }
-
-using VertexPair = std::pair<std::int64_t, std::int64_t>;
 
 /// One side of a triangle.
 struct Side
@@ -165,13 +151,17 @@ std::int64_t CountUsedPoints(const TriangleArray& triangles)
 
 /// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
 template <std::size_t Count>
-std::array<Vector, Count> GetScaledPoints(
+std::array<Vector3, Count> GetScaledPoints(
   const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
 {
-  std::array<Vector, Count> offsets{};
-  const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
-  LoadScaledOffsets(points, ids.data(), Count, axes, offsets);
-  return offsets;
+  double offsets[Count][3] = {};
+  LoadScaledOffsets(points, ids.data(), Count, geometry == GeometryKind::PlanarXY ? 2 : 3, offsets);
+  std::array<Vector3, Count> scaled;
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    scaled[i] = { offsets[i][0], offsets[i][1], offsets[i][2] };
+  }
+  return scaled;
 }
 
 template <std::size_t Count>
@@ -257,7 +247,7 @@ private:
   }
 
   /// A point's u, v and w; w is 0 unless it belongs to the lift.
-  Vector Project(std::int64_t point) const
+  std::array<double, 3> Project(std::int64_t point) const
   {
     const PlanePoint projected = this->Projection.Project(this->Mesh.Points, point);
     return { projected.U, projected.V, projected.W };
@@ -270,10 +260,8 @@ private:
 
   int JudgeInCircle(const std::array<std::int64_t, 4>& quad) const
   {
-    const Vector a = this->Project(quad[0]);
-    const Vector p = this->Project(quad[1]);
-    const Vector q = this->Project(quad[2]);
-    const Vector b = this->Project(quad[3]);
+    const auto a = this->Project(quad[0]), p = this->Project(quad[1]);
+    const auto q = this->Project(quad[2]), b = this->Project(quad[3]);
     return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
                                    : InCircle(a.data(), p.data(), q.data(), b.data());
   }
@@ -287,7 +275,7 @@ private:
     std::transform(quad.begin(), quad.end(), apqb.begin(),
       [this](std::int64_t point)
       {
-        const Vector projected = this->Project(point);
+        const auto projected = this->Project(point);
         return Place(projected[0], projected[1]);
       });
     const std::pair<Place, Place> edge = std::minmax({ apqb[1], apqb[2] });
@@ -317,14 +305,11 @@ private:
     {
       return this->Options.Tolerance;
     }
-    std::array<Vector, 4> apqb{};
-    const int axes = this->Geometry == GeometryKind::PlanarXY ? 2 : 3;
+    std::array<Vector3, 4> apqb;
     for (int i = 0; i < 4; ++i)
     {
-      for (int axis = 0; axis < axes; ++axis)
-      {
-        apqb[i][axis] = this->Mesh.Points.Get(quad[i], axis);
-      }
+      apqb[i] = LoadPoint(this->Mesh.Points, quad[i]);
+      apqb[i].Z = this->Geometry == GeometryKind::PlanarXY ? 0.0 : apqb[i].Z;
     }
     return FindTolerance(apqb,
       this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
@@ -339,9 +324,9 @@ private:
       return false;
     }
     const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
-    const Vector n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
-    const Vector m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
-    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
+    const Vector3 n = AreaVector(x[0], x[1], x[2]);
+    const Vector3 m = AreaVector(x[3], x[2], x[1]);
+    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Hypot(n) * Hypot(m);
   }
 
   const TriangleMesh& Mesh;

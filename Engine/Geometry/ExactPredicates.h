@@ -10,12 +10,16 @@
 #include <cstring>
 
 /// @file
-/// Doubles as integers times a common power of two, and the sums and products of such integers in
-/// up to 512 bits. Everything has a fixed size and fits the registers of a GPU: no loops, no
-/// arrays.
+/// Exact signs: by fixed-point integers if coordinates are below 2^125 in units of their lowest
+/// bit, as for nearly all quads; else by integers of any width.
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Doubles as integers times a common power of two, and the sums and products of such integers in
+// up to 512 bits. Everything has a fixed size and fits the registers of a GPU: no loops, no
+// arrays.
 
 __extension__ typedef __int128 Integer128; // NOLINT(modernize-use-using)
 __extension__ typedef unsigned __int128 Unsigned128; // NOLINT(modernize-use-using)
@@ -209,8 +213,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Exact signs: by fixed-point integers if coordinates are below 2^125 in units of their lowest
-// bit, as for nearly all quads; else by integers of any width.
 
 /// Wide-integer signs, for any finite coordinates; on the CPU only.
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);

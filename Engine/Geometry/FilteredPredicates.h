@@ -7,6 +7,10 @@
 
 #include <cmath>
 
+/// @file
+/// Points and vectors, and signs that double arithmetic can certify. Error bounds: Shewchuk 1997,
+/// Table 2 and Fig. 21, with 1/1000 added for the terms that underflow.
+
 namespace delaunayflip
 {
 
@@ -46,10 +50,6 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 AreaVector(
 {
   return Cross(b - a, c - a);
 }
-
-//------------------------------------------------------------------------------
-// Signs that double arithmetic can certify. Error bounds: Shewchuk 1997, Table 2 and Fig.
-// 21, with 1/1000 added for the terms that underflow.
 
 /// What a filter returns when it cannot decide.
 constexpr int UncertainSign = 2;

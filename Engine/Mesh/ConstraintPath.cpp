@@ -20,7 +20,21 @@ VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_
       const HalfEdgeId leaves = mesh.GetHalfEdge(PlaneMesh::Previous(corner));
       if (!isKnown[corner] && (!open || mesh.FindAcross(leaves) == NoCorner))
       {
-        this->AddFan(corner, isKnown);
+        const VertexId vertex = mesh.GetVertex(corner);
+        if (this->First[vertex] == NoHalfEdge)
+        {
+          this->First[vertex] = leaves;
+        }
+        else
+        {
+          this->Others.emplace(vertex, leaves);
+        }
+        this->SearchFan(leaves,
+          [&](CornerId known)
+          {
+            isKnown[known] = true;
+            return false;
+          });
       }
     }
   };
@@ -28,43 +42,17 @@ VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_
   addFans(false); // of these any corner is the first
 }
 
-void VertexFans::AddFan(CornerId first, std::vector<bool>& isKnown)
-{
-  const HalfEdgeId leaves = this->Mesh.GetHalfEdge(PlaneMesh::Previous(first));
-  HalfEdgeId& known = this->First[this->Mesh.GetVertex(first)];
-  if (known == NoHalfEdge)
-  {
-    known = leaves;
-  }
-  else
-  {
-    this->Others.emplace(this->Mesh.GetVertex(first), leaves);
-  }
-  this->SearchFan(leaves,
-    [&](CornerId corner)
-    {
-      isKnown[corner] = true;
-      return false;
-    });
-}
-
 void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfEdgeId fromQ)
 {
-  this->Replace(quad.P, edge, fromP);
-  this->Replace(quad.Q, edge, fromQ);
-}
-
-void VertexFans::Replace(VertexId vertex, EdgeId gone, HalfEdgeId halfEdge)
-{
-  if (EdgeOf(this->First[vertex]) == gone)
+  for (const auto& [vertex, halfEdge] : { std::pair(quad.P, fromP), std::pair(quad.Q, fromQ) })
   {
-    this->First[vertex] = halfEdge;
-    return;
-  }
-  const auto [begin, end] = this->Others.equal_range(vertex);
-  for (auto other = begin; other != end; ++other)
-  {
-    other->second = EdgeOf(other->second) == gone ? halfEdge : other->second;
+    HalfEdgeId& first = this->First[vertex];
+    first = EdgeOf(first) == edge ? halfEdge : first;
+    const auto [begin, end] = this->Others.equal_range(vertex);
+    for (auto other = begin; other != end; ++other)
+    {
+      other->second = EdgeOf(other->second) == edge ? halfEdge : other->second;
+    }
   }
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 /// @file
-/// How to walk through an edge mesh in the plane, on the host.
+/// The way of a constraint through an edge mesh in the plane, on the host.
 
 namespace delaunayflip
 {
@@ -146,9 +146,6 @@ private:
     } while (corner != NoCorner && corner != start);
     return false;
   }
-
-  void AddFan(CornerId first, std::vector<bool>& isKnown);
-  void Replace(VertexId vertex, EdgeId gone, HalfEdgeId halfEdge);
 
   const PlaneMesh& Mesh;
   std::vector<HalfEdgeId> First; ///< One a vertex, or NoHalfEdge.

@@ -216,86 +216,53 @@ struct EdgeMesh
 //------------------------------------------------------------------------------
 // The invariants of an edge mesh.
 
-/// The checks, for one triangle or edge.
-struct EdgeMeshInspector
+/// Checks an edge. @returns by the sum: how many sides it has, or -1 if it is broken.
+struct AuditStep
 {
   const TriangleRecord* Triangles;
   const CornerId* CornerOfHalfEdge;
   const EdgeState* States;
-  std::int64_t NumberOfTriangles, NumberOfEdges;
+  std::int64_t NumberOfTriangles;
 
-  /// Counts the corners of a triangle that their half-edges do not name.
-  DELAUNAYFLIP_HOST_DEVICE int CountStrayCorners(std::int64_t t) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t e, std::int64_t& sum) const
   {
-    int stray = 0;
-    for (int slot = 0; slot < 3; ++slot)
+    const CornerId* corners = &this->CornerOfHalfEdge[2 * e];
+    const int sides = corners[1] == NoCorner ? 1 : 2;
+    const bool isFixed = this->States[e] == EdgeState::Fixed;
+    bool isSound = sides == 2 || isFixed;
+    VertexId found[2][3]; // the opposite vertex, and the ends in the direction of the triangle
+    for (int side = 0; side < sides && isSound; ++side)
     {
-      const HalfEdgeId halfEdge = this->Triangles[t].HalfEdges[slot];
-      const bool named = static_cast<std::int64_t>(EdgeOf(halfEdge)) < this->NumberOfEdges &&
-        this->CornerOfHalfEdge[halfEdge] == MakeCorner(static_cast<TriangleId>(t), slot);
-      stray += named ? 0 : 1;
+      const std::int64_t triangle = TriangleOf(corners[side]);
+      const int slot = SlotOf(corners[side]);
+      isSound = triangle < this->NumberOfTriangles && slot < 3 &&
+        this->Triangles[triangle].HalfEdges[slot] == 2 * e + side;
+      for (int i = 0; i < 3 && isSound; ++i)
+      {
+        found[side][i] = this->Triangles[triangle].Vertices[(slot + i) % 3];
+      }
     }
-    return stray;
-  }
-
-  /// Whether the sides of an edge belong together.
-  DELAUNAYFLIP_HOST_DEVICE bool IsSound(std::int64_t e) const
-  {
-    const CornerId a = this->CornerOfHalfEdge[2 * e];
-    const CornerId b = this->CornerOfHalfEdge[2 * e + 1];
-    const bool fixed = this->States[e] == EdgeState::Fixed;
-    if (!this->IsCorner(a) || (b != NoCorner && !this->IsCorner(b)))
+    if (sides == 2 && isSound)
     {
-      return false;
+      const bool opposed = found[0][1] == found[1][2] && found[0][2] == found[1][1];
+      const bool alike = found[0][1] == found[1][1] && found[0][2] == found[1][2];
+      isSound = isFixed ? opposed || alike : opposed && found[0][0] != found[1][0];
     }
-    if (b == NoCorner)
-    {
-      return fixed;
-    }
-    const Direction upper = this->GetDirection(a);
-    const Direction lower = this->GetDirection(b);
-    const bool opposed = upper.Start == lower.End && upper.End == lower.Start;
-    const bool alike = upper.Start == lower.Start && upper.End == lower.End;
-    return fixed ? opposed || alike : opposed && upper.Opposite != lower.Opposite;
-  }
-
-private:
-  /// Start and end of an edge in the direction of the triangle on one side.
-  struct Direction
-  {
-    VertexId Start, End, Opposite;
-  };
-
-  DELAUNAYFLIP_HOST_DEVICE bool IsCorner(CornerId corner) const
-  {
-    return static_cast<std::int64_t>(TriangleOf(corner)) < this->NumberOfTriangles &&
-      SlotOf(corner) < 3;
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE Direction GetDirection(CornerId corner) const
-  {
-    const TriangleRecord& triangle = this->Triangles[TriangleOf(corner)];
-    const int slot = SlotOf(corner);
-    return { triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)],
-      triangle.Vertices[slot] };
+    sum += isSound ? sides : -1;
   }
 };
 
-/// Counts half-edges that break the adjacency: a corner and its half-edge do not name each other,
-/// an id is out of range, the two sides of an edge have different end vertices, or, unless the edge
-/// is Fixed, they run the same way or face the same vertex. 0 for a consistent mesh.
+/// Counts what breaks the adjacency: a corner and its half-edge do not name each other, an id is
+/// out of range, the two sides of an edge have different end vertices, or, unless the edge is
+/// Fixed, they run the same way or face the same vertex. 0 for a consistent mesh.
 template <typename Backend>
 std::int64_t CountInconsistencies(const EdgeMesh& mesh, const Backend& backend)
 {
-  const EdgeMeshInspector inspector{ mesh.Triangles.Data(), mesh.CornerOfHalfEdge.Data(),
-    mesh.States.Data(), mesh.NumberOfTriangles, mesh.NumberOfEdges };
-  const std::int64_t stray = backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & sum)
-    { sum += inspector.CountStrayCorners(t); });
-  return stray +
+  // Two half-edges that name the same corner cannot both be named by it.
+  return 3 * mesh.NumberOfTriangles -
     backend.template Sum<std::int64_t>(mesh.NumberOfEdges,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t & sum)
-      { sum += inspector.IsSound(e) ? 0 : 1; });
+      AuditStep{ mesh.Triangles.Data(), mesh.CornerOfHalfEdge.Data(), mesh.States.Data(),
+        mesh.NumberOfTriangles });
 }
 
 /// Throws std::logic_error if CountInconsistencies is not 0, which is a bug of the engine.

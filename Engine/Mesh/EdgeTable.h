@@ -79,11 +79,7 @@ struct EdgeTableView
   {
     const std::uint64_t home =
       (std::uint64_t(smaller - this->Slice.First) * this->Stride) >> StrideBits;
-    return this->Wrap(home + scattered % NearSlots);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint64_t slot) const
-  {
+    const std::uint64_t slot = home + scattered % NearSlots;
     return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
   }
 
@@ -296,39 +292,6 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int 
   return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
 }
 
-/// Adds a corner to the table entry of its edge. The first word belongs to the corner that inserted
-/// the entry. @returns whether this made the edge non-manifold.
-DELAUNAYFLIP_HOST_DEVICE inline bool AttachCorner(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner, bool inserted)
-{
-  if (inserted)
-  {
-    table.First[slot] = corner;
-    return false;
-  }
-  return AtomicCompareExchange(&table.Second[slot], NoCorner, corner) != NoCorner &&
-    AtomicExchange(&table.Second[slot], ManyCorners) != ManyCorners;
-}
-
-/// @param other receives the other corner of an edge with two triangles, else NoCorner.
-DELAUNAYFLIP_HOST_DEVICE inline CornerRole FindRole(
-  const EdgeTableView& table, std::uint32_t slot, CornerId corner, CornerId& other)
-{
-  const CornerId first = table.First[slot];
-  const CornerId second = table.Second[slot];
-  other = NoCorner;
-  if (second == NoCorner)
-  {
-    return CornerRole::Alone;
-  }
-  if (second == ManyCorners)
-  {
-    return CornerRole::OneOfMany;
-  }
-  other = first == corner ? second : first;
-  return corner < other ? CornerRole::Leader : CornerRole::Follower;
-}
-
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
 {
   return static_cast<CornerRole>((triangle.Flips >> (2 * slot)) & 3);
@@ -343,19 +306,6 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
     leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
   }
   return leaders;
-}
-
-/// Numbers an edge; `other` is its other corner or NoCorner.
-DELAUNAYFLIP_HOST_DEVICE inline void NumberEdge(
-  const EdgeMeshView& mesh, CornerId corner, CornerId other, EdgeId edge)
-{
-  mesh.CornerOfHalfEdge[2 * edge] = corner;
-  mesh.CornerOfHalfEdge[2 * edge + 1] = other;
-  mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)] = 2 * edge;
-  if (other != NoCorner)
-  {
-    mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * edge + 1;
-  }
 }
 
 }

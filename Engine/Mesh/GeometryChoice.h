@@ -23,6 +23,11 @@
 #include <limits>
 #include <string>
 
+/// @file
+/// Chooses the space in which the edges of a mesh are judged, and says why: in a plane; over x and
+/// y, if the mesh is a height field that is not steep; or as a surface. Decided before edges are
+/// known. Only integers and maxima are computed, so that both backends come to the same answer.
+
 namespace delaunayflip
 {
 
@@ -44,10 +49,15 @@ struct PlaneScale
     this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
   }
 
-  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(double x, double y, double z) const
+  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(const Vector3& p) const
   {
-    return { x * this->Factors[0] * this->Factors[1], y * this->Factors[0] * this->Factors[1],
-      z * this->Factors[0] * this->Factors[1] };
+    return this->Factors[1] * (this->Factors[0] * p);
+  }
+
+  double FindDiagonal(const BoundingBox& box) const
+  {
+    return Length((*this)({ box.Upper[0], box.Upper[1], box.Upper[2] }) -
+      (*this)({ box.Lower[0], box.Lower[1], box.Lower[2] }));
   }
 };
 
@@ -71,125 +81,6 @@ struct Farthest
     return *this;
   }
 };
-
-/// The measure to maximise: squared distance from an origin, squared area with a vector, or
-/// distance from a plane times the length of its normal.
-struct DistanceFrom
-{
-  Vector3 Origin;
-  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
-  {
-    const Vector3 d = p - this->Origin;
-    return Dot(d, d);
-  }
-};
-
-struct AreaWith
-{
-  Vector3 Origin, Along;
-  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
-  {
-    const Vector3 n = Cross(this->Along, p - this->Origin);
-    return Dot(n, n);
-  }
-};
-
-struct HeightAbove
-{
-  Vector3 Origin, Normal;
-  DELAUNAYFLIP_HOST_DEVICE double operator()(const Vector3& p) const
-  {
-    return std::fabs(Dot(this->Normal, p - this->Origin));
-  }
-};
-
-/// Finds the plane of a survey's points.
-template <typename Backend>
-class PlaneFinder
-{
-public:
-  PlaneFinder(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
-    : Input(input),
-      Uses(survey.Uses.Data()),
-      Scale(survey.Box),
-      Engine(backend)
-  {
-    const BoundingBox& box = survey.Box;
-    this->Level = box.Lower[2] == box.Upper[2];
-    this->Diagonal = Length(this->Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
-      this->Scale(box.Lower[0], box.Lower[1], box.Lower[2]));
-  }
-
-  /// Whether all used points lie in one plane; its normal is then known.
-  bool Find()
-  {
-    this->Normal = { 0.0, 0.0, 1.0 };
-    if (this->Level)
-    {
-      return true;
-    }
-    // This finds the first used point: the measure is the same for all.
-    const Farthest first = this->ArgMax(HeightAbove{});
-    if (first.Point < 0)
-    {
-      return true;
-    }
-    const Vector3 origin = first.Position;
-    const Vector3 along = this->ArgMax(DistanceFrom{ origin }).Position - origin;
-    const Vector3 across = this->ArgMax(AreaWith{ origin, along }).Position - origin;
-    this->Normal = Cross(along, across);
-    const HeightAbove height{ origin, this->Normal };
-    const Farthest off = this->ArgMax(height);
-    this->Off = off.Point;
-    return height(off.Position) <= PlanarTolerance * this->Diagonal * Length(this->Normal);
-  }
-
-  int DominantAxis() const
-  {
-    const double x = std::fabs(this->Normal.X);
-    const double y = std::fabs(this->Normal.Y);
-    const double z = std::fabs(this->Normal.Z);
-    if (z >= x && z >= y)
-    {
-      return 2;
-    }
-    return y >= x ? 1 : 0;
-  }
-
-  std::int64_t FarthestOff() const { return this->Off; }
-
-  /// The used point with the largest measure. Public because device lambdas require it.
-  template <typename Measure>
-  Farthest ArgMax(const Measure& measure) const
-  {
-    const PointArray points = this->Input.Local.Points;
-    const PointUse* uses = this->Uses;
-    const PlaneScale scale = this->Scale;
-    return this->Engine.template Sum<Farthest>(points.Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
-      {
-        if (uses[i] == PointUse::Used)
-        {
-          const Vector3 position = scale(points.Get(i, 0), points.Get(i, 1), points.Get(i, 2));
-          farthest += { i, measure(position), position };
-        }
-      });
-  }
-
-private:
-  const MeshInput& Input;
-  const PointUse* Uses;
-  PlaneScale Scale;
-  const Backend& Engine;
-  double Diagonal = 0.0;
-  bool Level; ///< All z are equal, as in most planar meshes.
-  Vector3 Normal;
-  std::int64_t Off = -1;
-};
-
-//------------------------------------------------------------------------------
-// Whether a mesh is a height field over x and y, and how steep it is. Decided before edges are
-// known. Only integers are summed, so that both backends come to the same answer.
 
 /// The turn of a, b, c in x and y. Also 0 if the filter finds almost no area and fixed-point
 /// integers do not suffice, because a device has no wider ones.
@@ -256,14 +147,12 @@ struct AreaSum
 
 struct TurnSums
 {
-  IdSample Left, Right, Flat; ///< Triangles by their turn in x and y.
+  TurnSample Turns; ///< In x and y.
   AreaSum All, Gentle; ///< Area in space: of all, and of those that slope below 45 degrees.
 
   DELAUNAYFLIP_HOST_DEVICE TurnSums& operator+=(const TurnSums& part)
   {
-    this->Left += part.Left;
-    this->Right += part.Right;
-    this->Flat += part.Flat;
+    this->Turns += part.Turns;
     this->All += part.All;
     this->Gentle += part.Gentle;
     return *this;
@@ -295,9 +184,7 @@ struct ScaledTriangles
 
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetCorner(std::int64_t t, int slot) const
   {
-    const std::int64_t point = this->Mesh.Triangles.Get(t, slot);
-    const PointArray& points = this->Mesh.Points;
-    return this->Scale(points.Get(point, 0), points.Get(point, 1), points.Get(point, 2));
+    return this->Scale(LoadPoint(this->Mesh.Points, this->Mesh.Triangles.Get(t, slot)));
   }
 };
 
@@ -317,8 +204,7 @@ struct TurnStep
     }
     const Vector3 corners[3] = { this->Triangles.GetCorner(t, 0), this->Triangles.GetCorner(t, 1),
       this->Triangles.GetCorner(t, 2) };
-    const int turn = FindTurn(corners[0], corners[1], corners[2]);
-    (turn == 0 ? sums.Flat : (turn > 0 ? sums.Left : sums.Right)).Note(t);
+    sums.Turns.Note(FindTurn(corners[0], corners[1], corners[2]), t);
     const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
     const double area = Length(normal) * this->Factor * this->Factor;
     sums.All.Add(area);
@@ -366,12 +252,13 @@ struct StarStep
     {
       return;
     }
-    const std::uint32_t ab = FindDirection(a, b);
-    const std::uint32_t bc = FindDirection(b, c);
-    const std::uint32_t ca = FindDirection(c, a);
-    this->AddAngle(t, 0, FindAngle(ab, ca, turn));
-    this->AddAngle(t, 1, FindAngle(bc, ab, turn));
-    this->AddAngle(t, 2, FindAngle(ca, bc, turn));
+    const std::uint32_t directions[3] = { FindDirection(a, b), FindDirection(b, c),
+      FindDirection(c, a) };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)],
+        FindAngle(directions[slot], directions[(slot + 2) % 3], turn));
+    }
   }
 
 private:
@@ -400,11 +287,6 @@ private:
     const std::uint32_t most = turn > 0 ? 3 * QuarterTurn : QuarterTurn;
     return angle < most ? angle : angle - FullTurn;
   }
-
-  DELAUNAYFLIP_HOST_DEVICE void AddAngle(std::int64_t t, int slot, std::uint32_t angle) const
-  {
-    AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)], angle);
-  }
 };
 
 /// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
@@ -413,66 +295,6 @@ template <typename Backend>
 void JoinPointSums(const Backend&, std::uint32_t*)
 {
 }
-
-/// Finds how triangles turn, then whether stars overlap, on a backend.
-template <typename Backend>
-class HeightFieldSurvey
-{
-public:
-  HeightFieldSurvey(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
-    : Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
-        PlaneScale(survey.Box) },
-      Engine(backend)
-  {
-    const BoundingBox& box = survey.Box;
-    const Vector3 diagonal = this->Triangles.Scale(box.Upper[0], box.Upper[1], box.Upper[2]) -
-      this->Triangles.Scale(box.Lower[0], box.Lower[1], box.Lower[2]);
-    // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
-    constexpr int SmallestExponent = -500;
-    const double length = Length(diagonal);
-    this->Factor =
-      length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
-  }
-
-  TurnSums SumTurns() const
-  {
-    return this->Engine.template Sum<TurnSums>(
-      this->Triangles.Mesh.Triangles.Count, TurnStep{ this->Triangles, this->Factor });
-  }
-
-  /// The points around which triangles turn more than once.
-  /// @param side the side to which most triangles turn.
-  IdSample FindOverlaps(int side) const
-  {
-    // At both ends of an open fan, directions are rounded.
-    constexpr std::int64_t Slack = 8;
-    const std::int64_t points = this->Triangles.Mesh.Points.Count;
-    Array<std::uint32_t> angles = this->Engine.template MakeArray<std::uint32_t>(points);
-    std::uint32_t* angleOfPoint = angles.Data();
-    this->Engine.ForEach(
-      points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
-    this->Engine.ForEach(
-      this->Triangles.Mesh.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
-    JoinPointSums(this->Engine, angleOfPoint);
-    return this->Engine.template Sum<IdSample>(points,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
-      {
-        const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
-        if (side * angle > StarStep::FullTurn + Slack)
-        {
-          sum.Note(i);
-        }
-      });
-  }
-
-private:
-  ScaledTriangles Triangles;
-  const Backend& Engine;
-  double Factor;
-};
-
-//------------------------------------------------------------------------------
-// Chooses the space in which the edges of a mesh are judged, and says why.
 
 /// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
 /// @param times how many times as high, at least.
@@ -487,22 +309,15 @@ inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
-/// How many percent of the area slope less than 45 degrees, rounded down; 0 without area.
-inline int GetGentlePercent(const TurnSums& sums)
+inline TurnCounts CountTurns(const TurnSample& turns)
 {
-  const Integer128 all = sums.All.Get();
-  return all > 0 ? static_cast<int>(100 * sums.Gentle.Get() / all) : 0;
-}
-
-inline TurnCounts CountTurns(const TurnSums& sums)
-{
-  const std::int64_t left = sums.Left.Count;
-  const std::int64_t right = sums.Right.Count;
+  const std::int64_t left = turns.Left.Count;
+  const std::int64_t right = turns.Right.Count;
   TurnCounts counts;
   counts.Side = left + right == 0 ? 0 : (left >= right ? 1 : -1);
-  counts.Triangles = left + right + sums.Flat.Count;
+  counts.Triangles = left + right + turns.Flat.Count;
   counts.Others = left >= right ? right : left;
-  counts.Flat = sums.Flat.Count;
+  counts.Flat = turns.Flat.Count;
   return counts;
 }
 
@@ -520,34 +335,127 @@ inline std::string DescribeStrays(const TurnCounts& turns)
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
-template <typename Backend>
+template <typename BackendT>
 class GeometryChoice
 {
 public:
-  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const Backend& backend)
+  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const BackendT& backend)
     : Input(input),
       Survey(survey),
-      Engine(backend)
+      Backend(backend),
+      Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
+        PlaneScale(survey.Box) }
   {
   }
 
   /// @throws InvalidOptions for GeometryKind::Planar if the points lie in no plane.
   void Choose(GeometryKind requested)
   {
-    const HeightFieldSurvey<Backend> heights(this->Input, this->Survey, this->Engine);
-    if (requested == GeometryKind::PlanarXY)
+    if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface)
     {
       this->Take(requested, AsRequested);
-    }
-    else if (requested == GeometryKind::Surface)
-    {
-      this->Take(requested, AsRequested);
-      this->Survey.Turns = CountTurns(heights.SumTurns());
+      if (requested == GeometryKind::Surface)
+      {
+        this->Survey.Turns = CountTurns(this->SumTurns().Turns);
+      }
     }
     else if (!this->TakePlane(requested))
     {
-      this->TakeSpace(heights);
+      this->TakeSpace();
     }
+  }
+
+  // Public because device lambdas require it.
+  /// The used point with the largest measure.
+  template <typename Measure>
+  Farthest FindFarthest(const Measure& measure) const
+  {
+    const PointArray points = this->Input.Local.Points;
+    const PointUse* uses = this->Survey.Uses.Data();
+    const PlaneScale scale = this->Triangles.Scale;
+    return this->Backend.template Sum<Farthest>(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
+      {
+        if (uses[i] == PointUse::Used)
+        {
+          const Vector3 position = scale(LoadPoint(points, i));
+          farthest += { i, measure(position), position };
+        }
+      });
+  }
+
+  /// Whether all used points lie in one plane.
+  /// @param normal receives its normal, or that of a plane that one point lies off.
+  /// @param off receives this point.
+  bool FindPlane(Vector3& normal, std::int64_t& off) const
+  {
+    const BoundingBox& box = this->Survey.Box;
+    normal = { 0.0, 0.0, 1.0 };
+    if (box.Lower[2] == box.Upper[2]) // as in most planar meshes
+    {
+      return true;
+    }
+    // This finds the first used point: the measure is the same for all.
+    const Farthest first =
+      this->FindFarthest([=] DELAUNAYFLIP_HOST_DEVICE(const Vector3&) { return 0.0; });
+    if (first.Point < 0)
+    {
+      return true;
+    }
+    const Vector3 origin = first.Position;
+    const Farthest second = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p) { return Dot(p - origin, p - origin); });
+    const Vector3 along = second.Position - origin;
+    const Farthest third = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p)
+      {
+        const Vector3 area = Cross(along, p - origin);
+        return Dot(area, area);
+      });
+    const Vector3 found = Cross(along, third.Position - origin);
+    const Farthest farthest = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p) { return std::fabs(Dot(found, p - origin)); });
+    normal = found;
+    off = farthest.Point;
+    return farthest.Value <=
+      PlanarTolerance * this->Triangles.Scale.FindDiagonal(box) * Length(normal);
+  }
+
+  /// How triangles turn in x and y, and how steep they are.
+  TurnSums SumTurns() const
+  {
+    // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
+    constexpr int SmallestExponent = -500;
+    const double length = this->Triangles.Scale.FindDiagonal(this->Survey.Box);
+    const double factor =
+      length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
+    return this->Backend.template Sum<TurnSums>(
+      this->Input.Local.Triangles.Count, TurnStep{ this->Triangles, factor });
+  }
+
+  /// The points around which triangles turn more than once.
+  IdSample FindOverlaps() const
+  {
+    // At both ends of an open fan, directions are rounded.
+    constexpr std::int64_t Slack = 8;
+    const int side = this->Survey.Turns.Side;
+    const std::int64_t points = this->Input.Local.Points.Count;
+    Array<std::uint32_t> angles = this->Backend.template MakeArray<std::uint32_t>(points);
+    std::uint32_t* angleOfPoint = angles.Data();
+    this->Backend.ForEach(
+      points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
+    this->Backend.ForEach(
+      this->Input.Local.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
+    JoinPointSums(this->Backend, angleOfPoint);
+    return this->Backend.template Sum<IdSample>(points,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
+      {
+        const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
+        if (side * angle > StarStep::FullTurn + Slack)
+        {
+          sum.Note(i);
+        }
+      });
   }
 
 private:
@@ -558,46 +466,41 @@ private:
   void Take(GeometryKind geometry, const std::string& reason)
   {
     this->Survey.Geometry = geometry;
-    this->Survey.GeometryReason = reason;
-    if (geometry != GeometryKind::Surface)
-    {
-      this->Survey.GeometryReason += "; the feature angle has no effect";
-    }
+    this->Survey.GeometryReason =
+      reason + (geometry == GeometryKind::Surface ? "" : "; the feature angle has no effect");
   }
 
-  void ProjectAlong(int axis, bool tilted)
+  void TakePlane(int axis, bool isTilted, const char* reason)
   {
-    PlaneProjection& projection = this->Survey.Projection;
-    projection.AxisU = (axis + 1) % 3;
-    projection.AxisV = (axis + 2) % 3;
-    projection.AxisW = axis;
-    projection.Tilted = tilted;
+    this->Survey.Projection = { (axis + 1) % 3, (axis + 2) % 3, axis, isTilted };
+    this->Take(GeometryKind::Planar, reason);
   }
 
   /// Whether all points lie in one plane.
   bool TakePlane(GeometryKind requested)
   {
+    const bool isRequested = requested == GeometryKind::Planar;
     const WholeMesh& whole = this->Input.Caller.Whole;
-    if (requested == GeometryKind::Planar && whole.PlaneAxis >= 0)
+    if (isRequested && whole.PlaneAxis >= 0)
     {
-      this->ProjectAlong(whole.PlaneAxis, whole.PlaneIsTilted);
-      this->Take(requested, AsRequested);
+      this->TakePlane(whole.PlaneAxis, whole.PlaneIsTilted, AsRequested);
       return true;
     }
-    PlaneFinder<Backend> finder(this->Input, this->Survey, this->Engine);
-    if (finder.Find())
+    Vector3 normal;
+    std::int64_t off = -1;
+    if (this->FindPlane(normal, off))
     {
-      const int axis = finder.DominantAxis();
-      this->ProjectAlong(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis]);
-      this->Take(GeometryKind::Planar,
-        requested == GeometryKind::Planar ? AsRequested : "all points lie in one plane");
+      const double x = std::fabs(normal.X), y = std::fabs(normal.Y), z = std::fabs(normal.Z);
+      const int axis = z >= x && z >= y ? 2 : (y >= x ? 1 : 0);
+      this->TakePlane(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis],
+        isRequested ? AsRequested : "all points lie in one plane");
       return true;
     }
-    if (requested == GeometryKind::Planar)
+    if (isRequested)
     {
       throw InvalidOptions(
         "geometry 'planar' was requested, but the points do not lie in one plane: point " +
-        std::to_string(finder.FarthestOff()) +
+        std::to_string(off) +
         " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' "
         "for terrain");
     }
@@ -607,52 +510,45 @@ private:
   /// Chooses PlanarXY for what can only be terrain, else Surface. Flipping terrain as a surface
   /// turns triangles over in x and y if units are mixed or slopes are steep; flipping steep
   /// surfaces by their projection ruins them.
-  void TakeSpace(const HeightFieldSurvey<Backend>& heights)
+  void TakeSpace()
   {
-    const TurnSums sums = heights.SumTurns();
-    this->Survey.Turns = CountTurns(sums);
+    const TurnSums sums = this->SumTurns();
+    this->Survey.Turns = CountTurns(sums.Turns);
     const TurnCounts& turns = this->Survey.Turns;
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
     // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
     const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
-    const int gentle = GetGentlePercent(sums);
+    const Integer128 area = sums.All.Get();
+    const int gentle = // percent, rounded down
+      area > 0 ? static_cast<int>(100 * sums.Gentle.Get() / area) : 0;
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
-    if (!turns.AreUniform() && !mayStray)
+    const std::string field = "a height field over x and y" +
+      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
+    if (turns.Side == 0)
     {
-      this->RefuseStrays(sums);
+      this->Take(GeometryKind::Surface, "no triangle has area in x and y");
+    }
+    else if (!turns.AreUniform() && !mayStray)
+    {
+      this->Take(GeometryKind::Surface,
+        "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
+      this->WarnOfStrays(sums.Turns);
     }
     else if (!suits)
     {
-      this->Take(GeometryKind::Surface, this->DescribeField() + ", but only " + slopes + Advice);
-      this->WarnOfStrays(sums);
+      this->Take(GeometryKind::Surface, field + ", but only " + slopes + Advice);
+      this->WarnOfStrays(sums.Turns);
     }
-    else if (!this->RefuseOverlaps(heights))
+    else if (!this->RefuseOverlaps())
     {
       this->Take(GeometryKind::PlanarXY,
-        this->DescribeField() + ", and " + (isHigh ? "z extends further than x and y" : slopes));
+        field + ", and " + (isHigh ? "z extends further than x and y" : slopes));
     }
-  }
-
-  std::string DescribeField() const
-  {
-    const TurnCounts& turns = this->Survey.Turns;
-    return "a height field over x and y" +
-      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
-  }
-
-  void RefuseStrays(const TurnSums& sums)
-  {
-    const TurnCounts& turns = this->Survey.Turns;
-    this->Take(GeometryKind::Surface,
-      turns.Side == 0
-        ? "no triangle has area in x and y"
-        : "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
-    this->WarnOfStrays(sums);
   }
 
   /// Where they are few, and all that keeps the mesh from being a height field.
-  void WarnOfStrays(const TurnSums& sums)
+  void WarnOfStrays(const TurnSample& sample)
   {
     const TurnCounts& turns = this->Survey.Turns;
     if (turns.GetStrays() > 0 && turns.AreNearlyUniform())
@@ -667,14 +563,14 @@ private:
       this->Survey.NearlyHeightField = MakeDefect(what +
           ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
           "planar-xy",
-        !areTurned ? sums.Flat : (turns.Side > 0 ? sums.Right : sums.Left));
+        !areTurned ? sample.Flat : (turns.Side > 0 ? sample.Right : sample.Left));
     }
   }
 
   /// Whether stars overlap.
-  bool RefuseOverlaps(const HeightFieldSurvey<Backend>& heights)
+  bool RefuseOverlaps()
   {
-    const IdSample overlaps = heights.FindOverlaps(this->Survey.Turns.Side);
+    const IdSample overlaps = this->FindOverlaps();
     if (overlaps.Count == 0)
     {
       return false;
@@ -691,7 +587,8 @@ private:
 
   const MeshInput& Input;
   MeshSurvey& Survey;
-  const Backend& Engine;
+  const BackendT& Backend;
+  const ScaledTriangles Triangles;
 };
 
 struct TurnedSums

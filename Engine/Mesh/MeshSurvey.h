@@ -16,10 +16,14 @@
 #include <string>
 
 /// @file
-/// Counts of defects of the input, on either backend.
+/// The first examination of an input: whether its ids are valid, which points are used, and in
+/// which space edges are judged. Made by MeshSurveyBuilder.h.
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Counts of defects of the input, on either backend.
 
 /// A count and the three smallest ids, whatever the order of counting.
 struct IdSample
@@ -66,6 +70,26 @@ private:
   }
 };
 
+/// Triangles by the side to which they turn.
+struct TurnSample
+{
+  IdSample Left, Right, Flat;
+
+  /// @param turn positive: to the left.
+  DELAUNAYFLIP_HOST_DEVICE void Note(int turn, std::int64_t triangle)
+  {
+    (turn == 0 ? this->Flat : (turn > 0 ? this->Left : this->Right)).Note(triangle);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE TurnSample& operator+=(const TurnSample& part)
+  {
+    this->Left += part.Left;
+    this->Right += part.Right;
+    this->Flat += part.Flat;
+    return *this;
+  }
+};
+
 inline Defect MakeDefect(
   const std::string& what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
 {
@@ -78,8 +102,6 @@ inline Defect MakeDefect(
 }
 
 //------------------------------------------------------------------------------
-// The first examination of an input: whether its ids are valid, which points are used, and in
-// which space edges are judged. Made by MeshSurveyBuilder.h.
 
 /// An input as a backend sees it.
 struct MeshInput

@@ -15,6 +15,11 @@
 #include <cstdint>
 #include <limits>
 
+/// @file
+/// The smallest angles of triangles: the smallest of a whole mesh, exactly the same on every
+/// backend; and that of each triangle. The latter is measured by an arctangent, which is rounded
+/// differently on a GPU, so the last digits may differ; no decision depends on them.
+
 namespace delaunayflip
 {
 
@@ -48,39 +53,26 @@ struct AngleSurvey
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, LargestValue& sum) const
   {
     const VertexId* v = this->Triangles[t].Vertices;
-    const Vector3 a = this->GetPosition(v[0]);
-    const Vector3 b = this->GetPosition(v[1]);
-    const Vector3 c = this->GetPosition(v[2]);
-    LargestValue largest;
-    largest.Value =
+    const Vector3 a = ToPosition(this->Decision.Get(v[0]));
+    const Vector3 b = ToPosition(this->Decision.Get(v[1]));
+    const Vector3 c = ToPosition(this->Decision.Get(v[2]));
+    double largest =
       Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
-    if (IsLost(largest.Value) || IsWide(this->Range, a, b, c))
+    // A triangle seems to have no area also if the squares of its lengths vanish.
+    if (largest == INFINITY || IsWide(this->Range, a, b, c))
     {
-      largest.Value = LargestSquaredCotangentWide(a, b, c);
+      largest = LargestSquaredCotangentWide(a, b, c);
     }
-    sum += largest;
+    sum += { largest };
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
-  {
-    return ToPosition(this->Decision.Get(vertex));
-  }
-  /// Whether a triangle seems to have no area, as when the squares of its lengths vanish.
-  DELAUNAYFLIP_HOST_DEVICE static bool IsLost(double squaredCotangent)
-  {
-    return squaredCotangent == INFINITY;
-  }
   DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const Vector3& point) { return point; }
   DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const PlanePoint& point)
   {
     return { point.U, point.V, point.W };
   }
 };
-
-//------------------------------------------------------------------------------
-// The smallest angle of one triangle, for the host and a GPU. An arctangent is rounded differently
-// there, so the last digits may differ; no decision depends on them.
 
 /// The angle between two edges from a corner, in degrees.
 DELAUNAYFLIP_HOST_DEVICE inline double AngleBetween(const Vector3& first, const Vector3& second)

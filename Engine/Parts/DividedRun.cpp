@@ -194,6 +194,7 @@ private:
     }
     FlipOptions options = this->Options;
     options.NumberOfPieces = 1;
+    options.TrackQuality = false;
     options.Geometry = this->Mesh.GetSurvey().Geometry;
     if (!this->Options.Devices.empty())
     {
@@ -318,7 +319,6 @@ private:
     options.MaximumIterations = this->Options.MaximumIterations < 0
       ? -1
       : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
-    options.TrackQuality = this->Options.TrackQuality;
     FlipSession session(region.View(false), options, progress);
     if (session.GetReport().StopReason != StopReasonKind::Aborted)
     {
@@ -326,14 +326,10 @@ private:
     }
 
     const FlipReport& report = session.GetReport();
-    const TriangleArray& triangles = this->Mesh.View().Triangles;
-    const double rest = !this->Options.TrackQuality || report.Iterations.empty()
-      ? NaN
-      : this->FindSmallestAngle([&](std::int64_t t) { return !inner.Touches(triangles, t); });
     for (IterationRecord row : report.Iterations)
     {
       row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
-      row.MinimumAngle = std::fmin(row.MinimumAngle, rest);
+      row.MinimumAngle = NaN;
       this->Report.Iterations.push_back(row);
     }
     this->Report.Rounds += report.TotalFlips > 0 ? 1 : 0;
@@ -385,12 +381,8 @@ private:
     {
       this->CountBadEdges();
     }
-    if (!this->Options.TrackQuality && !report.Iterations.empty())
+    if (!report.Iterations.empty())
     {
-      for (IterationRecord& row : report.Iterations)
-      {
-        row.MinimumAngle = NaN;
-      }
       report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
     }
     CountIterations(report);

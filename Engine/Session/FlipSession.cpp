@@ -8,9 +8,9 @@
 #include "ConstraintInsertion.h"
 #include "CudaDevice.h"
 #include "DividedCopy.h"
-#include "FlipEngine.h"
 #include "HostMemory.h"
 #include "InputChecks.h"
+#include "LoadedMesh.h"
 #include "RunProgress.h"
 #include "StopWatch.h"
 #include "SurfaceAngles.h"
@@ -54,11 +54,11 @@ private:
 
 /// Stores into a temporary array first, so that the target is unchanged after a failure.
 template <typename Id>
-void StoreAtOnce(const FlipEngine& engine, Id* ids, std::int64_t count)
+void StoreAtOnce(const LoadedMesh& mesh, Id* ids, std::int64_t count)
 {
   HostMemory memory;
   Array<Id> stored(static_cast<std::size_t>(3 * count), memory);
-  engine.StoreTriangles(MutableTriangleArray(stored.Data(), count));
+  mesh.StoreTriangles(MutableTriangleArray(stored.Data(), count));
   std::copy_n(stored.Data(), 3 * count, ids);
 }
 }
@@ -69,43 +69,43 @@ struct FlipSession::Work
 {
   Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
 
-  /// Calls work(engine), and calls it again on the CPU if the GPU fails.
+  /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
   template <typename Function>
-  auto OnEngine(const Function& work)
+  auto OnBackend(const Function& work)
   {
     try
     {
-      const std::unique_ptr<DeviceScope> current = this->Engine->MakeCurrent();
-      return work(*this->Engine);
+      const std::unique_ptr<DeviceScope> current = this->Loaded->MakeCurrent();
+      return work(*this->Loaded);
     }
     catch (const BackendUnavailable& error)
     {
       this->FallBack(error);
     }
-    return work(*this->Engine);
+    return work(*this->Loaded);
   }
 
-  /// The same, if there is an engine. @returns whether it was called and no observer stopped it.
+  /// The same, if a mesh is loaded. @returns whether it was called and no observer stopped it.
   template <typename Function>
-  bool TryOnEngine(const Function& work)
+  bool TryOnBackend(const Function& work)
   {
     try
     {
-      if (this->Engine)
+      if (this->Loaded)
       {
-        this->OnEngine(work);
+        this->OnBackend(work);
       }
     }
     catch (const RunAborted&)
     {
       this->Abort();
     }
-    return this->Engine != nullptr;
+    return this->Loaded != nullptr;
   }
 
   void Build();
-  void MakeEngine();
+  void Load();
   void FallBack(const BackendUnavailable& error);
   void Reset();
   void Abort();
@@ -128,14 +128,14 @@ struct FlipSession::Work
   FlipReport Report;
   std::unique_ptr<DividedCopy> Divided; ///< Null unless in several parts. Then only this is used.
 
-  ConstraintInsertion Insertion; ///< The engine starts from its arrays.
+  ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
-  BuildProgress Building; ///< Of an engine.
-  std::unique_ptr<FlipEngine> Engine; ///< None if the build was aborted.
+  BuildProgress Building; ///< Of the loading.
+  std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was aborted.
   std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
-  bool HasDetected = false; ///< Whether the engine has made the first detection.
+  bool HasDetected = false; ///< Whether the first detection has been made.
   bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
 };
 
@@ -168,8 +168,8 @@ FlipSession::Work::Work(
 }
 
 //------------------------------------------------------------------------------
-/// Inserts constraints, makes the engine, reports on the input, and tests all edges. When an
-/// exception leaves, there is no engine.
+/// Inserts constraints, loads the mesh, reports on the input, and tests all edges. When an
+/// exception leaves, no mesh is loaded.
 void FlipSession::Work::Build()
 try
 {
@@ -187,8 +187,8 @@ try
   const double begin = this->Insertion.GetShare();
   this->Building =
     BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
-  this->MakeEngine();
-  this->Report = this->Engine->GetInputReport();
+  this->Load();
+  this->Report = this->Loaded->GetInputReport();
   this->Insertion.AddTo(this->Report);
   const GeometryKind geometry = this->Report.GeometryUsed;
   this->Building.Reach(geometry, BuildStep::Prepared);
@@ -198,7 +198,7 @@ try
   this->Building.Reach(geometry, BuildStep::Measured);
 
   const StopWatch flipWatch;
-  this->KeepFound(this->OnEngine([](FlipEngine& engine) { return engine.GetLoop().Detect(); }));
+  this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
   this->HasDetected = true;
   this->Report.NonDelaunayBefore = this->Report.NonDelaunayAfter;
   this->Report.FlipSeconds = flipWatch.GetSeconds();
@@ -211,7 +211,7 @@ catch (...)
   throw;
 }
 
-void FlipSession::Work::MakeEngine()
+void FlipSession::Work::Load()
 {
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
   const DeviceMesh* device = this->Start->GetOnDevice();
@@ -220,13 +220,13 @@ void FlipSession::Work::MakeEngine()
       (device || (this->Mesh.CountTriangles() >= SmallestMeshForCuda && HasCudaDevice())));
   if (!wantsCuda)
   {
-    this->Engine = MakeThreadEngine(this->Start->GetOnHost(), options, this->Building);
+    this->Loaded = LoadOnThreads(this->Start->GetOnHost(), options, this->Building);
     return;
   }
   try
   {
-    this->Engine = device ? MakeCudaEngine(*device, options, this->Building)
-                          : MakeCudaEngine(this->Start->GetOnHost(), options, this->Building);
+    this->Loaded = device ? LoadOnCuda(*device, options, this->Building)
+                          : LoadOnCuda(this->Start->GetOnHost(), options, this->Building);
   }
   catch (const BackendUnavailable& error)
   {
@@ -243,14 +243,14 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     throw;
   }
   this->Fallback = error.what();
-  this->Engine.reset();
-  this->Engine = MakeThreadEngine(
+  this->Loaded.reset();
+  this->Loaded = LoadOnThreads(
     this->Start->GetOnHost(), this->Insertion.GetOptions(this->Options), this->Building);
   if (!this->HasDetected)
   {
     return;
   }
-  FlipLoop& loop = this->Engine->GetLoop();
+  FlipLoop& loop = this->Loaded->GetLoop();
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Measured);
   loop.Detect();
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
@@ -267,7 +267,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
 
 void FlipSession::Work::Reset()
 {
-  this->Engine.reset();
+  this->Loaded.reset();
   this->Start.reset();
   this->Fallback.clear();
   this->HasDetected = false;
@@ -333,8 +333,8 @@ void FlipSession::Work::Keep(const IterationCounts& counts, double seconds)
 
 double FlipSession::Work::MeasureAngle()
 {
-  return ToDegrees(this->OnEngine(
-    [](FlipEngine& engine) { return engine.GetLoop().FindLargestSquaredCotangent(); }));
+  return ToDegrees(
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().FindLargestSquaredCotangent(); }));
 }
 
 /// The smallest angle is known after the first and the last iteration. If a run stops in between,
@@ -348,13 +348,13 @@ void FlipSession::Work::MeasureEnd()
   }
   this->Report.MinimumAngleAfter = this->MeasureAngle();
   this->IsMeasured = true;
-  this->Report.Defects = this->Engine->GetInputReport().Defects;
+  this->Report.Defects = this->Loaded->GetInputReport().Defects;
   AddDefects(this->Insertion.GetRefused(), this->Report.Defects);
   if (!this->IsRunning())
   {
     this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     const Defect turned =
-      this->OnEngine([](const FlipEngine& engine) { return engine.FindTurnedTriangles(); });
+      this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); });
     if (turned.Count > 0)
     {
       this->Report.Defects.push_back(turned);
@@ -389,7 +389,7 @@ try
     return work.Divided->Advance(iterations, observer, progress);
   }
   const TemporaryValue<ProgressObserver> told(work.Observer, progress);
-  if (!work.Engine)
+  if (!work.Loaded)
   {
     work.Build();
   }
@@ -407,9 +407,9 @@ try
     const AdvancePlan plan{ observer || progress ? std::min(most, work.Progress.GetBatch()) : most,
       first == 0, work.Options.TrackQuality };
     const std::vector<IterationCounts> made =
-      work.OnEngine([&](FlipEngine& engine) { return engine.GetLoop().Advance(plan); });
+      work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
     work.IsMeasured = false;
-    work.KeepFound(work.Engine->GetLoop().GetFound());
+    work.KeepFound(work.Loaded->GetLoop().GetFound());
     const double seconds = batchWatch.GetSeconds() / static_cast<double>(made.size());
     work.Progress.KeepTime(seconds);
     for (const IterationCounts& counts : made)
@@ -418,7 +418,7 @@ try
     }
 #if !defined(NDEBUG)
     // Now that the iterations are in the report: the CPU repeats those where the GPU fails here.
-    work.OnEngine([](const FlipEngine& engine) { engine.Audit(); });
+    work.OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
 #endif
     work.Resume();
     bool continues = true;
@@ -466,9 +466,9 @@ const FlipReport& FlipSession::GetReport() const
   {
     work.Abort();
   }
-  if (work.Engine)
+  if (work.Loaded)
   {
-    work.Report.Backend = work.Engine->GetInputReport().Backend;
+    work.Report.Backend = work.Loaded->GetInputReport().Backend;
     work.Report.Fallback = work.Fallback;
   }
   return work.Report;
@@ -484,22 +484,22 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
     return;
   }
   const bool atOnce = work.Mesh.HasTriangles(triangles.Data());
-  const auto store = [&](const FlipEngine& engine)
+  const auto store = [&](const LoadedMesh& mesh)
   {
     if (!atOnce)
     {
-      engine.StoreTriangles(triangles);
+      mesh.StoreTriangles(triangles);
     }
     else if (triangles.Ids32)
     {
-      StoreAtOnce(engine, triangles.Ids32, triangles.Count);
+      StoreAtOnce(mesh, triangles.Ids32, triangles.Count);
     }
     else
     {
-      StoreAtOnce(engine, triangles.Ids64, triangles.Count);
+      StoreAtOnce(mesh, triangles.Ids64, triangles.Count);
     }
   };
-  if (work.TryOnEngine(store))
+  if (work.TryOnBackend(store))
   {
     return;
   }
@@ -518,7 +518,7 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
   {
     work.Divided->StoreFlipCounts(counts);
   }
-  else if (work.TryOnEngine([&](const FlipEngine& engine) { engine.StoreFlipCounts(counts); }))
+  else if (work.TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); }))
   {
     work.Insertion.AddFlipCounts(counts);
   }
@@ -533,8 +533,8 @@ void FlipSession::StoreTriangles(
 {
   RequireOnDevice(triangles.Data(), triangles.Count, "the array for triangles is");
   bool isStored = false;
-  this->Own->TryOnEngine(
-    [&](const FlipEngine& engine) { isStored = engine.StoreTrianglesOnDevice(triangles, stream); });
+  this->Own->TryOnBackend(
+    [&](const LoadedMesh& mesh) { isStored = mesh.StoreTrianglesOnDevice(triangles, stream); });
   const auto pass = [&](auto* ids)
   {
     StoreThroughHost(ids, 3 * triangles.Count, stream,
@@ -553,8 +553,8 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
   bool isStored = false;
   if (!this->Own->Insertion.HasFlips())
   {
-    this->Own->TryOnEngine(
-      [&](const FlipEngine& engine) { isStored = engine.StoreFlipCountsOnDevice(counts, stream); });
+    this->Own->TryOnBackend(
+      [&](const LoadedMesh& mesh) { isStored = mesh.StoreFlipCountsOnDevice(counts, stream); });
   }
   if (!isStored)
   {
@@ -563,17 +563,17 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
   }
 }
 
-/// None if the engine's flips are not all.
-EngineTriangles FlipSession::ViewTriangles() const
+/// None if constraints were inserted: those flips would be missing.
+DeviceTriangles FlipSession::ViewTriangles() const
 {
-  return this->Own->Engine && !this->Own->Insertion.HasFlips() ? this->Own->Engine->ViewTriangles()
-                                                               : EngineTriangles();
+  return this->Own->Loaded && !this->Own->Insertion.HasFlips() ? this->Own->Loaded->ViewTriangles()
+                                                               : DeviceTriangles();
 }
 
 HostTriangles FlipSession::ViewHostTriangles() const
 {
-  return this->Own->Engine && !this->Own->Insertion.HasFlips()
-    ? this->Own->Engine->ViewHostTriangles()
+  return this->Own->Loaded && !this->Own->Insertion.HasFlips()
+    ? this->Own->Loaded->ViewHostTriangles()
     : HostTriangles();
 }
 

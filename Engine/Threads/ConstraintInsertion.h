@@ -5,6 +5,7 @@
 
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "SpatialOrder.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
@@ -51,10 +52,10 @@ public:
   /// Whether flips may have to make constraint edges.
   static bool IsRequested(const FixedEdges& edges);
 
-  /// @param progress is told of the insertion; not called if the mesh has all constraints as edges.
+  /// @param observer is told of the insertion; not called if the mesh has all constraints as edges.
   /// @throws as FlipSession's constructor; RunAborted.
   ConstraintInsertion(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer);
 
   std::int64_t GetNumberInserted() const { return this->Inserted; }
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
@@ -84,7 +85,8 @@ public:
   void AddFlipCounts(std::int32_t* counts) const;
 
 private:
-  friend class ConstraintInserter;
+  void Store(const TriangleMesh& mesh, const EdgeMesh& edges, const SpatialOrderView& order,
+    const ThreadBackend& backend);
 
   std::vector<std::int32_t> Ids32; ///< Triangles, if the caller's ids have 32 bits and one changed.
   std::vector<std::int64_t> Ids64; ///< If they have 64 bits.

@@ -26,18 +26,18 @@
 namespace delaunayflip
 {
 
-/// A flag per segment of 1024 edges, for some segments.
-struct SegmentFlags
+/// A flag per unit of 1024 edges, for some units.
+struct UnitFlags
 {
-  static constexpr int SegmentBits = 10;
+  static constexpr int UnitBits = 10;
 
   std::uint8_t* Flags;
-  std::int64_t FirstSegment;
+  std::int64_t FirstUnit;
 
-  /// Flags the segment of an edge.
+  /// Flags the unit of an edge.
   void Set(EdgeId edge) const
   {
-    std::uint8_t* flag = &this->Flags[(edge >> SegmentBits) - this->FirstSegment];
+    std::uint8_t* flag = &this->Flags[(edge >> UnitBits) - this->FirstUnit];
     if (AtomicLoad(flag) == 0)
     {
       AtomicStore(flag, std::uint8_t(1));
@@ -170,7 +170,7 @@ struct ConfirmStep : QuadStep
 struct FlipStep : QuadStep
 {
   EdgeGuardView Guard;
-  SegmentFlags Active;
+  UnitFlags Active;
 
   void Prefetch(const Quad& quad) const
   {
