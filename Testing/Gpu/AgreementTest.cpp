@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GpuTestSupport.h"
-#if __has_include("RandomInputs.h")
 #include "RandomInputs.h"
-#else
-#include "RandomMess.h"
-#endif
 
 #include <random>
 #include <utility>

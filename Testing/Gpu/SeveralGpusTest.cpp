@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DeviceMemory.h"
 #include "FlipError.h"
 #include "GpuTestSupport.h"
 #include "PieceFlip.h"
-#if __has_include("SharedMemory.h")
-#include "SharedMemory.h"
-#else
-#include "DeviceMemory.h"
-#endif
 
 #include <string>
 #include <vector>

@@ -243,7 +243,7 @@ struct PaperArrays
 };
 
 template <typename T>
-using HostVector = std::vector<T>;
+using PaperVector = std::vector<T>;
 template <typename T>
 using Pointer = T*;
 
@@ -369,7 +369,7 @@ private:
 /// Copies a mesh to the backend, runs the loop there and copies the triangles back. A backend has
 /// RunPhase(backend, size, step), which calls step(i) for i = 0 .. size - 1.
 template <typename Point, typename Test, typename Backend>
-PaperResult RunPaperLoop(const PaperArrays<Point, HostVector>& host, const Test& test,
+PaperResult RunPaperLoop(const PaperArrays<Point, PaperVector>& host, const Test& test,
   const PaperOptions& options, const Backend& backend)
 {
   const auto copy = [&](const auto& values)
@@ -429,7 +429,7 @@ PaperResult RunPaperLoop(const PaperArrays<Point, HostVector>& host, const Test&
 /// The same on the current GPU (PaperCuda.cu). @throws BackendUnavailable.
 template <typename Point, typename Test>
 PaperResult RunPaperLoopOnGpu(
-  const PaperArrays<Point, HostVector>& host, const Test& test, const PaperOptions& options);
+  const PaperArrays<Point, PaperVector>& host, const Test& test, const PaperOptions& options);
 
 }
 

@@ -24,9 +24,9 @@ namespace
 /// An edge that two triangles cannot share the same way, or more than two, becomes a boundary edge
 /// for each of its triangles, because ta and tb hold two triangles only.
 template <typename Point>
-PaperArrays<Point, HostVector> MakePaperArrays(const TriangleMesh& mesh)
+PaperArrays<Point, PaperVector> MakePaperArrays(const TriangleMesh& mesh)
 {
-  PaperArrays<Point, HostVector> arrays;
+  PaperArrays<Point, PaperVector> arrays;
   for (std::int64_t i = 0; i < mesh.Points.Count; ++i)
   {
     Point point{};
@@ -59,11 +59,11 @@ PaperArrays<Point, HostVector> MakePaperArrays(const TriangleMesh& mesh)
 using Loop = std::function<PaperResult(const PaperOptions&)>;
 
 template <typename Real, int Dimension, typename Test>
-Loop MakeLoop(const TriangleMesh& mesh, int threads, const Test& test)
+Loop MakePaperLoop(const TriangleMesh& mesh, int threads, const Test& test)
 {
   using Point = PaperPoint<Real, Dimension>;
   const auto arrays =
-    std::make_shared<PaperArrays<Point, HostVector>>(MakePaperArrays<Point>(mesh));
+    std::make_shared<PaperArrays<Point, PaperVector>>(MakePaperArrays<Point>(mesh));
   const auto backend = std::make_shared<ThreadBackend>(threads);
   return [arrays, backend, test](const PaperOptions& options)
   {
@@ -85,14 +85,14 @@ Loop ChooseLoop(const TriangleMesh& mesh, const PaperOptions& options)
   const OppositeAngleTest<Real> angles{ static_cast<Real>(Pi + options.Epsilon) };
   if (options.Dimension == 3)
   {
-    return MakeLoop<Real, 3>(mesh, options.NumberOfThreads, angles);
+    return MakePaperLoop<Real, 3>(mesh, options.NumberOfThreads, angles);
   }
   if (options.Test == PaperTestKind::OppositeAngles)
   {
-    return MakeLoop<Real, 2>(mesh, options.NumberOfThreads, angles);
+    return MakePaperLoop<Real, 2>(mesh, options.NumberOfThreads, angles);
   }
   const InCircleTest<Real> inCircle{ static_cast<Real>(options.Epsilon) };
-  return MakeLoop<Real, 2>(mesh, options.NumberOfThreads, inCircle);
+  return MakePaperLoop<Real, 2>(mesh, options.NumberOfThreads, inCircle);
 }
 
 }
