@@ -6,7 +6,7 @@
 #include "Array.h"
 #include "CudaError.h"
 #include "DeviceMemory.h"
-#include "FlipEngine.h"
+#include "LoadedMesh.h"
 
 #include <cuda_runtime_api.h>
 

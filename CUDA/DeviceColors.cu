@@ -5,7 +5,7 @@
 #include "Array.h"
 #include "CudaBackend.cuh"
 #include "DelaunayFlip.h"
-#include "EngineTriangles.h"
+#include "LoadedMesh.h"
 #include "FlipError.h"
 #include "SmallestAngle.h"
 
@@ -372,7 +372,7 @@ public:
 
   /// Does not wait for the GPU if colours show angles.
   void Update(
-    const EngineTriangles& triangles, const DrawnArrays& arrays, const DrawnColors& colors)
+    const DeviceTriangles& triangles, const DrawnArrays& arrays, const DrawnColors& colors)
   {
     const std::unique_ptr<DeviceScope> current = this->Backend.MakeCurrent();
     this->Backend.WaitFor(arrays.Stream);
@@ -514,7 +514,7 @@ void DrawnTriangles::Update(
     this->Smallest = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  const EngineTriangles triangles = session.ViewTriangles();
+  const DeviceTriangles triangles = session.ViewTriangles();
   if (!triangles.Records || FindDeviceOf(arrays.Colors) != triangles.Device)
   {
     this->Shown.reset();

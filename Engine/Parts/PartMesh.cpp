@@ -90,7 +90,7 @@ PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_
     Shared(std::move(keys.Shared)),
     Given(piece.Mesh.Points),
     Keys(std::move(keys.Keys)),
-    FirstOwnKey(keys.FirstKeys[rank])
+    FirstOwnKey(keys.Owners.Firsts[rank])
 {
   keys.Keys.clear();
   keys.Shared.clear();

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_SEAMSURVEY_H
 
 #include "EdgeMesh.h"
+#include "FlipLoopChoice.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
 #include "PartMesh.h"
@@ -113,12 +114,7 @@ public:
 
 private:
   PackingPlan Plan;
-  CriterionKind Criterion;
-  bool IsSurface;
-  bool Canonical;
-  bool FiltersApply;
-  AngleTolerance Tolerance;
-  CoordinateRange Range;
+  RuleChoice Rule;
 };
 
 /// Counts of seam edges, and of constraints between shared points.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 
-#include "BackendEngine.h"
+#include "MeshOnBackend.h"
 #include "ConstraintFlips.h"
 #include "EdgeMeshBuilder.h"
 #include "MeshSurveyBuilder.h"
@@ -57,6 +57,14 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
       defects.push_back(defect);
     }
   }
+}
+
+bool ConstraintInsertion::IsRequested(const FixedEdges& edges)
+{
+  const unsigned char* flags = edges.ConstraintsToInsert;
+  return flags &&
+    std::any_of(
+      flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
 }
 
 MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const ThreadBackend& backend)

@@ -49,6 +49,9 @@ public:
   /// For a mesh without constraints to be inserted.
   ConstraintInsertion() = default;
 
+  /// Whether flips may have to make constraint edges.
+  static bool IsRequested(const FixedEdges& edges);
+
   /// @param observer is told of the insertion; not called if the mesh has all constraints as edges.
   /// @throws as FlipSession's constructor; RunAborted.
   ConstraintInsertion(

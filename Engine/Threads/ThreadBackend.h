@@ -6,7 +6,7 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
-#include "FlipEngine.h"
+#include "LoadedMesh.h"
 #include "HostMemory.h"
 #include "TriangleMesh.h"
 
