@@ -21,7 +21,7 @@ docs=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-sp
   python3-numpy)
 proof=(clang llvm libclang-rt-dev)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
-  python3-numpy python3-matplotlib)
+  python3-numpy python3-matplotlib python3-vtk9)
 # What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
 # ParaView's programs load. Qt is that of the release's ParaView.
 qt5=(qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev

@@ -22,7 +22,7 @@ CLEAN = {
                              "set(delaunayflip_engine_rooms Geometry Mesh Flips Session)\n",
     "Engine/FlipOptions.h": LICENCE + "#include <vector>\n",
     "Engine/Mesh/EdgeMesh.h": LICENCE + '#include "FlipOptions.h"\n// printf("%d") prints\n',
-    "Engine/Session/WholeSession.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
+    "Engine/Session/CallerMesh.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
     "CUDA/Team.cuh": LICENCE + '#include "EdgeMesh.h"\n',
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
     "Rendering/LiveScene.h": LICENCE,
