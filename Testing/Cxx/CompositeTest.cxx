@@ -248,13 +248,3 @@ TEST(Composite, ConstraintsInBlocksForASingleMeshAreAnError)
   filter->SetInputDataObject(1, nullptr);
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
 }
-
-TEST(Composite, PiecesWarnOfSeams)
-{
-  WatchedFilter filter(MakeRhombus());
-  filter->UpdatePiece(0, 1, 0);
-  EXPECT_TRUE(filter.GetWarnings().empty());
-  filter->UpdatePiece(0, 2, 0);
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  ExpectHolds(filter.GetWarnings()[0], "edges between pieces");
-}

@@ -10,7 +10,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -249,22 +248,6 @@ TEST(FilterProgress, AbortsWhileAnglesAreFound)
 }
 
 /// Wherever it is stopped: the same mesh in the end.
-TEST(FilterProgress, ABlockAfterAnAbortPasses)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeLongRun());
-  blocks->SetBlock(1, MakeLongRun());
-  WatchedFilter filter(blocks);
-  ProgressWatch watch(filter, 1);
-  filter.Run();
-  EXPECT_EQ(watch.Progress.size(), 1u);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
-  for (unsigned int i = 0; i < 2; ++i)
-  {
-    EXPECT_EQ(GetCells(filter.GetBlock(i)->GetPolys()), GetCells(MakeLongRun()->GetPolys()));
-  }
-}
-
 /// Wherever it is stopped, a live run continues with the next update.
 TEST(FilterProgress, LiveRunsContinue)
 {

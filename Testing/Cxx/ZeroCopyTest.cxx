@@ -149,22 +149,6 @@ TEST(ZeroCopy, RestartBeginsAtTheInput)
   EXPECT_EQ(view.Filter.GetPolygons(), FlipAtOnce(mesh));
 }
 
-TEST(ZeroCopy, ColorsChangeInPlace)
-{
-  const TestFiller& filler = TestFiller::Install();
-  WatchedView view;
-  view->Step();
-  view->Step();
-  const Bytes byAngle = view.GetPicture();
-  view->SetColorByToFlipCount();
-  view->Render();
-  EXPECT_GT(Compare(view.GetPicture(), byAngle), 0.1);
-  view->SetColorByToSmallestAngle();
-  view->Render();
-  EXPECT_EQ(view.GetPicture(), byAngle);
-  EXPECT_EQ(filler.Registers, 1);
-}
-
 TEST(ZeroCopy, ResizingAndEdges)
 {
   TestFiller::Install();
