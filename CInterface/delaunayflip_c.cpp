@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "delaunayflip_c.h"
 
-#include "CallerInput.h"
+#include "CallerStructs.h"
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "KeptReport.h"
+#include "FlipError.h"
 #include "PolygonSplit.h"
-#include "Status.h"
 #include "TriangleAngles.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +21,106 @@ using namespace delaunayflip;
 
 namespace
 {
+
+/// The last error in a thread.
+struct LastError
+{
+  std::string Message;
+  std::int64_t Cell = -1;
+  std::int64_t Point = -1;
+};
+
+thread_local LastError TheLastError;
+
+delaunayflip_status Fail(
+  delaunayflip_status status, const char* message, std::int64_t cell = -1, std::int64_t point = -1)
+{
+  LastError& error = TheLastError;
+  error.Cell = cell;
+  error.Point = point;
+  try
+  {
+    error.Message = message;
+  }
+  catch (const std::bad_alloc&)
+  {
+    error.Message.clear();
+    return DELAUNAYFLIP_OUT_OF_MEMORY;
+  }
+  return status;
+}
+
+/// Stores the message of the exception being handled as the last error, and returns its status.
+delaunayflip_status FailByException()
+{
+  try
+  {
+    throw;
+  }
+  catch (const InvalidCall& error)
+  {
+    return Fail(DELAUNAYFLIP_INVALID_CALL, error.what());
+  }
+  catch (const InvalidMesh& error)
+  {
+    return Fail(DELAUNAYFLIP_INVALID_MESH, error.what(), error.Cell, error.Point);
+  }
+  catch (const InvalidOptions& error)
+  {
+    return Fail(DELAUNAYFLIP_INVALID_OPTIONS, error.what());
+  }
+  catch (const MeshTooLarge& error)
+  {
+    return Fail(DELAUNAYFLIP_MESH_TOO_LARGE, error.what());
+  }
+  catch (const BackendUnavailable& error)
+  {
+    return Fail(DELAUNAYFLIP_BACKEND_UNAVAILABLE, error.what());
+  }
+  catch (const RunAborted&)
+  {
+    return Fail(DELAUNAYFLIP_STOPPED, "stopped by a callback");
+  }
+  catch (const std::bad_alloc&)
+  {
+    return Fail(DELAUNAYFLIP_OUT_OF_MEMORY, "not enough memory");
+  }
+  catch (const std::exception& error)
+  {
+    return Fail(DELAUNAYFLIP_FAILED, error.what());
+  }
+  catch (...)
+  {
+    return Fail(DELAUNAYFLIP_FAILED, "an exception of an unknown type");
+  }
+}
+
+/// Does the work. No exception may leave a C function.
+template <typename Work>
+delaunayflip_status Try(const Work& work)
+{
+  try
+  {
+    work();
+    return DELAUNAYFLIP_OK;
+  }
+  catch (...)
+  {
+    return FailByException();
+  }
+}
+
+/// The same for work with a session, which must not be null.
+template <typename Work>
+delaunayflip_status TryWith(const delaunayflip_session* session, const Work& work)
+{
+  return Try(
+    [&]()
+    {
+      Require(session, "session is null");
+      work();
+    });
+}
 
 void RequireReport(const delaunayflip_report* report)
 {
@@ -33,7 +133,41 @@ FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
 {
   return IsOnDevice(c)
     ? FlipToDelaunay(ToDeviceMesh(c), options, triangles, observers.Iteration, observers.Progress)
-    : FlipToDelaunay(ToMesh(c), options, triangles, observers.Iteration, observers.Progress);
+    : FlipToDelaunay(ToMesh(&c), options, triangles, observers.Iteration, observers.Progress);
+}
+
+/// Appends the triangles of all polygons.
+std::vector<std::int64_t> Split(
+  const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
+{
+  constexpr std::int64_t PolygonsBetweenCalls = 4096;
+  std::vector<std::int64_t> triangles;
+  const auto all = static_cast<double>(polygons.number_of_polygons);
+  for (std::int64_t i = 0; i < polygons.number_of_polygons; ++i)
+  {
+    const std::int64_t begin = polygons.offsets[i];
+    const std::int64_t end = polygons.offsets[i + 1];
+    Require(begin >= 0 && begin <= end, "offsets decrease, or are negative");
+    for (std::int64_t corner = begin; corner < end; ++corner)
+    {
+      const std::int64_t id = polygons.corners[corner];
+      if (id < 0 || id >= points.Count)
+      {
+        throw InvalidMesh("polygon " + std::to_string(i) + " names point " + std::to_string(id) +
+            ", but there are " + std::to_string(points.Count) + " points, numbered from 0",
+          i, id);
+      }
+    }
+    const auto part = [&](double share)
+    { return !progress || progress((static_cast<double>(i) + share) / all); };
+    if ((i % PolygonsBetweenCalls == 0 && !part(0.0)) ||
+      (end - begin >= 3 &&
+        !SplitPolygon(points, polygons.corners + begin, end - begin, triangles, part)))
+    {
+      throw RunAborted();
+    }
+  }
+  return triangles;
 }
 
 }
@@ -43,7 +177,7 @@ struct delaunayflip_session
   delaunayflip_session(
     const delaunayflip_mesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
     : Session(IsOnDevice(mesh) ? FlipSession(ToDeviceMesh(mesh), options, progress)
-                               : FlipSession(ToMesh(mesh), options, progress)),
+                               : FlipSession(ToMesh(&mesh), options, progress)),
       NumberOfTriangles(mesh.number_of_triangles),
       TriangleNumbers(mesh.triangle_numbers)
   {
@@ -52,7 +186,7 @@ struct delaunayflip_session
   FlipSession Session;
   std::int64_t NumberOfTriangles;
   const std::int64_t* TriangleNumbers; ///< Of the caller, or null.
-  std::unique_ptr<KeptReport> Report;
+  std::optional<KeptReport> Report;
 };
 
 extern "C"
@@ -62,11 +196,11 @@ extern "C"
 
   const char* delaunayflip_version(void) { return DELAUNAYFLIP_RELEASE; }
 
-  const char* delaunayflip_error_message(void) { return GetLastError().Message.c_str(); }
+  const char* delaunayflip_error_message(void) { return TheLastError.Message.c_str(); }
 
-  std::int64_t delaunayflip_error_cell(void) { return GetLastError().Cell; }
+  std::int64_t delaunayflip_error_cell(void) { return TheLastError.Cell; }
 
-  std::int64_t delaunayflip_error_point(void) { return GetLastError().Point; }
+  std::int64_t delaunayflip_error_point(void) { return TheLastError.Point; }
 
   void delaunayflip_mesh_init(delaunayflip_mesh* mesh)
   {
@@ -85,17 +219,13 @@ extern "C"
     options->maximum_iterations = defaults.MaximumIterations;
     options->number_of_threads = defaults.NumberOfThreads;
     options->device = defaults.Device;
-    options->devices = nullptr;
   }
 
   void delaunayflip_report_init(delaunayflip_report* report)
   {
     *report = MakeEmpty<delaunayflip_report>();
-    for (const char** text : { &report->geometry_reason, &report->backend, &report->fallback,
-           &report->tolerance, &report->defects })
-    {
-      *text = "";
-    }
+    report->geometry_reason = report->backend = report->fallback = "";
+    report->tolerance = report->defects = "";
   }
 
   void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks)
@@ -119,10 +249,9 @@ extern "C"
   delaunayflip_status delaunayflip_advance(delaunayflip_session* session, std::int64_t iterations,
     const delaunayflip_callbacks* callbacks, std::int32_t* is_running)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         Require(iterations >= -1, "iterations is less than -1");
         const Observers observers(callbacks);
         const bool isRunning =
@@ -137,13 +266,11 @@ extern "C"
   delaunayflip_status delaunayflip_get_report(
     delaunayflip_session* session, delaunayflip_report* report)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         RequireReport(report);
-        session->Report =
-          std::make_unique<KeptReport>(session->Session.GetReport(), session->TriangleNumbers);
+        session->Report.emplace(session->Session.GetReport(), session->TriangleNumbers);
         session->Report->Fill(*report);
       });
   }
@@ -151,10 +278,9 @@ extern "C"
   delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session, std::int64_t first,
     std::int64_t count, delaunayflip_iteration* records, std::int64_t record_size)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         Require(record_size > 0, "record_size is not positive");
         const std::vector<IterationRecord>& iterations = session->Session.GetReport().Iterations;
         const auto known = static_cast<std::int64_t>(iterations.size());
@@ -174,10 +300,8 @@ extern "C"
   delaunayflip_status delaunayflip_store_triangles(
     delaunayflip_session* session, void* triangles, std::int32_t id_type)
   {
-    return Try(
-      [=]()
-      {
-        Require(session, "session is null");
+    return TryWith(session,
+      [=]() {
         session->Session.StoreTriangles(ToOutput(triangles, session->NumberOfTriangles, id_type));
       });
   }
@@ -185,10 +309,9 @@ extern "C"
   delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, std::int32_t* counts)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         Require(counts || session->NumberOfTriangles == 0, "counts is null");
         session->Session.StoreFlipCounts(counts);
       });
@@ -197,10 +320,9 @@ extern "C"
   delaunayflip_status delaunayflip_store_triangles_on_device(
     delaunayflip_session* session, void* triangles, std::int32_t id_type, void* stream)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         session->Session.StoreTriangles(
           ToOutput(triangles, session->NumberOfTriangles, id_type), DeviceStream{ stream });
       });
@@ -209,10 +331,9 @@ extern "C"
   delaunayflip_status delaunayflip_store_flip_counts_on_device(
     delaunayflip_session* session, std::int32_t* counts, void* stream)
   {
-    return Try(
+    return TryWith(session,
       [=]()
       {
-        Require(session, "session is null");
         Require(counts || session->NumberOfTriangles == 0, "counts is null");
         session->Session.StoreFlipCounts(counts, DeviceStream{ stream });
       });
@@ -236,8 +357,8 @@ extern "C"
           ToOutput(triangles, c.number_of_triangles, c.id_type), Observers(callbacks));
         if (report)
         {
-          thread_local std::unique_ptr<KeptReport> kept;
-          kept = std::make_unique<KeptReport>(result, c.triangle_numbers);
+          thread_local std::optional<KeptReport> kept;
+          kept.emplace(result, c.triangle_numbers);
           kept->Fill(*report);
         }
       });
@@ -249,7 +370,7 @@ extern "C"
     return Try(
       [=]()
       {
-        const TriangleMesh view = ToMesh(CompleteMesh(mesh));
+        const TriangleMesh view = ToMesh(mesh);
         Require(angles || view.Triangles.Count == 0, "angles is null");
         FindSmallestAngles(view, ToGeometry(geometry), 0, angles);
       });
@@ -260,7 +381,7 @@ extern "C"
     return Try(
       [=]()
       {
-        const TriangleMesh view = ToMesh(CompleteMesh(mesh));
+        const TriangleMesh view = ToMesh(mesh);
         Require(normals || view.Triangles.Count == 0, "normals is null");
         RequireValidIds(view);
         for (std::int64_t t = 0; t < view.Triangles.Count; ++t)
@@ -269,6 +390,53 @@ extern "C"
             view.Triangles.Get(t, 2) };
           TriangleNormal(view.Points, ids, normals + 3 * t);
         }
+      });
+  }
+
+  delaunayflip_status delaunayflip_find_geometry(
+    const delaunayflip_mesh* mesh, const delaunayflip_options* options, std::int32_t* geometry)
+  {
+    return Try(
+      [=]()
+      {
+        Require(geometry, "geometry is null");
+        *geometry = static_cast<std::int32_t>(FindGeometry(ToMesh(mesh), ToOptions(options)));
+      });
+  }
+
+  delaunayflip_status delaunayflip_find_fixed_edges(const delaunayflip_mesh* mesh,
+    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
+    std::int64_t* pairs, std::int64_t* count)
+  {
+    return Try(
+      [=]()
+      {
+        Require(count, "count is null");
+        const std::vector<std::int64_t> ids =
+          FindFixedEdges(ToMesh(mesh), ToOptions(options), Observers(callbacks).Progress);
+        Require(pairs || ids.empty(), "pairs is null");
+        std::copy(ids.begin(), ids.end(), pairs);
+        *count = static_cast<std::int64_t>(ids.size()) / 2;
+      });
+  }
+
+  void delaunayflip_polygons_init(delaunayflip_polygons* polygons)
+  {
+    *polygons = MakeEmpty<delaunayflip_polygons>();
+  }
+
+  delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
+    const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
+    std::int64_t* triangles)
+  {
+    return Try(
+      [=]()
+      {
+        const TriangleMesh view = ToMesh(mesh);
+        const std::vector<std::int64_t> ids =
+          Split(view.Points, CompletePolygons(polygons), Observers(callbacks).Progress);
+        Require(triangles || ids.empty(), "triangles is null");
+        std::copy(ids.begin(), ids.end(), triangles);
       });
   }
 

@@ -7,7 +7,7 @@ if(DELAUNAYFLIP_ENABLE_CUDA STREQUAL "OFF" OR DELAUNAYFLIP_SANITIZER)
   return() # the CPU's sanitizers do not support device code
 endif()
 
-# Older ones lack what SharedMemory.cpp asks of the runtime (cudaDriverEntryPointQueryResult).
+# Older ones lack what DeviceMemory.cpp asks of the runtime (cudaDriverEntryPointQueryResult).
 set(delaunayflip_oldest_cuda 12)
 
 # Sets delaunayflip_nvcc and delaunayflip_nvcc_version to the nvcc that CMake would take, or to

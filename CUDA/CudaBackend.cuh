@@ -6,26 +6,170 @@
 #include "Array.h"
 #include "CudaContext.h"
 #include "CudaError.h"
-#include "CudaKernels.cuh"
 #include "DeviceMesh.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
+#include "EdgeTable.h"
 #include "FlipError.h"
-#include "OutputSlice.h"
-#include "StagedCopy.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 #include <cub/cub.cuh>
+#include <cuda_runtime_api.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
+
+/// The order in which the parts of an array are copied. Every GPU in turn copies a part of its
+/// share, so that all of them copy at the same time.
+class PartOrder
+{
+public:
+  /// @param partsPerSlice the number of parts in each slice; the last slice may have fewer.
+  PartOrder(std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
+    : Parts(parts),
+      PartsPerSlice(std::max<std::int64_t>(1, partsPerSlice)),
+      Share((this->PartsPerSlice + devices - 1) / devices),
+      Devices(devices)
+  {
+  }
+
+  std::int64_t CountTurns() const
+  {
+    const std::int64_t slices = (this->Parts + this->PartsPerSlice - 1) / this->PartsPerSlice;
+    return slices * this->CountTurnsPerSlice();
+  }
+  /// @returns the slice that begins with a turn, or -1.
+  std::int64_t FindSlice(std::int64_t turn) const
+  {
+    return turn % this->CountTurnsPerSlice() == 0 ? turn / this->CountTurnsPerSlice() : -1;
+  }
+  /// @returns the part of a turn, or -1 if there is none.
+  std::int64_t FindPart(std::int64_t turn) const
+  {
+    const std::int64_t slice = turn / this->CountTurnsPerSlice();
+    const std::int64_t inSlice = turn % this->CountTurnsPerSlice();
+    const std::int64_t place = inSlice % this->Devices * this->Share + inSlice / this->Devices;
+    const std::int64_t part = slice * this->PartsPerSlice + place;
+    return place < this->PartsPerSlice && part < this->Parts ? part : -1;
+  }
+
+private:
+  std::int64_t CountTurnsPerSlice() const { return this->Share * this->Devices; }
+
+  std::int64_t Parts, PartsPerSlice;
+  std::int64_t Share; ///< Of a GPU, in a slice.
+  std::int64_t Devices;
+};
+
+constexpr int ThreadsPerBlock = 256;
+
+/// The items [First, Last) of a launch. First is a multiple of ThreadsPerBlock.
+struct ItemRange
+{
+  std::int64_t First, Last;
+
+  /// How many blocks are enough for them.
+  __host__ __device__ std::int64_t CountTiles() const
+  {
+    return (this->Last - this->First + ThreadsPerBlock - 1) / ThreadsPerBlock;
+  }
+  /// The item of this thread where a block handles a tile of ThreadsPerBlock.
+  __device__ std::int64_t GetFirst() const
+  {
+    return this->First + std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
+  }
+  /// The tile of this block among all items.
+  __device__ std::int64_t GetTile() const { return this->First / ThreadsPerBlock + blockIdx.x; }
+};
+
+/// One thread calls work(i) for every i of its stride. The caller makes sure that what different i
+/// write does not conflict.
+template <typename Work>
+__global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items, Work work)
+{
+  const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
+  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
+  {
+    work(i);
+  }
+}
+
+template <typename Result>
+struct Plus
+{
+  __device__ Result operator()(Result a, const Result& b) const
+  {
+    a += b;
+    return a;
+  }
+};
+
+/// The same as ForEachKernel, with a sum: every block writes its partial sum.
+template <typename Result, typename Work>
+__global__ void __launch_bounds__(ThreadsPerBlock)
+  SumKernel(ItemRange items, Work work, Result* partials)
+{
+  using Reduce = cub::BlockReduce<Result, ThreadsPerBlock>;
+  __shared__ typename Reduce::TempStorage storage;
+  Result sum{};
+  const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
+  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
+  {
+    work(i, sum);
+  }
+  const Result total = Reduce(storage).Reduce(sum, Plus<Result>());
+  if (threadIdx.x == 0)
+  {
+    partials[blockIdx.x] = total;
+  }
+}
+
+/// The sum of partial sums.
+template <typename Result>
+struct AddPartial
+{
+  const Result* Partials;
+
+  __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
+};
+
+/// One block counts one tile, one item per thread, because counting may wait for memory.
+template <typename CountOf>
+__global__ void __launch_bounds__(ThreadsPerBlock)
+  CountKernel(ItemRange items, CountOf count, std::int64_t* countOfTile)
+{
+  using Reduce = cub::BlockReduce<int, ThreadsPerBlock>;
+  __shared__ typename Reduce::TempStorage storage;
+  const std::int64_t i = items.GetFirst();
+  const int total = Reduce(storage).Sum(i < items.Last ? static_cast<int>(count(i)) : 0);
+  if (threadIdx.x == 0)
+  {
+    countOfTile[items.GetTile()] = total;
+  }
+}
+
+/// One block visits one tile, counting on from the tile's first number.
+template <typename CountOf, typename Visit>
+__global__ void __launch_bounds__(ThreadsPerBlock) ForEachNumberedKernel(
+  ItemRange items, CountOf count, Visit visit, const std::int64_t* firstOfTile)
+{
+  using Scan = cub::BlockScan<int, ThreadsPerBlock>;
+  __shared__ typename Scan::TempStorage storage;
+  const std::int64_t i = items.GetFirst();
+  int before = 0;
+  Scan(storage).ExclusiveSum(i < items.Last ? static_cast<int>(count(i)) : 0, before);
+  if (i < items.Last)
+  {
+    visit(i, firstOfTile[items.GetTile()] + before);
+  }
+}
 
 /// The caller's mesh in the device's memory.
 struct LocalDeviceMesh
@@ -190,20 +334,15 @@ public:
   template <typename T>
   void Fill(T* values, int byte, std::int64_t size) const
   {
-    CallCuda("fill memory",
-      [&] { return cudaMemsetAsync(values, byte, size * sizeof(T), this->GetStream()); });
+    CallCuda("fill memory", cudaMemsetAsync, values, byte, size * sizeof(T), this->GetStream());
   }
 
   /// Waits until the values have arrived.
   template <typename T>
   void Download(const T* values, std::int64_t size, T* host) const
   {
-    CallCuda("copy from the GPU",
-      [&]
-      {
-        return cudaMemcpyAsync(
-          host, values, size * sizeof(T), cudaMemcpyDeviceToHost, this->GetStream());
-      });
+    CallCuda("copy from the GPU", cudaMemcpyAsync, host, values, size * sizeof(T),
+      cudaMemcpyDeviceToHost, this->GetStream());
     this->Synchronize();
   }
 
@@ -211,32 +350,58 @@ public:
   template <typename T>
   void Upload(const T* host, std::int64_t size, T* values) const
   {
-    StagedCopy(*this->Context, this->Threads)
-      .Upload(size, values, [host](std::int64_t i) { return host[i]; });
+    this->Send(size, values, [host](std::int64_t i) { return host[i]; });
   }
 
   void Synchronize() const
   {
-    CallCuda("finish the work", [&] { return cudaStreamSynchronize(this->GetStream()); });
+    CallCuda("finish the work", cudaStreamSynchronize, this->GetStream());
   }
 
   /// Lets the work that follows wait for what is in a stream of the caller.
   void WaitFor(const DeviceStream& stream) const
   {
     CudaContext& context = *this->Context;
-    CallCuda("record an event",
-      [&]
-      { return cudaEventRecord(context.CallerDone, static_cast<cudaStream_t>(stream.Handle)); });
-    CallCuda("wait for an event",
-      [&] { return cudaStreamWaitEvent(context.Stream, context.CallerDone, 0); });
+    CallCuda("record an event", cudaEventRecord, context.CallerDone,
+      static_cast<cudaStream_t>(stream.Handle));
+    CallCuda("wait for an event", cudaStreamWaitEvent, context.Stream, context.CallerDone, 0);
   }
 
   /// Copies the caller's arrays to the device.
   using LocalMesh = LocalDeviceMesh;
-  LocalMesh Localize(const TriangleMesh& mesh) const;
+  LocalMesh Localize(const TriangleMesh& mesh) const
+  {
+    const PointArray& points = mesh.Points;
+    const TriangleArray& triangles = mesh.Triangles;
+    LocalMesh local = this->BringLabels(mesh, points.Count, triangles.Count);
+    local.Triangles = this->MakeArray<std::int32_t>(3 * triangles.Count);
+    this->Send(3 * triangles.Count, local.Triangles.Data(),
+      [&](std::int64_t i)
+      {
+        // An id that does not fit is invalid, and stays invalid.
+        const std::int64_t id = triangles.Ids32 ? triangles.Ids32[i] : triangles.Ids64[i];
+        return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
+      });
+    local.Mesh.Triangles = TriangleArray(local.Triangles.Data(), triangles.Count);
+    local.Mesh.Points = points.Floats
+      ? PointArray(this->Bring(points.Floats, 3 * points.Count, local.Floats), points.Count)
+      : PointArray(this->Bring(points.Doubles, 3 * points.Count, local.Doubles), points.Count);
+    return local;
+  }
 
   /// Views the caller's arrays in this device's memory, except points without z, which get one.
-  LocalMesh Localize(const DeviceMesh& mesh) const;
+  LocalMesh Localize(const DeviceMesh& mesh) const
+  {
+    const DevicePointArray& points = mesh.Points;
+    LocalMesh local = this->BringLabels(mesh, points.Count, mesh.Triangles.Count);
+    this->WaitFor(mesh.Stream);
+    local.IsOnHost = false;
+    local.Mesh.Triangles = mesh.Triangles;
+    local.Mesh.Points = points.Floats
+      ? PointArray(this->WithZ(points.Floats, points, local.Floats), points.Count)
+      : PointArray(this->WithZ(points.Doubles, points, local.Doubles), points.Count);
+    return local;
+  }
 
   template <typename Store>
   void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
@@ -244,18 +409,13 @@ public:
     const auto fill = [&](const OutputSlice& ids) {
       this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, IdSlice{ ids }); });
     };
-    // Vertex ids are unsigned 32-bit numbers.
-    if (triangles.Ids32)
+    const auto download = [&](auto* ids)
     {
       this->DownloadSlices(3 * triangles.Count, fill,
-        [&](std::int64_t i, std::uint32_t id)
-        { triangles.Ids32[i] = static_cast<std::int32_t>(id); });
-    }
-    else
-    {
-      this->DownloadSlices(3 * triangles.Count, fill,
-        [&](std::int64_t i, std::uint32_t id) { triangles.Ids64[i] = id; });
-    }
+        [ids](std::int64_t i, std::uint32_t id)
+        { ids[i] = static_cast<std::remove_pointer_t<decltype(ids)>>(id); });
+    };
+    triangles.Ids32 ? download(triangles.Ids32) : download(triangles.Ids64);
   }
 
   template <typename Store>
@@ -347,10 +507,26 @@ public:
     return part == parts ? size : size * part / parts / ThreadsPerBlock * ThreadsPerBlock;
   }
 
-  /// The caller's points with three coordinates each: a view, or a copy in `wide`. Public because
-  /// device lambdas require it.
+  /// The caller's points with three coordinates each: as they are, or copied to `wide`. Public
+  /// because device lambdas require it.
   template <typename T>
-  PointArray ViewPoints(const T* values, const DevicePointArray& points, Array<T>& wide) const;
+  const T* WithZ(const T* values, const DevicePointArray& points, Array<T>& wide) const
+  {
+    if (points.Components == 3)
+    {
+      return values;
+    }
+    wide = this->MakeArray<T>(3 * points.Count);
+    T* xyz = wide.Data();
+    this->ForEach(points.Count,
+      [=] __device__(std::int64_t i)
+      {
+        xyz[3 * i] = values[2 * i];
+        xyz[3 * i + 1] = values[2 * i + 1];
+        xyz[3 * i + 2] = 0;
+      });
+    return xyz;
+  }
 
   /// A copy on all GPUs. Public because device lambdas require it.
   Array<std::uint32_t> Share(const Array<std::uint32_t>& values) const
@@ -364,15 +540,64 @@ public:
   }
 
 private:
-  /// @throws BackendUnavailable for more points than ids can name.
-  static void RequireCountable(std::int64_t points);
-
-  /// A copy of the host's values.
+  /// Copies the host's values to `local`, and returns where they are there.
   template <typename T>
-  Array<T> Bring(const T* host, std::int64_t size) const;
+  const T* Bring(const T* host, std::int64_t size, Array<T>& local) const
+  {
+    local = this->MakeArray<T>(size);
+    this->Upload(host, size, local.Data());
+    return local.Data();
+  }
 
-  /// Sets what the caller knows about edges, with copies of what is per triangle.
-  void BringLabels(const FixedEdges& fixed, LocalDeviceMesh& local) const;
+  /// A mesh that has only what the caller knows about edges, with copies of what is per triangle.
+  /// @throws BackendUnavailable for more points than ids can name.
+  LocalMesh BringLabels(const FixedEdges& fixed, std::int64_t points, std::int64_t triangles) const
+  {
+    if (points > std::numeric_limits<std::int32_t>::max())
+    {
+      throw BackendUnavailable("the mesh has " + std::to_string(points) +
+        " points; the CUDA backend numbers them with 31 bits, use 'threads'");
+    }
+    LocalMesh local;
+    static_cast<FixedEdges&>(local.Mesh) = fixed;
+    if (fixed.Regions)
+    {
+      local.Mesh.Regions = this->Bring(fixed.Regions, triangles, local.Regions);
+    }
+    if (fixed.FrozenTriangles)
+    {
+      local.Mesh.FrozenTriangles = this->Bring(fixed.FrozenTriangles, triangles, local.Frozen);
+    }
+    return local;
+  }
+
+  // Copies between arrays on the host and device memory go through page-locked buffers: threads
+  // convert one buffer while others are being copied. This is several times as fast as the driver's
+  // copies from pageable memory.
+
+  /// Sends get(i) for i = 0 .. size - 1. When it returns, get is no longer needed.
+  template <typename T, typename Get>
+  void Send(std::int64_t size, T* device, const Get& get) const
+  {
+    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
+    const std::int64_t parts = (size + Step - 1) / Step;
+    const PartOrder order(parts, parts, this->CountDevices());
+    this->Context->Fork();
+    for (std::int64_t turn = 0; turn < order.CountTurns(); ++turn)
+    {
+      const std::int64_t begin = order.FindPart(turn) * Step;
+      if (begin >= 0)
+      {
+        const StagingBuffer& buffer = this->GetBuffer(turn);
+        const std::int64_t count = std::min(Step, size - begin);
+        auto* values = static_cast<T*>(buffer.Memory.Get());
+        WaitForCopy(buffer);
+        this->Threads.ForEach(count, [&](std::int64_t i) { values[i] = get(begin + i); });
+        StartCopy(buffer, device + begin, values, count * sizeof(T), cudaMemcpyHostToDevice);
+      }
+    }
+    this->Context->Join();
+  }
 
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
@@ -380,24 +605,69 @@ private:
   template <typename Fill, typename Put>
   void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
   {
-    const std::int64_t sliceSize = StagedCopy::GetSliceSize<std::uint32_t>(size, SlicesOfOutput);
-    Array<std::uint32_t> values = this->MakeArray<std::uint32_t>(std::min(size, sliceSize));
-    StagedCopy(*this->Context, this->Threads)
-      .DownloadSlices(
-        size, values.Data(), sliceSize,
-        [&](std::int64_t first) {
-          fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
-        },
-        put);
+    using Value = std::uint32_t;
+    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(Value);
+    constexpr std::int64_t Slices = 8; // about
+    const std::int64_t parts = (size + Step - 1) / Step;
+    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts + Slices - 1) / Slices);
+    const std::int64_t sliceSize = partsPerSlice * Step;
+    Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
+    const auto ahead = // copied while one is converted
+      static_cast<std::int64_t>(this->Context->Staging.size()) - 1;
+    const PartOrder order(parts, partsPerSlice, this->CountDevices());
+    for (std::int64_t turn = 0; turn < order.CountTurns() + ahead; ++turn)
+    {
+      const std::int64_t fetched = turn < order.CountTurns() ? order.FindPart(turn) : -1;
+      if (turn < order.CountTurns() && order.FindSlice(turn) >= 0)
+      {
+        const std::int64_t first = order.FindSlice(turn) * sliceSize;
+        this->Context->Join();
+        fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
+        this->Context->Fork();
+      }
+      if (fetched >= 0)
+      {
+        const StagingBuffer& buffer = this->GetBuffer(turn);
+        const std::int64_t begin = fetched * Step;
+        StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
+          std::min(Step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
+      }
+      const std::int64_t drained = turn >= ahead ? order.FindPart(turn - ahead) : -1;
+      if (drained >= 0)
+      {
+        const StagingBuffer& buffer = this->GetBuffer(turn - ahead);
+        const auto* staged = static_cast<const Value*>(buffer.Memory.Get());
+        const std::int64_t begin = drained * Step;
+        WaitForCopy(buffer);
+        this->Threads.ForEach(
+          std::min(Step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
+      }
+    }
+    this->Context->Join();
   }
 
-  static constexpr std::int64_t SlicesOfOutput = 8;
+  const StagingBuffer& GetBuffer(std::int64_t turn) const
+  {
+    return this->Context->Staging[turn % this->Context->Staging.size()];
+  }
+
+  static void StartCopy(
+    const StagingBuffer& buffer, void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)
+  {
+    CallCuda("copy between host and GPU", cudaMemcpyAsync, to, from, bytes, kind, buffer.Stream);
+    CallCuda("record an event", cudaEventRecord, buffer.Done, buffer.Stream);
+  }
+
+  static void WaitForCopy(const StagingBuffer& buffer)
+  {
+    CallCuda("wait for a copy", cudaEventSynchronize, buffer.Done);
+  }
 
   static std::vector<int> ResolveDevices(std::vector<int> devices)
   {
     if (devices.front() < 0)
     {
-      CallCuda("ask for the current device", [&] { return cudaGetDevice(&devices.front()); });
+      CallCuda("ask for the current device", cudaGetDevice, &devices.front());
     }
     return devices;
   }

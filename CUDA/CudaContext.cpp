@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaContext.h"
 
+#include "Array.h"
 #include "CudaDevice.h"
-#include "IdleMemory.h"
+#include "CudaError.h"
+#include "DeviceMemory.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -75,81 +77,66 @@ struct IdleContexts
   }
 };
 
-cudaEvent_t MakeEvent()
+CudaStream MakeStream()
+{
+  cudaStream_t stream = nullptr;
+  CallCuda("make a stream", cudaStreamCreateWithFlags, &stream, cudaStreamNonBlocking);
+  return CudaStream(stream);
+}
+
+CudaEvent MakeEvent()
 {
   cudaEvent_t event = nullptr;
-  CallCuda(
-    "make an event", [&] { return cudaEventCreateWithFlags(&event, cudaEventDisableTiming); });
-  return event;
+  CallCuda("make an event", cudaEventCreateWithFlags, &event, cudaEventDisableTiming);
+  return CudaEvent(event);
 }
+
 }
 
 CudaContext::CudaContext(const std::vector<int>& devices)
   : Device(devices.front())
 {
-  try
-  {
-    this->Open(devices);
-  }
-  catch (...)
-  {
-    this->Close();
-    throw;
-  }
-}
-
-CudaContext::~CudaContext() { this->Close(); }
-
-void CudaContext::Open(const std::vector<int>& devices)
-{
   cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
   cudaDeviceProp properties;
-  CallCuda("read the device's properties",
-    [&] { return cudaGetDeviceProperties(&properties, this->Device); });
+  CallCuda("read the device's properties", cudaGetDeviceProperties, &properties, this->Device);
   this->Name = properties.name;
   this->Multiprocessors = properties.multiProcessorCount;
   this->CacheBytes = static_cast<std::size_t>(properties.l2CacheSize);
-  CallCuda("make a stream",
-    [&] { return cudaStreamCreateWithFlags(&this->Stream, cudaStreamNonBlocking); });
+  this->Stream = MakeStream();
   this->Pool.reset(new DeviceMemory(this->Device, this->Stream));
   this->CallerDone = MakeEvent();
   this->StreamDone = MakeEvent();
-  this->OpenOthers(devices);
-  this->OpenStaging(devices);
-}
-
-void CudaContext::OpenStaging(const std::vector<int>& devices)
-{
+  for (std::size_t i = 1; i < devices.size(); ++i)
+  {
+    const CurrentDevice other(devices[i]);
+    CudaStream stream = MakeStream();
+    this->Others.push_back({ devices[i], std::move(stream), MakeEvent() });
+  }
+  if (!this->Others.empty())
+  {
+    this->Shared.reset(new SharedMemory(devices, *this->Pool));
+    this->Name = std::to_string(devices.size()) + " x " + this->Name;
+  }
   for (std::size_t slot = 0; slot < StagingSlots * devices.size(); ++slot)
   {
     const std::size_t device = slot % devices.size();
-    const CurrentDevice current(devices[device]);
-    this->Staging.push_back({ device == 0 ? this->Stream : this->Others[device - 1].Stream });
-    StagingBuffer& buffer = this->Staging.back();
+    const CurrentDevice owner(devices[device]);
+    void* memory = nullptr;
     CallCuda("allocate page-locked memory",
-      [&] { return cudaHostAlloc(&buffer.Memory, StagingBytes, cudaHostAllocPortable); });
-    buffer.Done = MakeEvent();
+      [&] { return cudaHostAlloc(&memory, StagingBytes, cudaHostAllocPortable); });
+    PageLocked buffer(memory);
+    this->Staging.push_back({ device == 0 ? this->Stream : this->Others[device - 1].Stream,
+      std::move(buffer), MakeEvent() });
   }
 }
 
-void CudaContext::OpenOthers(const std::vector<int>& devices)
+CudaContext::~CudaContext()
 {
-  if (devices.size() == 1)
+  for (const DeviceStreams& other : this->Others)
   {
-    return;
+    cudaStreamSynchronize(other.Stream); // it may still use the memory
   }
-  for (std::size_t i = 1; i < devices.size(); ++i)
-  {
-    const CurrentDevice current(devices[i]);
-    this->Others.push_back({ devices[i] });
-    CallCuda("make a stream",
-      [&]
-      { return cudaStreamCreateWithFlags(&this->Others.back().Stream, cudaStreamNonBlocking); });
-    this->Others.back().Done = MakeEvent();
-  }
-  this->Shared.reset(new SharedMemory(devices, *this->Pool));
-  this->Name = std::to_string(devices.size()) + " x " + this->Name;
 }
 
 Memory& CudaContext::GetMemory() const
@@ -178,11 +165,10 @@ void CudaContext::Fork() const
   {
     return;
   }
-  CallCuda("record an event", [&] { return cudaEventRecord(this->StreamDone, this->Stream); });
+  CallCuda("record an event", cudaEventRecord, this->StreamDone, this->Stream);
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda(
-      "wait for an event", [&] { return cudaStreamWaitEvent(other.Stream, this->StreamDone, 0); });
+    CallCuda("wait for an event", cudaStreamWaitEvent, other.Stream, this->StreamDone, 0);
   }
 }
 
@@ -190,63 +176,15 @@ void CudaContext::Join() const
 {
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda("record an event", [&] { return cudaEventRecord(other.Done, other.Stream); });
-    CallCuda("wait for an event", [&] { return cudaStreamWaitEvent(this->Stream, other.Done, 0); });
+    CallCuda("record an event", cudaEventRecord, other.Done, other.Stream);
+    CallCuda("wait for an event", cudaStreamWaitEvent, this->Stream, other.Done, 0);
   }
-}
-
-void CudaContext::Close() noexcept
-{
-  for (const DeviceStreams& other : this->Others)
-  {
-    if (other.Stream)
-    {
-      cudaStreamSynchronize(other.Stream); // it may still use the memory
-    }
-  }
-  this->Shared.reset();
-  for (const DeviceStreams& other : this->Others)
-  {
-    if (other.Done)
-    {
-      cudaEventDestroy(other.Done);
-    }
-    if (other.Stream)
-    {
-      cudaStreamDestroy(other.Stream);
-    }
-  }
-  if (this->StreamDone)
-  {
-    cudaEventDestroy(this->StreamDone);
-  }
-  if (this->CallerDone)
-  {
-    cudaEventDestroy(this->CallerDone);
-  }
-  for (const StagingBuffer& buffer : this->Staging)
-  {
-    if (buffer.Done)
-    {
-      cudaEventDestroy(buffer.Done);
-    }
-    if (buffer.Memory)
-    {
-      cudaFreeHost(buffer.Memory);
-    }
-  }
-  this->Pool.reset();
-  if (this->Stream)
-  {
-    cudaStreamDestroy(this->Stream);
-  }
-  cudaGetLastError();
 }
 
 CurrentDevice::CurrentDevice(int device)
 {
-  CallCuda("ask for the current device", [&] { return cudaGetDevice(&this->Previous); });
-  CallCuda("use the device", [&] { return cudaSetDevice(device); });
+  CallCuda("ask for the current device", cudaGetDevice, &this->Previous);
+  CallCuda("use the device", cudaSetDevice, device);
 }
 
 CurrentDevice::~CurrentDevice()
@@ -269,45 +207,47 @@ ContextLease::ContextLease(const std::vector<int>& devices)
 
 ContextLease::ContextLease(ContextLease&&) noexcept = default;
 
-namespace
+/// Waits for all GPUs, also after an exception between Fork and Join. A context in which something
+/// failed is not kept for the next run.
+ContextLease::~ContextLease()
 {
-/// Waits for all GPUs, also after an exception between Fork and Join. @returns whether nothing
-/// failed.
-bool Finish(const CudaContext& context)
-{
-  bool isGood = cudaStreamSynchronize(context.Stream) == cudaSuccess;
-  for (const DeviceStreams& other : context.Others)
+  if (!this->Context)
+  {
+    return;
+  }
+  bool isGood = cudaStreamSynchronize(this->Context->Stream) == cudaSuccess;
+  for (const DeviceStreams& other : this->Context->Others)
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
-  return isGood;
-}
-}
-
-ContextLease::~ContextLease()
-{
-  // A context in which something failed is not kept for the next run.
-  if (this->Context && Finish(*this->Context))
+  if (isGood)
   {
     IdleContexts::Get().Give(std::move(this->Context));
   }
+}
+
+namespace
+{
+cudaError_t CountDevices(int& devices)
+{
+  devices = 0;
+  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
+  cudaGetLastError();
+  return error;
+}
 }
 
 bool HasCudaDevice()
 {
   // A driver that is installed but too old deserves a warning.
   int devices = 0;
-  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
-  cudaGetLastError();
-  return error != cudaErrorNoDevice;
+  return CountDevices(devices) != cudaErrorNoDevice;
 }
 
 int CountCudaDevices()
 {
   int devices = 0;
-  const cudaError_t error = HasCudaDriver() ? cudaGetDeviceCount(&devices) : cudaErrorNoDevice;
-  cudaGetLastError();
-  return error == cudaSuccess ? devices : 0;
+  return CountDevices(devices) == cudaSuccess ? devices : 0;
 }
 
 void ReleaseCudaMemory() { ReleaseIdleMemory(); }
@@ -315,5 +255,37 @@ void ReleaseCudaMemory() { ReleaseIdleMemory(); }
 bool ReleaseIdleMemory() { return !IdleContexts::Get().TakeAll().empty(); }
 
 std::size_t TakePeakCudaMemory() { return IdleContexts::Get().TakePeak(); }
+
+namespace
+{
+/// @param device the side of the copy that is in device memory.
+void Copy(void* to, const void* from, std::int64_t bytes, const void* device, DeviceStream stream)
+{
+  const CurrentDevice current(FindDeviceOf(device)); // which the default stream belongs to
+  const auto handle = static_cast<cudaStream_t>(stream.Handle);
+  CallCuda(
+    "copy between host and GPU", cudaMemcpyAsync, to, from, bytes, cudaMemcpyDefault, handle);
+  CallCuda("finish a copy", cudaStreamSynchronize, handle);
+}
+}
+
+int FindDeviceOf(const void* memory)
+{
+  cudaPointerAttributes attributes = {};
+  CallCuda("find the GPU that has an array", cudaPointerGetAttributes, &attributes, memory);
+  const bool isOnDevice =
+    attributes.type == cudaMemoryTypeDevice || attributes.type == cudaMemoryTypeManaged;
+  return isOnDevice ? attributes.device : -1;
+}
+
+void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream& stream)
+{
+  Copy(host, device, bytes, device, stream);
+}
+
+void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream& stream)
+{
+  Copy(device, host, bytes, device, stream);
+}
 
 }

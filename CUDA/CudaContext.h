@@ -6,8 +6,7 @@
 #include "Array.h"
 #include "CudaError.h"
 #include "DeviceMemory.h"
-#include "FlipEngine.h"
-#include "SharedMemory.h"
+#include "LoadedMesh.h"
 
 #include <cuda_runtime_api.h>
 
@@ -19,20 +18,49 @@
 namespace delaunayflip
 {
 
+/// What the CUDA runtime has made, owned.
+template <typename T, cudaError_t (*Destroy)(T*)>
+class CudaOwner
+{
+public:
+  CudaOwner() = default;
+  explicit CudaOwner(T* made)
+    : Made(made)
+  {
+  }
+  T* Get() const { return this->Made.get(); }
+  operator T*() const { return this->Made.get(); } // NOLINT(google-explicit-constructor)
+
+private:
+  struct Deleter
+  {
+    void operator()(T* made) const noexcept
+    {
+      Destroy(made);
+      cudaGetLastError(); // there is no caller to report to
+    }
+  };
+
+  std::unique_ptr<T, Deleter> Made;
+};
+using CudaStream = CudaOwner<CUstream_st, cudaStreamDestroy>;
+using CudaEvent = CudaOwner<CUevent_st, cudaEventDestroy>;
+using PageLocked = CudaOwner<void, cudaFreeHost>;
+
 /// A GPU of a context, and its stream.
 struct DeviceStreams
 {
-  int Device = -1;
-  cudaStream_t Stream = nullptr;
-  cudaEvent_t Done = nullptr; ///< What is in the stream so far.
+  int Device;
+  CudaStream Stream;
+  CudaEvent Done; ///< What is in the stream so far.
 };
 
 /// Page-locked memory of the host, and the stream of a GPU that copies to it and from it.
 struct StagingBuffer
 {
-  cudaStream_t Stream = nullptr;
-  void* Memory = nullptr;
-  cudaEvent_t Done = nullptr; ///< The last copy.
+  cudaStream_t Stream;
+  PageLocked Memory;
+  CudaEvent Done; ///< The last copy.
 };
 
 /// What a run needs besides its mesh: a stream, memory, and page-locked buffers for copies between
@@ -71,19 +99,13 @@ public:
   std::string Name; ///< E.g. "NVIDIA H200" or "2 x NVIDIA H200".
   int Multiprocessors = 0;
   std::size_t CacheBytes = 0; ///< Of the second-level cache.
-  cudaStream_t Stream = nullptr;
-  cudaEvent_t StreamDone = nullptr; ///< What is in the stream so far.
+  CudaStream Stream;
+  CudaEvent StreamDone; ///< What is in the stream so far.
+  CudaEvent CallerDone; ///< What was in a stream of the caller's.
   std::vector<DeviceStreams> Others; ///< The other GPUs; empty if there is one.
   std::unique_ptr<DeviceMemory> Pool;
   std::unique_ptr<SharedMemory> Shared; ///< Null if there is one GPU.
-  cudaEvent_t CallerDone = nullptr; ///< What was in a stream of the caller's.
   std::vector<StagingBuffer> Staging; ///< The GPUs have them in turn.
-
-private:
-  void Open(const std::vector<int>& devices);
-  void OpenOthers(const std::vector<int>& devices);
-  void OpenStaging(const std::vector<int>& devices);
-  void Close() noexcept;
 };
 
 /// Makes a device current in the calling thread, and restores the previous one.

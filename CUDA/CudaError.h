@@ -27,14 +27,15 @@ void InjectCudaError(std::int64_t calls, cudaError_t error);
 /// Counts a call. @returns the error that it must fail with, or cudaSuccess.
 cudaError_t BeginCudaCall();
 
-/// Makes a call of the CUDA runtime, or a launch followed by cudaGetLastError().
+/// Makes a call of the CUDA runtime: of one of its functions with arguments, or of a function that
+/// launches a kernel and returns cudaGetLastError().
 /// @param action what it does, for the message, e.g. "allocate memory".
 /// @throws BackendUnavailable.
-template <typename Call>
-void CallCuda(const char* action, const Call& call)
+template <typename Call, typename... Arguments>
+void CallCuda(const char* action, const Call& call, const Arguments&... arguments)
 {
   const cudaError_t injected = BeginCudaCall();
-  const cudaError_t error = injected == cudaSuccess ? call() : injected;
+  const cudaError_t error = injected == cudaSuccess ? call(arguments...) : injected;
   if (error != cudaSuccess)
   {
     ThrowCudaError(error, action);

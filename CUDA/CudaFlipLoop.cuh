@@ -3,17 +3,19 @@
 #ifndef DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 #define DELAUNAYFLIP_CUDAFLIPLOOP_CUH
 
-#include "AngleSurvey.h"
-#include "BadEdgeCounts.h"
 #include "CudaBackend.cuh"
-#include "DeviceEdgeBits.cuh"
+#include "DeviceWorklist.cuh"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "FlipError.h"
 #include "FlipKernels.cuh"
 #include "FlipLoop.h"
+#include "SmallestAngle.h"
+#include "StepCounts.h"
+#include "Team.cuh"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <tuple>
@@ -22,6 +24,125 @@
 
 namespace delaunayflip
 {
+
+inline std::int64_t GetSum(const IterationSums& iteration, IterationSum sum)
+{
+  return static_cast<std::int64_t>(iteration.Values[static_cast<int>(sum)]);
+}
+
+/// The counts after an iteration that began with `edges`.
+inline StepCounts Follow(const StepCounts& edges, const IterationSums& iteration, bool hasGuard)
+{
+  StepCounts next;
+  next.Tested = GetSum(iteration, IterationSum::Tested);
+  next.Bad = hasGuard ? GetSum(iteration, IterationSum::AllBad)
+                      : edges.Bad - GetSum(iteration, IterationSum::Flipped) -
+      GetSum(iteration, IterationSum::WasBad) + GetSum(iteration, IterationSum::IsBad);
+  next.BlockedByShape = edges.BlockedByShape - GetSum(iteration, IterationSum::WasBlockedByShape) +
+    GetSum(iteration, IterationSum::IsBlockedByShape);
+  next.BlockedByEdge = GetSum(iteration, IterationSum::AllBlockedByEdge);
+  return next;
+}
+
+/// The iteration that began with these counts.
+inline IterationCounts ToIteration(const StepCounts& edges, const IterationSums& iteration)
+{
+  return { edges.Tested, edges.Bad, edges.GetBlocked(), GetSum(iteration, IterationSum::Flipped),
+    -INFINITY };
+}
+
+/// Owns the EdgeBits, and has the functions for all edges at once.
+class DeviceEdgeBits
+{
+public:
+  DeviceEdgeBits(EdgeMesh& mesh, const CudaBackend& backend)
+    : Backend(backend)
+  {
+    const std::int64_t units =
+      (mesh.NumberOfEdges + EdgeUnits::UnitSize - 1) >> EdgeUnits::UnitBits;
+    this->NumberOfWords = units * EdgeUnits::UnitSize / 32;
+    std::uint32_t** const kinds[EdgeBits::Kinds] = { &this->Bits.Fixed, &this->Bits.FixedOrDeferred,
+      &this->Bits.Candidates, &this->Bits.Bad, &this->Bits.Winners, &this->Bits.BlockedByShape,
+      &this->Bits.BlockedByEdge };
+    for (int kind = 0; kind < EdgeBits::Kinds; ++kind)
+    {
+      this->Words[kind] = backend.MakeArray<std::uint32_t>(this->NumberOfWords);
+      *kinds[kind] = this->Words[kind].Data();
+    }
+    this->LoadStates(mesh);
+  }
+
+  const EdgeBits& View() const { return this->Bits; }
+  std::int64_t CountUnits() const { return this->NumberOfWords / (EdgeUnits::UnitSize / 32); }
+
+  // Public because device lambdas require it.
+
+  /// Converts the initial states into bits. Bits after the last edge are fixed.
+  void LoadStates(const EdgeMesh& mesh)
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeState* states = mesh.States.Data();
+    const std::int64_t edges = mesh.NumberOfEdges;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        std::uint32_t fixed = 0;
+        for (int i = 0; i < 32; ++i)
+        {
+          const std::int64_t edge = 32 * word + i;
+          fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
+        }
+        bits.Fixed[word] = fixed;
+        bits.FixedOrDeferred[word] = fixed;
+        bits.Candidates[word] = ~fixed;
+        bits.Bad[word] = bits.Winners[word] = bits.BlockedByShape[word] = bits.BlockedByEdge[word] =
+          0;
+      });
+  }
+
+  /// @param chunkBits chunks of 2^chunkBits triangles.
+  void DeferEdgesBetweenChunks(EdgeMesh& edgeMesh, int chunkBits)
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeMeshView mesh = edgeMesh.View();
+    const std::int64_t edges = edgeMesh.NumberOfEdges;
+    // Threads of a warp work on one word.
+    this->Backend.ForEach(32 * this->NumberOfWords,
+      [=] __device__(std::int64_t e)
+      {
+        bool between = false;
+        if (e < edges && !EdgeBits::Has(bits.Fixed, static_cast<EdgeId>(e)))
+        {
+          const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
+          between = (TriangleOf(corners.A) ^ TriangleOf(corners.B)) >> chunkBits != 0;
+        }
+        const std::uint32_t deferred = __ballot_sync(WholeWarp, between);
+        if (e % 32 == 0)
+        {
+          bits.FixedOrDeferred[e / 32] |= deferred;
+          bits.Bad[e / 32] &= ~deferred;
+          bits.BlockedByShape[e / 32] &= ~deferred;
+        }
+      });
+  }
+
+  void RecallEdges()
+  {
+    const EdgeBits bits = this->Bits;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        bits.Candidates[word] = bits.FixedOrDeferred[word] & ~bits.Fixed[word];
+        bits.FixedOrDeferred[word] = bits.Fixed[word];
+      });
+  }
+
+private:
+  const CudaBackend& Backend;
+  std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
+  Array<std::uint32_t> Words[EdgeBits::Kinds];
+  EdgeBits Bits{};
+};
 
 /// The loop on a GPU, by one of the rules of FlipRules.h.
 template <typename Rule>
@@ -94,10 +215,12 @@ protected:
   {
     const Results& results = this->LaunchOnMesh(DetectAllKernel<Rule>);
     const IterationSums& all = results.Sums[1];
-    this->Edges = { GetSum(results.Sums[0], IterationSum::Tested),
-      GetSum(all, IterationSum::AllBad), GetSum(all, IterationSum::AllBlockedByShape),
-      GetSum(all, IterationSum::AllBlockedByEdge) };
-    return this->Edges.ToCounts();
+    StepCounts found;
+    found.Tested = GetSum(results.Sums[0], IterationSum::Tested);
+    found.Bad = GetSum(all, IterationSum::AllBad);
+    found.BlockedByShape = GetSum(all, IterationSum::AllBlockedByShape);
+    found.BlockedByEdge = GetSum(all, IterationSum::AllBlockedByEdge);
+    return found;
   }
 
   /// A launch of iterations on the whole mesh.
@@ -168,10 +291,8 @@ private:
           return cudaOccupancyMaxActiveBlocksPerMultiprocessor(
             &perMultiprocessor, kernel, LoopThreads, 0);
         });
-      CallCuda("plan a launch",
-        [&] {
-          return cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device);
-        });
+      CallCuda("plan a launch", cudaDeviceGetAttribute, &multiprocessors,
+        cudaDevAttrMultiProcessorCount, device);
       fewest = std::min(fewest, perMultiprocessor * multiprocessors);
     }
     return fewest;
@@ -284,7 +405,7 @@ private:
   /// Waits for the kernel. @throws BeyondDevice.
   const Results& FetchResults()
   {
-    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0].Memory);
+    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0].Memory.Get());
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
     for (const IterationSums& iteration : results->Sums)
     {
@@ -303,12 +424,11 @@ private:
     for (int i = 0; i < results.IterationsDone; ++i)
     {
       const IterationSums& iteration = results.Sums[i];
-      iterations.push_back(this->Edges.ToIteration(iteration));
-      this->Edges = this->Edges.Follow(iteration, this->Guard.IsActive());
+      iterations.push_back(ToIteration(this->Found, iteration));
+      this->Found = Follow(this->Found, iteration, this->Guard.IsActive());
       flips.FreshSlots += GetSum(iteration, IterationSum::FreshSlots);
       flips.LostInserts += GetSum(iteration, IterationSum::LostInserts);
     }
-    this->Found = this->Edges.ToCounts();
     if (this->Guard.IsActive())
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
@@ -333,12 +453,14 @@ private:
       });
     const Results& results = this->FetchResults();
     const IterationSums& sums = results.Sums[iterations];
-    BadEdgeCounts edges{ this->TestedInChunks, GetSum(sums, IterationSum::AllBad),
-      GetSum(sums, IterationSum::AllBlockedByShape), 0 };
+    StepCounts edges;
+    edges.Tested = this->TestedInChunks;
+    edges.Bad = GetSum(sums, IterationSum::AllBad);
+    edges.BlockedByShape = GetSum(sums, IterationSum::AllBlockedByShape);
     for (int i = 0; i < iterations; ++i)
     {
-      total.push_back(edges.ToIteration(results.Sums[i]));
-      edges = edges.Follow(results.Sums[i], false);
+      total.push_back(ToIteration(edges, results.Sums[i]));
+      edges = Follow(edges, results.Sums[i], false);
     }
     this->TestedInChunks = edges.Tested;
   }
@@ -358,7 +480,6 @@ private:
   Array<DeviceChunk> Chunks;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
-  BadEdgeCounts Edges; ///< The same as Found, in detail.
 };
 
 template <typename Rule>

@@ -4,10 +4,13 @@
 #define DELAUNAYFLIP_DEVICEMEMORY_H
 
 #include "Array.h"
+#include "FlipError.h"
 
 #include <cuda_runtime_api.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace delaunayflip
@@ -41,6 +44,72 @@ private:
   int Device;
   cudaStream_t Stream;
   cudaMemPool_t Pool = nullptr; ///< Null if the device has none; cudaMalloc is used then.
+};
+
+/// Frees the memory that is kept for later runs of the process, on all GPUs. @returns whether there
+/// was any.
+bool ReleaseIdleMemory();
+
+/// Calls allocate(), and once more without that memory if it fails. Other runs, on other sets of
+/// GPUs or at the same time, may have left it.
+/// @throws BackendUnavailable.
+template <typename Allocate>
+void* AllocateOrRelease(const Allocate& allocate)
+{
+  try
+  {
+    return allocate();
+  }
+  catch (const BackendUnavailable&)
+  {
+    if (!ReleaseIdleMemory())
+    {
+      throw;
+    }
+    return allocate();
+  }
+}
+
+/// The fewest triangles per GPU for which GPUs share a mesh; smaller meshes stay on one GPU.
+std::int64_t GetSmallestShare();
+/// For tests.
+void SetSmallestShare(std::int64_t triangles);
+
+/// Memory of several GPUs that all of them can access. An array has one range of addresses, with
+/// an equal part of it on each GPU, in their order: what belongs to the same part of the mesh is on
+/// the same GPU. Small arrays are on the first GPU.
+///
+/// Freed memory is kept for arrays of the same size. As in a memory pool, work that follows on the
+/// stream may use it again at once, so the work of all GPUs must be in the order of the stream.
+class SharedMemory : public Memory
+{
+public:
+  /// @param small the memory of the first GPU, which the others can access.
+  /// @throws BackendUnavailable if the GPUs cannot share memory.
+  SharedMemory(std::vector<int> devices, DeviceMemory& small);
+  ~SharedMemory() override;
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+
+  /// @throws BackendUnavailable.
+  void* Allocate(std::size_t bytes) override;
+  void Free(void* memory, std::size_t bytes) noexcept override;
+
+  /// The most bytes that were in use at any time since the last call.
+  std::size_t TakePeak();
+
+private:
+  bool IsSmall(std::size_t bytes) const;
+  std::size_t GetPartSize(std::size_t bytes) const;
+  void* Map(std::size_t part) const;
+  void Unmap(void* memory, std::size_t part) const noexcept;
+  void ReleaseIdle() noexcept;
+
+  std::vector<int> Devices;
+  DeviceMemory& Small;
+  std::size_t Granularity = 0; ///< Of the size of a part.
+  std::multimap<std::size_t, void*> Idle; ///< By the size of a part.
+  std::size_t Used = 0, Peak = 0; ///< Bytes of arrays that are not small.
 };
 
 }

@@ -4,20 +4,49 @@
 #define DELAUNAYFLIP_DEVICEWORKLIST_CUH
 
 #include "Atomics.h"
-#include "EdgeBits.h"
+#include "EdgeGuard.h"
 #include "EdgeMesh.h"
+#include "HostDevice.h"
 #include "Team.cuh"
 
 #include <cstdint>
 
 /// @file
-/// The edges of a range whose bit is set. A warp takes units of 256 edges, one byte of bits per
-/// lane, and lists the edges whose bit is set, in order, so that neighbours in the mesh are
-/// neighbours in the warp. Then it works on the list. Where a warp has few units, all warps of the
-/// block share one list, so that they have equal work.
+/// What the loop's kernels share: the states of edges as bits, worklists of the edges whose bit is
+/// set, and the view of it all.
 
 namespace delaunayflip
 {
+
+/// What the loop knows about the edges on a device: the states of EdgeMesh.h, as one bit per edge
+/// and state, so that all of them fit into the second-level cache of a GPU.
+struct EdgeBits
+{
+  std::uint32_t* Fixed; ///< EdgeState::Fixed, and the bits after the last edge.
+  std::uint32_t* FixedOrDeferred; ///< Edges whose bits in Candidates are ignored.
+  std::uint32_t* Candidates;
+  std::uint32_t* Bad;
+  std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
+  std::uint32_t* BlockedByShape;
+  std::uint32_t* BlockedByEdge;
+
+  static constexpr int Kinds = 7;
+
+  DELAUNAYFLIP_HOST_DEVICE static void Set(std::uint32_t* bits, EdgeId edge)
+  {
+    AtomicSet(&bits[edge / 32], std::uint32_t(1) << (edge % 32));
+  }
+  DELAUNAYFLIP_HOST_DEVICE static bool Has(const std::uint32_t* bits, EdgeId edge)
+  {
+    return (bits[edge / 32] >> (edge % 32) & 1u) != 0;
+  }
+};
+
+//------------------------------------------------------------------------------
+// The edges of a range whose bit is set. A warp takes units of 256 edges, one byte of bits per
+// lane, and lists the edges whose bit is set, in order, so that neighbours in the mesh are
+// neighbours in the warp. Then it works on the list. Where a warp has few units, all warps of the
+// block share one list, so that they have equal work.
 
 /// A lane's eight edges of a unit.
 struct EdgeByte
@@ -244,6 +273,45 @@ private:
   /// Leaves room for one unit of every warp.
   static constexpr int MostBeforeUnit = LoopWarps * (WarpListSize - UnitSize);
 };
+
+/// The edges of a chunk of FlipLoop's schedule.
+struct DeviceChunk
+{
+  EdgeId FirstEdge, LastEdge;
+};
+
+/// What the loop's kernels read and write.
+template <typename Rule>
+struct LoopView
+{
+  EdgeMeshView Mesh; ///< Its States are the initial ones.
+  Rule Decision;
+  EdgeGuardView Guard;
+  EdgeBits Bits;
+  int Splits; ///< 2^Splits warps share a unit.
+  int Parts; ///< How many GPUs iterate on the whole mesh together.
+  EdgeId FirstEdge, LastEdge; ///< Of this GPU.
+  DeviceChunk* Chunks;
+  int FirstChunk, LastChunk; ///< Of this GPU.
+  TeamState* Teams; ///< Zero before a launch.
+  IterationSums* Sums; ///< One per iteration and one more; zero before a launch.
+  int* IterationsDone; ///< Iterations of this launch.
+
+  __device__ WarpWorklist GetWorklist() const
+  {
+    return { this->FirstEdge, this->LastEdge, this->Splits };
+  }
+  __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const
+  {
+    return { chunk.FirstEdge, chunk.LastEdge };
+  }
+};
+
+template <typename Worklist, typename Rule>
+__device__ bool HasGuard(const LoopView<Rule>& loop)
+{
+  return Worklist::MayGuard && loop.Guard.Active;
+}
 
 }
 

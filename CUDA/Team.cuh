@@ -7,10 +7,34 @@
 #include "EdgeFlip.h"
 #include "EdgeMesh.h"
 #include "HostDevice.h"
-#include "IterationSums.h"
 
 namespace delaunayflip
 {
+
+/// The counts of an iteration on a device. Bad and blocked edges are counted as changes.
+enum class IterationSum
+{
+  Flipped,
+  FreshSlots, ///< Slots of the guard table used for the first time.
+  LostInserts, ///< New edges that found no room in the guard table.
+  Tested,
+  Uncertain, ///< Edges that a device cannot decide.
+  WasBad, ///< Tested edges that were bad before; IsBad: that are bad afterwards.
+  IsBad,
+  WasBlockedByShape,
+  IsBlockedByShape,
+  AllBad, ///< All bad edges; counted with a guard, and in the first detection.
+  AllBlockedByEdge, ///< All edges that the guard blocks.
+  AllBlockedByShape, ///< All of EdgeState::BlockedByShape, in the first detection.
+  Count
+};
+
+constexpr int NumberOfIterationSums = static_cast<int>(IterationSum::Count);
+
+struct IterationSums
+{
+  unsigned long long Values[NumberOfIterationSums];
+};
 
 constexpr int WarpSize = 32;
 constexpr unsigned WholeWarp = 0xFFFFFFFFu;
@@ -24,8 +48,8 @@ constexpr int LoopBlocks = 2;
 struct alignas(128) TeamState
 {
   unsigned long long Arrivals; ///< TeamNews of all blocks so far.
-  unsigned int Present; ///< Blocks that have called Team::Meet,
-  unsigned int Verdict; ///< and how that ended: 1: all are present; 2: they are not.
+  unsigned int Present; ///< Blocks that have called Team::Meet.
+  unsigned int Verdict; ///< How Team::Meet ended: 1: all are present; 2: they are not.
 };
 
 /// What thread blocks tell each other when they arrive at a barrier. Every block adds its own
@@ -94,10 +118,10 @@ struct TeamMemory
   int SizeOfList; ///< Of all lists as one.
   unsigned int Sums[NumberOfIterationSums];
   unsigned int Expected; ///< Arrivals up to and including the last wait.
-  unsigned int Warns; ///< Whether this block warns at the next wait,
-  int BadChange; ///< and the change of its number of bad edges since the last one.
-  TeamNews News; ///< From the last wait,
-  bool IsWarned; ///< and whether a thread warned before it.
+  unsigned int Warns; ///< Whether this block warns at the next wait.
+  int BadChange; ///< Change of this block's number of bad edges since the last wait.
+  TeamNews News; ///< From the last wait.
+  bool IsWarned; ///< Whether a thread warned before the last wait.
 };
 
 __device__ inline TeamMemory& GetTeamMemory()

@@ -6,7 +6,7 @@
 #include "Console.h"
 #include "CudaDevice.h"
 #include "FlipError.h"
-#include "FollowLinks.h"
+#include "OutputFiles.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_ARGUMENTS_H
 
 #include "FlipOptions.h"
-#include "MeshFormat.h"
+#include "MeshFiles.h"
 
 #include <optional>
 #include <string>

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_COMMANDERROR_H
 #define DELAUNAYFLIP_COMMANDERROR_H
 
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -10,7 +11,7 @@
 #include <string>
 
 /// @file
-/// How the command ends.
+/// How the command ends, and words for its messages.
 
 namespace delaunayflip
 {
@@ -38,6 +39,12 @@ public:
 
   ExitCode Code;
 };
+
+/// A number and its unit, e.g. "1 point" or "2 points".
+inline std::string Counted(std::int64_t count, const std::string& noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
 
 /// Whether memory was lacking: for an array, even one larger than any memory, or for the stack of a
 /// thread, which oneTBB reports only in the text of its message.

@@ -3,11 +3,15 @@
 #ifndef DELAUNAYFLIP_CONSOLE_H
 #define DELAUNAYFLIP_CONSOLE_H
 
+#include "ChildProcess.h"
+#include "MeshFiles.h"
+
+#include <chrono>
 #include <string>
 #include <vector>
 
 /// @file
-/// One-line messages on stderr, including VTK's.
+/// What appears on stderr: messages of one line, including VTK's, and the progress bar.
 
 namespace delaunayflip
 {
@@ -48,6 +52,37 @@ public:
 
 private:
   int Saved;
+};
+
+/// One line that shows how much of a job is done. It never goes backwards. It is drawn on a
+/// terminal only, so logs do not contain it.
+class ProgressBar
+{
+public:
+  /// `wanted` false: never draws. The shares of the phases are estimated for these formats.
+  ProgressBar(bool wanted, MeshFormat input, MeshFormat output);
+  ~ProgressBar() { this->Clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// Begins a phase, or another part of it. Draws at once.
+  void Begin(Phase phase, const std::string& text);
+
+  /// Shows that `fraction` of the phase, 0 .. 1, is done. Draws at most ten times per second.
+  void Show(double fraction, const std::string& text);
+
+  /// Wipes the line.
+  void Clear();
+
+private:
+  void Draw(const std::string& text);
+
+  bool Draws;
+  std::chrono::steady_clock::time_point LastDrawn;
+  double Ends[3]; ///< The shares of the time, 0 .. 1, at which the phases are expected to end.
+  double PhaseBegin = 0.0;
+  double PhaseEnd = 0.0;
+  double Done = 0.0;
 };
 
 }

@@ -5,12 +5,7 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
-#include "FormatLosses.h"
-#include "JobPlan.h"
-#include "MeshReader.h"
-#include "MeshWriter.h"
 #include "OutputFiles.h"
-#include "ProgressBar.h"
 #include "Report.h"
 
 #include <vtkCallbackCommand.h>
@@ -136,8 +131,7 @@ public:
   FlipJob(const Arguments& arguments, OutputFiles& files)
     : Settings(arguments),
       Files(files),
-      Bar(!arguments.Quiet),
-      Plan(PlanJob(arguments.InputFormat, arguments.OutputFormat))
+      Bar(!arguments.Quiet, arguments.InputFormat, arguments.OutputFormat)
   {
   }
 
@@ -163,7 +157,7 @@ public:
     progress->SetCallback(ShowProgress);
     progress->SetClientData(&this->Bar);
     Configure(this->Filter, this->Settings);
-    this->Bar.Begin(this->Plan.Flip, "finding edges");
+    this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
     this->Filter->SetInputData(this->Input);
     if (this->Constraints)
@@ -183,7 +177,7 @@ public:
   void Write()
   {
     const auto start = Clock::now();
-    this->Bar.Begin(1.0, "writing " + this->Settings.Output);
+    this->Bar.Begin(Phase::Writing, "writing " + this->Settings.Output);
     vtkNew<vtkPolyData> mesh;
     mesh->ShallowCopy(this->Filter->GetOutput());
     // These two may differ between runs; without them, equal meshes give equal files.
@@ -228,16 +222,12 @@ public:
 private:
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
   {
-    this->Bar.Begin(this->Plan.Read, "reading " + path);
+    this->Bar.Begin(Phase::Reading, "reading " + path);
     const FileMesh file = ReadMesh(path, format, this->Messages);
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
     {
       this->Warn(warning);
-    }
-    for (const std::string& note : file.Notes)
-    {
-      this->Note(note);
     }
     return file.Mesh;
   }
@@ -299,7 +289,6 @@ private:
   OutputFiles& Files;
   VTKMessages Messages;
   ProgressBar Bar;
-  JobPlan Plan;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkNew<vtkDelaunayFlip> Filter;

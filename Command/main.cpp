@@ -4,14 +4,11 @@
 #include "ChildProcess.h"
 #include "CommandError.h"
 #include "Console.h"
-#include "DiskSpace.h"
 #include "FlipJob.h"
 #include "OutputFiles.h"
 
 #include <cstring>
 #include <iostream>
-#include <new>
-#include <stdexcept>
 
 /// @file
 /// delaunay-flip: this process creates, renames and removes the files; a child does the work.
@@ -21,9 +18,10 @@ using namespace delaunayflip;
 namespace
 {
 
-/// Runs `work` and turns what it throws into a message and an exit code.
-template <typename Function>
-int Guarded(const Function& work)
+/// Runs `work` and turns what it throws into a message and an exit code. `describe` returns the
+/// beginning of the message for an exception that names no file.
+template <typename Function, typename Description>
+int Guarded(const Function& work, const Description& describe)
 {
   try
   {
@@ -34,13 +32,9 @@ int Guarded(const Function& work)
     PrintError(error.what());
     return static_cast<int>(error.Code);
   }
-  catch (const std::bad_alloc&)
-  {
-    PrintError("not enough memory; nothing was written");
-  }
   catch (const std::exception& error)
   {
-    PrintError(error.what());
+    PrintError(describe() + (IsLackOfMemory(error) ? "not enough memory" : error.what()));
   }
   return static_cast<int>(ExitCode::BadFile);
 }
@@ -59,14 +53,8 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
   }
 }
 
-/// The rest of the message for an exception that names no file.
-std::string Explain(const std::exception& error)
-{
-  return IsLackOfMemory(error) ? "not enough memory" : error.what();
-}
-
-/// The work of the child. Its errors name a file.
-int RunNamed(
+/// The work of the child.
+int RunInChild(
   const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
 {
   Phase now = Phase::Reading;
@@ -75,18 +63,8 @@ int RunNamed(
     now = phase;
     enter(phase);
   };
-  try
-  {
-    return RunFlipJob(arguments, files, follow);
-  }
-  catch (const CommandError&)
-  {
-    throw;
-  }
-  catch (const std::exception& error)
-  {
-    throw CommandError(ExitCode::BadFile, DescribeWork(arguments, now) + Explain(error));
-  }
+  return Guarded([&] { return RunFlipJob(arguments, files, follow); },
+    [&] { return DescribeWork(arguments, now); });
 }
 
 /// Says what the child was doing when a signal killed it, and what may have caused that.
@@ -140,21 +118,18 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
 
 int main(int argc, char** argv)
 {
-  return Guarded(
-    [argc, argv]
+  const auto run = [argc, argv]
+  {
+    Arguments arguments;
+    if (const std::optional<int> code = ParseArguments(argc, argv, arguments))
     {
-      Arguments arguments;
-      if (const std::optional<int> code = ParseArguments(argc, argv, arguments))
-      {
-        return *code;
-      }
-      ChildProcess child;
-      OutputFiles files(arguments);
-      const ChildOutcome outcome = child.Run(
-        [&arguments, &files](const std::function<void(Phase)>& enter) {
-          return Guarded(
-            [&arguments, &files, &enter] { return RunNamed(arguments, files, enter); });
-        });
-      return Finish(arguments, files, outcome);
-    });
+      return *code;
+    }
+    ChildProcess child;
+    OutputFiles files(arguments);
+    const ChildOutcome outcome = child.Run(
+      [&](const std::function<void(Phase)>& enter) { return RunInChild(arguments, files, enter); });
+    return Finish(arguments, files, outcome);
+  };
+  return Guarded(run, [] { return std::string(); });
 }

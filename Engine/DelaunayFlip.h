@@ -20,8 +20,7 @@
 namespace delaunayflip
 {
 
-class SessionWork;
-struct EngineTriangles;
+struct DeviceTriangles;
 struct HostTriangles;
 
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
@@ -88,11 +87,12 @@ public:
 
 private:
   friend class DrawnTriangles; // of DeviceColors.h
-  EngineTriangles ViewTriangles() const;
+  DeviceTriangles ViewTriangles() const;
   friend class PartRun;
   HostTriangles ViewHostTriangles() const;
 
-  std::unique_ptr<SessionWork> Work;
+  struct Work;
+  std::unique_ptr<Work> Own;
 };
 
 /// Finds the interior edges (edges with two triangles) that never flip in a run with these options,

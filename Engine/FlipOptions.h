@@ -104,7 +104,8 @@ struct FlipOptions
   int NumberOfPieces = 0;
 
   /// Compute the smallest angle after every iteration, by one pass over the mesh each. Default off:
-  /// only after the first and the last iteration.
+  /// only after the first and the last iteration. No effect on a mesh in several pieces: the
+  /// smallest angle is known before the first and after the last iteration.
   bool TrackQuality = false;
 };
 

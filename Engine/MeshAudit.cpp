@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
 
-#include "AuditAngles.h"
 #include "MeshSurveyBuilder.h"
 #include "Predicates.h"
-#include "ScaledOffsets.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
+#include "WideAngles.h"
 
 #include <algorithm>
 #include <array>
@@ -22,12 +22,67 @@ namespace delaunayflip
 namespace
 {
 
-using audit::Angle;
-using audit::Cross;
-using audit::Length;
-using audit::Subtract;
-using audit::Vector;
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
+
+// The opposite-angle test of MeshAudit and its tolerance. It shares only vectors with the engine's
+// test and works differently, with divisions, hypot and inverse trigonometry: if both shared more
+// code, a mistake in it would confirm itself.
+
+double Hypot(const Vector3& a) { return std::hypot(a.X, a.Y, a.Z); }
+
+/// Cosine and sine, times any positive number, of the angle at `apex` towards `p` and `q`.
+struct Angle
+{
+  Angle(const Vector3& apex, const Vector3& p, const Vector3& q)
+    : Cosine(Dot(p - apex, q - apex)),
+      Sine(Hypot(Cross(p - apex, q - apex)))
+  {
+  }
+
+  double Cosine;
+  double Sine;
+};
+
+/// Whether the angles sum to more than pi + tolerance. The sum lies in [0, 2 pi].
+bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
+{
+  if (a.Cosine >= 0.0 && b.Cosine >= 0.0)
+  {
+    return false;
+  }
+  const double sine = a.Sine * b.Cosine + a.Cosine * b.Sine;
+  const double cosine = a.Cosine * b.Cosine - a.Sine * b.Sine;
+  const bool isAboveThreeHalvesPi = a.Cosine < 0.0 && b.Cosine < 0.0 && cosine > 0.0;
+  return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
+}
+
+/// The automatic tolerance of a quad in radians: how much its angle sum may change when every
+/// coordinate moves by a unit in the last place. Infinite if the change has no bound.
+/// @param apqb the points of the quad.
+/// @param epsilon that of the coordinates' type.
+double FindTolerance(const std::array<Vector3, 4>& apqb, double epsilon)
+{
+  // Differences and lengths of a quarter of the coordinates are finite.
+  std::array<Vector3, 4> quarters = apqb;
+  double farthest = 0.0;
+  for (Vector3& point : quarters)
+  {
+    point = 0.25 * point;
+    farthest = std::max(farthest, Hypot(point));
+  }
+  double turns = 0.0;
+  for (int apex : { 0, 3 })
+  {
+    for (int end : { 1, 2 })
+    {
+      const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
+      turns += moved / Hypot(quarters[end] - quarters[apex]);
+    }
+  }
+  // The rounding of the engine's test is less than this.
+  turns += 32.0 * std::numeric_limits<double>::epsilon();
+  return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
+}
 
 /// One side of a triangle.
 struct Side
@@ -96,13 +151,17 @@ std::int64_t CountUsedPoints(const TriangleArray& triangles)
 
 /// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
 template <std::size_t Count>
-std::array<Vector, Count> GetScaledPoints(
+std::array<Vector3, Count> GetScaledPoints(
   const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
 {
-  std::array<Vector, Count> offsets{};
-  const int axes = geometry == GeometryKind::PlanarXY ? 2 : 3;
-  LoadScaledOffsets(points, ids.data(), Count, axes, offsets);
-  return offsets;
+  double offsets[Count][3] = {};
+  LoadScaledOffsets(points, ids.data(), Count, geometry == GeometryKind::PlanarXY ? 2 : 3, offsets);
+  std::array<Vector3, Count> scaled;
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    scaled[i] = { offsets[i][0], offsets[i][1], offsets[i][2] };
+  }
+  return scaled;
 }
 
 template <std::size_t Count>
@@ -188,7 +247,7 @@ private:
   }
 
   /// A point's u, v and w; w is 0 unless it belongs to the lift.
-  Vector Project(std::int64_t point) const
+  std::array<double, 3> Project(std::int64_t point) const
   {
     const PlanePoint projected = this->Projection.Project(this->Mesh.Points, point);
     return { projected.U, projected.V, projected.W };
@@ -201,10 +260,8 @@ private:
 
   int JudgeInCircle(const std::array<std::int64_t, 4>& quad) const
   {
-    const Vector a = this->Project(quad[0]);
-    const Vector p = this->Project(quad[1]);
-    const Vector q = this->Project(quad[2]);
-    const Vector b = this->Project(quad[3]);
+    const auto a = this->Project(quad[0]), p = this->Project(quad[1]);
+    const auto q = this->Project(quad[2]), b = this->Project(quad[3]);
     return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
                                    : InCircle(a.data(), p.data(), q.data(), b.data());
   }
@@ -218,7 +275,7 @@ private:
     std::transform(quad.begin(), quad.end(), apqb.begin(),
       [this](std::int64_t point)
       {
-        const Vector projected = this->Project(point);
+        const auto projected = this->Project(point);
         return Place(projected[0], projected[1]);
       });
     const std::pair<Place, Place> edge = std::minmax({ apqb[1], apqb[2] });
@@ -230,7 +287,7 @@ private:
   {
     const double tolerance = this->GetTolerance(quad);
     return tolerance < Pi &&
-      audit::IsSumAbovePi(this->FindAngle(quad[0], quad[1], quad[2]),
+      IsSumAbovePi(this->FindAngle(quad[0], quad[1], quad[2]),
         this->FindAngle(quad[3], quad[1], quad[2]), tolerance);
   }
 
@@ -248,16 +305,13 @@ private:
     {
       return this->Options.Tolerance;
     }
-    std::array<Vector, 4> apqb{};
-    const int axes = this->Geometry == GeometryKind::PlanarXY ? 2 : 3;
+    std::array<Vector3, 4> apqb;
     for (int i = 0; i < 4; ++i)
     {
-      for (int axis = 0; axis < axes; ++axis)
-      {
-        apqb[i][axis] = this->Mesh.Points.Get(quad[i], axis);
-      }
+      apqb[i] = LoadPoint(this->Mesh.Points, quad[i]);
+      apqb[i].Z = this->Geometry == GeometryKind::PlanarXY ? 0.0 : apqb[i].Z;
     }
-    return audit::FindTolerance(apqb,
+    return FindTolerance(apqb,
       this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
                                : std::numeric_limits<double>::epsilon());
   }
@@ -270,10 +324,9 @@ private:
       return false;
     }
     const auto x = GetScaledPoints(this->Mesh.Points, quad, this->Geometry);
-    const Vector n = Cross(Subtract(x[1], x[0]), Subtract(x[2], x[0]));
-    const Vector m = Cross(Subtract(x[2], x[3]), Subtract(x[1], x[3]));
-    return audit::Dot(n, m) <
-      std::cos(this->Options.FeatureAngle * Pi / 180.0) * Length(n) * Length(m);
+    const Vector3 n = AreaVector(x[0], x[1], x[2]);
+    const Vector3 m = AreaVector(x[3], x[2], x[1]);
+    return Dot(n, m) < std::cos(this->Options.FeatureAngle * Pi / 180.0) * Hypot(n) * Hypot(m);
   }
 
   const TriangleMesh& Mesh;

@@ -31,10 +31,9 @@ struct GroupBroken
 {
 };
 
-/// What the threads of a group share: a board with a message from every rank to every rank.
-class MessageBoard
+/// What the threads of a group share.
+struct MessageBoard
 {
-public:
   MessageBoard(int size, const std::vector<int>& turnOf)
     : Messages(size),
       Turns(turnOf.empty() ? 0 : 1 + *std::max_element(turnOf.begin(), turnOf.end())),
@@ -42,63 +41,14 @@ public:
   {
   }
 
-  int GetSize() const { return static_cast<int>(this->Messages.size()); }
-
-  /// The mutex of a rank's turn, or null.
-  std::mutex* GetTurn(int rank)
-  {
-    return this->TurnOf.empty() ? nullptr : &this->Turns[this->TurnOf[rank]];
-  }
-
-  std::vector<Message> Exchange(int rank, std::vector<Message> messages)
-  {
-    this->Messages[rank] = std::move(messages);
-    this->Wait();
-    std::vector<Message> received(this->GetSize());
-    for (int from = 0; from < this->GetSize(); ++from)
-    {
-      received[from] = std::move(this->Messages[from][rank]);
-    }
-    this->Wait();
-    return received;
-  }
-
-  /// Keeps the first failure, and wakes all.
-  void Break(std::exception_ptr failure)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Failure = this->Failure ? this->Failure : std::move(failure);
-    this->Changed.notify_all();
-  }
-
-  std::exception_ptr GetFailure() const { return this->Failure; }
-
-private:
-  void Wait()
-  {
-    std::unique_lock<std::mutex> lock(this->Mutex);
-    const long phase = this->Phase;
-    if (++this->Waiting == this->GetSize())
-    {
-      this->Waiting = 0;
-      ++this->Phase;
-      this->Changed.notify_all();
-    }
-    this->Changed.wait(lock, [&]() { return this->Phase != phase || this->Failure; });
-    if (this->Failure)
-    {
-      throw GroupBroken();
-    }
-  }
-
-  std::vector<std::vector<Message>> Messages; ///< By the rank that sent them.
+  std::vector<std::vector<Message>> Messages; ///< By the rank that sends them, then by receiver.
   std::vector<std::mutex> Turns;
-  std::vector<int> TurnOf;
+  const std::vector<int>& TurnOf; ///< By rank; or empty.
   std::mutex Mutex; ///< Of what follows.
   std::condition_variable Changed;
-  int Waiting = 0;
+  std::size_t Waiting = 0;
   long Phase = 0;
-  std::exception_ptr Failure;
+  std::exception_ptr Failure; ///< The first.
 };
 
 class ThreadGroup : public PieceGroup
@@ -111,10 +61,18 @@ public:
   }
 
   int GetRank() const override { return this->Rank; }
-  int GetSize() const override { return this->Board.GetSize(); }
+  int GetSize() const override { return static_cast<int>(this->Board.Messages.size()); }
   std::vector<Message> Exchange(std::vector<Message> messages) override
   {
-    return this->Board.Exchange(this->Rank, std::move(messages));
+    this->Board.Messages[this->Rank] = std::move(messages);
+    this->Wait();
+    std::vector<Message> received;
+    for (std::vector<Message>& sent : this->Board.Messages)
+    {
+      received.push_back(std::move(sent[this->Rank]));
+    }
+    this->Wait();
+    return received;
   }
   std::vector<Message> Gather(const Message& message) override
   {
@@ -122,13 +80,34 @@ public:
   }
   void Work(const std::function<void()>& work) override
   {
-    std::mutex* turn = this->Board.GetTurn(this->Rank);
-    const std::unique_lock<std::mutex> lock =
-      turn ? std::unique_lock<std::mutex>(*turn) : std::unique_lock<std::mutex>();
+    std::unique_lock<std::mutex> lock;
+    if (!this->Board.TurnOf.empty())
+    {
+      lock = std::unique_lock<std::mutex>(this->Board.Turns[this->Board.TurnOf[this->Rank]]);
+    }
     work();
   }
 
 private:
+  /// Waits until all ranks are here.
+  void Wait()
+  {
+    std::unique_lock<std::mutex> lock(this->Board.Mutex);
+    const long phase = this->Board.Phase;
+    if (++this->Board.Waiting == this->Board.Messages.size())
+    {
+      this->Board.Waiting = 0;
+      ++this->Board.Phase;
+      this->Board.Changed.notify_all();
+    }
+    this->Board.Changed.wait(
+      lock, [&]() { return this->Board.Phase != phase || this->Board.Failure; });
+    if (this->Board.Failure)
+    {
+      throw GroupBroken();
+    }
+  }
+
   MessageBoard& Board;
   int Rank;
 };
@@ -141,67 +120,63 @@ public:
   std::vector<Message> Exchange(std::vector<Message> messages) override { return messages; }
   std::vector<Message> Gather(const Message& message) override { return { message }; }
 };
-
-void RunRank(MessageBoard& board, int rank, const std::function<void(PieceGroup&)>& work) noexcept
-{
-  try
-  {
-    ThreadGroup group(board, rank);
-    work(group);
-  }
-  catch (const GroupBroken&)
-  {
-    // Another rank keeps the reason.
-  }
-  catch (...)
-  {
-    board.Break(std::current_exception());
-  }
-}
 }
 
-std::unique_ptr<PieceGroup> MakeSingleGroup()
-{
-  return std::unique_ptr<PieceGroup>(new SingleGroup);
-}
+std::unique_ptr<PieceGroup> MakeSingleGroup() { return std::make_unique<SingleGroup>(); }
 
 void RunInThreads(
   int size, const std::function<void(PieceGroup&)>& work, const std::vector<int>& turnOf)
 {
   MessageBoard board(size, turnOf);
+  const auto fail = [&board]() // keeps the first failure, and wakes all
+  {
+    const std::lock_guard<std::mutex> lock(board.Mutex);
+    board.Failure = board.Failure ? board.Failure : std::current_exception();
+    board.Changed.notify_all();
+  };
+  const auto run = [&](int rank) noexcept
+  {
+    try
+    {
+      ThreadGroup group(board, rank);
+      work(group);
+    }
+    catch (const GroupBroken&) // another rank keeps the reason
+    {
+    }
+    catch (...)
+    {
+      fail();
+    }
+  };
   std::vector<std::thread> threads;
   try
   {
     for (int rank = 1; rank < size; ++rank)
     {
-      threads.emplace_back(RunRank, std::ref(board), rank, std::cref(work));
+      threads.emplace_back(run, rank);
     }
   }
-  catch (...)
+  catch (...) // no more threads
   {
-    board.Break(std::current_exception()); // no more threads
+    fail();
   }
-  RunRank(board, 0, work);
+  run(0);
   for (std::thread& thread : threads)
   {
     thread.join();
   }
-  if (board.GetFailure())
+  if (board.Failure)
   {
-    std::rethrow_exception(board.GetFailure());
+    std::rethrow_exception(board.Failure);
   }
 }
 
 //------------------------------------------------------------------------------
 namespace
 {
-/// Why work of a rank failed, as it is sent to the other ranks.
-struct RankFailure
-{
-  char Kind = 0; ///< 0: it did not.
-  std::string Text;
-};
-
+/// How a rank has failed: the last character of what it tells the others, after a text. A rank
+/// that lacks memory for that tells nothing.
 enum FailureKind : char
 {
   None,
@@ -209,102 +184,79 @@ enum FailureKind : char
   Mesh,
   Size,
   Backend,
-  Memory,
   Abort,
   Other
 };
 
-[[noreturn]] void Throw(char kind, const std::string& text)
+/// What a rank tells of the exception that is being handled.
+Message PackException()
+try
 {
-  switch (kind)
+  const auto pack = [](FailureKind kind, const std::string& text)
   {
-    case Options:
-      throw InvalidOptions(text);
-    case Mesh:
-      throw InvalidMesh(text, -1, -1);
-    case Size:
-      throw MeshTooLarge(text);
-    case Backend:
-      throw BackendUnavailable(text);
-    case Abort:
-      throw RunAborted();
-    default:
-      throw std::runtime_error(text);
-  }
-}
-
-/// What the exception that is being handled means.
-/// @throws std::bad_alloc if there is no memory for its text.
-RankFailure ReadException()
-{
+    Message message(text.begin(), text.end());
+    message.push_back(kind);
+    return message;
+  };
   try
   {
     throw;
   }
-  catch (const InvalidOptions& error)
-  {
-    return { Options, error.what() };
-  }
-  catch (const InvalidMesh& error)
-  {
-    return { Mesh, error.what() };
-  }
-  catch (const MeshTooLarge& error)
-  {
-    return { Size, error.what() };
-  }
-  catch (const BackendUnavailable& error)
-  {
-    return { Backend, error.what() };
-  }
   catch (const RunAborted&)
   {
-    return { Abort, "" };
+    return pack(Abort, "");
   }
   catch (const std::bad_alloc&)
   {
-    return { Memory, "" };
+    return {};
   }
   catch (const std::exception& error)
   {
-    return { Other, error.what() };
+    const FailureKind kind = dynamic_cast<const InvalidOptions*>(&error) ? Options
+      : dynamic_cast<const InvalidMesh*>(&error)                         ? Mesh
+      : dynamic_cast<const MeshTooLarge*>(&error)                        ? Size
+      : dynamic_cast<const BackendUnavailable*>(&error)                  ? Backend
+                                                                         : Other;
+    return pack(kind, error.what());
   }
   catch (...)
   {
-    return { Other, "an exception of unknown type" };
+    return pack(Other, "an exception of unknown type");
   }
 }
-
-/// A failure that takes memory to describe is described as one for want of memory.
-RankFailure DescribeException()
+catch (const std::bad_alloc&)
 {
-  try
-  {
-    return ReadException();
-  }
-  catch (const std::bad_alloc&)
-  {
-    return { Memory, "" };
-  }
+  return {};
 }
 
 /// Throws if a rank has failed: the exception of the first of these, which names it.
-/// @param all what the ranks have sent: a text, and the kind of failure as the last character; or
-/// nothing, for want of memory.
+/// @param all what the ranks have told.
 void ThrowFirst(const std::vector<Message>& all)
 {
   bool isAborted = false;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    const char kind = all[rank].empty() ? char(Memory) : all[rank].back();
+    const char kind = all[rank].empty() ? char(Other) : all[rank].back();
     isAborted = isAborted || kind == Abort;
-    if (kind != None && kind != Abort)
+    if (kind == None || kind == Abort)
     {
-      const std::string where = all.size() > 1 ? "rank " + std::to_string(rank) + ": " : "";
-      Throw(kind,
-        where +
-          (kind == Memory ? "not enough memory"
-                          : std::string(all[rank].begin(), all[rank].end() - 1)));
+      continue;
+    }
+    std::string text = all.size() > 1 ? "rank " + std::to_string(rank) + ": " : "";
+    text +=
+      all[rank].empty() ? "not enough memory" : std::string(all[rank].begin(), all[rank].end() - 1);
+    switch (kind)
+    {
+      case Options:
+        throw InvalidOptions(text);
+      case Mesh:
+        throw InvalidMesh(text, -1, -1);
+      case Size:
+        throw MeshTooLarge(text);
+      case Backend:
+        throw BackendUnavailable(text);
+      default:
+        throw std::runtime_error(text);
     }
   }
   if (isAborted)
@@ -342,7 +294,7 @@ public:
     }
     catch (const std::bad_alloc&)
     {
-      this->Tell({ Memory, "" }); // or a group above this one would think that all ranks know
+      this->Tell({}); // or a group above this one would think that all ranks know
       throw;
     }
     told = message;
@@ -352,30 +304,15 @@ public:
   void Work(const std::function<void()>& work) override { this->Group.Work(work); }
 
   /// Tells the other ranks that this one has failed, if they do not know. @throws as they do.
-  void Tell(const RankFailure& failure)
+  void Tell(const Message& failure)
   {
     if (!this->End)
     {
-      this->Share(Pack(failure));
+      this->Share(failure);
     }
   }
 
 private:
-  /// @returns an empty message if there is no memory for more.
-  static Message Pack(const RankFailure& failure)
-  {
-    try
-    {
-      Message message(failure.Text.begin(), failure.Text.end());
-      message.push_back(failure.Kind);
-      return message;
-    }
-    catch (const std::bad_alloc&)
-    {
-      return {};
-    }
-  }
-
   std::vector<Message> Share(const Message& message)
   {
     std::vector<Message> all = this->Try(
@@ -432,23 +369,19 @@ void RunTogether(PieceGroup& group, const std::function<void(PieceGroup&)>& work
   }
   catch (...)
   {
-    told.Tell(DescribeException());
+    told.Tell(PackException());
     throw;
   }
 }
 
 void DoTogether(PieceGroup& group, const std::function<void()>& work)
 {
-  const bool isWithin = dynamic_cast<ToldGroup*>(&group) != nullptr;
   const auto workAndWait = [&](PieceGroup& told)
   {
     told.Work(work);
-    if (isWithin) // else RunTogether waits
-    {
-      told.Gather({});
-    }
+    told.Gather({});
   };
-  RunTogether(group, std::ref(workAndWait));
+  RunTogether(group, std::ref(workAndWait)); // a copy would need memory
 }
 
 }

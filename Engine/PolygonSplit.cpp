@@ -4,7 +4,7 @@
 
 #include "EarClipper.h"
 #include "Predicates.h"
-#include "ScaledOffsets.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@ namespace
 {
 
 using SpaceVector = std::array<double, 3>;
-using Triples = EarClipper::Triangles;
 
 /// Twice the area of the polygon's projection along each axis (Newell), up to a positive factor.
 /// @param offsets the vertices relative to the first one.
@@ -106,89 +105,34 @@ bool FoldsOnlyAlongFirst(const PointArray& points, const std::int64_t* ids)
   return CompareNormals(quad, 0) < 0 && CompareNormals(quad, 1) > 0;
 }
 
-/// Cuts triangles off a polygon until three vertices are left. All triangles are triples of
-/// positions in the polygon.
-class PolygonCutter
+int Turn(const std::vector<PlaneVector>& polygon, std::int64_t a, std::int64_t b, std::int64_t c)
 {
-public:
-  /// @param folds whether a quad folds along 0-2, but not along 1-3.
-  PolygonCutter(std::vector<PlaneVector> polygon, bool folds, const ProgressObserver& progress)
-    : Polygon(std::move(polygon)),
-      Count(static_cast<std::int64_t>(this->Polygon.size())),
-      Folds(folds),
-      Progress(progress)
-  {
-  }
+  return Orientation(polygon[a].data(), polygon[b].data(), polygon[c].data());
+}
 
-  /// @returns none when the observer stopped it.
-  Triples Cut()
-  {
-    if (this->Count == 4)
-    {
-      this->CutQuad();
-    }
-    else if (this->Count == 3 || this->IsConvex())
-    {
-      this->CutFan();
-    }
-    else
-    {
-      this->Triangles = EarClipper(this->Polygon, this->Progress).Clip();
-    }
-    return std::move(this->Triangles);
-  }
+/// Whether to divide a quad along 1-3: if that is inside and 0-2 is not, or if only 0-2 folds.
+bool PrefersSecondDiagonal(const std::vector<PlaneVector>& quad, bool foldsAlongFirst)
+{
+  const bool firstIsInside = Turn(quad, 0, 1, 2) > 0 && Turn(quad, 0, 2, 3) > 0;
+  const bool secondIsInside = Turn(quad, 1, 2, 3) > 0 && Turn(quad, 1, 3, 0) > 0;
+  return foldsAlongFirst || (secondIsInside && !firstIsInside);
+}
 
-private:
-  int Turn(std::int64_t a, std::int64_t b, std::int64_t c) const
+/// Whether no corner turns right and no triangle of the fan is empty.
+bool IsConvex(const std::vector<PlaneVector>& polygon)
+{
+  const auto count = static_cast<std::int64_t>(polygon.size());
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    return Orientation(this->Polygon[a].data(), this->Polygon[b].data(), this->Polygon[c].data());
-  }
-
-  /// Uses the other diagonal only if that one is inside and 0-2 is not, or if only 0-2 folds.
-  void CutQuad()
-  {
-    const bool firstIsInside = this->Turn(0, 1, 2) > 0 && this->Turn(0, 2, 3) > 0;
-    const bool secondIsInside = this->Turn(1, 2, 3) > 0 && this->Turn(1, 3, 0) > 0;
-    if (this->Folds || (secondIsInside && !firstIsInside))
+    const std::int64_t next = (i + 1) % count;
+    if (Turn(polygon, i, next, (i + 2) % count) < 0 ||
+      (i > 0 && next > 0 && Turn(polygon, 0, i, next) <= 0))
     {
-      this->Triangles = { { 0, 1, 3 }, { 1, 2, 3 } };
-      return;
-    }
-    this->CutFan();
-  }
-
-  void CutFan()
-  {
-    for (std::int64_t i = 1; i + 1 < this->Count; ++i)
-    {
-      this->Triangles.push_back({ 0, i, i + 1 });
+      return false;
     }
   }
-
-  /// Whether no corner turns right and no triangle of the fan is empty.
-  bool IsConvex() const
-  {
-    for (std::int64_t i = 0; i < this->Count; ++i)
-    {
-      const std::int64_t next = (i + 1) % this->Count;
-      if (this->Turn(i, next, (i + 2) % this->Count) < 0)
-      {
-        return false;
-      }
-      if (i > 0 && next > 0 && this->Turn(0, i, next) <= 0)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  std::vector<PlaneVector> Polygon;
-  std::int64_t Count;
-  bool Folds;
-  Triples Triangles;
-  const ProgressObserver& Progress;
-};
+  return true;
+}
 
 /// Whether the triangle's projection along some axis has an area; exact.
 /// @param first the axis to try first, which usually decides without exact arithmetic.
@@ -215,9 +159,23 @@ bool HasArea(const PointArray& points, const std::int64_t ids[3], int first)
 bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
   std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
-  const bool folds = count == 4 && FoldsOnlyAlongFirst(points, ids);
-  PolygonCutter cutter(Project(points, ids, count), folds, progress);
-  const Triples cut = cutter.Cut();
+  const std::vector<PlaneVector> polygon = Project(points, ids, count);
+  Triples cut;
+  if (count == 4 && PrefersSecondDiagonal(polygon, FoldsOnlyAlongFirst(points, ids)))
+  {
+    cut = { { 0, 1, 3 }, { 1, 2, 3 } };
+  }
+  else if (count <= 4 || IsConvex(polygon))
+  {
+    for (std::int64_t i = 1; i + 1 < count; ++i)
+    {
+      cut.push_back({ 0, i, i + 1 });
+    }
+  }
+  else
+  {
+    cut = ClipEars(polygon, progress);
+  }
   for (const std::array<std::int64_t, 3>& triangle : cut)
   {
     for (std::int64_t position : triangle)

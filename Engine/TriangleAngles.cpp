@@ -13,24 +13,15 @@
 namespace delaunayflip
 {
 
-namespace
-{
-
-std::array<std::int64_t, 3> GetIds(const TriangleMesh& mesh, std::int64_t t)
-{
-  return { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1), mesh.Triangles.Get(t, 2) };
-}
-
-}
-
 void RequireValidIds(const TriangleMesh& mesh)
 {
   const std::int64_t points = mesh.Points.Count;
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
-    const std::array<std::int64_t, 3> ids = GetIds(mesh, t);
-    if (!std::all_of(
-          ids.begin(), ids.end(), [points](std::int64_t id) { return id >= 0 && id < points; }))
+    const PointIds ids{ mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+      mesh.Triangles.Get(t, 2) };
+    const auto isValid = [points](std::int64_t id) { return id >= 0 && id < points; };
+    if (!std::all_of(ids.begin(), ids.end(), isValid))
     {
       ThrowInvalidId(ids, t, points);
     }

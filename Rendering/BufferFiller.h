@@ -41,7 +41,7 @@ struct FilledMesh
 class VTKDELAUNAYFLIPRENDERING_EXPORT BufferFiller
 {
 public:
-  virtual ~BufferFiller();
+  virtual ~BufferFiller() = default;
 
   /// Why this cannot fill buffers of the current context with the mesh of the filter's last
   /// update; empty if it can.
@@ -73,7 +73,8 @@ public:
   virtual double GetSmallestAngle() noexcept = 0;
 };
 
-/// The one that fills buffers by CUDA. Calls nothing of CUDA before it must.
+/// The one that fills buffers by CUDA; null in a build without. Calls nothing of CUDA before it
+/// must.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller();
 
 /// The one that live views use: that of CUDA, or what a test has put in its place.

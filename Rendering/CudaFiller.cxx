@@ -6,12 +6,15 @@
 
 #include "vtkDelaunayFlip.h"
 
+#ifdef DELAUNAYFLIP_HAS_CUDA
 #include <cuda_runtime_api.h>
 // After the runtime's:
 #include <cuda_gl_interop.h>
+#endif
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +23,10 @@ namespace delaunayflip
 
 namespace
 {
+
+std::unique_ptr<BufferFiller> (*MakeFiller)() = &MakeCudaFiller;
+
+#ifdef DELAUNAYFLIP_HAS_CUDA
 
 /// @throws std::runtime_error.
 void Require(cudaError_t error, const char* action)
@@ -72,8 +79,8 @@ public:
     Require(cudaStreamCreateWithFlags(&this->Stream, cudaStreamNonBlocking), "make a stream");
     try
     {
-      this->Add(buffers.Triangles, this->Triangles);
-      this->Add(buffers.Colors, this->Colors);
+      this->Add(buffers.Triangles, this->Both[0]);
+      this->Add(buffers.Colors, this->Both[1]);
     }
     catch (...)
     {
@@ -91,8 +98,7 @@ public:
   {
     if (!this->AreMapped)
     {
-      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
-      Require(cudaGraphicsMapResources(2, both, this->Stream), "map the buffers of OpenGL");
+      Require(cudaGraphicsMapResources(2, this->Both, this->Stream), "map the buffers of OpenGL");
       this->AreMapped = true;
     }
   }
@@ -100,19 +106,19 @@ public:
   {
     if (std::exchange(this->AreMapped, false))
     {
-      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
-      Require(cudaGraphicsUnmapResources(2, both, this->Stream), "return the buffers to OpenGL");
+      Require(
+        cudaGraphicsUnmapResources(2, this->Both, this->Stream), "return the buffers to OpenGL");
     }
   }
 
   /// Only while they are mapped.
   std::int32_t* GetTriangles(std::int64_t count) const
   {
-    return static_cast<std::int32_t*>(Get(this->Triangles, 12 * count));
+    return static_cast<std::int32_t*>(Get(this->Both[0], 12 * count));
   }
   std::uint32_t* GetColors(std::int64_t count) const
   {
-    return static_cast<std::uint32_t*>(Get(this->Colors, 4 * count));
+    return static_cast<std::uint32_t*>(Get(this->Both[1], 4 * count));
   }
 
 private:
@@ -141,10 +147,9 @@ private:
   {
     if (this->AreMapped)
     {
-      cudaGraphicsResource_t both[] = { this->Triangles, this->Colors };
-      cudaGraphicsUnmapResources(2, both, this->Stream);
+      cudaGraphicsUnmapResources(2, this->Both, this->Stream);
     }
-    for (cudaGraphicsResource_t resource : { this->Triangles, this->Colors })
+    for (cudaGraphicsResource_t resource : this->Both)
     {
       if (resource)
       {
@@ -156,8 +161,7 @@ private:
   }
 
   cudaStream_t Stream = nullptr;
-  cudaGraphicsResource_t Triangles = nullptr;
-  cudaGraphicsResource_t Colors = nullptr;
+  cudaGraphicsResource_t Both[2] = { nullptr, nullptr }; ///< Triangles, colours.
   bool AreMapped = false;
 };
 
@@ -249,25 +253,19 @@ public:
 
   void Map() override
   {
-    if (this->Buffers)
-    {
-      const CurrentGpu current(this->Device);
-      this->Buffers->Map();
-    }
+    const CurrentGpu current(this->Device);
+    this->Buffers->Map();
   }
 
   void Unmap() override
   {
-    if (this->Buffers)
-    {
-      const CurrentGpu current(this->Device);
-      this->Buffers->Unmap();
-    }
+    const CurrentGpu current(this->Device);
+    this->Buffers->Unmap();
   }
 
   void Fill(const FilledMesh& mesh) override
   {
-    if (!this->Buffers || !IsOnGpu(mesh.Session.GetReport().Backend))
+    if (!IsOnGpu(mesh.Session.GetReport().Backend))
     {
       throw std::runtime_error("the filter no longer works on the GPU");
     }
@@ -318,8 +316,18 @@ private:
   DrawnTriangles Drawn;
 };
 
+#endif
+
 }
 
+#ifdef DELAUNAYFLIP_HAS_CUDA
 std::unique_ptr<BufferFiller> MakeCudaFiller() { return std::make_unique<CudaFiller>(); }
+#else
+std::unique_ptr<BufferFiller> MakeCudaFiller() { return nullptr; }
+#endif
+
+std::unique_ptr<BufferFiller> MakeBufferFiller() { return MakeFiller(); }
+
+void ReplaceBufferFiller(std::unique_ptr<BufferFiller> (*make)()) { MakeFiller = make; }
 
 }

@@ -5,6 +5,7 @@
 
 #include "DeviceColors.h"
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,9 @@ class vtkRenderWindow;
 
 namespace delaunayflip
 {
+
+/// What a mesh is painted with that shows nothing by its colours: red, green, blue and alpha.
+constexpr std::array<unsigned char, 4> PlainBytes = { 204, 219, 232, 255 };
 
 /// Draws the mesh of a live run without copies through the host: the run's session writes into the
 /// buffers of OpenGL. For that it gives an actor another mapper while it is on.
@@ -25,13 +29,6 @@ public:
   DeviceDrawing(const DeviceDrawing&) = delete;
   DeviceDrawing& operator=(const DeviceDrawing&) = delete;
 
-  /// What the colours of triangles show.
-  struct Coloring
-  {
-    int Kind = -1; ///< Two with the same number are the same.
-    DrawnColors Shown;
-  };
-
   /// Begins to draw the mesh of a filter's last update, which has been put out, with an actor in a
   /// window that has been drawn before. Without success GetObstacle() says why not.
   void Begin(vtkRenderWindow* window, vtkActor* actor, vtkDelaunayFlip* filter);
@@ -39,7 +36,7 @@ public:
   /// Gives the actor its own mapper back.
   void End(const std::string& reason);
 
-  bool IsOn() const;
+  bool IsOn() const { return this->On != nullptr; }
 
   /// Why this is off.
   const std::string& GetObstacle() const { return this->Obstacle; }
@@ -54,12 +51,12 @@ public:
   /// @returns false, and does nothing, if the buffers are not made for such a mesh.
   bool TakeNextRun();
 
-  /// Brings the buffers up to date, with these colours.
+  /// Brings the buffers up to date, with these colours. Two with the same `kind` are the same.
   /// @returns false if that failed; GetFailure() says why.
-  bool Fill(const Coloring& coloring);
+  bool Fill(int kind, const DrawnColors& colors);
   std::string GetFailure() const;
 
-  /// While this is on, questions for bounds come from drawing (DeviceMapper.h).
+  /// While this is on, questions for bounds come from drawing.
   void SetQuiet(bool isQuiet);
 
   /// The smallest angle of the mesh in the buffers, in degrees; NaN if there is none.

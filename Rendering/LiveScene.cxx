@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveScene.h"
 
-#include "ColorScales.h"
+#include "LiveRun.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipLiveView.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMeshQuality.h"
@@ -24,7 +25,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
 #include <limits>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -38,6 +42,7 @@ constexpr int FontSize = 14;
 
 using Color = std::array<double, 3>;
 
+constexpr Color PlainColor = { 0.80, 0.86, 0.91 }; ///< As PlainBytes.
 constexpr Color DarkInk = { 0.13, 0.19, 0.25 };
 constexpr Color LightInk = { 0.92, 0.94, 0.96 };
 constexpr Color DarkRed = { 0.75, 0.05, 0.1 };
@@ -54,10 +59,47 @@ void Paint(vtkTextProperty* text, const double* color)
   text->SetColor(color[0], color[1], color[2]);
 }
 
-const char* GetTitle(int colorBy)
+/// Fills the table, for 0 to `largest`, with twelve bands of colours interpolated between `stops`.
+void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, double largest)
 {
-  return colorBy == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT ? "flips of a triangle"
-                                                                 : "smallest angle (degrees)";
+  constexpr int bands = 12;
+  vtkNew<vtkColorTransferFunction> function;
+  for (std::size_t i = 0; i < stops.size(); ++i)
+  {
+    const double x = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
+    function->AddRGBPoint(x, stops[i][0], stops[i][1], stops[i][2]);
+  }
+  table->SetNumberOfTableValues(bands);
+  for (int i = 0; i < bands; ++i)
+  {
+    const double* rgb = function->GetColor(static_cast<double>(i) / (bands - 1));
+    table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
+  }
+  table->SetRange(0.0, largest);
+}
+
+/// The colours of a table for a GPU.
+ColorBands GetBands(vtkLookupTable* table)
+{
+  ColorBands bands;
+  const vtkIdType count = table->GetNumberOfTableValues();
+  bands.Colors.resize(static_cast<std::size_t>(count));
+  std::memcpy(bands.Colors.data(), table->GetPointer(0), 4 * bands.Colors.size());
+  bands.First = table->GetRange()[0];
+  bands.Last = table->GetRange()[1];
+  const unsigned char* ofNaN = table->GetNanColorAsUnsignedChars();
+  std::memcpy(&bands.OfNaN, ofNaN, sizeof(bands.OfNaN));
+  return bands;
+}
+
+/// A single colour for all values.
+ColorBands MakePlainBands()
+{
+  ColorBands bands;
+  bands.Colors.resize(1);
+  std::memcpy(bands.Colors.data(), PlainBytes.data(), PlainBytes.size());
+  bands.OfNaN = bands.Colors[0];
+  return bands;
 }
 
 /// The axis along which to look at a mesh: the one along which it is flat, else z.
@@ -96,15 +138,6 @@ LiveScene::LiveScene()
   this->Scale->SetTextPositionToPrecedeScalarBar();
   this->Scale->SetLabelFormat("%.0f");
   this->Scale->SetWidth(0.6);
-  this->PlaceTexts();
-  this->ColorByNothing();
-}
-
-LiveScene::~LiveScene() { this->Leave(); }
-
-//------------------------------------------------------------------------------
-void LiveScene::PlaceTexts()
-{
   for (vtkTextActor* text : { this->Status.Get(), this->Keys.Get() })
   {
     text->GetTextProperty()->SetFontSize(FontSize);
@@ -115,16 +148,12 @@ void LiveScene::PlaceTexts()
   this->Status->SetPosition(0.02, 0.985);
   this->Keys->GetTextProperty()->SetJustificationToCentered();
   this->Keys->SetPosition(0.5, 0.015);
+  this->Mapper->SetInputDataObject(this->Mesh);
+  this->Mapper->ScalarVisibilityOff();
+  this->Scale->VisibilityOff();
 }
 
-/// Places the colour scale above the line of keys, if there is one, as high as its labels need.
-void LiveScene::PlaceScale()
-{
-  const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
-  const double lines = this->Keys->GetVisibility() ? 2.0 : 0.4;
-  this->Scale->SetPosition(0.2, lines * FontSize / height);
-  this->Scale->SetHeight(3.6 * FontSize / height);
-}
+LiveScene::~LiveScene() { this->Leave(); }
 
 //------------------------------------------------------------------------------
 void LiveScene::Enter(vtkRenderWindow* window)
@@ -161,8 +190,6 @@ void LiveScene::Leave()
   this->Renderer = nullptr;
 }
 
-vtkRenderer* LiveScene::GetRenderer() const { return this->Renderer; }
-
 //------------------------------------------------------------------------------
 void LiveScene::LookAtMesh()
 {
@@ -189,51 +216,44 @@ void LiveScene::SetMesh(vtkPolyData* mesh)
   this->Mesh->ShallowCopy(mesh);
 }
 
-vtkPolyData* LiveScene::GetMesh() const { return this->Mesh; }
-
 //------------------------------------------------------------------------------
 void LiveScene::SetColorBy(int what)
 {
+  const bool byAngle = what == vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE;
+  const bool byCount = what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT;
   this->ColorBy = what;
-  if (this->ColorOnDevice(what))
+  if (!this->ColorOnDevice(what))
   {
-    what == vtkDelaunayFlipLiveView::COLOR_BY_SOLID ? this->Scale->VisibilityOff()
-                                                    : this->ShowScale(GetTitle(what));
+    this->Mapper->SetScalarVisibility(byAngle || byCount);
+    this->Mapper->SelectColorArray(byAngle ? QualityName : CountName);
+    if (byAngle)
+    {
+      this->Quality->Update();
+      this->Mapper->SetInputConnection(this->Quality->GetOutputPort());
+    }
+    else
+    {
+      this->Mapper->SetInputDataObject(this->Mesh);
+    }
+    vtkDataArray* counts = this->Mesh->GetCellData()->GetArray(CountName);
+    if (byCount && counts) // the input has none yet
+    {
+      this->LargestCount = std::max(this->LargestCount, counts->GetRange()[1]);
+    }
+    this->FillTable(what);
   }
-  else if (what == vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE)
+  this->Scale->SetVisibility(byAngle || byCount);
+  if (byAngle || byCount)
   {
-    this->ColorBySmallestAngle();
+    this->ShowScale(byCount ? "flips of a triangle" : "smallest angle (degrees)");
   }
-  else if (what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT)
-  {
-    this->ColorByFlipCount();
-  }
-  else
-  {
-    this->ColorByNothing();
-  }
-}
-
-void LiveScene::ColorByNothing()
-{
-  this->Mapper->SetInputDataObject(this->Mesh);
-  this->Mapper->ScalarVisibilityOff();
-  this->Scale->VisibilityOff();
-}
-
-void LiveScene::ColorBySmallestAngle()
-{
-  this->Quality->Update();
-  this->Mapper->SetInputConnection(this->Quality->GetOutputPort());
-  this->Mapper->SelectColorArray(QualityName);
-  this->FillTable(vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE);
-  this->ShowScale(GetTitle(vtkDelaunayFlipLiveView::COLOR_BY_SMALLEST_ANGLE));
 }
 
 /// Only if it must change, since what is drawn with it is then drawn anew.
 void LiveScene::FillTable(int what)
 {
-  if (this->TableKind == what && this->TableCount == this->LargestCount)
+  if (what == vtkDelaunayFlipLiveView::COLOR_BY_SOLID ||
+    (this->TableKind == what && this->TableCount == this->LargestCount))
   {
     return;
   }
@@ -241,33 +261,31 @@ void LiveScene::FillTable(int what)
   this->TableCount = this->LargestCount;
   if (what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT)
   {
-    FillCountColors(this->Colors, this->LargestCount);
+    // From nearly white to dark violet. The range is 0 to the largest count, rounded up to a
+    // multiple of four for whole labels at its quarters, and at least 12.
+    FillColors(this->Colors,
+      { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
+        { 0.25, 0.0, 0.49 } },
+      4.0 * std::ceil(std::max(this->LargestCount, 12.0) / 4.0));
   }
   else
   {
-    FillAngleColors(this->Colors);
+    // 0 to 60 degrees in steps of five: from red for slivers to blue for equilateral triangles.
+    FillColors(this->Colors,
+      { { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 }, { 0.82, 0.90, 0.94 },
+        { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } },
+      60.0);
   }
-}
-
-/// The input has no array of counts yet.
-void LiveScene::ColorByFlipCount()
-{
-  this->Mapper->SetInputDataObject(this->Mesh);
-  this->Mapper->SelectColorArray(CountName);
-  if (vtkDataArray* counts = this->Mesh->GetCellData()->GetArray(CountName))
-  {
-    this->LargestCount = std::max(this->LargestCount, counts->GetRange()[1]);
-  }
-  this->FillTable(vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT);
-  this->ShowScale(GetTitle(vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT));
 }
 
 void LiveScene::ShowScale(const char* title)
 {
-  this->Mapper->ScalarVisibilityOn();
-  this->PlaceScale();
+  // Above the line of keys, if there is one, and as high as the labels need.
+  const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
+  const double lines = this->Keys->GetVisibility() ? 2.0 : 0.4;
+  this->Scale->SetPosition(0.2, lines * FontSize / height);
+  this->Scale->SetHeight(3.6 * FontSize / height);
   this->Scale->SetTitle(title);
-  this->Scale->VisibilityOn();
   for (vtkTextProperty* text :
     { this->Scale->GetTitleTextProperty(), this->Scale->GetLabelTextProperty() })
   {
@@ -318,6 +336,88 @@ void LiveScene::SetKeys(const std::string& text)
 {
   this->Keys->SetInput(text.c_str());
   this->Keys->SetVisibility(!text.empty());
+}
+
+//------------------------------------------------------------------------------
+void LiveScene::OfferRun(vtkDelaunayFlip* filter)
+{
+  this->DeclineRun("");
+  this->Run = filter;
+}
+
+bool LiveScene::TakeNextRun(vtkDelaunayFlip* filter, vtkPolyData* mesh)
+{
+  const bool isTaken = this->DrawsRun() && this->Run == filter && this->Device.TakeNextRun();
+  if (isTaken)
+  {
+    this->Mesh->ShallowCopy(mesh);
+  }
+  return isTaken;
+}
+
+void LiveScene::DeclineRun(const std::string& reason)
+{
+  this->Device.End(reason);
+  this->Run = nullptr;
+}
+
+std::string LiveScene::DescribeDrawing() const
+{
+  return this->DrawsRun() ? "drawn without copies"
+                          : "drawn from copies: " + this->Device.GetObstacle();
+}
+
+//------------------------------------------------------------------------------
+/// @returns whether the device draws, with these colours. If it no longer can, the mesh of the run
+/// is shown from a copy.
+bool LiveScene::ColorOnDevice(int what)
+{
+  if (this->Run && !this->DrawsRun())
+  {
+    const vtkSmartPointer<vtkDelaunayFlip> filter = this->Run;
+    this->Device.Begin(this->Renderer->GetRenderWindow(), this->Actor, filter);
+    this->Run = this->DrawsRun() ? filter : nullptr;
+  }
+  if (!this->DrawsRun())
+  {
+    return false;
+  }
+  const auto choose = [this, what](double largestCount)
+  {
+    if (what == vtkDelaunayFlipLiveView::COLOR_BY_SOLID)
+    {
+      return MakePlainBands();
+    }
+    this->LargestCount = std::max(this->LargestCount, largestCount);
+    this->FillTable(what);
+    return GetBands(this->Colors);
+  };
+  if (this->Device.Fill(what, { what == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT, choose }))
+  {
+    return true;
+  }
+  const std::string reason = this->Device.GetFailure();
+  if (const vtkSmartPointer<vtkPolyData> mesh = CopyRun(this->Run))
+  {
+    this->SetMesh(mesh);
+  }
+  this->DeclineRun(reason);
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void LiveScene::Draw()
+{
+  this->Device.SetQuiet(true);
+  this->Renderer->ResetCameraClippingRange();
+  this->Device.SetQuiet(false);
+  const vtkSmartPointer<vtkRenderWindow> window = this->Renderer->GetRenderWindow();
+  window->Render();
+  if (this->DrawsRun() && !this->Device.GetFailure().empty())
+  {
+    this->SetColorBy(this->ColorBy);
+    window->Render();
+  }
 }
 
 }

@@ -37,7 +37,7 @@ public:
   /// Adds the scene to the first renderer of a window; creates one if there is none.
   void Enter(vtkRenderWindow* window);
   void Leave();
-  vtkRenderer* GetRenderer() const;
+  vtkRenderer* GetRenderer() const { return this->Renderer; }
 
   /// Makes a camera that looks at the mesh, if the renderer has none yet.
   void LookAtMesh();
@@ -47,7 +47,7 @@ public:
 
   /// The mesh of the last SetMesh(): it has the points and the number of triangles of what is
   /// shown.
-  vtkPolyData* GetMesh() const;
+  vtkPolyData* GetMesh() const { return this->Mesh; }
 
   /// Draws the mesh of a filter's live run without copies from the next SetColorBy() on, if it can.
   /// The mesh must be that of the last SetMesh().
@@ -87,15 +87,8 @@ public:
   void Draw();
 
 private:
-  void PlaceTexts();
-  void PlaceScale();
   bool ColorOnDevice(int what);
-  ColorBands ChooseColors(int what, double largestCount);
-  void LeaveDevice();
   void FillTable(int what);
-  void ColorByNothing();
-  void ColorBySmallestAngle();
-  void ColorByFlipCount();
   void ShowScale(const char* title);
 
   vtkWeakPointer<vtkRenderer> Renderer;

@@ -2,21 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "FrameFile.h"
+#include "LiveRun.h"
 #include "LiveScene.h"
-#include "LiveState.h"
-#include "LiveTexts.h"
-#include "ShownMesh.h"
 
+#include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkExecutive.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPNGWriter.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
 
 using namespace delaunayflip;
 
@@ -25,22 +31,37 @@ namespace
 
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
 
-/// Sets a flag during its lifetime: for work that must not be started again meanwhile.
-class BusyScope
+/// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
+std::string MakeFrameName(const std::string& prefix, int frame)
 {
-public:
-  explicit BusyScope(bool& isBusy)
-    : IsBusy(isBusy)
-  {
-    this->IsBusy = true;
-  }
-  ~BusyScope() { this->IsBusy = false; }
-  BusyScope(const BusyScope&) = delete;
-  BusyScope& operator=(const BusyScope&) = delete;
+  const std::string number = std::to_string(frame);
+  return prefix + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".png";
+}
 
-private:
-  bool& IsBusy;
-};
+/// Writes the picture in a window to a PNG file. Encodes it in memory first, because VTK's writer
+/// does not report a full disk.
+/// @returns whether the whole file could be written.
+bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
+{
+  vtkNew<vtkWindowToImageFilter> picture;
+  picture->SetInput(window);
+  picture->ReadFrontBufferOff();
+  picture->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(picture->GetOutputPort());
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (!bytes || bytes->GetNumberOfValues() == 0)
+  {
+    return false;
+  }
+  std::ofstream file(fileName, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)),
+    static_cast<std::streamsize>(bytes->GetNumberOfValues()));
+  file.close();
+  return file.good();
+}
 
 }
 
@@ -144,7 +165,7 @@ void vtkDelaunayFlipLiveView::Attach()
 
 void vtkDelaunayFlipLiveView::Detach()
 {
-  this->StopTimer();
+  this->TimerId = 0;
   if (this->Interactor)
   {
     for (const unsigned long observer : this->Observers)
@@ -164,7 +185,9 @@ void vtkDelaunayFlipLiveView::Detach()
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowInput()
 {
-  vtkDataObject* input = UpdateInput(this->Filter);
+  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
+  source->GetProducer()->Update(source->GetIndex());
+  vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
   this->Filter->SetLiveUpdate(!IsComposite(input));
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
@@ -187,14 +210,14 @@ void vtkDelaunayFlipLiveView::Run()
 void vtkDelaunayFlipLiveView::Pause()
 {
   this->IsMeantToRun = false;
-  this->StopTimer();
+  this->TimerId = 0;
   this->Render();
 }
 
 bool vtkDelaunayFlipLiveView::Step()
 {
   this->IsMeantToRun = false;
-  this->StopTimer();
+  this->TimerId = 0;
   return this->BeginIfNeeded() && this->TakeStep();
 }
 
@@ -206,7 +229,7 @@ void vtkDelaunayFlipLiveView::Restart()
   }
   else if (!this->IsBusy && this->IsReady())
   {
-    this->StopTimer();
+    this->TimerId = 0;
     this->ShowInput();
     if (this->IsMeantToRun)
     {
@@ -219,7 +242,13 @@ void vtkDelaunayFlipLiveView::Restart()
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  const LiveStep step = this->UpdateFilter();
+  LiveStep step;
+  {
+    const ScopedValue<bool> busy(this->IsBusy, true);
+    const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+    this->Scene->BeginStep();
+    step = MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
+  }
   const LiveState next = step.State;
   if (this->State == LiveState::NotStarted)
   {
@@ -228,7 +257,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const bool isNews = next != LiveState::Unchanged || this->IsRunning();
   if (next != LiveState::UnderWay)
   {
-    this->StopTimer();
+    this->TimerId = 0;
   }
   this->State = next == LiveState::Unchanged ? this->State : next;
   this->ShowStep(step);
@@ -237,14 +266,6 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     this->InvokeEvent(vtkCommand::EndEvent);
   }
   return !IsEnd(next);
-}
-
-LiveStep vtkDelaunayFlipLiveView::UpdateFilter()
-{
-  const BusyScope busy(this->IsBusy);
-  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-  this->Scene->BeginStep();
-  return MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
 }
 
 /// If the filter failed, the last mesh stays.
@@ -261,27 +282,19 @@ void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
   }
   else
   {
-    this->ShowOutput();
+    const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
+    if (!this->ZeroCopy)
+    {
+      this->Scene->SetMesh(mesh);
+      this->Scene->DeclineRun("ZeroCopy is off");
+    }
+    else if (!this->Scene->TakeNextRun(this->Filter, mesh))
+    {
+      this->Scene->SetMesh(mesh);
+      this->Scene->OfferRun(this->Filter);
+    }
   }
   this->ShowFrame(this->FrameNumber + 1);
-}
-
-void vtkDelaunayFlipLiveView::ShowOutput()
-{
-  const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
-  if (this->ZeroCopy && this->Scene->TakeNextRun(this->Filter, mesh))
-  {
-    return;
-  }
-  this->Scene->SetMesh(mesh);
-  if (this->ZeroCopy)
-  {
-    this->Scene->OfferRun(this->Filter);
-  }
-  else
-  {
-    this->Scene->DeclineRun("ZeroCopy is off");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -291,7 +304,7 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   this->Render();
   if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
   {
-    const BusyScope busy(this->IsBusy);
+    const ScopedValue<bool> busy(this->IsBusy, true);
     const std::string name = MakeFrameName(this->FramePrefix, number);
     this->CanWrite = WriteFrame(this->Window, name);
     if (!this->CanWrite)
@@ -308,31 +321,25 @@ void vtkDelaunayFlipLiveView::Render()
   {
     return;
   }
-  const BusyScope busy(this->IsBusy);
+  const ScopedValue<bool> busy(this->IsBusy, true);
   const bool isSmall = this->Scene->GetMesh()->GetNumberOfCells() < SmallMesh;
   const bool showKeys = this->ShowKeys && !this->Window->GetOffScreenRendering();
   this->Scene->SetKeys(showKeys ? KeyHelp : "");
   this->Scene->SetColorBy(this->ColorBy);
   this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  this->ShowStatus();
-  this->Scene->Draw();
-}
-
-void vtkDelaunayFlipLiveView::ShowStatus()
-{
   const bool hasFailed = this->State == LiveState::Failed;
-  if (!this->ShowStatistics && !hasFailed)
+  std::string status;
+  if (this->ShowStatistics || hasFailed)
   {
-    this->Scene->SetStatus("", false);
-    return;
+    // Off screen there are no keys: the program calls Step().
+    const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
+    status = DescribeStatus({ this->Filter, this->State, isRunning, this->FrameNumber,
+      this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
+      this->ShowDrawing ? this->Scene->DescribeDrawing() : "" });
   }
-  // Off screen there are no keys: the program calls Step().
-  const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
-  const LiveStatus status = { this->Filter, this->State, isRunning, this->FrameNumber,
-    this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
-    this->ShowDrawing ? this->Scene->DescribeDrawing() : "" };
-  this->Scene->SetStatus(DescribeStatus(status), hasFailed);
+  this->Scene->SetStatus(status, hasFailed);
+  this->Scene->Draw();
 }
 
 std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->DescribeDrawing(); }
@@ -340,6 +347,84 @@ std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->De
 bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
 
 vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->GetRenderer(); }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::StartTimer()
+{
+  if (!this->IsRunning() && this->AwaitStep())
+  {
+    this->Render();
+    this->InvokeEvent(vtkCommand::StartEvent);
+  }
+}
+
+/// Uses one-shot timers, so that none has to be destroyed: VTK 9.1 crashes if a timer is destroyed
+/// while timers fire.
+bool vtkDelaunayFlipLiveView::AwaitStep()
+{
+  this->TimerId = this->Interactor
+    ? this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(this->FrameInterval))
+    : 0;
+  if (this->TimerId == 0)
+  {
+    vtkErrorMacro("The interactor has no timer.");
+  }
+  return this->TimerId != 0;
+}
+
+bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
+{
+  const int awaited = this->TimerId;
+  if (!this->IsRunning() || (id && *static_cast<const int*>(id) != awaited))
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
+  if (!this->IsBusy)
+  {
+    this->TakeStep();
+  }
+  if (this->TimerId == awaited && this->Interactor)
+  {
+    this->AwaitStep();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
+{
+  using Self = vtkDelaunayFlipLiveView;
+  static const std::map<std::string, void (*)(Self*)> actions = {
+    { "space", [](Self* self) { self->IsRunning() ? self->Pause() : self->Run(); } },
+    { "n", [](Self* self) { self->Step(); } },
+    { "b", [](Self* self) { self->Restart(); } },
+    { "k", [](Self* self) { self->SetColorBy((self->ColorBy + 1) % (COLOR_BY_FLIP_COUNT + 1)); } },
+    { "g",
+      [](Self* self)
+      {
+        const bool areShown = self->Scene->GetEdgeVisibility();
+        self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
+      } },
+    { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },
+    { "d", [](Self* self) { self->SetShowDrawing(!self->ShowDrawing); } },
+  };
+  const char* key = this->Interactor->GetKeySym();
+  const auto action = actions.find(key ? key : "");
+  if (action == actions.end() || this->Interactor->GetControlKey())
+  {
+    return false;
+  }
+  if (event == vtkCommand::KeyPressEvent)
+  {
+    const vtkSmartPointer<Self> self(this); // An observer may drop it.
+    action->second(this);
+    this->Render();
+  }
+  return true;
+}
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)

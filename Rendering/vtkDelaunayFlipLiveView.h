@@ -293,20 +293,12 @@ private:
   void Detach();
   void ShowInput();
   bool TakeStep();
-  delaunayflip::LiveStep UpdateFilter();
   void ShowStep(const delaunayflip::LiveStep& step);
-  void ShowOutput();
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();
-  void ShowStatus();
-  void StopTimer();
   void OnTimer(vtkObject* caller, unsigned long event, void* id);
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
-  void CycleColors();
-  void ToggleEdges();
-  void ToggleStatistics();
-  void ToggleDrawing();
 
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
@@ -314,7 +306,7 @@ private:
   std::unique_ptr<delaunayflip::LiveScene> Scene;
   delaunayflip::LiveState State;
   int FrameNumber = -1;
-  int TimerId = 0; ///< The timer that makes the next step; 0: none.
+  int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
   bool IsMeantToRun = false; ///< Run() was called, and no Pause() or Step() since.
   bool IsBusy = false; ///< The filter is executing, or the window is being drawn.

@@ -4,7 +4,7 @@
 #
 # Usage: install-packages.sh build|demo|test|docs|proof|paper|paraview
 # Installs the Debian packages for building, the demo, the tests, the documentation's site, the
-# measurements of the tests (coverage, planted faults, fuzzing), the reproduction of the paper, or the
+# measurements of the tests (coverage, fuzzing), the reproduction of the paper, or the
 # ParaView plugin with its tests. Asks no questions, and changes nothing if all are installed already. ParaView itself is not
 # included, since it cannot be installed beside python3-vtk9; see get-paraview.sh.
 set -euo pipefail
@@ -19,9 +19,9 @@ tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg
   python3-numpy python3-matplotlib python3-venv valgrind openmpi-bin python3-mpi4py ccache)
 docs=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-copybutton
   python3-numpy)
-proof=(clang llvm libclang-rt-dev python3-clang)
+proof=(clang llvm libclang-rt-dev)
 paper=("${engine[@]}" libbenchmark-dev libcgal-dev libcli11-dev nlohmann-json3-dev python3-venv
-  python3-numpy python3-matplotlib)
+  python3-numpy python3-matplotlib python3-vtk9)
 # What find_package(ParaView) of Debian's paraview-dev needs without depending on it, and what
 # ParaView's programs load. Qt is that of the release's ParaView.
 qt5=(qtbase5-dev libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev qttools5-dev

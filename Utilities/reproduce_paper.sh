@@ -11,10 +11,10 @@ usage()
 {
   cat <<'END'
 Usage: reproduce_paper.sh [OPTION...] [OUTPUT]
-Writes OUTPUT/report.html, report.md, plots/, results.json and parts/ (default: paper-output).
+Writes OUTPUT/report.md, plots/, results.json and parts/ (default: paper-output).
   --quick                meshes of up to 1 M points; on two cores less than 10 minutes
   --meshes FOLDER        surfaces (.ply, .stl, .vtk) for Fig. 11 and Table 2
-  --time-limit SECONDS   begin no part that would end later; the next call goes on from there
+  --time-limit SECONDS   stop after that; the next call goes on from there
   --parts PATTERN        run only parts with such names, a regular expression; for example, "gpu$"
   --no-rivals            without other people's programs, which pip would install
   --no-times             run every program once, for what is not time, on a busy machine
@@ -39,11 +39,7 @@ while [ $# -gt 0 ]; do
       options+=(--draw-only)
       ;;
     --meshes | --time-limit | --parts)
-      if [ $# -lt 2 ]; then
-        echo "$1 needs a value" >&2
-        exit 2
-      fi
-      options+=("$1" "$2")
+      options+=("$1" "${2:?$1 needs a value}")
       shift
       ;;
     --help)
@@ -63,18 +59,10 @@ export PYTHONDONTWRITEBYTECODE=1
 # Usage: build - delaunay-flip-paper in build-paper/, for the GPU where there is a CUDA compiler.
 build()
 {
-  local cuda=${CUDA_HOME:-/usr/local/cuda} choices=()
-  if ! command -v nvcc >/dev/null && [ -x "$cuda/bin/nvcc" ]; then
-    export PATH=$cuda/bin:$PATH
-  fi
-  if [ -n "${CUDA_ARCHITECTURES:-}" ]; then
-    choices+=("-DCMAKE_CUDA_ARCHITECTURES=$CUDA_ARCHITECTURES")
-  fi
-  if [ ! -f "$folder/CMakeCache.txt" ] && command -v ninja >/dev/null; then
-    choices+=(-G Ninja)
-  fi
+  export PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin
   cmake -S "$here/.." -B "$folder" -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_VTK=OFF \
-    -DDELAUNAYFLIP_BUILD_TESTING=OFF -DDELAUNAYFLIP_BUILD_BENCHMARKS=ON "${choices[@]}" >/dev/null
+    -DDELAUNAYFLIP_BUILD_TESTING=OFF -DDELAUNAYFLIP_BUILD_BENCHMARKS=ON \
+    ${CUDA_ARCHITECTURES:+"-DCMAKE_CUDA_ARCHITECTURES=$CUDA_ARCHITECTURES"} >/dev/null
   cmake --build "$folder" --parallel "${JOBS:-2}" --target delaunay-flip-paper
 }
 
@@ -88,7 +76,7 @@ install_rivals()
     rm -rf "$venv"
     return
   fi
-  for package in numpy matplotlib scipy triangle startinpy delaunator vtk meshlib; do
+  for package in numpy matplotlib scipy triangle startinpy vtk meshlib; do
     if ! "$venv/bin/pip" install --quiet --disable-pip-version-check --prefer-binary "$package" \
       >>"$venv/install.log" 2>&1; then
       echo "absent: $package (see $venv/install.log)"
@@ -112,16 +100,12 @@ find_python()
 if [ -x "$here/delaunay-flip-paper" ]; then
   folder=$here
   program=$here/delaunay-flip-paper
-  scripts=$here/paper
   export LD_LIBRARY_PATH=$here/libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  mkdir -p "$output/meshes"
-  if [ -d "$here/meshes" ]; then
-    cp -n "$here"/meshes/*.dfmesh "$output/meshes/"
-  fi
+  mkdir -p "$output"
+  cp -rn "$here/meshes" "$output/" 2>/dev/null || echo "no surfaces in this bundle"
 else
   folder=$(cd "$here/.." && pwd)/build-paper
   program=$folder/bin/delaunay-flip-paper
-  scripts=$here/paper
   if [ "$draw" = no ]; then
     "$here/install-packages.sh" paper
     build
@@ -137,5 +121,5 @@ fi
 if [ "$rivals" = yes ] && [ -x "$venv/bin/python" ]; then
   options+=(--rivals "$venv/bin/python")
 fi
-exec "$(find_python)" "$scripts/reproduce.py" "$output" --scale "$scale" --program "$program" \
+exec "$(find_python)" "$here/paper/reproduce.py" "$output" --scale "$scale" --program "$program" \
   "${options[@]}"

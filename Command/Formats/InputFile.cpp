@@ -9,122 +9,35 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <vector>
 
 namespace delaunayflip
 {
 
-namespace
-{
-
-std::size_t PhysicalMemory()
-{
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-    static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
-bool WriteAll(int file, const char* bytes, std::size_t size)
-{
-  while (size > 0)
-  {
-    const ssize_t written = write(file, bytes, size);
-    if (written < 0)
-    {
-      return false;
-    }
-    bytes += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
-/// Lines end with \n, \r\n or \r.
-std::size_t CountLines(std::string_view text)
-{
-  std::size_t lines = 0;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    const bool isPair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
-    lines += text[i] == '\n' || (text[i] == '\r' && !isPair) ? 1 : 0;
-  }
-  return lines;
-}
-
-}
-
 InputFile::InputFile(const std::string& path)
   : Name(path),
     Path(path),
-    Descriptor(this->OpenFile())
+    Descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC))
 {
   struct stat status = {};
-  fstat(this->Descriptor, &status);
+  if (this->Descriptor < 0 || fstat(this->Descriptor, &status) != 0)
+  {
+    this->FailToRead();
+  }
   if (S_ISDIR(status.st_mode))
   {
     this->Fail("is a folder");
   }
   if (!S_ISREG(status.st_mode))
   {
-    const int pipe = this->Descriptor;
-    this->Descriptor = this->Spool(pipe);
-    close(pipe);
-    this->Path = "/dev/fd/" + std::to_string(this->Descriptor);
+    this->CopyPipe();
+    fstat(this->Descriptor, &status);
   }
-  this->Map();
-}
-
-InputFile::~InputFile()
-{
-  if (!this->Bytes.empty())
-  {
-    munmap(const_cast<char*>(this->Bytes.data()), this->Bytes.size());
-  }
-  close(this->Descriptor);
-}
-
-int InputFile::OpenFile() const
-{
-  const int file = open(this->Path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0)
-  {
-    this->FailToRead();
-  }
-  return file;
-}
-
-int InputFile::Spool(int pipe) const
-{
-  std::FILE* const temporary = std::tmpfile();
-  const int copy = temporary ? fcntl(fileno(temporary), F_DUPFD_CLOEXEC, 0) : -1;
-  std::vector<char> buffer(1 << 20);
-  std::size_t total = 0;
-  ssize_t size = copy < 0 ? -1 : 1;
-  while (size > 0 && total <= PhysicalMemory())
-  {
-    size = read(pipe, buffer.data(), buffer.size());
-    total += size > 0 ? static_cast<std::size_t>(size) : 0;
-    size = size > 0 && !WriteAll(copy, buffer.data(), static_cast<std::size_t>(size)) ? -1 : size;
-  }
-  if (size < 0)
-  {
-    this->FailToRead();
-  }
-  if (size > 0)
-  {
-    this->Fail("is a pipe that does not end, or that delivers more bytes than fit into memory");
-  }
-  std::fclose(temporary);
-  return copy;
-}
-
-void InputFile::Map()
-{
-  struct stat status = {};
-  fstat(this->Descriptor, &status);
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0)
   {
@@ -136,6 +49,45 @@ void InputFile::Map()
     this->FailToRead();
   }
   this->Bytes = { static_cast<const char*>(bytes), size };
+}
+
+InputFile::~InputFile()
+{
+  if (!this->Bytes.empty())
+  {
+    munmap(const_cast<char*>(this->Bytes.data()), this->Bytes.size());
+  }
+  close(this->Descriptor);
+}
+
+/// Puts a temporary file, which has no name, in the place of the pipe.
+void InputFile::CopyPipe()
+{
+  const std::size_t most = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+    static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  std::FILE* const temporary = std::tmpfile();
+  const int copy = temporary ? fcntl(fileno(temporary), F_DUPFD_CLOEXEC, 0) : -1;
+  std::vector<char> buffer(1 << 20);
+  std::size_t total = 0;
+  ssize_t size = copy < 0 ? -1 : 1;
+  while (size > 0 && total <= most)
+  {
+    size = read(this->Descriptor, buffer.data(), buffer.size());
+    const auto bytes = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
+    total += bytes;
+    size = std::fwrite(buffer.data(), 1, bytes, temporary) == bytes ? size : -1;
+  }
+  if (size < 0 || std::fclose(temporary) != 0)
+  {
+    this->FailToRead();
+  }
+  if (size > 0)
+  {
+    this->Fail("is a pipe that does not end, or that delivers more bytes than fit into memory");
+  }
+  close(this->Descriptor);
+  this->Descriptor = copy;
+  this->Path = "/dev/fd/" + std::to_string(copy);
 }
 
 /// After a system call that failed.
@@ -153,11 +105,80 @@ void InputFile::Fail(const std::string& reason) const
   throw CommandError(ExitCode::BadFile, this->Name + ": " + reason);
 }
 
-void InputFile::FailAt(const char* place, const std::string& reason) const
+namespace
 {
-  const auto offset = static_cast<std::size_t>(place - this->Bytes.data());
-  const std::size_t line = 1 + CountLines(this->Bytes.substr(0, offset));
-  this->Fail("line " + std::to_string(line) + ": " + reason);
+
+bool IsLineEnd(char letter) { return letter == '\n' || letter == '\r'; }
+
+bool IsBlank(char letter)
+{
+  return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f';
+}
+
+}
+
+TextLines::TextLines(const InputFile& file, char comment)
+  : File(file),
+    Comment(comment)
+{
+  const std::string_view mark = "\xEF\xBB\xBF";
+  this->Here = file.GetBytes().substr(0, mark.size()) == mark ? mark.size() : 0;
+}
+
+bool TextLines::Next()
+{
+  this->Words.clear();
+  bool isContinued = false;
+  while ((this->Words.empty() || isContinued) && this->Here < this->File.GetBytes().size())
+  {
+    const std::string_view rest = this->GetRest();
+    const auto end = std::find_if(rest.begin(), rest.end(), IsLineEnd);
+    std::string_view line = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+    const bool isPair = rest.substr(line.size(), 2) == "\r\n";
+    this->Here += line.size() + (end == rest.end() ? 0 : isPair ? 2 : 1);
+    ++this->Line;
+    line = line.substr(0, line.find(this->Comment));
+    while (this->Continues && !line.empty() && IsBlank(line.back()))
+    {
+      line.remove_suffix(1);
+    }
+    isContinued = this->Continues && !line.empty() && line.back() == '\\';
+    this->Split(line.substr(0, line.size() - (isContinued ? 1 : 0)));
+  }
+  return !this->Words.empty();
+}
+
+void TextLines::Split(std::string_view line)
+{
+  auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
+  while (begin != line.end())
+  {
+    const auto end = std::find_if(begin, line.end(), IsBlank);
+    this->Words.emplace_back(&*begin, static_cast<std::size_t>(end - begin));
+    begin = std::find_if_not(end, line.end(), IsBlank);
+  }
+}
+
+std::string TextLines::LowerWord(std::size_t place) const
+{
+  std::string word(place < this->Words.size() ? this->Words[place] : std::string_view());
+  std::transform(word.begin(), word.end(), word.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return word;
+}
+
+void TextLines::Fail(const std::string& reason) const
+{
+  this->File.Fail("line " + std::to_string(this->Line) + ": " + reason);
+}
+
+void TextLines::FailOn(std::string_view word, const char* problem) const
+{
+  constexpr std::size_t longest = 40;
+  std::string text(word.substr(0, longest));
+  std::replace_if(
+    text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  this->Fail("'" + text + (word.size() > longest ? "...'" : "'") + problem);
 }
 
 }

@@ -3,8 +3,16 @@
 #ifndef DELAUNAYFLIP_INPUTFILE_H
 #define DELAUNAYFLIP_INPUTFILE_H
 
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
+
+/// @file
+/// The bytes of a file, and its lines if it is text.
 
 namespace delaunayflip
 {
@@ -30,13 +38,8 @@ public:
   /// @throws CommandError (BadFile): the name and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
 
-  /// The same, with the number of the line that contains `place`, a pointer into the bytes.
-  [[noreturn]] void FailAt(const char* place, const std::string& reason) const;
-
 private:
-  int OpenFile() const;
-  int Spool(int pipe) const;
-  void Map();
+  void CopyPipe();
   [[noreturn]] void FailToRead() const;
 
   std::string Name;
@@ -44,6 +47,85 @@ private:
   int Descriptor = -1;
   std::string_view Bytes;
 };
+
+/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks.
+class TextLines
+{
+public:
+  /// Begins behind a byte order mark, if there is one. `comment` begins a comment.
+  explicit TextLines(const InputFile& file, char comment = '\n');
+
+  /// After this call, a backslash at the end of a line continues the line.
+  void ContinueLines() { this->Continues = true; }
+
+  /// Reads the next line that is not empty. Returns false if there is none.
+  bool Next();
+
+  /// The words of the line.
+  std::vector<std::string_view> Words;
+
+  /// A word of the line, in lower case; empty where there is none.
+  std::string LowerWord(std::size_t place) const;
+
+  /// A word of the line as a number, read as by std::from_chars and rounded correctly; NaN and
+  /// infinity are numbers.
+  /// @throws CommandError (BadFile) where it is missing, no number, or too large for the type.
+  template <typename T>
+  T Number(std::size_t place) const;
+
+  /// The bytes after this line.
+  std::string_view GetRest() const { return this->File.GetBytes().substr(this->Here); }
+
+  /// @throws CommandError (BadFile): the file, the number of this line and the reason.
+  [[noreturn]] void Fail(const std::string& reason) const;
+
+  /// The same for a word, which is quoted before the problem.
+  [[noreturn]] void FailOn(std::string_view word, const char* problem) const;
+
+private:
+  void Split(std::string_view line);
+
+  const InputFile& File;
+  std::size_t Here = 0;
+  std::size_t Line = 0;
+  char Comment;
+  bool Continues = false;
+};
+
+template <typename T>
+T TextLines::Number(std::size_t place) const
+{
+  if (place >= this->Words.size())
+  {
+    this->Fail("a number is missing");
+  }
+  const std::string_view word = this->Words[place];
+  const bool hasPlus = word[0] == '+' && word.substr(0, 2) != "+-";
+  const char* const end = word.data() + word.size();
+  T value = 0;
+  const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
+  if (last != end || error == std::errc::invalid_argument)
+  {
+    this->FailOn(
+      word, std::is_floating_point_v<T> ? " is not a number" : " is not an integer of its range");
+  }
+  if (error == std::errc())
+  {
+    return value;
+  }
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // Numbers below the smallest of the type are rounded, which std::from_chars does not do.
+    const std::string text(word);
+    value = std::is_same_v<T, float> ? std::strtof(text.c_str(), nullptr)
+                                     : static_cast<T>(std::strtod(text.c_str(), nullptr));
+    if (!std::isinf(value))
+    {
+      return value;
+    }
+  }
+  this->FailOn(word, " is out of range");
+}
 
 }
 

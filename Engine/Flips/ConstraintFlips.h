@@ -5,8 +5,6 @@
 
 #include "ConstraintPath.h"
 #include "EdgeTable.h"
-#include "PlaneMesh.h"
-#include "VertexFans.h"
 
 #include <cstdint>
 #include <utility>

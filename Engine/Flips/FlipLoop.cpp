@@ -54,19 +54,12 @@ const StepCounts& FlipLoop::Detect()
 
 std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
 {
-  std::vector<IterationCounts> iterations;
-  if (this->ChunkIterationsLeft > 0)
+  if (this->ChunkIterationsLeft == 0)
   {
-    iterations = this->RunChunks(plan);
-    this->Detect();
+    return this->IterateMesh(plan);
   }
-  return iterations.empty() ? this->IterateMesh(plan) : iterations;
-}
-
-/// Runs as many iterations within chunks as the plan and the schedule allow; none if no chunk has
-/// an edge to flip.
-std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
-{
+  // Within chunks, as many iterations as the plan and the schedule allow; none if no chunk has an
+  // edge to flip.
   const bool isFirst = this->ChunkIterationsLeft == ChunkIterations;
   const std::int64_t most = std::min(this->ChunkIterationsLeft, plan.Iterations);
   std::vector<IterationCounts> iterations =
@@ -85,7 +78,8 @@ std::vector<IterationCounts> FlipLoop::RunChunks(const AdvancePlan& plan)
     iterations[0].Bad = this->Found.Bad;
     iterations[0].Blocked = this->Found.GetBlocked();
   }
-  return iterations;
+  this->Detect();
+  return iterations.empty() ? this->IterateMesh(plan) : iterations;
 }
 
 }

@@ -109,8 +109,6 @@ protected:
   StepCounts Found;
 
 private:
-  std::vector<IterationCounts> RunChunks(const AdvancePlan& plan);
-
   std::int64_t ChunkIterationsLeft;
 };
 

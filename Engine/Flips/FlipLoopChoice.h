@@ -11,11 +11,12 @@
 #include "FlipReport.h"
 #include "FlipRules.h"
 #include "MeshSurvey.h"
-#include "PackedPoints.h"
 #include "PlanarSurvey.h"
+#include "SpatialOrder.h"
 
 #include <cmath>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -59,83 +60,51 @@ struct FlipLoopResult
   std::vector<Defect> Defects; ///< Triangles without area or turned over.
 };
 
-template <typename Backend>
-EdgeGuard MakeGuard(const FlipLoopInput& input, EdgeTable table, const Backend& backend)
+/// Which rule of FlipRules.h judges a mesh.
+struct RuleChoice
 {
-  const bool isMissing = table.IsEmpty();
-  EdgeGuard guard(std::move(table), input.Counts.Edges.Edges, input.Counts.Points, backend);
-  if (isMissing)
+  RuleChoice(const MeshSurvey& survey, const FlipOptions& options)
+    : IsSurface(survey.Geometry == GeometryKind::Surface),
+      ByAngles(options.Criterion == CriterionKind::OppositeAngles),
+      IsTilted(survey.Projection.Tilted),
+      IsCanonical(options.TieRule == TieRuleKind::Canonical),
+      FiltersApply(survey.FiltersApply),
+      Range(survey.Range),
+      Tolerance(options.Tolerance < 0.0
+          ? AngleTolerance{ 0.0, 1.0, survey.Precision }
+          : AngleTolerance{ std::sin(options.Tolerance), std::cos(options.Tolerance), 0.0 })
   {
-    guard.Rebuild(input.Mesh, backend);
   }
-  guard.TakeSharedVertices(std::move(input.SharedVertices));
-  return guard;
-}
 
-template <typename Backend, typename Rule>
-std::unique_ptr<FlipLoop> MakeLoop(
-  const FlipLoopInput& input, const Rule& rule, EdgeGuard guard, const Backend& backend)
-{
-  using Loop = typename LoopOf<Backend, Rule>::Type;
-  return std::unique_ptr<FlipLoop>(
-    new Loop(input.Mesh, rule, input.Survey.Range, std::move(guard), backend));
-}
-
-inline AngleTolerance GetTolerance(const FlipOptions& options, const MeshSurvey& survey)
-{
-  const double fixed = options.Tolerance;
-  return fixed < 0.0 ? AngleTolerance{ 0.0, 1.0, survey.Precision }
-                     : AngleTolerance{ std::sin(fixed), std::cos(fixed), 0.0 };
-}
-
-template <typename Real, int Components>
-PlanarRule<Real, Components> MakeInCircleRule(
-  const FlipLoopInput& input, const Real* coordinates, int uniformSide)
-{
-  const bool canonical = input.Options.TieRule == TieRuleKind::Canonical;
-  return { coordinates, uniformSide, canonical, input.Survey.FiltersApply };
-}
-
-/// @param uniformSide the side to which all triangles turn, if they do (PlanarSurvey).
-template <typename Backend>
-std::unique_ptr<FlipLoop> MakePlanarLoop(
-  const FlipLoopInput& input, int uniformSide, EdgeGuard guard, const Backend& backend)
-{
-  const double* doubles = input.Points.Doubles.Data();
-  if (input.Options.Criterion == CriterionKind::OppositeAngles)
+  /// Calls visit(rule) for packed coordinates (PlanPacking), of one type or the other.
+  /// @param uniformSide the side to which all triangles turn, if they do (PlanarSurvey).
+  template <typename Function>
+  auto Visit(
+    const float* floats, const double* doubles, int uniformSide, const Function& visit) const
   {
-    const AngleTolerance tolerance = GetTolerance(input.Options, input.Survey);
-    return MakeLoop(input, PlanarAngleRule{ { doubles, tolerance, input.Survey.Range } },
-      std::move(guard), backend);
+    if (this->IsSurface)
+    {
+      return floats ? visit(SurfaceRule<float>{ { floats, this->Tolerance, this->Range } })
+                    : visit(SurfaceRule<double>{ { doubles, this->Tolerance, this->Range } });
+    }
+    if (this->ByAngles)
+    {
+      return visit(PlanarAngleRule{ { doubles, this->Tolerance, this->Range } });
+    }
+    if (this->IsTilted)
+    {
+      return visit(
+        PlanarRule<double, 3>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
+    }
+    return floats
+      ? visit(PlanarRule<float, 2>{ floats, uniformSide, this->IsCanonical, this->FiltersApply })
+      : visit(PlanarRule<double, 2>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
   }
-  if (input.Survey.Projection.Tilted)
-  {
-    return MakeLoop(
-      input, MakeInCircleRule<double, 3>(input, doubles, uniformSide), std::move(guard), backend);
-  }
-  if (input.Points.IsFloat())
-  {
-    return MakeLoop(input,
-      MakeInCircleRule<float, 2>(input, input.Points.Floats.Data(), uniformSide), std::move(guard),
-      backend);
-  }
-  return MakeLoop(
-    input, MakeInCircleRule<double, 2>(input, doubles, uniformSide), std::move(guard), backend);
-}
 
-template <typename Backend>
-std::unique_ptr<FlipLoop> MakeSurfaceLoop(
-  const FlipLoopInput& input, EdgeGuard guard, const Backend& backend)
-{
-  const AngleTolerance tolerance = GetTolerance(input.Options, input.Survey);
-  const PackedPoints& points = input.Points;
-  const CoordinateRange range = input.Survey.Range;
-  return points.IsFloat()
-    ? MakeLoop(input, SurfaceRule<float>{ { points.Floats.Data(), tolerance, range } },
-        std::move(guard), backend)
-    : MakeLoop(input, SurfaceRule<double>{ { points.Doubles.Data(), tolerance, range } },
-        std::move(guard), backend);
-}
+  bool IsSurface, ByAngles, IsTilted, IsCanonical, FiltersApply;
+  CoordinateRange Range;
+  AngleTolerance Tolerance;
+};
 
 /// Makes the loop that suits a mesh. The backend must live as long as the loop.
 /// @param table the vertex pairs of all edges, or empty; kept if flips could make an edge that
@@ -144,26 +113,48 @@ template <typename Backend>
 FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const Backend& backend)
 {
   const MeshSurvey& survey = input.Survey;
+  FlipLoopResult result;
+  bool needsGuard = true;
+  int uniformSide = 0;
   if (survey.Geometry == GeometryKind::Surface)
   {
-    const Defect flat = FindZeroAreaTriangles(input.Mesh, input.Points, backend);
-    EdgeGuard guard = MakeGuard(input, std::move(table), backend);
-    return { MakeSurfaceLoop(input, std::move(guard), backend), { flat } };
+    result.Defects = { FindZeroAreaTriangles(input.Mesh, input.Points, backend) };
   }
-  const EdgeCounts& edges = input.Counts.Edges;
-  const bool brokenFans =
-    edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
-  const bool areSimple = input.Whole.StarsAreSimple;
-  const PlanarSurvey plane =
-    SurveyPlane(input.Mesh, input.Points, brokenFans || areSimple, survey.UsedPoints, backend);
-  EdgeGuard guard;
-  if (!(plane.StarsAreSimple || areSimple) || input.SharedVertices.Size() > 0)
+  else
   {
-    guard = MakeGuard(input, std::move(table), backend);
+    const EdgeCounts& edges = input.Counts.Edges;
+    const bool brokenFans =
+      edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
+    const bool areSimple = input.Whole.StarsAreSimple;
+    const PlanarSurvey plane =
+      SurveyPlane(input.Mesh, input.Points, brokenFans || areSimple, survey.UsedPoints, backend);
+    result.Defects = { plane.ZeroAreaTriangles, plane.GetInverted(input.Whole.Side) };
+    needsGuard = !(plane.StarsAreSimple || areSimple) || input.SharedVertices.Size() > 0;
+    uniformSide = plane.UniformSide;
+  }
+  EdgeGuard guard;
+  if (needsGuard)
+  {
+    const bool isMissing = table.IsEmpty();
+    guard = EdgeGuard(std::move(table), input.Counts.Edges.Edges, input.Counts.Points, backend);
+    if (isMissing)
+    {
+      guard.Rebuild(input.Mesh, backend);
+    }
+    guard.TakeSharedVertices(std::move(input.SharedVertices));
   }
   table = EdgeTable(); // frees its memory
-  return { MakePlanarLoop(input, plane.UniformSide, std::move(guard), backend),
-    { plane.ZeroAreaTriangles, plane.GetInverted(input.Whole.Side) } };
+  const auto make = [&](const auto& rule)
+  {
+    using Loop = typename LoopOf<Backend, std::decay_t<decltype(rule)>>::Type;
+    return std::unique_ptr<FlipLoop>(
+      new Loop(input.Mesh, rule, survey.Range, std::move(guard), backend));
+  };
+  const bool isFloat = input.Points.IsFloat();
+  result.Loop = RuleChoice(survey, input.Options)
+                  .Visit(isFloat ? input.Points.Floats.Data() : nullptr,
+                    input.Points.Doubles.Data(), uniformSide, make);
+  return result;
 }
 
 }

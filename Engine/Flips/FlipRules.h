@@ -6,7 +6,6 @@
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
 #include "HostDevice.h"
-#include "OppositeAngles.h"
 #include "SurfaceAngles.h"
 #include "WideAngles.h"
 

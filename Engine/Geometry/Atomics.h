@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace delaunayflip
 {
@@ -15,20 +16,8 @@ namespace delaunayflip
 /// barrier, so no order is needed within a pass. The CPU accepts words of any type; a device has
 /// overloads only for some unsigned types.
 #if DELAUNAYFLIP_ON_DEVICE
-template <std::size_t Size>
-struct DeviceWord;
-template <>
-struct DeviceWord<4>
-{
-  using Type = unsigned int;
-};
-template <>
-struct DeviceWord<8>
-{
-  using Type = unsigned long long;
-};
 template <typename T>
-using DeviceWordOf = typename DeviceWord<sizeof(T)>::Type;
+using DeviceWordOf = std::conditional_t<sizeof(T) == 4, unsigned int, unsigned long long>;
 #endif
 
 template <typename T>

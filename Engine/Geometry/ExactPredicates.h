@@ -4,7 +4,10 @@
 #define DELAUNAYFLIP_EXACTPREDICATES_H
 
 #include "FilteredPredicates.h"
-#include "FixedPoint.h"
+#include "HostDevice.h"
+
+#include <cstdint>
+#include <cstring>
 
 /// @file
 /// Exact signs: by fixed-point integers if coordinates are below 2^125 in units of their lowest
@@ -12,6 +15,204 @@
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Doubles as integers times a common power of two, and the sums and products of such integers in
+// up to 512 bits. Everything has a fixed size and fits the registers of a GPU: no loops, no
+// arrays.
+
+__extension__ typedef __int128 Integer128; // NOLINT(modernize-use-using)
+__extension__ typedef unsigned __int128 Unsigned128; // NOLINT(modernize-use-using)
+
+/// High * 2^128 + Low.
+struct Unsigned256
+{
+  Unsigned128 High, Low;
+};
+
+/// High * 2^128 + Low, in two's complement.
+struct Integer256
+{
+  Integer128 High;
+  Unsigned128 Low;
+};
+
+/// High * 2^256 + Low, in two's complement.
+struct Integer512
+{
+  Integer256 High;
+  Unsigned256 Low;
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline Integer256 operator+(const Integer256& a, const Integer256& b)
+{
+  const Unsigned128 low = a.Low + b.Low;
+  const Integer128 carry = low < a.Low ? 1 : 0;
+  return { a.High + b.High + carry, low };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Integer256 operator-(const Integer256& a, const Integer256& b)
+{
+  const Integer128 borrow = a.Low < b.Low ? 1 : 0;
+  return { a.High - b.High - borrow, a.Low - b.Low };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Integer512 operator+(const Integer512& a, const Integer512& b)
+{
+  const Unsigned128 low = a.Low.Low + b.Low.Low;
+  const Unsigned128 lowCarry = low < a.Low.Low ? 1 : 0;
+  // At most one of the two additions wraps: the first leaves at most 2^128 - 2 when it does.
+  const Unsigned128 partial = a.Low.High + b.Low.High;
+  const Unsigned128 middle = partial + lowCarry;
+  const Unsigned128 carry = partial < a.Low.High || middle < partial ? 1 : 0;
+  return { a.High + b.High + Integer256{ 0, carry }, { middle, low } };
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline int SignOf(Integer128 value)
+{
+  return value < 0 ? -1 : (value > 0 ? 1 : 0);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline int SignOf(const Integer256& value)
+{
+  return value.High < 0 ? -1 : ((value.High | static_cast<Integer128>(value.Low)) != 0 ? 1 : 0);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline int SignOf(const Integer512& value)
+{
+  const int high = SignOf(value.High);
+  return high != 0 ? high : ((value.Low.High | value.Low.Low) != 0 ? 1 : 0);
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline Integer128 Multiply(std::int64_t a, std::int64_t b)
+{
+  return Integer128(a) * b;
+}
+
+/// -2^126 <= a, b < 2^126: the high halves are from -2^62 to 2^62 - 1, so that the middle, two
+/// products and what the low one carries, stays between -2^127 and 2^127.
+DELAUNAYFLIP_HOST_DEVICE inline Integer256 Multiply(Integer128 a, Integer128 b)
+{
+  const auto aHigh = static_cast<std::int64_t>(a >> 64);
+  const auto bHigh = static_cast<std::int64_t>(b >> 64);
+  const auto aLow = static_cast<std::uint64_t>(a);
+  const auto bLow = static_cast<std::uint64_t>(b);
+  const Unsigned128 low = Unsigned128(aLow) * bLow;
+  const Integer128 middle = Integer128(aHigh) * Integer128(bLow) +
+    Integer128(bHigh) * Integer128(aLow) + static_cast<Integer128>(low >> 64);
+  return { Integer128(aHigh) * bHigh + (middle >> 64),
+    (static_cast<Unsigned128>(middle) << 64) | static_cast<std::uint64_t>(low) };
+}
+
+/// Any a, b: a sum of two numbers below 2^64 and a product of two such numbers is below 2^128.
+DELAUNAYFLIP_HOST_DEVICE inline Unsigned256 MultiplyUnsigned(Unsigned128 a, Unsigned128 b)
+{
+  const auto aHigh = static_cast<std::uint64_t>(a >> 64);
+  const auto bHigh = static_cast<std::uint64_t>(b >> 64);
+  const auto aLow = static_cast<std::uint64_t>(a);
+  const auto bLow = static_cast<std::uint64_t>(b);
+  const Unsigned128 low = Unsigned128(aLow) * bLow;
+  const Unsigned128 first = Unsigned128(aHigh) * bLow + (low >> 64);
+  const Unsigned128 second = Unsigned128(bHigh) * aLow + static_cast<std::uint64_t>(first);
+  return { Unsigned128(aHigh) * bHigh + (first >> 64) + (second >> 64),
+    (second << 64) | static_cast<std::uint64_t>(low) };
+}
+
+/// Any a, b. The bits of a negative a, read as unsigned, are 2^128 too many.
+DELAUNAYFLIP_HOST_DEVICE inline Integer256 MultiplyMixed(Integer128 a, Unsigned128 b)
+{
+  const Unsigned256 product = MultiplyUnsigned(static_cast<Unsigned128>(a), b);
+  return { static_cast<Integer128>(product.High - (a < 0 ? b : 0)), product.Low };
+}
+
+/// -2^254 <= a, b < 2^254: as for 128 bits, the high halves suit Multiply and the middle stays
+/// between -2^255 and 2^255.
+DELAUNAYFLIP_HOST_DEVICE inline Integer512 Multiply(const Integer256& a, const Integer256& b)
+{
+  const Unsigned256 low = MultiplyUnsigned(a.Low, b.Low);
+  const Integer256 middle =
+    MultiplyMixed(a.High, b.Low) + MultiplyMixed(b.High, a.Low) + Integer256{ 0, low.High };
+  // middle.High goes up with its sign.
+  const Integer256 carried = { middle.High < 0 ? -1 : 0, static_cast<Unsigned128>(middle.High) };
+  return { Multiply(a.High, b.High) + carried, { middle.Low, low.Low } };
+}
+
+/// A finite double taken apart: +-Mantissa * 2^Exponent. Zero is 0 * 2^-1074.
+struct DoubleParts
+{
+  static constexpr int MantissaBits = 53;
+
+  std::uint64_t Mantissa;
+  int Exponent;
+  bool Negative;
+
+  DELAUNAYFLIP_HOST_DEVICE explicit DoubleParts(double value)
+  {
+    constexpr std::uint64_t HiddenBit = std::uint64_t(1) << (MantissaBits - 1);
+    constexpr int Bias = 1075;
+    const std::uint64_t bits = GetBits(value);
+    const int biased = static_cast<int>(bits >> (MantissaBits - 1)) & 0x7FF;
+    const bool subnormal = biased == 0; // or zero; has the exponent of the smallest normal numbers
+    this->Mantissa = (bits & (HiddenBit - 1)) | (subnormal ? 0 : HiddenBit);
+    this->Exponent = (subnormal ? 1 : biased) - Bias;
+    this->Negative = (bits >> 63) != 0;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE int CountTrailingZeros() const
+  {
+    const std::uint64_t stop = this->Mantissa | (std::uint64_t(1) << 63);
+#if defined(__CUDA_ARCH__)
+    return __ffsll(static_cast<long long>(stop)) - 1;
+#else
+    return __builtin_ctzll(stop);
+#endif
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE static std::uint64_t GetBits(double value)
+  {
+#if defined(__CUDA_ARCH__)
+    return static_cast<std::uint64_t>(__double_as_longlong(value));
+#else
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+#endif
+  }
+};
+
+/// The largest power of two of which all included doubles are multiples.
+class FixedPointUnit
+{
+public:
+  DELAUNAYFLIP_HOST_DEVICE void Include(double value)
+  {
+    const DoubleParts parts(value);
+    const int lastBit = parts.Exponent + parts.CountTrailingZeros();
+    this->Exponent = parts.Mantissa != 0 && lastBit < this->Exponent ? lastBit : this->Exponent;
+  }
+
+  /// An included value in units, if that is below 2^125 in magnitude; otherwise clears `fits`.
+  DELAUNAYFLIP_HOST_DEVICE Integer128 Convert(double value, bool& fits) const
+  {
+    constexpr int LargestShift = 125 - DoubleParts::MantissaBits;
+    const DoubleParts parts(value);
+    const int shift = parts.Exponent - this->Exponent;
+    const bool inRange = shift <= LargestShift;
+    fits = fits && inRange;
+    // A shift to the right loses only zeros, because the value is a multiple of the unit. The mask
+    // is for zero itself, whose exponent may be lower by any amount.
+    const int down = shift < 0 ? -shift & 63 : 0;
+    const int up = shift > 0 && inRange ? shift : 0;
+    const auto magnitude = static_cast<Integer128>(Unsigned128(parts.Mantissa >> down) << up);
+    return parts.Negative ? -magnitude : magnitude;
+  }
+
+private:
+  int Exponent = 1024; ///< More than any double has.
+};
+
+//------------------------------------------------------------------------------
 
 /// Wide-integer signs, for any finite coordinates; on the CPU only.
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);

@@ -4,14 +4,13 @@
 #define DELAUNAYFLIP_WIDEANGLES_H
 
 #include "HostDevice.h"
-#include "OppositeAngles.h"
 #include "SurfaceAngles.h"
 
 #include <cmath>
 #include <cstdint>
 
 /// @file
-/// The judgements of OppositeAngles.h and SurfaceAngles.h for all finite coordinates, even where
+/// The judgements of SurfaceAngles.h for all finite coordinates, even where
 /// products of lengths would overflow or vanish: every vector has a power of two of its own. These
 /// are slow, and meant for the few meshes and quads that need them.
 

@@ -3,8 +3,14 @@
 #ifndef DELAUNAYFLIP_ARRAY_H
 #define DELAUNAYFLIP_ARRAY_H
 
+#include "DeviceMesh.h"
+#include "HostDevice.h"
+#include "TriangleMesh.h"
+
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -69,6 +75,70 @@ private:
   std::size_t Count = 0;
   Memory* Owner = nullptr;
 };
+
+//------------------------------------------------------------------------------
+// Where a backend writes results: the caller's whole array, or one slice of it at a time, to save
+// device memory.
+
+/// Values [First, Last) of an output of 32-bit numbers, in a separate array.
+struct OutputSlice
+{
+  std::uint32_t* Values;
+  std::int64_t First, Last;
+
+  /// Sets value i if it is in the slice.
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t i, std::uint32_t value) const
+  {
+    if (i >= this->First && i < this->Last)
+    {
+      this->Values[i - this->First] = value;
+    }
+  }
+};
+
+/// A slice of vertex ids, three per triangle.
+struct IdSlice
+{
+  OutputSlice Ids;
+
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const
+  {
+    this->Ids.Set(3 * triangle + slot, static_cast<std::uint32_t>(vertex));
+  }
+};
+
+/// Whether a target includes some id of a triangle.
+DELAUNAYFLIP_HOST_DEVICE inline bool HasTriangle(const IdSlice& slice, std::int64_t triangle)
+{
+  return 3 * triangle + 2 >= slice.Ids.First && 3 * triangle < slice.Ids.Last;
+}
+DELAUNAYFLIP_HOST_DEVICE inline bool HasTriangle(const MutableTriangleArray&, std::int64_t)
+{
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// The caller's device memory as code without CUDA sees it. The CUDA backend implements these
+// functions; each may throw BackendUnavailable.
+
+/// CUDA's number of the GPU that has this memory; -1 if none has.
+int FindDeviceOf(const void* memory);
+
+/// Copies after all that is in the caller's stream, and waits.
+void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream& stream);
+void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream& stream);
+
+/// Calls store(values), which sets `size` values in the host's memory, and copies them to a device.
+template <typename T, typename Store>
+void StoreThroughHost(T* device, std::int64_t size, const DeviceStream& stream, const Store& store)
+{
+  std::vector<T> values(size);
+  store(values.data());
+  if (size > 0)
+  {
+    CopyToDevice(values.data(), size * static_cast<std::int64_t>(sizeof(T)), device, stream);
+  }
+}
 
 }
 

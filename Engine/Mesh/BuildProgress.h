@@ -24,17 +24,6 @@ enum class BuildStep
   Tested ///< All edges have been tested; the loop can begin.
 };
 
-/// The share of a run's time, 0 to 1, that has passed after a step, on one thread. The build is 0.4
-/// to 1 of a run in the plane and 0.65 to 1 on surfaces, which need a guard
-/// (Documentation/notebook/performance.md).
-inline double GetShareOfRun(GeometryKind geometry, BuildStep step)
-{
-  constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.43, 0.45, 0.50 };
-  constexpr double OfSurfaces[] = { 0.02, 0.11, 0.14, 0.24, 0.28, 0.39, 0.54, 0.56, 0.65 };
-  const auto i = static_cast<int>(step);
-  return geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i];
-}
-
 /// Tells an observer, between the steps of a build, the share of the run that is done.
 class BuildProgress
 {
@@ -46,10 +35,16 @@ public:
   {
   }
 
+  /// Tells the share of a run's time that has passed after a step, on one thread. The build is 0.4
+  /// to 1 of a run in the plane and 0.65 to 1 on surfaces, which need a guard
+  /// (Documentation/notebook/performance.md).
   /// @throws RunAborted.
   void Reach(GeometryKind geometry, BuildStep step) const
   {
-    this->Tell(GetShareOfRun(geometry, step));
+    constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.43, 0.45, 0.50 };
+    constexpr double OfSurfaces[] = { 0.02, 0.11, 0.14, 0.24, 0.28, 0.39, 0.54, 0.56, 0.65 };
+    const auto i = static_cast<int>(step);
+    this->Tell(geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i]);
   }
 
   /// @throws RunAborted.

@@ -6,6 +6,56 @@
 
 namespace delaunayflip
 {
+
+VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles)
+  : Mesh(mesh),
+    First(vertices, NoHalfEdge)
+{
+  std::vector<bool> isKnown(4 * triangles, false);
+  const auto addFans = [&](bool open)
+  {
+    for (std::int64_t i = 0; i < 3 * triangles; ++i)
+    {
+      const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3));
+      const HalfEdgeId leaves = mesh.GetHalfEdge(PlaneMesh::Previous(corner));
+      if (!isKnown[corner] && (!open || mesh.FindAcross(leaves) == NoCorner))
+      {
+        const VertexId vertex = mesh.GetVertex(corner);
+        if (this->First[vertex] == NoHalfEdge)
+        {
+          this->First[vertex] = leaves;
+        }
+        else
+        {
+          this->Others.emplace(vertex, leaves);
+        }
+        this->SearchFan(leaves,
+          [&](CornerId known)
+          {
+            isKnown[known] = true;
+            return false;
+          });
+      }
+    }
+  };
+  addFans(true);
+  addFans(false); // of these any corner is the first
+}
+
+void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfEdgeId fromQ)
+{
+  for (const auto& [vertex, halfEdge] : { std::pair(quad.P, fromP), std::pair(quad.Q, fromQ) })
+  {
+    HalfEdgeId& first = this->First[vertex];
+    first = EdgeOf(first) == edge ? halfEdge : first;
+    const auto [begin, end] = this->Others.equal_range(vertex);
+    for (auto other = begin; other != end; ++other)
+    {
+      other->second = EdgeOf(other->second) == edge ? halfEdge : other->second;
+    }
+  }
+}
+
 namespace
 {
 

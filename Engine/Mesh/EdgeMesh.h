@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 /// @file
 /// The paper's arrays (Sec. 2: Triangles, Edges, Opposites) in half-edge form.
@@ -88,7 +90,7 @@ struct alignas(32) TriangleRecord
   std::uint32_t Flips; ///< In how many flips it took part, times OneFlip, and the builder's marks.
 };
 
-/// Flips are counted above seven bits of marks (EdgeMeshSteps.h).
+/// Flips are counted above seven bits of marks (EdgeTable.h).
 constexpr std::uint32_t OneFlip = 1u << 7;
 
 /// The value at a slot. A device keeps what it loaded in registers, which have no index.
@@ -210,6 +212,70 @@ struct EdgeMesh
     return { this->Triangles.Data(), this->CornerOfHalfEdge.Data(), this->States.Data() };
   }
 };
+
+//------------------------------------------------------------------------------
+// The invariants of an edge mesh.
+
+/// Checks an edge. @returns by the sum: how many sides it has, or -1 if it is broken.
+struct AuditStep
+{
+  const TriangleRecord* Triangles;
+  const CornerId* CornerOfHalfEdge;
+  const EdgeState* States;
+  std::int64_t NumberOfTriangles;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t e, std::int64_t& sum) const
+  {
+    const CornerId* corners = &this->CornerOfHalfEdge[2 * e];
+    const int sides = corners[1] == NoCorner ? 1 : 2;
+    const bool isFixed = this->States[e] == EdgeState::Fixed;
+    bool isSound = sides == 2 || isFixed;
+    VertexId found[2][3]; // the opposite vertex, and the ends in the direction of the triangle
+    for (int side = 0; side < sides && isSound; ++side)
+    {
+      const std::int64_t triangle = TriangleOf(corners[side]);
+      const int slot = SlotOf(corners[side]);
+      isSound = triangle < this->NumberOfTriangles && slot < 3 &&
+        this->Triangles[triangle].HalfEdges[slot] == 2 * e + side;
+      for (int i = 0; i < 3 && isSound; ++i)
+      {
+        found[side][i] = this->Triangles[triangle].Vertices[(slot + i) % 3];
+      }
+    }
+    if (sides == 2 && isSound)
+    {
+      const bool opposed = found[0][1] == found[1][2] && found[0][2] == found[1][1];
+      const bool alike = found[0][1] == found[1][1] && found[0][2] == found[1][2];
+      isSound = isFixed ? opposed || alike : opposed && found[0][0] != found[1][0];
+    }
+    sum += isSound ? sides : -1;
+  }
+};
+
+/// Counts what breaks the adjacency: a corner and its half-edge do not name each other, an id is
+/// out of range, the two sides of an edge have different end vertices, or, unless the edge is
+/// Fixed, they run the same way or face the same vertex. 0 for a consistent mesh.
+template <typename Backend>
+std::int64_t CountInconsistencies(const EdgeMesh& mesh, const Backend& backend)
+{
+  // Two half-edges that name the same corner cannot both be named by it.
+  return 3 * mesh.NumberOfTriangles -
+    backend.template Sum<std::int64_t>(mesh.NumberOfEdges,
+      AuditStep{ mesh.Triangles.Data(), mesh.CornerOfHalfEdge.Data(), mesh.States.Data(),
+        mesh.NumberOfTriangles });
+}
+
+/// Throws std::logic_error if CountInconsistencies is not 0, which is a bug of the engine.
+template <typename Backend>
+void RequireConsistent(const EdgeMesh& mesh, const Backend& backend)
+{
+  const std::int64_t count = CountInconsistencies(mesh, backend);
+  if (count > 0)
+  {
+    throw std::logic_error("the edge mesh broke: " + std::to_string(count) +
+      " half-edges are inconsistent; please report this with the mesh");
+  }
+}
 
 }
 

@@ -3,25 +3,296 @@
 #ifndef DELAUNAYFLIP_EDGEMESHBUILDER_H
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
+#include "Atomics.h"
 #include "BuildProgress.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
-#include "FixedEdges.h"
+#include "FlipError.h"
 #include "FlipReport.h"
+#include "InputChecks.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
+#include "SurfaceAngles.h"
+#include "WideAngles.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 /// @file
-/// Makes an edge mesh of triangles, in linear time whatever the vertex degrees.
+/// Makes an edge mesh of triangles, in linear time whatever the vertex degrees, and decides which
+/// edges stay.
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Which edges stay.
+
+struct EdgeMeshInput
+{
+  const MeshInput& Input;
+  const MeshSurvey& Survey;
+  const SpatialOrder& Order;
+  double FeatureAngle; ///< Degrees; 180 fixes none. Surfaces only.
+};
+
+struct EdgeMeshResult
+{
+  EdgeMesh Edges;
+  EdgeTable Table; ///< Vertex pairs of all edges, without words; or empty.
+  EdgeCounts Counts;
+  Defect DuplicateTriangles;
+  std::int64_t MissingConstraints = 0;
+};
+
+/// Why edges were fixed. Edges are counted, a non-manifold one once.
+struct FixedSums
+{
+  std::int64_t Boundary = 0, WronglyWound = 0, Feature = 0, Region = 0, Fixed = 0;
+  std::int64_t Duplicate = 0; ///< Between two triangles on the same three points.
+  std::int64_t OneOfMany = 0; ///< Edge records of non-manifold edges.
+
+  DELAUNAYFLIP_HOST_DEVICE FixedSums& operator+=(const FixedSums& part)
+  {
+    this->Boundary += part.Boundary;
+    this->WronglyWound += part.WronglyWound;
+    this->Feature += part.Feature;
+    this->Region += part.Region;
+    this->Duplicate += part.Duplicate;
+    this->Fixed += part.Fixed;
+    this->OneOfMany += part.OneOfMany;
+    return *this;
+  }
+};
+
+/// Fixes one edge if topology, the caller or the shape of the input demand it, and counts it.
+struct FixEdgeStep
+{
+  EdgeMeshView Mesh;
+  const std::int32_t* Regions; ///< Or null.
+  PointArray Points;
+  SpatialOrderView Order;
+  CoordinateRange Range;
+  bool HasFeatures; ///< Sharp edges stay.
+  double FeatureCosine;
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t edge) const
+  {
+    PrefetchTriangles(this->Mesh, static_cast<EdgeId>(edge));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, FixedSums& sums) const
+  {
+    const auto edge = static_cast<EdgeId>(i);
+    const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
+    const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
+    if (IsLoop(triangle, SlotOf(corner)))
+    {
+      // A loop of a triangle with a repeated id is not an edge, and not counted.
+      this->Mesh.States[edge] = EdgeState::Fixed;
+      return;
+    }
+    const CornerRole role = GetRole(triangle, SlotOf(corner));
+    sums.Boundary += role == CornerRole::Alone ? 1 : 0;
+    sums.OneOfMany += role == CornerRole::OneOfMany ? 1 : 0;
+    if (role != CornerRole::Leader || this->MustStay(edge, sums))
+    {
+      this->Mesh.States[edge] = EdgeState::Fixed;
+      ++sums.Fixed;
+    }
+  }
+
+private:
+  /// Whether an edge of two triangles must stay.
+  DELAUNAYFLIP_HOST_DEVICE bool MustStay(EdgeId edge, FixedSums& sums) const
+  {
+    const Quad quad = this->Mesh.GetQuad(edge);
+    const TriangleRecord& a = this->Mesh.Triangles[TriangleOf(quad.CornerA)];
+    const TriangleRecord& b = this->Mesh.Triangles[TriangleOf(quad.CornerB)];
+    const bool wronglyWound = quad.P != GetAt(b.Vertices, PreviousSlot(SlotOf(quad.CornerB)));
+    const bool duplicate = quad.A == quad.B;
+    const bool region =
+      this->Regions && this->Regions[a.InputTriangle] != this->Regions[b.InputTriangle];
+    bool feature = false;
+    if (this->HasFeatures && !wronglyWound)
+    {
+      const auto load = [this](VertexId rank)
+      { return LoadPoint(this->Points, this->Order.GetVertex(rank)); };
+      const QuadPoints points{ load(quad.A), load(quad.P), load(quad.Q), load(quad.B) };
+      feature = IsWide(this->Range, points) ? IsSharpWide(points, this->FeatureCosine)
+                                            : IsSharp(points, this->FeatureCosine);
+    }
+    sums.WronglyWound += wronglyWound ? 1 : 0;
+    sums.Region += region ? 1 : 0;
+    sums.Duplicate += duplicate ? 1 : 0;
+    sums.Feature += feature ? 1 : 0;
+    return wronglyWound || duplicate || region || feature ||
+      ((a.Flips | b.Flips) & UntouchableBit) != 0;
+  }
+};
+
+/// @returns whether a triangle may have the same points as another one.
+template <typename Backend>
+bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
+{
+  const bool hasFeatures =
+    input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
+  const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
+    input.Order.View(), input.Survey.Range, hasFeatures,
+    std::cos(input.FeatureAngle * DegreesToRadians) };
+  const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
+  EdgeCounts& counts = result.Counts;
+  counts.Boundary = sums.Boundary;
+  counts.WronglyWound = sums.WronglyWound;
+  counts.Feature = sums.Feature;
+  counts.Region = sums.Region;
+  counts.Fixed = sums.Fixed - sums.OneOfMany + counts.NonManifold;
+  return counts.NonManifold > 0 || sums.Duplicate > 0 || input.Survey.RepeatedIds.Count > 0;
+}
+
+/// Whether every edge of a triangle has more than two triangles, or two on the same three points.
+/// This holds for every triangle with a duplicate.
+DELAUNAYFLIP_HOST_DEVICE inline bool MayBeRepeated(const EdgeMeshView& mesh, std::int64_t t)
+{
+  const TriangleRecord& triangle = mesh.Triangles[t];
+  bool may = true;
+  for (int slot = 0; slot < 3 && may; ++slot)
+  {
+    const CornerRole role = GetRole(triangle, slot);
+    may = role == CornerRole::OneOfMany;
+    if (role == CornerRole::Leader || role == CornerRole::Follower)
+    {
+      const Quad quad = mesh.GetQuad(EdgeOf(triangle.HalfEdges[slot]));
+      may = quad.A == quad.B;
+    }
+  }
+  return may;
+}
+
+/// The triangles with the same points as one in a smaller slot.
+template <typename Backend>
+Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
+{
+  const EdgeMeshView mesh = edges.View();
+  const std::int64_t count = backend.template Sum<std::int64_t>(edges.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & sum)
+    { sum += MayBeRepeated(mesh, t) ? 1 : 0; });
+  std::vector<TriangleRecord> suspects(count); // none in a clean mesh
+  if (count > 0)
+  {
+    Array<TriangleRecord> found = backend.template MakeArray<TriangleRecord>(count);
+    Array<std::uint32_t> cursor = backend.template MakeArray<std::uint32_t>(1);
+    TriangleRecord* records = found.Data();
+    std::uint32_t* next = cursor.Data();
+    backend.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *next = 0; });
+    backend.ForEach(edges.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        if (MayBeRepeated(mesh, t))
+        {
+          records[AtomicAdd(next, 1u)] = mesh.Triangles[t];
+        }
+      });
+    backend.Download(records, count, suspects.data());
+  }
+  using Key = std::array<std::uint32_t, 4>; // the points, ascending, and the caller's slot
+  std::vector<Key> keys;
+  for (TriangleRecord& triangle : suspects)
+  {
+    std::uint32_t* v = triangle.Vertices;
+    std::sort(v, v + 3);
+    keys.push_back({ v[0], v[1], v[2], triangle.InputTriangle });
+  }
+  std::sort(keys.begin(), keys.end());
+  IdSample repeated;
+  for (std::size_t i = 1; i < keys.size(); ++i)
+  {
+    if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin()))
+    {
+      repeated.Note(keys[i][3]);
+    }
+  }
+  return MakeDefect("triangles that repeat another one's points", repeated);
+}
+
+inline std::int64_t CheckConstraint(const TriangleMesh& mesh, std::int64_t constraint, int end)
+{
+  const std::int64_t point = mesh.ConstraintEdges[2 * constraint + end];
+  if (point < 0 || point >= mesh.Points.Count)
+  {
+    throw InvalidMesh("constraint edge " + std::to_string(constraint) + " names point " +
+        std::to_string(point) + ", but the mesh has " + DescribePoints(mesh.Points.Count),
+      constraint, point);
+  }
+  return point;
+}
+
+struct ConstraintSums
+{
+  std::int64_t Found = 0, Missing = 0, NewlyFixed = 0;
+
+  DELAUNAYFLIP_HOST_DEVICE ConstraintSums& operator+=(const ConstraintSums& part)
+  {
+    this->Found += part.Found;
+    this->Missing += part.Missing;
+    this->NewlyFixed += part.NewlyFixed;
+    return *this;
+  }
+};
+
+/// Fixes the edges that are constraints. A repeated constraint counts once.
+template <typename Backend>
+void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
+{
+  const TriangleMesh& caller = input.Input.Caller;
+  const std::int64_t count = caller.NumberOfConstraintEdges;
+  if (count == 0)
+  {
+    return;
+  }
+  std::vector<std::uint32_t> ends(2 * count);
+  for (std::int64_t i = 0; i < 2 * count; ++i)
+  {
+    ends[i] = static_cast<std::uint32_t>(CheckConstraint(caller, i / 2, static_cast<int>(i % 2)));
+  }
+  Array<std::uint32_t> local = backend.template MakeArray<std::uint32_t>(2 * count);
+  std::uint32_t* points = local.Data();
+  backend.Upload(ends.data(), 2 * count, points);
+  const EdgeTableView table = result.Table.View();
+  const SpatialOrderView order = input.Order.View();
+  const EdgeMeshView mesh = result.Edges.View();
+  const ConstraintSums sums = backend.template Sum<ConstraintSums>(count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, ConstraintSums & part)
+    {
+      const VertexId a = order.GetRank(points[2 * i]), b = order.GetRank(points[2 * i + 1]);
+      const std::uint32_t slot = a == b ? EdgeTableView::NoSlot : table.Find(EdgeKey(a, b));
+      if (slot == EdgeTableView::NoSlot)
+      {
+        part.Missing += a == b ? 0 : 1;
+        return;
+      }
+      constexpr CornerId Seen = 0xFFFFFFFDu;
+      const CornerId second = AtomicExchange(&table.Second[slot], Seen);
+      part.Found += second == Seen ? 0 : 1;
+      if (second != Seen && second != ManyCorners)
+      {
+        const CornerId corner = table.First[slot];
+        const EdgeId edge = EdgeOf(mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)]);
+        part.NewlyFixed += mesh.States[edge] == EdgeState::Fixed ? 0 : 1;
+        mesh.States[edge] = EdgeState::Fixed;
+      }
+    });
+  result.Counts.Constraint = sums.Found;
+  result.Counts.Fixed += sums.NewlyFixed;
+  result.MissingConstraints = sums.Missing;
+}
+
+//------------------------------------------------------------------------------
 
 /// Finds or makes the table entries of the edges opposite corners 3 * triangle + slot, if they are
 /// of the table's slice, and adds the corners to them.
@@ -37,19 +308,13 @@ struct PairStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, PairSums& sums) const
   {
     TriangleRecord& triangle = this->Triangles[i / 3];
-    const std::uint64_t key = KeyOpposite(triangle, static_cast<int>(i % 3));
+    const int slot = static_cast<int>(i % 3);
+    const std::uint64_t key = KeyOpposite(triangle, slot);
     // A table that has failed once is discarded.
-    if (sums.Failures == 0 && this->Table.Slice.Holds(key))
+    if (sums.Failures > 0 || !this->Table.Slice.Holds(key))
     {
-      this->Pair(
-        key, triangle, MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)), sums);
+      return;
     }
-  }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE void Pair(
-    std::uint64_t key, TriangleRecord& triangle, CornerId corner, PairSums& sums) const
-  {
     bool inserted = false;
     const std::uint32_t entry = this->Table.FindOrInsert(key, inserted);
     if (entry == EdgeTableView::NoSlot)
@@ -57,8 +322,18 @@ private:
       ++sums.Failures;
       return;
     }
-    const int slot = SlotOf(corner);
-    const bool many = AttachCorner(this->Table, entry, corner, inserted);
+    const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), slot);
+    bool many = false; // this makes the edge non-manifold
+    if (inserted)
+    {
+      this->Table.First[entry] = corner; // the first word belongs to the corner that inserted it
+    }
+    else
+    {
+      CornerId* second = &this->Table.Second[entry];
+      many = AtomicCompareExchange(second, NoCorner, corner) != NoCorner &&
+        AtomicExchange(second, ManyCorners) != ManyCorners;
+    }
     const bool isEdge = !IsLoop(triangle, slot);
     sums.Edges += isEdge && inserted ? 1 : 0;
     sums.NonManifold += isEdge && many ? 1 : 0;
@@ -95,8 +370,13 @@ struct RoleStep
       if (known[slot])
       {
         const CornerId corner = MakeCorner(static_cast<TriangleId>(t), slot);
+        const CornerId first = this->Table.First[triangle.HalfEdges[slot]];
+        const CornerId second = this->Table.Second[triangle.HalfEdges[slot]];
+        const bool isPair = second != NoCorner && second != ManyCorners;
+        others[slot] = isPair ? (first == corner ? second : first) : NoCorner;
+        const CornerRole ofPair = corner < others[slot] ? CornerRole::Leader : CornerRole::Follower;
         const CornerRole role =
-          FindRole(this->Table, triangle.HalfEdges[slot], corner, others[slot]);
+          isPair ? ofPair : (second == NoCorner ? CornerRole::Alone : CornerRole::OneOfMany);
         roles |= static_cast<std::uint32_t>(role) << (2 * slot);
       }
     }
@@ -130,7 +410,7 @@ struct NumberStep
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, std::int64_t first) const
   {
-    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    TriangleRecord& triangle = this->Mesh.Triangles[t];
     auto next = static_cast<EdgeId>(first);
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -139,8 +419,15 @@ struct NumberStep
       {
         this->Mesh.States[next] =
           role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
-        NumberEdge(this->Mesh, MakeCorner(static_cast<TriangleId>(t), slot),
-          triangle.HalfEdges[slot], next++);
+        const CornerId other = triangle.HalfEdges[slot];
+        this->Mesh.CornerOfHalfEdge[2 * next] = MakeCorner(static_cast<TriangleId>(t), slot);
+        this->Mesh.CornerOfHalfEdge[2 * next + 1] = other;
+        triangle.HalfEdges[slot] = 2 * next;
+        if (other != NoCorner)
+        {
+          this->Mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * next + 1;
+        }
+        ++next;
       }
     }
   }
@@ -173,13 +460,23 @@ struct LoadStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
   {
     TriangleRecord& record = this->Triangles[t];
-    record.InputTriangle = this->Order.GetTriangle(t);
-    record.Flips = IsUntouchable(this->Mesh, this->Uses, record.InputTriangle) ? UntouchableBit : 0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      record.Vertices[slot] =
-        this->Order.GetRank(this->Mesh.Triangles.Get(record.InputTriangle, slot));
-    }
+    const TriangleId own = this->Order.GetTriangle(t);
+    const std::int64_t p = this->Mesh.Triangles.Get(own, 0);
+    const std::int64_t q = this->Mesh.Triangles.Get(own, 1);
+    const std::int64_t r = this->Mesh.Triangles.Get(own, 2);
+    // No edge may flip: by request of the caller, because of a repeated id, or because a coordinate
+    // is not finite.
+    const bool isUntouchable =
+      (this->Mesh.FrozenTriangles && this->Mesh.FrozenTriangles[own] != 0) || p == q || q == r ||
+      r == p ||
+      (this->Uses &&
+        (this->Uses[p] == PointUse::NotFinite || this->Uses[q] == PointUse::NotFinite ||
+          this->Uses[r] == PointUse::NotFinite));
+    record.InputTriangle = own;
+    record.Flips = isUntouchable ? UntouchableBit : 0;
+    record.Vertices[0] = this->Order.GetRank(p);
+    record.Vertices[1] = this->Order.GetRank(q);
+    record.Vertices[2] = this->Order.GetRank(r);
   }
 };
 
@@ -200,30 +497,13 @@ EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
   return edges;
 }
 
-/// Pairs the corners of a slice, by a table for `expected` edges. @returns false if that is too
-/// small.
-template <typename Backend>
-bool TryPairSlice(
-  EdgeMeshResult& result, const VertexSlice& slice, std::int64_t expected, const Backend& backend)
-{
-  result.Table = EdgeTable();
-  result.Table = EdgeTable(expected, slice, true, backend);
-  const PairSums sums = backend.template Sum<PairSums>(3 * result.Edges.NumberOfTriangles,
-    PairStep{ result.Table.View(), result.Edges.Triangles.Data() });
-  // With a larger share of slots in use, later searches would be long.
-  constexpr double LargestFill = 0.8;
-  result.Counts.Edges += sums.Edges;
-  result.Counts.NonManifold += sums.NonManifold;
-  const auto capacity = static_cast<double>(result.Table.GetCapacity());
-  return sums.Failures == 0 && static_cast<double>(sums.Edges) <= LargestFill * capacity;
-}
-
-/// Pairs the corners slice by slice, and numbers the edges. @returns whether all tables were large
-/// enough.
+/// Pairs the corners slice by slice, and numbers the edges. @returns whether all tables, for
+/// `expected` edges together, were large enough.
 template <typename Backend>
 bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t slices,
   std::int64_t expected, typename Backend::Numbering& numbering, const Backend& backend)
 {
+  TriangleRecord* records = result.Edges.Triangles.Data();
   const std::int64_t triangles = result.Edges.NumberOfTriangles;
   result.Counts.Edges = 0;
   result.Counts.NonManifold = 0;
@@ -231,17 +511,28 @@ bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t s
   {
     const VertexSlice slice{ static_cast<VertexId>(vertices * i / slices),
       static_cast<VertexId>(vertices * (i + 1) / slices) };
-    if (!TryPairSlice(result, slice, expected / slices, backend))
+    result.Table = EdgeTable(); // frees the memory first
+    result.Table = EdgeTable(expected / slices, slice, true, backend);
+    const PairSums sums =
+      backend.template Sum<PairSums>(3 * triangles, PairStep{ result.Table.View(), records });
+    result.Counts.Edges += sums.Edges;
+    result.Counts.NonManifold += sums.NonManifold;
+    // With a larger share of slots in use, later searches would be long.
+    constexpr double LargestFill = 0.8;
+    const auto capacity = static_cast<double>(result.Table.GetCapacity());
+    if (sums.Failures > 0 || static_cast<double>(sums.Edges) > LargestFill * capacity)
     {
       return false;
     }
-    const RoleStep setRoles{ result.Table.View(), result.Edges.Triangles.Data() };
+    const RoleStep setRoles{ result.Table.View(), records };
     if (i + 1 < slices)
     {
       backend.ForEach(triangles, setRoles);
-      continue;
     }
-    numbering = backend.Count(triangles, setRoles);
+    else
+    {
+      numbering = backend.Count(triangles, setRoles);
+    }
   }
   return true;
 }
@@ -271,19 +562,14 @@ typename Backend::Numbering PairByTable(
   throw std::logic_error("the edge table runs full; please report this with the mesh");
 }
 
-/// Whether the builder will search for edges. A guard makes its own table, which needs no words.
-inline bool NeedsTable(const EdgeMeshInput& input)
-{
-  return input.Input.Caller.NumberOfConstraintEdges > 0;
-}
-
 /// Finds the other corner of every corner's edge, in the way that suits the backend.
 /// @returns the numbering of the edges.
 template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  if (NeedsTable(input))
+  // Constraints are searched for in it. A guard makes its own table, which needs no words.
+  if (input.Input.Caller.NumberOfConstraintEdges > 0)
   {
     return PairByTable(input, result, 1, backend);
   }
@@ -346,7 +632,11 @@ EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const 
     NumberEdges(result, numbering, backend);
   }
   progress.Reach(input.Survey.Geometry, BuildStep::Numbered);
-  FixEdges(input, result, backend);
+  if (FixByInput(input, result, backend))
+  {
+    result.DuplicateTriangles = FindDuplicates(result.Edges, backend);
+  }
+  FixConstraints(input, result, backend);
   result.Table.DropWords();
   return result;
 }

@@ -79,11 +79,7 @@ struct EdgeTableView
   {
     const std::uint64_t home =
       (std::uint64_t(smaller - this->Slice.First) * this->Stride) >> StrideBits;
-    return this->Wrap(home + scattered % NearSlots);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint64_t slot) const
-  {
+    const std::uint64_t slot = home + scattered % NearSlots;
     return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
   }
 
@@ -250,6 +246,67 @@ private:
   Array<std::uint32_t> First, Second;
   VertexSlice Slice{ 0, 0 };
 };
+
+//------------------------------------------------------------------------------
+// What the builder does for one corner or edge. Until edges have numbers, a triangle's HalfEdges
+// hold first the table slot of the edge opposite to each corner, then the edge's other corner. Its
+// Flips hold the roles of its corners, two bits each, from then on.
+
+/// Second word of an edge with three or more corners.
+constexpr CornerId ManyCorners = 0xFFFFFFFEu;
+
+/// Bit of Flips: no edge of this triangle may flip.
+constexpr std::uint32_t UntouchableBit = 1u << 6;
+
+/// The counts of pairing. Loops (IsLoop) are not edges.
+struct PairSums
+{
+  std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
+
+  DELAUNAYFLIP_HOST_DEVICE PairSums& operator+=(const PairSums& part)
+  {
+    this->Edges += part.Edges;
+    this->NonManifold += part.NonManifold;
+    this->Failures += part.Failures;
+    return *this;
+  }
+};
+
+/// The role of a corner for its edge.
+enum class CornerRole : std::uint32_t
+{
+  Follower, ///< The other corner numbers the edge.
+  Leader, ///< The smaller corner of two.
+  Alone, ///< The only corner: a boundary edge.
+  OneOfMany ///< Of a non-manifold edge; gets an edge record of its own.
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
+{
+  return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
+}
+
+/// Whether the edge opposite a slot joins a vertex with itself, in a triangle with a repeated id.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int slot)
+{
+  return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
+}
+
+DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
+{
+  return static_cast<CornerRole>((triangle.Flips >> (2 * slot)) & 3);
+}
+
+/// The number of edges that the corners of a triangle lead.
+DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
+{
+  int leaders = 0;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
+  }
+  return leaders;
+}
 
 }
 

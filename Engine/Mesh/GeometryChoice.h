@@ -3,23 +3,298 @@
 #ifndef DELAUNAYFLIP_GEOMETRYCHOICE_H
 #define DELAUNAYFLIP_GEOMETRYCHOICE_H
 
-#include "Defects.h"
+#include "Array.h"
+#include "Atomics.h"
+#include "EdgeMesh.h"
+#include "ExactPredicates.h"
+#include "FilteredPredicates.h"
 #include "FlipError.h"
 #include "FlipOptions.h"
-#include "HeightFieldSurvey.h"
+#include "HostDevice.h"
 #include "MeshSurvey.h"
-#include "PlaneFinder.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
+#include "TriangleMesh.h"
+#include "WideAngles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 
 /// @file
-/// Chooses the space in which the edges of a mesh are judged, and says why.
+/// Chooses the space in which the edges of a mesh are judged, and says why: in a plane; over x and
+/// y, if the mesh is a height field that is not steep; or as a surface. Decided before edges are
+/// known. Only integers and maxima are computed, so that both backends come to the same answer.
 
 namespace delaunayflip
 {
+
+/// Scales by a power of two, in two steps, so that the largest coordinate is in 1 .. 2 and lengths
+/// neither overflow nor vanish. The same on every backend.
+struct PlaneScale
+{
+  double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.
+
+  explicit PlaneScale(const BoundingBox& box)
+  {
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
+    }
+    const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    this->Factors[0] = std::scalbn(1.0, exponent / 2);
+    this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 operator()(const Vector3& p) const
+  {
+    return this->Factors[1] * (this->Factors[0] * p);
+  }
+
+  double FindDiagonal(const BoundingBox& box) const
+  {
+    return Length((*this)({ box.Upper[0], box.Upper[1], box.Upper[2] }) -
+      (*this)({ box.Lower[0], box.Lower[1], box.Lower[2] }));
+  }
+};
+
+/// Points closer to a plane than this share of the bounding box's diagonal lie in it.
+constexpr double PlanarTolerance = 1e-6;
+
+/// A point, its scaled position, and a value to be maximised; the first of equals wins.
+struct Farthest
+{
+  std::int64_t Point = -1;
+  double Value = -1.0;
+  Vector3 Position;
+
+  DELAUNAYFLIP_HOST_DEVICE Farthest& operator+=(const Farthest& other)
+  {
+    const bool first = other.Value == this->Value && other.Point < this->Point;
+    if (other.Value > this->Value || first)
+    {
+      *this = other;
+    }
+    return *this;
+  }
+};
+
+/// The turn of a, b, c in x and y. Also 0 if the filter finds almost no area and fixed-point
+/// integers do not suffice, because a device has no wider ones.
+DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const PlanePoint p{ a.X, a.Y, 0.0 }, q{ b.X, b.Y, 0.0 }, r{ c.X, c.Y, 0.0 };
+  int sign = FilteredOrientation(p, q, r);
+  if (sign == UncertainSign)
+  {
+    sign = FixedPointOrientation(p, q, r);
+  }
+  return sign == UncertainSign ? 0 : sign;
+}
+
+/// Whether a triangle slopes below 45 degrees: its plane or, of a sliver, its three edges. A sliver
+/// is less than a fifth as high as its longest edge is long.
+///
+/// An edge joins two points of the terrain, so its slope is one that the terrain has. The plane of
+/// a sliver may be steep in the gentlest terrain.
+/// @param normal of length twice the area.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const Vector3& normal)
+{
+  constexpr double Fifth = 0.2;
+  const double squaredArea = Dot(normal, normal);
+  bool isSliver = false;
+  bool areEdgesGentle = true;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const Vector3 edge = corners[(slot + 1) % 3] - corners[slot];
+    const double square = Dot(edge, edge);
+    isSliver = isSliver || squaredArea < Fifth * Fifth * square * square;
+    areEdgesGentle = areEdgesGentle && edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
+  }
+  const bool isPlaneGentle = normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y;
+  return isPlaneGentle || (isSliver && areEdgesGentle);
+}
+
+/// A sum of areas in units of 2^-60, in two words so that a billion of them fit.
+struct AreaSum
+{
+  static constexpr int LowBits = 30;
+
+  std::int64_t High = 0;
+  std::int64_t Low = 0;
+
+  /// @param area below 4.
+  DELAUNAYFLIP_HOST_DEVICE void Add(double area)
+  {
+    constexpr double Units = 1152921504606846976.0; // 2^60
+    const auto units = static_cast<std::int64_t>(Units * area);
+    this->High += units >> LowBits;
+    this->Low += units & ((std::int64_t(1) << LowBits) - 1);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE AreaSum& operator+=(const AreaSum& part)
+  {
+    this->High += part.High;
+    this->Low += part.Low;
+    return *this;
+  }
+
+  Integer128 Get() const { return (Integer128(this->High) << LowBits) + this->Low; }
+};
+
+struct TurnSums
+{
+  TurnSample Turns; ///< In x and y.
+  AreaSum All, Gentle; ///< Area in space: of all, and of those that slope below 45 degrees.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnSums& operator+=(const TurnSums& part)
+  {
+    this->Turns += part.Turns;
+    this->All += part.All;
+    this->Gentle += part.Gentle;
+    return *this;
+  }
+};
+
+/// The finite triangles of the caller, scaled.
+struct ScaledTriangles
+{
+  TriangleMesh Mesh;
+  const PointUse* Uses; ///< Null: all points are finite.
+  PlaneScale Scale; ///< Brings coordinates near 1, where the filters apply.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Mesh.Points.Prefetch(this->Mesh.Triangles.Get(t, slot));
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsFinite(std::int64_t t) const
+  {
+    return !this->Uses ||
+      (this->Uses[this->Mesh.Triangles.Get(t, 0)] == PointUse::Used &&
+        this->Uses[this->Mesh.Triangles.Get(t, 1)] == PointUse::Used &&
+        this->Uses[this->Mesh.Triangles.Get(t, 2)] == PointUse::Used);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Vector3 GetCorner(std::int64_t t, int slot) const
+  {
+    return this->Scale(LoadPoint(this->Mesh.Points, this->Mesh.Triangles.Get(t, slot)));
+  }
+};
+
+/// Adds up the turn, area and slope of a triangle.
+struct TurnStep
+{
+  ScaledTriangles Triangles;
+  double Factor; ///< Power of two that brings the scaled bounding box's diagonal to 1 .. 2.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const { this->Triangles.Prefetch(t); }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnSums& sums) const
+  {
+    if (!this->Triangles.IsFinite(t))
+    {
+      return;
+    }
+    const Vector3 corners[3] = { this->Triangles.GetCorner(t, 0), this->Triangles.GetCorner(t, 1),
+      this->Triangles.GetCorner(t, 2) };
+    sums.Turns.Note(FindTurn(corners[0], corners[1], corners[2]), t);
+    const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
+    const double area = Length(normal) * this->Factor * this->Factor;
+    sums.All.Add(area);
+    if (IsGentle(corners, normal))
+    {
+      sums.Gentle.Add(area);
+    }
+  }
+};
+
+/// Adds the angles of a triangle's corners, in x and y, to the sums of its points.
+///
+/// An angle is the difference of two directions. Both triangles of an edge compute the same number
+/// for its direction. So the angles around an inner point add up exactly to a whole number of
+/// turns; at the boundary, to within the rounding of two directions. Triangles that are turned over
+/// count as negative.
+struct StarStep
+{
+  static constexpr std::uint32_t QuarterTurn = 1u << 22;
+  static constexpr std::uint32_t FullTurn = 4 * QuarterTurn;
+
+  ScaledTriangles Triangles;
+  std::uint32_t* Angles; ///< One sum per point, modulo 2^32, for stars of up to 128 turns.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    this->Triangles.Prefetch(t);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)]);
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t) const
+  {
+    if (!this->Triangles.IsFinite(t))
+    {
+      return;
+    }
+    const Vector3 a = this->Triangles.GetCorner(t, 0);
+    const Vector3 b = this->Triangles.GetCorner(t, 1);
+    const Vector3 c = this->Triangles.GetCorner(t, 2);
+    const int turn = FindTurn(a, b, c);
+    if (turn == 0)
+    {
+      return;
+    }
+    const std::uint32_t directions[3] = { FindDirection(a, b), FindDirection(b, c),
+      FindDirection(c, a) };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)],
+        FindAngle(directions[slot], directions[(slot + 2) % 3], turn));
+    }
+  }
+
+private:
+  /// From 0 (along x) to FullTurn, increasing with the angle. The directions from a to b and from b
+  /// to a differ by exactly half a turn.
+  DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindDirection(const Vector3& a, const Vector3& b)
+  {
+    const double x = b.X - a.X;
+    const double y = b.Y - a.Y;
+    const double sum = std::fabs(x) + std::fabs(y);
+    const double share = sum > 0.0 ? std::fabs(y) / sum : 0.0;
+    const auto part = static_cast<std::uint32_t>(QuarterTurn * share);
+    if (y >= 0.0)
+    {
+      return x >= 0.0 ? part : 2 * QuarterTurn - part;
+    }
+    return x < 0.0 ? 2 * QuarterTurn + part : FullTurn - part;
+  }
+
+  /// The angle of a corner, from the directions to the next point and from the previous one: up to
+  /// half a turn, to the side to which the triangle turns. Rounding may exceed this range a little.
+  DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindAngle(
+    std::uint32_t toNext, std::uint32_t fromPrevious, int turn)
+  {
+    const std::uint32_t angle = (fromPrevious + 2 * QuarterTurn - toNext) & (FullTurn - 1);
+    const std::uint32_t most = turn > 0 ? 3 * QuarterTurn : QuarterTurn;
+    return angle < most ? angle : angle - FullTurn;
+  }
+};
+
+/// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
+/// at the points that they share with this one.
+template <typename Backend>
+void JoinPointSums(const Backend&, std::uint32_t*)
+{
+}
 
 /// Whether a bounding box is higher than wide, as with x and y in degrees and z in metres.
 /// @param times how many times as high, at least.
@@ -34,22 +309,15 @@ inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
-/// How many percent of the area slope less than 45 degrees, rounded down; 0 without area.
-inline int GetGentlePercent(const TurnSums& sums)
+inline TurnCounts CountTurns(const TurnSample& turns)
 {
-  const Integer128 all = sums.All.Get();
-  return all > 0 ? static_cast<int>(100 * sums.Gentle.Get() / all) : 0;
-}
-
-inline TurnCounts CountTurns(const TurnSums& sums)
-{
-  const std::int64_t left = sums.Left.Count;
-  const std::int64_t right = sums.Right.Count;
+  const std::int64_t left = turns.Left.Count;
+  const std::int64_t right = turns.Right.Count;
   TurnCounts counts;
   counts.Side = left + right == 0 ? 0 : (left >= right ? 1 : -1);
-  counts.Triangles = left + right + sums.Flat.Count;
+  counts.Triangles = left + right + turns.Flat.Count;
   counts.Others = left >= right ? right : left;
-  counts.Flat = sums.Flat.Count;
+  counts.Flat = turns.Flat.Count;
   return counts;
 }
 
@@ -67,34 +335,127 @@ inline std::string DescribeStrays(const TurnCounts& turns)
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
-template <typename Backend>
+template <typename BackendT>
 class GeometryChoice
 {
 public:
-  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const Backend& backend)
+  GeometryChoice(const MeshInput& input, MeshSurvey& survey, const BackendT& backend)
     : Input(input),
       Survey(survey),
-      Engine(backend)
+      Backend(backend),
+      Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
+        PlaneScale(survey.Box) }
   {
   }
 
   /// @throws InvalidOptions for GeometryKind::Planar if the points lie in no plane.
   void Choose(GeometryKind requested)
   {
-    const HeightFieldSurvey<Backend> heights(this->Input, this->Survey, this->Engine);
-    if (requested == GeometryKind::PlanarXY)
+    if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface)
     {
       this->Take(requested, AsRequested);
-    }
-    else if (requested == GeometryKind::Surface)
-    {
-      this->Take(requested, AsRequested);
-      this->Survey.Turns = CountTurns(heights.SumTurns());
+      if (requested == GeometryKind::Surface)
+      {
+        this->Survey.Turns = CountTurns(this->SumTurns().Turns);
+      }
     }
     else if (!this->TakePlane(requested))
     {
-      this->TakeSpace(heights);
+      this->TakeSpace();
     }
+  }
+
+  // Public because device lambdas require it.
+  /// The used point with the largest measure.
+  template <typename Measure>
+  Farthest FindFarthest(const Measure& measure) const
+  {
+    const PointArray points = this->Input.Local.Points;
+    const PointUse* uses = this->Survey.Uses.Data();
+    const PlaneScale scale = this->Triangles.Scale;
+    return this->Backend.template Sum<Farthest>(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, Farthest & farthest)
+      {
+        if (uses[i] == PointUse::Used)
+        {
+          const Vector3 position = scale(LoadPoint(points, i));
+          farthest += { i, measure(position), position };
+        }
+      });
+  }
+
+  /// Whether all used points lie in one plane.
+  /// @param normal receives its normal, or that of a plane that one point lies off.
+  /// @param off receives this point.
+  bool FindPlane(Vector3& normal, std::int64_t& off) const
+  {
+    const BoundingBox& box = this->Survey.Box;
+    normal = { 0.0, 0.0, 1.0 };
+    if (box.Lower[2] == box.Upper[2]) // as in most planar meshes
+    {
+      return true;
+    }
+    // This finds the first used point: the measure is the same for all.
+    const Farthest first =
+      this->FindFarthest([=] DELAUNAYFLIP_HOST_DEVICE(const Vector3&) { return 0.0; });
+    if (first.Point < 0)
+    {
+      return true;
+    }
+    const Vector3 origin = first.Position;
+    const Farthest second = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p) { return Dot(p - origin, p - origin); });
+    const Vector3 along = second.Position - origin;
+    const Farthest third = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p)
+      {
+        const Vector3 area = Cross(along, p - origin);
+        return Dot(area, area);
+      });
+    const Vector3 found = Cross(along, third.Position - origin);
+    const Farthest farthest = this->FindFarthest(
+      [=] DELAUNAYFLIP_HOST_DEVICE(const Vector3& p) { return std::fabs(Dot(found, p - origin)); });
+    normal = found;
+    off = farthest.Point;
+    return farthest.Value <=
+      PlanarTolerance * this->Triangles.Scale.FindDiagonal(box) * Length(normal);
+  }
+
+  /// How triangles turn in x and y, and how steep they are.
+  TurnSums SumTurns() const
+  {
+    // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
+    constexpr int SmallestExponent = -500;
+    const double length = this->Triangles.Scale.FindDiagonal(this->Survey.Box);
+    const double factor =
+      length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
+    return this->Backend.template Sum<TurnSums>(
+      this->Input.Local.Triangles.Count, TurnStep{ this->Triangles, factor });
+  }
+
+  /// The points around which triangles turn more than once.
+  IdSample FindOverlaps() const
+  {
+    // At both ends of an open fan, directions are rounded.
+    constexpr std::int64_t Slack = 8;
+    const int side = this->Survey.Turns.Side;
+    const std::int64_t points = this->Input.Local.Points.Count;
+    Array<std::uint32_t> angles = this->Backend.template MakeArray<std::uint32_t>(points);
+    std::uint32_t* angleOfPoint = angles.Data();
+    this->Backend.ForEach(
+      points, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { angleOfPoint[i] = 0; });
+    this->Backend.ForEach(
+      this->Input.Local.Triangles.Count, StarStep{ this->Triangles, angleOfPoint });
+    JoinPointSums(this->Backend, angleOfPoint);
+    return this->Backend.template Sum<IdSample>(points,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
+      {
+        const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
+        if (side * angle > StarStep::FullTurn + Slack)
+        {
+          sum.Note(i);
+        }
+      });
   }
 
 private:
@@ -105,46 +466,41 @@ private:
   void Take(GeometryKind geometry, const std::string& reason)
   {
     this->Survey.Geometry = geometry;
-    this->Survey.GeometryReason = reason;
-    if (geometry != GeometryKind::Surface)
-    {
-      this->Survey.GeometryReason += "; the feature angle has no effect";
-    }
+    this->Survey.GeometryReason =
+      reason + (geometry == GeometryKind::Surface ? "" : "; the feature angle has no effect");
   }
 
-  void ProjectAlong(int axis, bool tilted)
+  void TakePlane(int axis, bool isTilted, const char* reason)
   {
-    PlaneProjection& projection = this->Survey.Projection;
-    projection.AxisU = (axis + 1) % 3;
-    projection.AxisV = (axis + 2) % 3;
-    projection.AxisW = axis;
-    projection.Tilted = tilted;
+    this->Survey.Projection = { (axis + 1) % 3, (axis + 2) % 3, axis, isTilted };
+    this->Take(GeometryKind::Planar, reason);
   }
 
   /// Whether all points lie in one plane.
   bool TakePlane(GeometryKind requested)
   {
+    const bool isRequested = requested == GeometryKind::Planar;
     const WholeMesh& whole = this->Input.Caller.Whole;
-    if (requested == GeometryKind::Planar && whole.PlaneAxis >= 0)
+    if (isRequested && whole.PlaneAxis >= 0)
     {
-      this->ProjectAlong(whole.PlaneAxis, whole.PlaneIsTilted);
-      this->Take(requested, AsRequested);
+      this->TakePlane(whole.PlaneAxis, whole.PlaneIsTilted, AsRequested);
       return true;
     }
-    PlaneFinder<Backend> finder(this->Input, this->Survey, this->Engine);
-    if (finder.Find())
+    Vector3 normal;
+    std::int64_t off = -1;
+    if (this->FindPlane(normal, off))
     {
-      const int axis = finder.DominantAxis();
-      this->ProjectAlong(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis]);
-      this->Take(GeometryKind::Planar,
-        requested == GeometryKind::Planar ? AsRequested : "all points lie in one plane");
+      const double x = std::fabs(normal.X), y = std::fabs(normal.Y), z = std::fabs(normal.Z);
+      const int axis = z >= x && z >= y ? 2 : (y >= x ? 1 : 0);
+      this->TakePlane(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis],
+        isRequested ? AsRequested : "all points lie in one plane");
       return true;
     }
-    if (requested == GeometryKind::Planar)
+    if (isRequested)
     {
       throw InvalidOptions(
         "geometry 'planar' was requested, but the points do not lie in one plane: point " +
-        std::to_string(finder.FarthestOff()) +
+        std::to_string(off) +
         " is off by more than 1e-6 of the bounding box's diagonal; use 'surface', or 'planar-xy' "
         "for terrain");
     }
@@ -154,52 +510,45 @@ private:
   /// Chooses PlanarXY for what can only be terrain, else Surface. Flipping terrain as a surface
   /// turns triangles over in x and y if units are mixed or slopes are steep; flipping steep
   /// surfaces by their projection ruins them.
-  void TakeSpace(const HeightFieldSurvey<Backend>& heights)
+  void TakeSpace()
   {
-    const TurnSums sums = heights.SumTurns();
-    this->Survey.Turns = CountTurns(sums);
+    const TurnSums sums = this->SumTurns();
+    this->Survey.Turns = CountTurns(sums.Turns);
     const TurnCounts& turns = this->Survey.Turns;
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
     // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
     const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
-    const int gentle = GetGentlePercent(sums);
+    const Integer128 area = sums.All.Get();
+    const int gentle = // percent, rounded down
+      area > 0 ? static_cast<int>(100 * sums.Gentle.Get() / area) : 0;
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
-    if (!turns.AreUniform() && !mayStray)
+    const std::string field = "a height field over x and y" +
+      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
+    if (turns.Side == 0)
     {
-      this->RefuseStrays(sums);
+      this->Take(GeometryKind::Surface, "no triangle has area in x and y");
+    }
+    else if (!turns.AreUniform() && !mayStray)
+    {
+      this->Take(GeometryKind::Surface,
+        "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
+      this->WarnOfStrays(sums.Turns);
     }
     else if (!suits)
     {
-      this->Take(GeometryKind::Surface, this->DescribeField() + ", but only " + slopes + Advice);
-      this->WarnOfStrays(sums);
+      this->Take(GeometryKind::Surface, field + ", but only " + slopes + Advice);
+      this->WarnOfStrays(sums.Turns);
     }
-    else if (!this->RefuseOverlaps(heights))
+    else if (!this->RefuseOverlaps())
     {
       this->Take(GeometryKind::PlanarXY,
-        this->DescribeField() + ", and " + (isHigh ? "z extends further than x and y" : slopes));
+        field + ", and " + (isHigh ? "z extends further than x and y" : slopes));
     }
-  }
-
-  std::string DescribeField() const
-  {
-    const TurnCounts& turns = this->Survey.Turns;
-    return "a height field over x and y" +
-      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
-  }
-
-  void RefuseStrays(const TurnSums& sums)
-  {
-    const TurnCounts& turns = this->Survey.Turns;
-    this->Take(GeometryKind::Surface,
-      turns.Side == 0
-        ? "no triangle has area in x and y"
-        : "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
-    this->WarnOfStrays(sums);
   }
 
   /// Where they are few, and all that keeps the mesh from being a height field.
-  void WarnOfStrays(const TurnSums& sums)
+  void WarnOfStrays(const TurnSample& sample)
   {
     const TurnCounts& turns = this->Survey.Turns;
     if (turns.GetStrays() > 0 && turns.AreNearlyUniform())
@@ -214,14 +563,14 @@ private:
       this->Survey.NearlyHeightField = MakeDefect(what +
           ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
           "planar-xy",
-        !areTurned ? sums.Flat : (turns.Side > 0 ? sums.Right : sums.Left));
+        !areTurned ? sample.Flat : (turns.Side > 0 ? sample.Right : sample.Left));
     }
   }
 
   /// Whether stars overlap.
-  bool RefuseOverlaps(const HeightFieldSurvey<Backend>& heights)
+  bool RefuseOverlaps()
   {
-    const IdSample overlaps = heights.FindOverlaps(this->Survey.Turns.Side);
+    const IdSample overlaps = this->FindOverlaps();
     if (overlaps.Count == 0)
     {
       return false;
@@ -238,8 +587,75 @@ private:
 
   const MeshInput& Input;
   MeshSurvey& Survey;
-  const Backend& Engine;
+  const BackendT& Backend;
+  const ScaledTriangles Triangles;
 };
+
+struct TurnedSums
+{
+  std::int64_t All = 0;
+  IdSample Flipped; ///< Triangles that flips have made.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
+  {
+    this->All += part.All;
+    this->Flipped += part.Flipped;
+    return *this;
+  }
+};
+
+/// Counts a triangle that turns to the less common side in x and y.
+struct TurnedStep
+{
+  const TriangleRecord* Triangles;
+  PackedPointsView Points;
+  int Side; ///< The side to which most triangles turned at first.
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Points.Address(vertex));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnedSums& sums) const
+  {
+    const TriangleRecord& triangle = this->Triangles[t];
+    Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
+    Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
+    Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
+    if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+    {
+      return;
+    }
+    BringNearOne(a, b, c);
+    if (FindTurn(a, b, c) == -this->Side)
+    {
+      ++sums.All;
+      if (triangle.Flips >= OneFlip)
+      {
+        sums.Flipped.Note(triangle.InputTriangle);
+      }
+    }
+  }
+};
+
+/// How many more triangles turn to the less common side than at first.
+/// @param points the points in space.
+template <typename Backend>
+Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
+  const TurnCounts& before, const Backend& backend)
+{
+  const TurnedSums sums = backend.template Sum<TurnedSums>(
+    mesh.NumberOfTriangles, TurnedStep{ mesh.Triangles.Data(), points.View(), before.Side });
+  Defect defect = MakeDefect("triangles that flips in space have turned over in x and y, although "
+                             "the input was a height field or nearly one; if it is terrain, use "
+                             "planar-xy",
+    sums.Flipped);
+  defect.Count = std::max<std::int64_t>(0, sums.All - before.Others);
+  defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
+  return defect;
+}
 
 }
 

@@ -20,51 +20,39 @@ constexpr std::int64_t LargestMesh = ((std::int64_t(1) << 32) - 2) / 6;
 constexpr std::int64_t MostPoints = (std::int64_t(1) << 32) - 2;
 constexpr int MostPieces = 255;
 
-void CheckDevices(std::vector<int> devices)
+void Require(bool isValid, const std::string& message)
 {
-  std::sort(devices.begin(), devices.end());
-  if (!devices.empty() && devices.front() < 0)
+  if (!isValid)
   {
-    throw InvalidOptions("the numbers of GPUs that share a mesh must be 0 or more");
+    throw InvalidOptions(message);
   }
+}
+
+}
+
+void CheckOptions(const FlipOptions& options)
+{
+  Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
+    "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
+  Require(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0,
+    "the feature angle must be from 0 to 180 degrees");
+  Require(
+    options.MaximumIterations >= -1, "the number of iterations must be -1 (until done), 0 or more");
+  Require(options.NumberOfThreads >= 0, "the number of threads must be 0 (all) or more");
+  Require(options.Device >= -1, "the number of the GPU must be -1 (CUDA's current one), 0 or more");
+  Require(options.NumberOfPieces >= 0 && options.NumberOfPieces <= MostPieces,
+    "the number of pieces must be from 1 to " + std::to_string(MostPieces) +
+      ", or 0 (as few as possible)");
+  std::vector<int> devices = options.Devices;
+  std::sort(devices.begin(), devices.end());
+  Require(devices.empty() || devices.front() >= 0,
+    "the numbers of GPUs that share a mesh must be 0 or more");
   const auto twice = std::adjacent_find(devices.begin(), devices.end());
   if (twice != devices.end())
   {
     throw InvalidOptions(
       "GPU " + std::to_string(*twice) + " is named twice; name each GPU that shares the mesh once");
   }
-}
-}
-
-void CheckOptions(const FlipOptions& options)
-{
-  const bool isAutomatic = options.Tolerance == -1.0;
-  if (!isAutomatic && !(options.Tolerance >= 0.0 && options.Tolerance < 1.0))
-  {
-    throw InvalidOptions("the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
-  }
-  if (!(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0))
-  {
-    throw InvalidOptions("the feature angle must be from 0 to 180 degrees");
-  }
-  if (options.MaximumIterations < -1)
-  {
-    throw InvalidOptions("the number of iterations must be -1 (until done), 0 or more");
-  }
-  if (options.NumberOfThreads < 0)
-  {
-    throw InvalidOptions("the number of threads must be 0 (all) or more");
-  }
-  if (options.Device < -1)
-  {
-    throw InvalidOptions("the number of the GPU must be -1 (CUDA's current one), 0 or more");
-  }
-  if (options.NumberOfPieces < 0 || options.NumberOfPieces > MostPieces)
-  {
-    throw InvalidOptions("the number of pieces must be from 1 to " + std::to_string(MostPieces) +
-      ", or 0 (as few as possible)");
-  }
-  CheckDevices(options.Devices);
 }
 
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry)

@@ -4,11 +4,11 @@
 #define DELAUNAYFLIP_MESHSURVEY_H
 
 #include "Array.h"
-#include "Defects.h"
 #include "FilteredPredicates.h"
 #include "FlipOptions.h"
+#include "FlipReport.h"
 #include "HostDevice.h"
-#include "OppositeAngles.h"
+#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 #include "WideAngles.h"
 
@@ -21,6 +21,87 @@
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Counts of defects of the input, on either backend.
+
+/// A count and the three smallest ids, whatever the order of counting.
+struct IdSample
+{
+  static constexpr int Kept = 3;
+
+  std::int64_t Count = 0;
+  std::int64_t Smallest[Kept] = { 0, 0, 0 }; ///< The first min(Count, 3), ascending.
+
+  DELAUNAYFLIP_HOST_DEVICE void Note(std::int64_t id)
+  {
+    this->Keep(id, this->Count);
+    ++this->Count;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE IdSample& operator+=(const IdSample& other)
+  {
+    for (int i = 0; i < Kept && i < other.Count; ++i)
+    {
+      this->Keep(other.Smallest[i], this->Count + i);
+    }
+    this->Count += other.Count;
+    return *this;
+  }
+
+private:
+  /// Inserts an id among `count` known ones.
+  DELAUNAYFLIP_HOST_DEVICE void Keep(std::int64_t id, std::int64_t count)
+  {
+    for (int i = 0; i < Kept; ++i)
+    {
+      if (i >= count)
+      {
+        this->Smallest[i] = id;
+        return;
+      }
+      if (id < this->Smallest[i])
+      {
+        const std::int64_t next = this->Smallest[i];
+        this->Smallest[i] = id;
+        id = next;
+      }
+    }
+  }
+};
+
+/// Triangles by the side to which they turn.
+struct TurnSample
+{
+  IdSample Left, Right, Flat;
+
+  /// @param turn positive: to the left.
+  DELAUNAYFLIP_HOST_DEVICE void Note(int turn, std::int64_t triangle)
+  {
+    (turn == 0 ? this->Flat : (turn > 0 ? this->Left : this->Right)).Note(triangle);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE TurnSample& operator+=(const TurnSample& part)
+  {
+    this->Left += part.Left;
+    this->Right += part.Right;
+    this->Flat += part.Flat;
+    return *this;
+  }
+};
+
+inline Defect MakeDefect(
+  const std::string& what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
+{
+  Defect defect{ what, sample.Count, {}, ids };
+  for (int i = 0; i < IdSample::Kept && i < sample.Count; ++i)
+  {
+    defect.FirstIds.push_back(sample.Smallest[i]);
+  }
+  return defect;
+}
+
+//------------------------------------------------------------------------------
 
 /// An input as a backend sees it.
 struct MeshInput

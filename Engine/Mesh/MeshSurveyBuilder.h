@@ -24,24 +24,6 @@ namespace delaunayflip
 
 using PointIds = std::array<std::int64_t, 3>;
 
-/// The ids of one triangle as the caller gave them.
-template <typename Backend>
-PointIds GetPointIds(const MeshInput& input, std::int64_t triangle, const Backend& backend)
-{
-  const TriangleArray& caller = input.Caller.Triangles;
-  if (input.IsOnHost)
-  {
-    return { caller.Get(triangle, 0), caller.Get(triangle, 1), caller.Get(triangle, 2) };
-  }
-  const auto download = [&](const auto* ids)
-  {
-    std::array<std::remove_const_t<std::remove_pointer_t<decltype(ids)>>, 3> values;
-    backend.Download(ids + 3 * triangle, 3, values.data());
-    return PointIds{ values[0], values[1], values[2] };
-  };
-  return caller.Ids32 ? download(caller.Ids32) : download(caller.Ids64);
-}
-
 [[noreturn]] inline void ThrowInvalidId(
   const PointIds& ids, std::int64_t triangle, std::int64_t points)
 {
@@ -64,37 +46,6 @@ struct IdSurvey
     return *this;
   }
 };
-
-/// Most points are marked already, and a load costs less than a store.
-DELAUNAYFLIP_HOST_DEVICE inline void MarkUsed(PointUse& use)
-{
-  if (AtomicLoad(&use) != PointUse::Used)
-  {
-    AtomicStore(&use, PointUse::Used);
-  }
-}
-
-/// Checks the ids of a triangle and marks its points as used.
-DELAUNAYFLIP_HOST_DEVICE inline void SurveyIds(
-  const TriangleMesh& mesh, PointUse* uses, std::int64_t t, IdSurvey& survey)
-{
-  const std::int64_t p = mesh.Triangles.Get(t, 0);
-  const std::int64_t q = mesh.Triangles.Get(t, 1);
-  const std::int64_t r = mesh.Triangles.Get(t, 2);
-  const std::int64_t count = mesh.Points.Count;
-  if (p < 0 || p >= count || q < 0 || q >= count || r < 0 || r >= count)
-  {
-    survey.Invalid.Note(t);
-    return;
-  }
-  MarkUsed(uses[p]);
-  MarkUsed(uses[q]);
-  MarkUsed(uses[r]);
-  if (p == q || q == r || r == p)
-  {
-    survey.Repeated.Note(t);
-  }
-}
 
 /// Bounding box and counts of the used points.
 struct PointSurvey
@@ -129,29 +80,6 @@ struct PointSurvey
   }
 };
 
-DELAUNAYFLIP_HOST_DEVICE inline void SurveyPoint(const PointArray& points, GeometryKind geometry,
-  PointUse* uses, std::int64_t i, PointSurvey& survey)
-{
-  if (uses[i] == PointUse::Unused)
-  {
-    return;
-  }
-  ++survey.Used;
-  const bool isFinite = IsFinitePoint(points, i, geometry);
-  uses[i] = isFinite ? PointUse::Used : PointUse::NotFinite;
-  if (!isFinite)
-  {
-    survey.NonFinite.Note(i);
-    return;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double x = points.Get(i, axis);
-    survey.Include(axis, x, x);
-    survey.IncludeMagnitude(std::fabs(x));
-  }
-}
-
 /// Finds the range of the coordinates, and what follows from it.
 inline void ResolveRange(MeshSurvey& survey)
 {
@@ -182,11 +110,46 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { uses[i] = PointUse::Unused; });
   const IdSurvey ids = backend.template Sum<IdSurvey>(mesh.Triangles.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, IdSurvey & sum)
-    { SurveyIds(mesh, uses, t, sum); });
+    {
+      const std::int64_t p[3] = { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1),
+        mesh.Triangles.Get(t, 2) };
+      const std::int64_t count = mesh.Points.Count;
+      if (p[0] < 0 || p[0] >= count || p[1] < 0 || p[1] >= count || p[2] < 0 || p[2] >= count)
+      {
+        sum.Invalid.Note(t);
+        return;
+      }
+      for (const std::int64_t point : p)
+      {
+        // Most points are marked already, and a load costs less than a store.
+        if (AtomicLoad(&uses[point]) != PointUse::Used)
+        {
+          AtomicStore(&uses[point], PointUse::Used);
+        }
+      }
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0])
+      {
+        sum.Repeated.Note(t);
+      }
+    });
   if (ids.Invalid.Count > 0)
   {
     const std::int64_t first = ids.Invalid.Smallest[0];
-    ThrowInvalidId(GetPointIds(input, first, backend), first, mesh.Points.Count);
+    const TriangleArray& caller = input.Caller.Triangles;
+    const auto get = [&](const auto* given) // the ids as the caller gave them
+    {
+      std::array<std::remove_const_t<std::remove_pointer_t<decltype(given)>>, 3> values;
+      if (input.IsOnHost)
+      {
+        std::copy_n(given + 3 * first, 3, values.data());
+      }
+      else
+      {
+        backend.Download(given + 3 * first, 3, values.data());
+      }
+      return PointIds{ values[0], values[1], values[2] };
+    };
+    ThrowInvalidId(caller.Ids32 ? get(caller.Ids32) : get(caller.Ids64), first, mesh.Points.Count);
   }
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }
@@ -200,7 +163,25 @@ void SurveyPoints(
   PointUse* uses = survey.Uses.Data();
   const PointSurvey points = backend.template Sum<PointSurvey>(array.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
-    { SurveyPoint(array, geometry, uses, i, sum); });
+    {
+      if (uses[i] == PointUse::Unused)
+      {
+        return;
+      }
+      ++sum.Used;
+      uses[i] = IsFinitePoint(array, i, geometry) ? PointUse::Used : PointUse::NotFinite;
+      if (uses[i] == PointUse::NotFinite)
+      {
+        sum.NonFinite.Note(i);
+        return;
+      }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double x = array.Get(i, axis);
+        sum.Include(axis, x, x);
+        sum.IncludeMagnitude(std::fabs(x));
+      }
+    });
   survey.Precision = input.Caller.Points.Floats ? FloatPrecision : DoublePrecision;
   survey.UsedPoints = points.Used;
   survey.NonFinitePoints =

@@ -3,14 +3,18 @@
 #ifndef DELAUNAYFLIP_PLANARSURVEY_H
 #define DELAUNAYFLIP_PLANARSURVEY_H
 
-#include "Defects.h"
+#include "Array.h"
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
+#include "FlipError.h"
 #include "FlipReport.h"
-#include "PackedPoints.h"
-#include "StarSurvey.h"
+#include "HostDevice.h"
+#include "MeshSurvey.h"
+#include "SpatialOrder.h"
 #include "WideAngles.h"
 
+#include <cmath>
 #include <cstdint>
 
 /// @file
@@ -18,6 +22,151 @@
 
 namespace delaunayflip
 {
+
+/// What is counted in a planar mesh.
+struct PlaneSums
+{
+  TurnSample Turns;
+  std::int64_t UncertainTurns = 0; ///< A device cannot tell.
+  std::int64_t SeveralFans = 0; ///< Fans at vertices that have another one.
+  std::int64_t Covers = 0; ///< Corners that cover their vertex's direction.
+  std::int64_t UncertainCovers = 0; ///< A device cannot tell.
+
+  DELAUNAYFLIP_HOST_DEVICE PlaneSums& operator+=(const PlaneSums& part)
+  {
+    this->Turns += part.Turns;
+    this->UncertainTurns += part.UncertainTurns;
+    this->SeveralFans += part.SeveralFans;
+    this->Covers += part.Covers;
+    this->UncertainCovers += part.UncertainCovers;
+    return *this;
+  }
+};
+
+/// Examines how triangles turn and, of a mesh whose triangles all turn to one side, whether the
+/// stars cover no direction twice.
+///
+/// Around an inner vertex the triangles turn a whole number of times: as often as they cross the
+/// direction +u, which comparisons of coordinates decide. At the boundary, the direction of the
+/// fan's first edge must be covered only once. So every used vertex has at least one corner that
+/// covers its direction. It is exactly one for each if there are as many such corners as vertices.
+struct StarSurvey
+{
+  static constexpr VertexId NoVertex = 0xFFFFFFFFu;
+
+  EdgeMeshView Mesh;
+  PackedPointsView Points;
+  VertexId* FanStarts; ///< At the boundary, the end of the fan's first edge.
+  bool ExaminesStars; ///< Else only turns.
+
+  /// Notes where a fan starts, if the edge is a boundary edge.
+  DELAUNAYFLIP_HOST_DEVICE void NoteFan(EdgeId edge, PlaneSums& sums) const
+  {
+    const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
+    if (this->Mesh.CornerOfHalfEdge[2 * edge + 1] == NoCorner)
+    {
+      const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
+      const VertexId from = triangle.Vertices[NextSlot(SlotOf(corner))];
+      const VertexId to = triangle.Vertices[PreviousSlot(SlotOf(corner))];
+      sums.SeveralFans += AtomicExchange(&this->FanStarts[from], to) == NoVertex ? 0 : 1;
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Mesh.Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Points.Address(vertex));
+      if (this->ExaminesStars)
+      {
+        delaunayflip::Prefetch(&this->FanStarts[vertex]);
+      }
+    }
+  }
+
+  /// Examines a triangle, if its coordinates are finite.
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, PlaneSums& sums) const
+  {
+    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    const VertexId* v = triangle.Vertices;
+    const PlanePoint p[3] = { this->Points.GetPlanePoint(v[0]), this->Points.GetPlanePoint(v[1]),
+      this->Points.GetPlanePoint(v[2]) };
+    const bool usual = IsInFilterRange(p[0]) && IsInFilterRange(p[1]) && IsInFilterRange(p[2]);
+    if (!usual && !(IsFinite(p[0]) && IsFinite(p[1]) && IsFinite(p[2])))
+    {
+      return;
+    }
+    const int side = FindOrientation(p[0], p[1], p[2]);
+    if (side == UncertainSign)
+    {
+      ++sums.UncertainTurns;
+      return;
+    }
+    sums.Turns.Note(side, triangle.InputTriangle);
+    if (!this->ExaminesStars || side == 0)
+    {
+      return;
+    }
+    const bool isInner = this->FanStarts[v[0]] == NoVertex && this->FanStarts[v[1]] == NoVertex &&
+      this->FanStarts[v[2]] == NoVertex;
+    if (isInner)
+    {
+      sums.Covers += CoverPositiveU(p, side) ? 1 : 0;
+      return;
+    }
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      sums.Covers += this->Covers(v, p, slot, side, sums) ? 1 : 0;
+    }
+  }
+
+  /// Whether direction v-p lies in the half plane v > 0, or on its border with u > 0.
+  DELAUNAYFLIP_HOST_DEVICE static bool IsUpper(const PlanePoint& v, const PlanePoint& p)
+  {
+    // Without branches, which would be mispredicted half of the time.
+    return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
+  }
+
+private:
+  /// Whether a corner of a triangle covers +u. At most one of them does: of its three directed
+  /// edges, two go up or two go down.
+  DELAUNAYFLIP_HOST_DEVICE static bool CoverPositiveU(const PlanePoint (&p)[3], int side)
+  {
+    const int up =
+      (IsUpper(p[0], p[1]) ? 1 : 0) + (IsUpper(p[1], p[2]) ? 1 : 0) + (IsUpper(p[2], p[0]) ? 1 : 0);
+    return up == (side > 0 ? 1 : 2);
+  }
+
+  /// Whether the corner at a slot covers where the fan starts; at an inner vertex, whether it
+  /// covers +u from its first side (included) to its last (not).
+  DELAUNAYFLIP_HOST_DEVICE bool Covers(
+    const VertexId* vertices, const PlanePoint (&p)[3], int slot, int side, PlaneSums& sums) const
+  {
+    const PlanePoint& v = p[slot];
+    const PlanePoint& first = p[NextSlot(slot)];
+    const PlanePoint& last = p[PreviousSlot(slot)];
+    const VertexId start = this->FanStarts[vertices[slot]];
+    if (start == NoVertex)
+    {
+      const bool firstUpper = IsUpper(v, first);
+      const bool lastUpper = IsUpper(v, last);
+      return side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
+    }
+    if (start == vertices[NextSlot(slot)])
+    {
+      return true;
+    }
+    const PlanePoint t = this->Points.GetPlanePoint(start);
+    const int afterFirst = FindOrientation(v, first, t);
+    const int beforeLast = FindOrientation(v, t, last);
+    sums.UncertainCovers += afterFirst == UncertainSign || beforeLast == UncertainSign ? 1 : 0;
+    if (afterFirst == 0)
+    {
+      return IsUpper(v, first) == IsUpper(v, t);
+    }
+    return side * afterFirst > 0 && side * beforeLast > 0;
+  }
+};
 
 struct PlanarSurvey
 {
@@ -41,106 +190,7 @@ struct PlanarSurvey
   }
 };
 
-struct OrientationSums
-{
-  IdSample Left, Right, None;
-  std::int64_t Uncertain = 0; ///< Orientations that a device cannot decide.
-
-  DELAUNAYFLIP_HOST_DEVICE OrientationSums& operator+=(const OrientationSums& part)
-  {
-    this->Left += part.Left;
-    this->Right += part.Right;
-    this->None += part.None;
-    this->Uncertain += part.Uncertain;
-    return *this;
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE void Note(int sign, TriangleId inputTriangle)
-  {
-    if (sign == UncertainSign)
-    {
-      ++this->Uncertain;
-      return;
-    }
-    (sign == 0 ? this->None : (sign > 0 ? this->Left : this->Right)).Note(inputTriangle);
-  }
-};
-
-struct PlaneSums
-{
-  OrientationSums Turns;
-  StarSums Stars;
-
-  DELAUNAYFLIP_HOST_DEVICE PlaneSums& operator+=(const PlaneSums& part)
-  {
-    this->Turns += part.Turns;
-    this->Stars += part.Stars;
-    return *this;
-  }
-};
-
-/// Examines a triangle with finite coordinates.
-struct PlaneStep
-{
-  StarSurvey Survey;
-  bool ExamineStars;
-
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
-  {
-    for (const VertexId vertex : this->Survey.Mesh.Triangles[t].Vertices)
-    {
-      delaunayflip::Prefetch(this->Survey.Points.Address(vertex));
-      if (this->ExamineStars)
-      {
-        delaunayflip::Prefetch(&this->Survey.FanStarts[vertex]);
-      }
-    }
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, PlaneSums& sums) const
-  {
-    const TriangleRecord& triangle = this->Survey.Mesh.Triangles[t];
-    const VertexId* v = triangle.Vertices;
-    const PackedPointsView& points = this->Survey.Points;
-    const CornerPoints corners{ v,
-      { points.GetPlanePoint(v[0]), points.GetPlanePoint(v[1]), points.GetPlanePoint(v[2]) } };
-    const PlanePoint(&p)[3] = corners.Points;
-    const bool usual = IsInFilterRange(p[0]) && IsInFilterRange(p[1]) && IsInFilterRange(p[2]);
-    if (!usual && !(IsFinite(p[0]) && IsFinite(p[1]) && IsFinite(p[2])))
-    {
-      return;
-    }
-    const int side = FindOrientation(p[0], p[1], p[2]);
-    sums.Turns.Note(side, triangle.InputTriangle);
-    if (this->ExamineStars && (side == 1 || side == -1))
-    {
-      this->Survey.NoteTriangle(corners, side, sums.Stars);
-    }
-  }
-};
-
 /// Triangles with a non-finite coordinate, which never flip, do not count.
-/// @param examineStars if false, the sums of stars mean nothing.
-template <typename Backend>
-PlaneSums SumPlane(
-  EdgeMesh& mesh, const PackedPoints& points, bool examineStars, const Backend& backend)
-{
-  Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(examineStars ? points.Count : 0);
-  const StarSurvey survey{ mesh.View(), points.View(), fanStarts.Data() };
-  StarSums fans;
-  if (examineStars)
-  {
-    backend.ForEach(points.Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { survey.FanStarts[v] = StarSurvey::NoVertex; });
-    fans = backend.template Sum<StarSums>(mesh.NumberOfEdges,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, StarSums & part)
-      { survey.NoteFan(static_cast<EdgeId>(e), part); });
-  }
-  PlaneSums sums = backend.template Sum<PlaneSums>(
-    mesh.NumberOfTriangles, PlaneStep{ survey, examineStars && fans.SeveralFans == 0 });
-  sums.Stars += fans;
-  return sums;
-}
-
 /// @param skipStars whether there are non-manifold or wrongly wound edges, or triangles with a
 /// non-finite coordinate; then StarsAreSimple is false without examination.
 /// @param usedPoints the number of vertices of triangles.
@@ -149,10 +199,22 @@ template <typename Backend>
 PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipStars,
   std::int64_t usedPoints, const Backend& backend)
 {
-  const PlaneSums sums = SumPlane(mesh, points, !skipStars, backend);
-  const OrientationSums& turns = sums.Turns;
-  const bool uniform = turns.None.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
-  if (turns.Uncertain > 0 || (uniform && sums.Stars.Uncertain > 0))
+  Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(skipStars ? 0 : points.Count);
+  StarSurvey step{ mesh.View(), points.View(), fanStarts.Data(), !skipStars };
+  PlaneSums fans;
+  if (!skipStars)
+  {
+    backend.ForEach(points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { step.FanStarts[v] = StarSurvey::NoVertex; });
+    fans = backend.template Sum<PlaneSums>(mesh.NumberOfEdges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, PlaneSums & part)
+      { step.NoteFan(static_cast<EdgeId>(e), part); });
+  }
+  step.ExaminesStars = !skipStars && fans.SeveralFans == 0;
+  const PlaneSums sums = backend.template Sum<PlaneSums>(mesh.NumberOfTriangles, step);
+  const TurnSample& turns = sums.Turns;
+  const bool uniform = turns.Flat.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
+  if (sums.UncertainTurns > 0 || (uniform && sums.UncertainCovers > 0))
   {
     throw BeyondDevice();
   }
@@ -160,12 +222,11 @@ PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipSt
   const char* what = "triangles that turn the other way than most";
   survey.LeftTriangles = MakeDefect(what, turns.Left);
   survey.RightTriangles = MakeDefect(what, turns.Right);
-  survey.ZeroAreaTriangles = MakeDefect("triangles without area", turns.None);
+  survey.ZeroAreaTriangles = MakeDefect("triangles without area", turns.Flat);
   if (uniform)
   {
     survey.UniformSide = turns.Right.Count == 0 ? 1 : -1;
-    survey.StarsAreSimple =
-      !skipStars && sums.Stars.SeveralFans == 0 && sums.Stars.Covers == usedPoints;
+    survey.StarsAreSimple = step.ExaminesStars && sums.Covers == usedPoints;
   }
   return survey;
 }

@@ -3,23 +3,76 @@
 #ifndef DELAUNAYFLIP_SMALLESTANGLE_H
 #define DELAUNAYFLIP_SMALLESTANGLE_H
 
+#include "EdgeMesh.h"
+#include "FilteredPredicates.h"
 #include "HostDevice.h"
 #include "MeshSurvey.h"
-#include "ScaledOffsets.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
-#include "Vector3.h"
+#include "WideAngles.h"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 /// @file
-/// The smallest angle of one triangle, for the host and a GPU. An arctangent is rounded differently
-/// there, so the last digits may differ; no decision depends on them.
+/// The smallest angles of triangles: the smallest of a whole mesh, exactly the same on every
+/// backend; and that of each triangle. The latter is measured by an arctangent, which is rounded
+/// differently on a GPU, so the last digits may differ; no decision depends on them.
 
 namespace delaunayflip
 {
+
+/// A maximum, with operator+= so that Sum can compute it.
+struct LargestValue
+{
+  double Value = -INFINITY;
+
+  DELAUNAYFLIP_HOST_DEVICE LargestValue& operator+=(const LargestValue& other)
+  {
+    this->Value = other.Value > this->Value ? other.Value : this->Value;
+    return *this;
+  }
+};
+
+/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle, in the coordinates of a rule.
+template <typename Rule>
+struct AngleSurvey
+{
+  const TriangleRecord* Triangles;
+  Rule Decision;
+  CoordinateRange Range;
+
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
+  {
+    for (const VertexId vertex : this->Triangles[t].Vertices)
+    {
+      delaunayflip::Prefetch(this->Decision.Address(vertex));
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, LargestValue& sum) const
+  {
+    const VertexId* v = this->Triangles[t].Vertices;
+    const Vector3 a = ToPosition(this->Decision.Get(v[0]));
+    const Vector3 b = ToPosition(this->Decision.Get(v[1]));
+    const Vector3 c = ToPosition(this->Decision.Get(v[2]));
+    double largest =
+      Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
+    // A triangle seems to have no area also if the squares of its lengths vanish.
+    if (largest == INFINITY || IsWide(this->Range, a, b, c))
+    {
+      largest = LargestSquaredCotangentWide(a, b, c);
+    }
+    sum += { largest };
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const Vector3& point) { return point; }
+  DELAUNAYFLIP_HOST_DEVICE static Vector3 ToPosition(const PlanePoint& point)
+  {
+    return { point.U, point.V, point.W };
+  }
+};
 
 /// The angle between two edges from a corner, in degrees.
 DELAUNAYFLIP_HOST_DEVICE inline double AngleBetween(const Vector3& first, const Vector3& second)

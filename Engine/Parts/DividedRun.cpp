@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AngleSurvey.h"
-#include "CotangentAngle.h"
+#include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "JoinReports.h"
 #include "MeshInParts.h"
-#include "MissingConstraints.h"
 #include "PartMesh.h"
 #include "PieceFlip.h"
 #include "SeamSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,6 +16,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 /// @file
@@ -64,10 +65,9 @@ struct EdgeTotals
 class DividedRun
 {
 public:
-  DividedRun(MeshInParts& mesh, const FlipOptions& options, std::int32_t* flipCounts,
-    const ProgressObserver& progress)
+  DividedRun(MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress)
     : Mesh(mesh),
-      Options(options),
+      Options(mesh.GetOptions()),
       FlipCounts(flipCounts),
       Progress(progress),
       Constraints(mesh.View().ConstraintEdges,
@@ -194,6 +194,7 @@ private:
     }
     FlipOptions options = this->Options;
     options.NumberOfPieces = 1;
+    options.TrackQuality = false;
     options.Geometry = this->Mesh.GetSurvey().Geometry;
     if (!this->Options.Devices.empty())
     {
@@ -318,7 +319,6 @@ private:
     options.MaximumIterations = this->Options.MaximumIterations < 0
       ? -1
       : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
-    options.TrackQuality = this->Options.TrackQuality;
     FlipSession session(region.View(false), options, progress);
     if (session.GetReport().StopReason != StopReasonKind::Aborted)
     {
@@ -326,14 +326,10 @@ private:
     }
 
     const FlipReport& report = session.GetReport();
-    const TriangleArray& triangles = this->Mesh.View().Triangles;
-    const double rest = !this->Options.TrackQuality || report.Iterations.empty()
-      ? NaN
-      : this->FindSmallestAngle([&](std::int64_t t) { return !inner.Touches(triangles, t); });
     for (IterationRecord row : report.Iterations)
     {
       row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
-      row.MinimumAngle = std::fmin(row.MinimumAngle, rest);
+      row.MinimumAngle = NaN;
       this->Report.Iterations.push_back(row);
     }
     this->Report.Rounds += report.TotalFlips > 0 ? 1 : 0;
@@ -368,7 +364,8 @@ private:
   {
     PiecesReport& report = this->Report;
     AddCounts(report.Edges, this->Seams.Edges, 1);
-    report.EulerCharacteristic = this->Mesh.GetUsedPoints() - report.Edges.Edges + report.Triangles;
+    report.EulerCharacteristic =
+      this->Mesh.GetSurvey().UsedPoints - report.Edges.Edges + report.Triangles;
     report.NonDelaunayBefore += this->Seams.NonDelaunay;
     if (!this->AreCounted)
     {
@@ -384,12 +381,8 @@ private:
     {
       this->CountBadEdges();
     }
-    if (!this->Options.TrackQuality && !report.Iterations.empty())
+    if (!report.Iterations.empty())
     {
-      for (IterationRecord& row : report.Iterations)
-      {
-        row.MinimumAngle = NaN;
-      }
       report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
     }
     CountIterations(report);
@@ -425,7 +418,7 @@ private:
   /// What is known of the whole mesh takes the place of what parts have found.
   void AddDefects()
   {
-    std::vector<Defect> defects = this->Mesh.GetDefects();
+    std::vector<Defect> defects = this->Mesh.GetSurvey().ListDefects();
     AddDefect({ "constraint edges that are not edges of the mesh",
                 this->Report.UnmatchedConstraints, {}, DefectIds::Points },
       defects);
@@ -484,10 +477,35 @@ private:
 };
 }
 
-PiecesReport FlipInTurn(MeshInParts& mesh, const FlipOptions& options, std::int32_t* flipCounts,
-  const ProgressObserver& progress)
+PiecesReport FlipInTurn(
+  MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress)
 {
-  return DividedRun(mesh, options, flipCounts, progress).Run();
+  const ConstraintInsertion& insertion = mesh.GetInsertion();
+  const double begin = insertion.GetShare();
+  const ProgressObserver rest = [&](double share)
+  { return !progress || progress(begin + (1.0 - begin) * share); };
+  PiecesReport report = DividedRun(mesh, flipCounts, rest).Run();
+  insertion.AddTo(report);
+  if (flipCounts)
+  {
+    insertion.AddFlipCounts(flipCounts);
+  }
+  return report;
+}
+
+PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
+  const MutableTriangleArray& triangles, const ProgressObserver& progress)
+{
+  std::optional<MeshInParts> parts;
+  try
+  {
+    parts.emplace(mesh, triangles, options, progress);
+  }
+  catch (const RunAborted&)
+  {
+    return StopBeforeFlips(mesh, triangles, ThreadBackend(options.NumberOfThreads));
+  }
+  return FlipInTurn(*parts, nullptr, progress);
 }
 
 }

@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <string>
-#include <utility>
+#include <type_traits>
 
 namespace delaunayflip
 {
@@ -46,7 +44,7 @@ void ForEachNumber(Report& report, const Visit& visit)
   }
 }
 
-/// The reports of all ranks, as far as they are joined, but for the iterations.
+/// The reports of all ranks, as far as they are joined.
 std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
 {
   std::vector<double> numbers; // exact for counts
@@ -62,10 +60,12 @@ std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
     texts += defect.What + '\0';
   }
   const RecordLists<double> allNumbers = GatherRecords(group, numbers);
+  const RecordLists<IterationRecord> iterations = GatherRecords(group, own.Iterations);
   const std::vector<Message> allTexts = group.Gather(Message(texts.begin(), texts.end()));
   std::vector<FlipReport> reports(allTexts.size());
   for (std::size_t rank = 0; rank < reports.size(); ++rank)
   {
+    reports[rank].Iterations = iterations[rank];
     auto number = allNumbers[rank].begin();
     ForEachNumber(
       reports[rank], [&](auto& to) { to = static_cast<std::decay_t<decltype(to)>>(*number++); });
@@ -86,84 +86,6 @@ std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
     }
   }
   return reports;
-}
-
-/// Joins all but the iterations.
-FlipReport SumReports(const std::vector<FlipReport>& reports)
-{
-  FlipReport sum;
-  sum.MinimumAngleBefore = sum.MinimumAngleAfter = NaN;
-  for (const FlipReport& report : reports)
-  {
-    for (const auto number : Sums)
-    {
-      sum.*number += report.*number;
-    }
-    AddCounts(sum.Edges, report.Edges, 1);
-    for (int i = 0; i < 2; ++i)
-    {
-      sum.*Smallest[i] = std::fmin(sum.*Smallest[i], report.*Smallest[i]);
-      sum.*Largest[i] = std::max(sum.*Largest[i], report.*Largest[i]);
-    }
-    for (const auto text : Texts)
-    {
-      const std::string listed = ", " + sum.*text + ", ";
-      if (!(report.*text).empty() && listed.find(", " + report.*text + ", ") == std::string::npos)
-      {
-        sum.*text += ((sum.*text).empty() ? "" : ", ") + report.*text;
-      }
-    }
-    for (const Defect& defect : report.Defects)
-    {
-      AddDefect({ defect.What, defect.Count, {} }, sum.Defects);
-    }
-  }
-  return sum;
-}
-
-/// An iteration of all ranks that make one.
-struct JoinedRow
-{
-  IterationRecord Sum;
-  std::vector<std::pair<std::size_t, double>> Angles; ///< The smallest of those ranks.
-};
-
-/// The smallest angle after an iteration is that of all ranks; a rank that has made no further
-/// iteration still has its last one.
-std::vector<IterationRecord> JoinRows(const RecordLists<RoundRow>& lists)
-{
-  std::map<std::pair<std::int64_t, std::int64_t>, JoinedRow> rows; // by round and place
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const RoundRow& row : lists[rank])
-    {
-      JoinedRow& joined = rows[{ row.Round, row.Place }];
-      joined.Sum.Tested += row.Record.Tested;
-      joined.Sum.NonDelaunay += row.Record.NonDelaunay;
-      joined.Sum.Flipped += row.Record.Flipped;
-      joined.Sum.Excluded += row.Record.Excluded;
-      joined.Sum.Blocked += row.Record.Blocked;
-      joined.Sum.Seconds = std::max(joined.Sum.Seconds, row.Record.Seconds);
-      joined.Angles.emplace_back(rank, row.Record.MinimumAngle);
-    }
-  }
-  std::vector<double> angles(lists.size(), NaN);
-  std::vector<IterationRecord> joined;
-  for (const auto& [place, row] : rows)
-  {
-    for (const auto& [rank, angle] : row.Angles)
-    {
-      angles[rank] = angle;
-    }
-    if (place.second >= 0)
-    {
-      joined.push_back(row.Sum);
-      joined.back().Iteration = static_cast<std::int64_t>(joined.size());
-      joined.back().MinimumAngle = std::accumulate(
-        angles.begin(), angles.end(), NaN, [](double a, double b) { return std::fmin(a, b); });
-    }
-  }
-  return joined;
 }
 }
 
@@ -200,31 +122,55 @@ void CountIterations(FlipReport& report)
   }
 }
 
-FlipReport JoinReports(
-  const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group)
-{
-  FlipReport joined = SumReports(GatherReports(report, group));
-  joined.Iterations = JoinRows(GatherRecords(group, rows));
-  CountIterations(joined);
-  return joined;
-}
-
 FlipReport JoinReports(const std::vector<FlipReport>& reports)
 {
-  RecordLists<RoundRow> rows(reports.size());
-  for (std::size_t i = 0; i < reports.size(); ++i)
+  FlipReport sum;
+  sum.MinimumAngleBefore = sum.MinimumAngleAfter = NaN;
+  for (const FlipReport& report : reports)
   {
-    IterationRecord before;
-    before.MinimumAngle = reports[i].MinimumAngleBefore;
-    rows[i].push_back({ 1, -1, before });
-    for (const IterationRecord& row : reports[i].Iterations)
+    for (const auto number : Sums)
     {
-      rows[i].push_back({ 1, row.Iteration, row });
+      sum.*number += report.*number;
+    }
+    AddCounts(sum.Edges, report.Edges, 1);
+    for (int i = 0; i < 2; ++i)
+    {
+      sum.*Smallest[i] = std::fmin(sum.*Smallest[i], report.*Smallest[i]);
+      sum.*Largest[i] = std::max(sum.*Largest[i], report.*Largest[i]);
+    }
+    for (const auto text : Texts)
+    {
+      const std::string listed = ", " + sum.*text + ", ";
+      if (!(report.*text).empty() && listed.find(", " + report.*text + ", ") == std::string::npos)
+      {
+        sum.*text += ((sum.*text).empty() ? "" : ", ") + report.*text;
+      }
+    }
+    for (const Defect& defect : report.Defects)
+    {
+      AddDefect({ defect.What, defect.Count, {} }, sum.Defects);
+    }
+    for (const IterationRecord& row : report.Iterations)
+    {
+      const auto number = static_cast<std::size_t>(row.Iteration);
+      sum.Iterations.resize(std::max(sum.Iterations.size(), number));
+      IterationRecord& joined = sum.Iterations[number - 1];
+      joined.Iteration = row.Iteration;
+      joined.Tested += row.Tested;
+      joined.NonDelaunay += row.NonDelaunay;
+      joined.Flipped += row.Flipped;
+      joined.Excluded += row.Excluded;
+      joined.Blocked += row.Blocked;
+      joined.MinimumAngle = NaN;
+      joined.Seconds = std::max(joined.Seconds, row.Seconds);
     }
   }
-  FlipReport joined = SumReports(reports);
-  joined.Iterations = JoinRows(rows);
-  return joined;
+  return sum;
+}
+
+FlipReport JoinReports(const FlipReport& report, PieceGroup& group)
+{
+  return JoinReports(GatherReports(report, group));
 }
 
 }

@@ -12,22 +12,11 @@
 namespace delaunayflip
 {
 
-/// An iteration of one rank. The iterations of all ranks with the same place in the same round
-/// count as one iteration of the whole mesh.
-struct RoundRow
-{
-  std::int64_t Round;
-  std::int64_t Place; ///< Of the iteration in its round; -1: before them, only an angle.
-  IterationRecord Record;
-};
-
 /// Adds up the reports of all ranks. All ranks get the same result. Texts that differ are listed.
-/// @param rows the iterations of this rank, which take the place of report.Iterations.
-FlipReport JoinReports(
-  const FlipReport& report, const std::vector<RoundRow>& rows, PieceGroup& group);
+/// Iterations with the same number are joined, without their smallest angles.
+FlipReport JoinReports(const FlipReport& report, PieceGroup& group);
 
-/// The same for the parts of a mesh of one process. Iterations with the same number are joined.
-/// Each time is the largest of all parts. Call CountIterations for the totals of the iterations.
+/// The same for the parts of a mesh of one process. Each time is the largest of all parts.
 FlipReport JoinReports(const std::vector<FlipReport>& reports);
 
 /// Sums the iterations of a report.

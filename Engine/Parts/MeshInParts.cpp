@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshInParts.h"
 
-#include "FixedEdges.h"
+#include "EdgeMeshBuilder.h"
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
@@ -47,7 +47,8 @@ void PointSet::Number(const ThreadBackend& backend)
 }
 
 //------------------------------------------------------------------------------
-SubMesh::SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend)
+SubMesh::SubMesh(
+  const TriangleMesh& mesh, std::vector<std::int64_t> slots, const ThreadBackend& backend)
   : Whole(mesh),
     Engine(backend),
     PointIds(mesh.Points.Count, backend),
@@ -279,14 +280,40 @@ void CopyTriangles(
   }
 }
 
+namespace
+{
+ConstraintInsertion InsertConstraints(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+{
+  CheckOptions(options);
+  if (!ConstraintInsertion::IsRequested(mesh))
+  {
+    return {};
+  }
+  CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count,
+    "where constraints are to be inserted; give constraints that are edges of the mesh");
+  return ConstraintInsertion(mesh, options,
+    [&](double share) { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });
+}
+}
+
 MeshInParts::MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
-  const FlipOptions& options, int parts)
-  : Mesh(mesh),
+  const FlipOptions& options, const ProgressObserver& progress)
+  : Insertion(InsertConstraints(mesh, options, progress)),
+    Options(this->Insertion.GetOptions(options)),
+    Mesh(this->Insertion.GetMesh(mesh)),
     Triangles(triangles),
-    Parts(parts),
+    Parts(CountPieces(options, mesh.Triangles.Count)),
     Threads(options.NumberOfThreads)
 {
-  this->Examine(options);
+  for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
+  {
+    CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
+  }
+  this->Survey = PartSurvey(
+    BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
+    this->Mesh.Points.Floats != nullptr);
+  CheckTieRule(options, this->Survey.Geometry);
   std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -295,43 +322,46 @@ MeshInParts::MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& t
       axes.push_back(axis);
     }
   }
+  if (this->Survey.Geometry != GeometryKind::Surface)
+  {
+    SurveyStars(this->Mesh, this->Threads, this->Survey);
+  }
+  this->Mesh.Whole = this->Survey.Whole;
   const std::int64_t count = this->Mesh.Triangles.Count;
   const PartCuts cuts(this->Mesh, axes, this->Parts);
   this->PartOf = this->Threads.MakeArray<unsigned char>(count);
   this->Threads.ForEach(count,
     [&](std::int64_t t)
     { this->PartOf[t] = static_cast<unsigned char>(cuts.FindPart(this->Mesh, t)); });
-  CopyTriangles(mesh.Triangles, triangles, this->Threads);
-  this->Mesh.Triangles = triangles.Ids32 ? TriangleArray(triangles.Ids32, triangles.Count)
-                                         : TriangleArray(triangles.Ids64, triangles.Count);
+  CopyTriangles(this->Mesh.Triangles, triangles, this->Threads);
+  this->Mesh.Triangles = AsConst(triangles);
 }
 
-void MeshInParts::Examine(const FlipOptions& options)
+PiecesReport MeshInParts::GetReport() const
 {
-  for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
-  {
-    CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
-  }
-  const MeshSurvey found =
-    BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, options.Geometry, this->Threads);
-  CheckTieRule(options, found.Geometry);
-  this->Survey = PartSurvey(found);
-  this->Survey.IsFloat = this->Mesh.Points.Floats != nullptr;
-  if (found.Geometry != GeometryKind::Surface)
-  {
-    SurveyStars(this->Mesh, found.Projection, this->Threads, this->Survey.Whole);
-  }
-  this->Mesh.Whole = this->Survey.Whole;
-  this->UsedPoints = found.UsedPoints;
-  for (const Defect& defect : { found.RepeatedIds, found.NonFinitePoints, found.NearlyHeightField })
-  {
-    if (defect.Count > 0)
-    {
-      this->Defects.push_back(defect);
-    }
-  }
+  PiecesReport report;
+  report.Points = this->Mesh.Points.Count;
+  report.Triangles = this->Mesh.Triangles.Count;
+  report.GeometryUsed = this->Survey.Geometry;
+  report.GeometryReason = this->Survey.GeometryReason;
+  report.Tolerance = DescribeTolerance(this->Options, report.GeometryUsed);
+  report.Defects = this->Survey.ListDefects();
+  this->Insertion.AddTo(report);
+  return report;
 }
 
+PiecesReport StopBeforeFlips(
+  const TriangleMesh& mesh, const MutableTriangleArray& triangles, const ThreadBackend& threads)
+{
+  CopyTriangles(mesh.Triangles, triangles, threads);
+  PiecesReport report;
+  report.Points = mesh.Points.Count;
+  report.Triangles = mesh.Triangles.Count;
+  report.StopReason = StopReasonKind::Aborted;
+  return report;
+}
+
+//------------------------------------------------------------------------------
 SubMesh MeshInParts::GetPart(int number) const
 {
   const auto isIn = [&](std::int64_t t) { return this->PartOf[t] == number; };
@@ -342,8 +372,8 @@ SubMesh MeshInParts::GetPart(int number) const
 SubMesh MeshInParts::GetPartOf(const SubMesh& mesh, int number) const
 {
   const auto isIn = [&](std::int64_t t) { return this->PartOf[mesh.GetSlot(t)] == number; };
-  Array<std::int64_t> slots = ListNumbers(mesh.GetNumberOfTriangles(), isIn, this->Threads);
-  this->Threads.ForEach(static_cast<std::int64_t>(slots.Size()),
+  std::vector<std::int64_t> slots = ListNumbers(mesh.GetNumberOfTriangles(), isIn, this->Threads);
+  this->Threads.ForEach(static_cast<std::int64_t>(slots.size()),
     [&](std::int64_t i) { slots[i] = mesh.GetSlot(slots[i]); });
   return SubMesh(this->Mesh, std::move(slots), this->Threads);
 }

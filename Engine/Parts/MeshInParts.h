@@ -5,9 +5,11 @@
 
 #include "Array.h"
 #include "Atomics.h"
+#include "ConstraintInsertion.h"
 #include "FlipOptions.h"
 #include "PartSurvey.h"
 #include "PieceFlip.h"
+#include "Records.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
@@ -89,34 +91,23 @@ private:
 
 /// The numbers from 0 to size - 1 for which isIn(number) is true, ascending.
 template <typename IsIn>
-Array<std::int64_t> ListNumbers(std::int64_t size, const IsIn& isIn, const ThreadBackend& backend)
+std::vector<std::int64_t> ListNumbers(
+  std::int64_t size, const IsIn& isIn, const ThreadBackend& backend)
 {
   constexpr std::int64_t Grain = 1 << 16;
-  std::vector<std::vector<std::int64_t>> parts((size + Grain - 1) / Grain);
-  std::vector<std::int64_t> firsts(parts.size() + 1);
-  backend.ForRange(
-    size,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      std::vector<std::int64_t>& part = parts[begin / Grain];
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        if (isIn(i))
-        {
-          part.push_back(i);
-        }
-      }
-    },
-    Grain);
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  RecordLists<std::int64_t> lists((size + Grain - 1) / Grain);
+  const auto list = [&](std::int64_t begin, std::int64_t end)
   {
-    firsts[i + 1] = firsts[i] + static_cast<std::int64_t>(parts[i].size());
-  }
-  Array<std::int64_t> numbers = backend.MakeArray<std::int64_t>(firsts.back());
-  backend.ForTasks(static_cast<std::int64_t>(parts.size()),
-    [&](std::int64_t i)
-    { std::copy(parts[i].begin(), parts[i].end(), numbers.Data() + firsts[i]); });
-  return numbers;
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      if (isIn(i))
+      {
+        lists[begin / Grain].push_back(i);
+      }
+    }
+  };
+  backend.ForRange(size, list, Grain);
+  return Join(lists);
 }
 
 /// Some triangles of a mesh as a mesh of its own, with its own numbers of points. Triangles and
@@ -126,11 +117,11 @@ class SubMesh
 public:
   /// @param mesh must live as long.
   /// @param slots the triangles, ascending.
-  SubMesh(const TriangleMesh& mesh, Array<std::int64_t> slots, const ThreadBackend& backend);
+  SubMesh(const TriangleMesh& mesh, std::vector<std::int64_t> slots, const ThreadBackend& backend);
 
   std::int64_t GetNumberOfTriangles() const
   {
-    return static_cast<std::int64_t>(this->Slots.Size());
+    return static_cast<std::int64_t>(this->Slots.size());
   }
   /// The place of a triangle in the mesh.
   std::int64_t GetSlot(std::int64_t triangle) const { return this->Slots[triangle]; }
@@ -172,7 +163,7 @@ private:
   const TriangleMesh& Whole;
   const ThreadBackend& Engine;
   PointSet PointIds;
-  Array<std::int64_t> Slots;
+  std::vector<std::int64_t> Slots;
   Array<std::int64_t> PointOf;
   Array<std::int32_t> Ids;
   Array<float> Floats; ///< Coordinates, in the precision of the mesh; Doubles is then empty.
@@ -183,28 +174,37 @@ private:
   std::vector<std::int64_t> Edges;
 };
 
+inline TriangleArray AsConst(const MutableTriangleArray& triangles)
+{
+  return triangles.Ids32 ? TriangleArray(triangles.Ids32, triangles.Count)
+                         : TriangleArray(triangles.Ids64, triangles.Count);
+}
+
 void CopyTriangles(
   const TriangleArray& from, const MutableTriangleArray& to, const ThreadBackend& threads);
 
-/// A mesh whose triangle slots are divided among parts. Flips change its triangles in place.
+/// A mesh of this process whose triangle slots are divided among parts, with its constraints
+/// inserted. Flips change its triangles in place.
 class MeshInParts
 {
 public:
-  /// Surveys the mesh as a whole, divides it, and copies its triangles.
+  /// Inserts the constraints, surveys the mesh as a whole, divides it, and copies its triangles.
   /// @param triangles receives the copy, which flips change. May be the mesh's own array.
-  /// @param options whose threads are used.
-  /// @throws InvalidMesh, InvalidOptions, both before anything is copied.
+  /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
   MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
-    const FlipOptions& options, int parts);
+    const FlipOptions& options, const ProgressObserver& progress);
+  MeshInParts(const MeshInParts&) = delete;
+  MeshInParts& operator=(const MeshInParts&) = delete;
 
   const TriangleMesh& View() const { return this->Mesh; }
   const MutableTriangleArray& GetTriangles() const { return this->Triangles; }
+  const FlipOptions& GetOptions() const { return this->Options; }
+  const ConstraintInsertion& GetInsertion() const { return this->Insertion; }
   int GetNumberOfParts() const { return this->Parts; }
   const PartSurvey& GetSurvey() const { return this->Survey; }
-  std::int64_t GetUsedPoints() const { return this->UsedPoints; }
-  /// Defects of point ids and coordinates.
-  const std::vector<Defect>& GetDefects() const { return this->Defects; }
   const ThreadBackend& GetThreads() const { return this->Threads; }
+  /// What is known before the first flip.
+  PiecesReport GetReport() const;
 
   SubMesh GetPart(int number) const;
   /// The points that triangles of several parts share at the moment.
@@ -217,22 +217,24 @@ public:
   PointSet FindPointsAround(const PointSet& points) const;
 
 private:
-  void Examine(const FlipOptions& options);
-
+  ConstraintInsertion Insertion;
+  FlipOptions Options; ///< With the geometry that was chosen before the insertion.
   TriangleMesh Mesh;
   MutableTriangleArray Triangles;
   int Parts;
   ThreadBackend Threads;
   PartSurvey Survey;
-  std::int64_t UsedPoints = 0;
-  std::vector<Defect> Defects;
   Array<unsigned char> PartOf; ///< By triangle slot.
 };
 
 /// Flips the parts, one after the other on each device, and the edges between them.
 /// @param flipCounts is set to the number of flips of each triangle slot; or null.
-PiecesReport FlipInTurn(MeshInParts& mesh, const FlipOptions& options, std::int32_t* flipCounts,
-  const ProgressObserver& progress);
+PiecesReport FlipInTurn(
+  MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress);
+
+/// What a run does that was stopped before there was such a mesh: copies the triangles.
+PiecesReport StopBeforeFlips(
+  const TriangleMesh& mesh, const MutableTriangleArray& triangles, const ThreadBackend& threads);
 
 }
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartMesh.h"
 
-#include "AngleSurvey.h"
-#include "CotangentAngle.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
 #include "PartSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_
     Shared(std::move(keys.Shared)),
     Given(piece.Mesh.Points),
     Keys(std::move(keys.Keys)),
-    FirstOwnKey(keys.FirstKeys[rank])
+    FirstOwnKey(keys.Owners.Firsts[rank])
 {
   keys.Keys.clear();
   keys.Shared.clear();

@@ -3,10 +3,10 @@
 #ifndef DELAUNAYFLIP_PARTMESH_H
 #define DELAUNAYFLIP_PARTMESH_H
 
-#include "EngineTriangles.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
-#include "HostVector.h"
+#include "HostMemory.h"
+#include "LoadedMesh.h"
 #include "PieceFlip.h"
 #include "PointMatch.h"
 #include "Records.h"
@@ -343,7 +343,7 @@ public:
   /// The rank that a point comes from, and its id there.
   PieceOrigin FindOrigin(std::int64_t point) const
   {
-    return this->WholeKeys.FindOrigin(this->Keys[point]);
+    return this->WholeKeys.Owners.Find(this->Keys[point]);
   }
 
 private:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "HostVector.h"
+#include "HostMemory.h"
 #include "JoinReports.h"
 #include "MeshAudit.h"
 #include "PartConstraints.h"
@@ -40,35 +40,6 @@ constexpr std::int64_t MostRounds = 1000;
 /// triangles.
 constexpr std::int64_t SafetyMargin = 1000;
 
-/// The number of the first triangle of every rank, and at the end that of all.
-std::vector<std::int64_t> NumberTriangles(const MeshPiece& piece, PieceGroup& group)
-{
-  std::vector<std::int64_t> firsts{ 0 };
-  for (const std::vector<std::int64_t>& count :
-    GatherRecords(group, std::vector<std::int64_t>{ piece.Mesh.Triangles.Count }))
-  {
-    firsts.push_back(firsts.back() + count.front());
-  }
-  return firsts;
-}
-
-/// What a rank says after its flips, or all ranks together.
-struct RankState
-{
-  bool IsAborted = false, IsLimited = false;
-  bool IsUncounted = false; ///< Stopped before the edges were counted.
-  std::int64_t Iterations = 0; ///< Since the last time; the most that a rank has made.
-
-  RankState& operator+=(const RankState& other)
-  {
-    this->IsAborted |= other.IsAborted;
-    this->IsLimited |= other.IsLimited;
-    this->IsUncounted |= other.IsUncounted;
-    this->Iterations = std::max(this->Iterations, other.Iterations);
-    return *this;
-  }
-};
-
 /// Removes items of `size` values by their numbers, which ascend.
 template <typename T>
 void RemoveItems(const std::vector<std::int64_t>& gone, std::int64_t size, std::vector<T>& values)
@@ -95,8 +66,8 @@ class PartRun
 public:
   PartRun(const PartJob& job, PointKeys keys)
     : Job(job),
-      FirstOrigins(NumberTriangles(job.Piece, job.Group)),
-      Mesh(job.Piece, std::move(keys), job.Group.GetRank(), FirstOrigins[job.Group.GetRank()]),
+      Origins(job.Piece.Mesh.Triangles.Count, job.Group),
+      Mesh(job.Piece, std::move(keys), job.Group.GetRank(), Origins.Firsts[job.Group.GetRank()]),
       Judge(job.Survey, job.Options),
       Constraints(Job, Mesh),
       Seams(std::move(Constraints.Seams))
@@ -120,8 +91,8 @@ public:
   void Store(FlippedPiece& flipped) const
   {
     const PartTriangles& triangles = this->Mesh.Triangles;
-    const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
-    const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
+    const std::int64_t first = this->Origins.Firsts[this->Job.Group.GetRank()];
+    const std::int64_t count = this->Job.Piece.Mesh.Triangles.Count;
     this->StoreFirst(flipped, count);
     std::vector<std::int64_t> own, others;
     this->FindTriangles(flipped.GoneTriangles, own, others);
@@ -162,10 +133,7 @@ public:
     RemoveItems(flipped.GoneTriangles, 1, flipped.FlipCounts);
     for (const std::int64_t t : others)
     {
-      const auto after =
-        std::upper_bound(this->FirstOrigins.begin(), this->FirstOrigins.end(), triangles[t].Origin);
-      const auto rank = static_cast<std::int32_t>(after - this->FirstOrigins.begin() - 1);
-      flipped.ReceivedTriangles.push_back({ rank, triangles[t].Origin - this->FirstOrigins[rank] });
+      flipped.ReceivedTriangles.push_back(this->Origins.Find(triangles[t].Origin));
       flipped.FlipCounts.push_back(triangles[t].Flips);
       std::transform(triangles[t].Points, triangles[t].Points + 3,
         std::back_inserter(flipped.Triangles), storePoint);
@@ -196,8 +164,8 @@ private:
     std::vector<std::int64_t>& others) const
   {
     const PartTriangles& triangles = this->Mesh.Triangles;
-    const std::int64_t first = this->FirstOrigins[this->Job.Group.GetRank()];
-    const std::int64_t count = this->FirstOrigins[this->Job.Group.GetRank() + 1] - first;
+    const std::int64_t first = this->Origins.Firsts[this->Job.Group.GetRank()];
+    const std::int64_t count = this->Job.Piece.Mesh.Triangles.Count;
     constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
     HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
     for (const std::int64_t t : this->Mesh.FindListed())
@@ -271,8 +239,6 @@ private:
     }
     this->Own = this->First->GetReport();
     this->Constraints.AddTo(this->Own);
-    std::for_each(this->Own.Iterations.begin(), this->Own.Iterations.end(),
-      [this](const IterationRecord& row) { this->KeepRow(row); });
     this->HasBlocked = this->Own.NonDelaunayAfter > 0;
     this->StopReason = this->Constraints.IsAborted ? StopReasonKind::Aborted : this->Own.StopReason;
     this->TakeFirst(mesh);
@@ -336,20 +302,24 @@ private:
   /// Whether no rank has stopped.
   bool MayGoOn()
   {
-    RankState state;
-    state.IsAborted = this->StopReason == StopReasonKind::Aborted;
-    state.IsLimited = this->StopReason == StopReasonKind::IterationLimit;
-    state.IsUncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0;
-    state.Iterations = static_cast<std::int64_t>(this->Rows.size() - this->EarlierRows);
-    this->EarlierRows = this->Rows.size();
-    state = SumOverRanks(this->Job.Group, state);
-    this->Iterations += state.Iterations;
-    this->IsCounted = !state.IsUncounted;
-    if (state.IsAborted)
+    const bool isUncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0;
+    const std::vector<std::int64_t> own{ this->StopReason == StopReasonKind::Aborted ? 1 : 0,
+      this->StopReason == StopReasonKind::IterationLimit ? 1 : 0, isUncounted ? 1 : 0,
+      this->CountRows() - this->EarlierRows };
+    this->EarlierRows = this->CountRows();
+    std::vector<std::int64_t> most(own.size());
+    for (const std::vector<std::int64_t>& state : GatherRecords(this->Job.Group, own))
+    {
+      std::transform(state.begin(), state.end(), most.begin(), most.begin(),
+        [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+    }
+    this->IsCounted = most[2] == 0;
+    this->Iterations += most[3];
+    if (most[0] != 0)
     {
       this->WholeStopReason = StopReasonKind::Aborted;
     }
-    else if (state.IsLimited || (this->Job.Survey.NeedsGuard() && this->Whole.Rounds > MostRounds))
+    else if (most[1] != 0 || (this->Job.Survey.NeedsGuard() && this->Whole.Rounds > MostRounds))
     {
       this->WholeStopReason = StopReasonKind::IterationLimit;
     }
@@ -381,8 +351,11 @@ private:
     if (needsGuard && mayGoOn)
     {
       this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
-      waiting =
-        FlipWaiting(this->Mesh, this->Judge, this->Waiting, test, group, !this->IsAtLimit());
+      waiting = AskForFlips(this->Mesh, this->Judge, this->Waiting, test, group);
+      if (!this->IsAtLimit())
+      {
+        waiting.Flip(this->Mesh, test);
+      }
       if (!waiting.Gone.empty()) // all at once
       {
         IterationRecord row;
@@ -425,18 +398,16 @@ private:
   {
     const StopWatch watch;
     const double rounds = static_cast<double>(this->Whole.Rounds);
-    const auto made = static_cast<std::int64_t>(this->Rows.size());
     const std::int64_t limit = this->Job.Options.MaximumIterations >= 0
-      ? static_cast<std::int64_t>(this->EarlierRows) + this->Job.Options.MaximumIterations -
-        this->Iterations
-      : made + static_cast<std::int64_t>(this->Mesh.Triangles.size()) + SafetyMargin;
+      ? this->EarlierRows + this->Job.Options.MaximumIterations - this->Iterations
+      : this->CountRows() + static_cast<std::int64_t>(this->Mesh.Triangles.size()) + SafetyMargin;
     while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
     {
       if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
       {
         this->StopReason = StopReasonKind::Aborted;
       }
-      else if (static_cast<std::int64_t>(this->Rows.size()) >= limit)
+      else if (this->CountRows() >= limit)
       {
         this->StopReason = flips.HasBad() ? StopReasonKind::IterationLimit : this->StopReason;
         break;
@@ -454,12 +425,14 @@ private:
     this->Own.FlipSeconds += watch.GetSeconds();
   }
 
-  /// The smallest angle of a row is not that of the whole mesh.
-  void KeepRow(const IterationRecord& row)
+  std::int64_t CountRows() const { return static_cast<std::int64_t>(this->Own.Iterations.size()); }
+
+  /// Keeps an iteration of this rank. Those of all ranks with the same place in the same round are
+  /// one iteration of the whole mesh.
+  void KeepRow(IterationRecord row)
   {
-    const bool isNext = !this->Rows.empty() && this->Rows.back().Round == this->Whole.Rounds;
-    this->Rows.push_back({ this->Whole.Rounds, isNext ? this->Rows.back().Place + 1 : 0, row });
-    this->Rows.back().Record.MinimumAngle = NaN;
+    row.Iteration = this->Iterations + this->CountRows() - this->EarlierRows + 1;
+    this->Own.Iterations.push_back(row);
   }
 
   //------------------------------------------------------------------------------
@@ -473,7 +446,7 @@ private:
     this->Own.MinimumAngleAfter =
       this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
     this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
-    if (this->HasBlocked)
+    if (this->HasBlocked || this->StopReason != StopReasonKind::Converged)
     {
       this->CountBad();
     }
@@ -483,41 +456,20 @@ private:
   void CountBad()
   {
     this->Mesh.ListAll();
-    PointList points{ this->Job.Survey.IsFloat, {}, {} };
-    for (std::int64_t i = 0; i < this->Mesh.GetNumberOfPoints(); ++i)
+    const RoundFlips flips(this->Mesh, this->Judge, this->Job.Survey.NeedsGuard());
+    const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
+    for (std::int64_t t = 0; t < count; ++t)
     {
-      double x[3];
-      this->Mesh.GetPosition(i, x);
-      points.Add(x);
-    }
-    std::vector<std::int32_t> ids;
-    std::vector<std::int64_t> fixed;
-    for (const PartTriangle& triangle : this->Mesh.Triangles)
-    {
-      for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
+      for (int slot = 0; slot < 3 && !this->Mesh.Triangles[t].HasLeft; ++slot)
       {
-        ids.push_back(triangle.Points[slot]);
-        if (triangle.Has(FixedMark, slot))
-        {
-          fixed.insert(fixed.end(), { triangle.GetStart(slot), triangle.GetEnd(slot) });
-        }
+        const PartCorner mate = this->Mesh.FindOpenMate({ t, slot });
+        const EdgeState state =
+          mate.Triangle > t ? flips.Judge({ t, slot }, mate) : EdgeState::Good;
+        this->Own.NonDelaunayAfter += state != EdgeState::Good ? 1 : 0;
+        this->Own.BlockedByShape += state == EdgeState::BlockedByShape ? 1 : 0;
+        this->Own.BlockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
     }
-    TriangleMesh mesh;
-    mesh.Points = points.View();
-    mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
-    mesh.ConstraintEdges = fixed.data();
-    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(fixed.size()) / 2;
-    mesh.Whole = this->Job.Survey.Whole;
-    mesh.Whole.SharedPoints =
-      this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
-    FlipOptions none = GetPartOptions(this->Job.Survey, this->Job.Options);
-    none.MaximumIterations = 0;
-    const FlipSession session(mesh, none);
-    const FlipReport& report = session.GetReport();
-    this->Own.NonDelaunayAfter = report.NonDelaunayAfter;
-    this->Own.BlockedByShape = report.BlockedByShape;
-    this->Own.BlockedByEdge = report.BlockedByEdge;
   }
 
   PiecesReport MakeReport()
@@ -525,8 +477,9 @@ private:
     const SeamCounts& seams = this->Seams.Counts;
     const PointKeys& keys = this->Mesh.GetWholeKeys();
     PiecesReport report = this->Whole;
-    static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Rows, this->Job.Group);
-    report.Points = keys.FirstKeys.back() - keys.Repeated;
+    static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Job.Group);
+    CountIterations(report);
+    report.Points = keys.Owners.Firsts.back() - keys.Repeated;
     AddCounts(report.Edges, seams.Edges, 1);
     report.EulerCharacteristic = keys.UsedPoints - report.Edges.Edges + report.Triangles;
     if (!this->IsCounted)
@@ -559,7 +512,7 @@ private:
   }
 
   PartJob Job;
-  std::vector<std::int64_t> FirstOrigins;
+  RankNumbers Origins; ///< Of the triangles in their input slots.
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
@@ -568,12 +521,11 @@ private:
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 
   // Of this rank:
-  FlipReport Own; ///< Starts as the report of the first flips.
-  std::vector<RoundRow> Rows;
+  FlipReport Own; ///< Starts as the report of the first flips. Has the iterations of all rounds.
   /// The session of the first flips. Keeps the triangles that are not listed (PartMesh), if any.
   std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;
-  std::size_t EarlierRows = 0; ///< Rows of earlier rounds.
+  std::int64_t EarlierRows = 0; ///< Iterations of this rank in earlier rounds.
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
 
   // Of all ranks:

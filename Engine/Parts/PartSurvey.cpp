@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartSurvey.h"
 
-#include "AngleSurvey.h"
 #include "Atomics.h"
-#include "CotangentAngle.h"
+#include "EdgeMeshBuilder.h"
 #include "ExactPredicates.h"
-#include "FixedEdges.h"
 #include "FlipError.h"
 #include "InputChecks.h"
+#include "JoinReports.h"
 #include "MeshInParts.h"
 #include "MeshSurveyBuilder.h"
+#include "PlanarSurvey.h"
 #include "Records.h"
-#include "StarSurvey.h"
+#include "SmallestAngle.h"
+#include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
 
@@ -59,7 +60,7 @@ struct PointSum
   std::uint32_t Sum;
 };
 
-/// Found in HeightFieldSurvey.h instead of the function that does nothing. The total of every point
+/// Found in GeometryChoice.h instead of the function that does nothing. The total of every point
 /// goes to the first rank that has it, and 0 to the others.
 void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
 {
@@ -136,19 +137,26 @@ void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& 
     });
 }
 
-PartSurvey::PartSurvey(const MeshSurvey& found)
-  : Geometry(found.Geometry),
-    GeometryReason(found.GeometryReason),
-    Projection(found.Projection),
-    NearlyHeightField(found.NearlyHeightField),
-    Range(found.Range),
-    FiltersApply(found.FiltersApply)
+PartSurvey::PartSurvey(MeshSurvey found, bool isFloat)
+  : MeshSurvey(std::move(found)),
+    IsFloat(isFloat)
 {
-  if (found.Geometry == GeometryKind::Planar)
+  this->Uses = Array<PointUse>();
+  this->Precision = isFloat ? FloatPrecision : DoublePrecision;
+  if (this->Geometry == GeometryKind::Planar)
   {
-    this->Whole.PlaneAxis = found.Projection.AxisW;
-    this->Whole.PlaneIsTilted = found.Projection.Tilted;
+    this->Whole.PlaneAxis = this->Projection.AxisW;
+    this->Whole.PlaneIsTilted = this->Projection.Tilted;
   }
+}
+
+std::vector<Defect> PartSurvey::ListDefects() const
+{
+  std::vector<Defect> defects;
+  AddDefect(this->RepeatedIds, defects);
+  AddDefect(this->NonFinitePoints, defects);
+  AddDefect(this->NearlyHeightField, defects);
+  return defects;
 }
 
 double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey)
@@ -168,15 +176,14 @@ PartSurvey SurveyParts(
 {
   const GroupBackend backend(options.NumberOfThreads, keys, group);
   const TriangleMesh& mesh = piece.Mesh;
-  const MeshSurvey found = SurveyAll(mesh, options.Geometry, backend);
+  MeshSurvey found = SurveyAll(mesh, options.Geometry, backend);
   CheckTieRule(options, found.Geometry);
-  PartSurvey survey(found);
-  survey.NearlyHeightField.FirstIds.clear(); // of other ranks
   const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
-  survey.IsFloat = SumOverRanks(group, doubles) == 0;
-  if (found.Geometry != GeometryKind::Surface)
+  PartSurvey survey(std::move(found), SumOverRanks(group, doubles) == 0);
+  survey.NearlyHeightField.FirstIds.clear(); // of other ranks
+  if (survey.Geometry != GeometryKind::Surface)
   {
-    SurveyStars(mesh, found.Projection, keys, backend, group, survey.Whole);
+    SurveyStars(mesh, keys, backend, group, survey);
   }
   return survey;
 }
@@ -280,8 +287,8 @@ private:
 };
 
 /// The wedges of a rank: at shared points for the homes of these, the others for this rank.
-/// @param side the one to which all triangles turn: 1 or -1.
-RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PlaneProjection& plane, int side,
+/// @param survey has the side to which all triangles turn.
+RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PartSurvey& survey,
   const PointKeys& keys, const ThreadBackend& threads, const PieceGroup& group)
 {
   RecordLists<Wedge> toHome(group.GetSize());
@@ -290,10 +297,8 @@ RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PlaneProjection& p
     return !keys.Closed[mesh.Triangles.Get(t, 0)] || !keys.Closed[mesh.Triangles.Get(t, 1)] ||
       !keys.Closed[mesh.Triangles.Get(t, 2)];
   };
-  const Array<std::int64_t> triangles = ListNumbers(mesh.Triangles.Count, isAtOpenPoint, threads);
-  for (std::size_t i = 0; i < triangles.Size(); ++i)
+  for (const std::int64_t t : ListNumbers(mesh.Triangles.Count, isAtOpenPoint, threads))
   {
-    const std::int64_t t = triangles[i];
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int64_t point = mesh.Triangles.Get(t, slot);
@@ -302,10 +307,10 @@ RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PlaneProjection& p
         continue;
       }
       Wedge wedge{ keys.Keys[point], {}, {}, {} };
-      const int first = (slot + (side > 0 ? 1 : 2)) % 3;
+      const int first = (slot + (survey.Whole.Side > 0 ? 1 : 2)) % 3;
       const auto place = [&](int corner, double(&at)[2])
       {
-        const PlanePoint p = plane.Project(mesh.Points, mesh.Triangles.Get(t, corner));
+        const PlanePoint p = survey.Projection.Project(mesh.Points, mesh.Triangles.Get(t, corner));
         at[0] = p.U;
         at[1] = p.V;
       };
@@ -340,11 +345,12 @@ bool AreApart(Wedge* begin, Wedge* end)
 }
 }
 
-void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const ThreadBackend& threads, PieceGroup& group, WholeMesh& whole)
+void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBackend& threads,
+  PieceGroup& group, PartSurvey& survey)
 {
-  StarTurns turns =
-    threads.Sum<StarTurns>(mesh.Triangles.Count, StarTurnStep{ mesh, plane, keys.Closed.data() });
+  WholeMesh& whole = survey.Whole;
+  StarTurns turns = threads.Sum<StarTurns>(
+    mesh.Triangles.Count, StarTurnStep{ mesh, survey.Projection, keys.Closed.data() });
   turns.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
   turns = SumOverRanks(group, turns);
   whole.Side = turns.Left >= turns.Right ? 1 : -1;
@@ -354,7 +360,7 @@ void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane, const P
     return;
   }
   std::vector<Wedge> wedges =
-    Join(ExchangeRecords(group, ListWedges(mesh, plane, whole.Side, keys, threads, group)));
+    Join(ExchangeRecords(group, ListWedges(mesh, survey, keys, threads, group)));
   std::sort(
     wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) { return a.Key < b.Key; });
   bool areApart = true;
@@ -364,8 +370,7 @@ void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane, const P
   whole.StarsAreSimple = SumOverRanks(group, std::int64_t(areApart ? 0 : 1)) == 0;
 }
 
-void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
-  const ThreadBackend& threads, WholeMesh& whole)
+void SurveyStars(const TriangleMesh& mesh, const ThreadBackend& threads, PartSurvey& survey)
 {
   PointKeys keys; // none is shared
   keys.Closed.resize(mesh.Points.Count);
@@ -402,7 +407,7 @@ void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
   keys.Shared.resize(mesh.Points.Count);
   keys.Keys.resize(mesh.Points.Count);
   std::iota(keys.Keys.begin(), keys.Keys.end(), 0);
-  SurveyStars(mesh, plane, keys, threads, *MakeSingleGroup(), whole);
+  SurveyStars(mesh, keys, threads, *MakeSingleGroup(), survey);
 }
 
 }

@@ -10,33 +10,29 @@
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
-#include <string>
+#include <vector>
 
 namespace delaunayflip
 {
 
-/// Decisions that depend on the whole mesh and must be the same on all ranks.
-struct PartSurvey
+/// What is known of the whole mesh; the same on all ranks.
+struct PartSurvey : MeshSurvey
 {
-  GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
-  std::string GeometryReason;
-  PlaneProjection Projection; ///< For the planar kinds.
   WholeMesh Whole; ///< With the same plane; without SharedPoints.
-  Defect NearlyHeightField; ///< As in MeshSurvey.
-  CoordinateRange Range = CoordinateRange::Usual;
-  bool FiltersApply = true; ///< As in MeshSurvey.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 
   PartSurvey() = default;
-  /// Without StarsAreSimple and IsFloat.
-  explicit PartSurvey(const MeshSurvey& found);
+  /// Without StarsAreSimple. Drops the values of single points.
+  PartSurvey(MeshSurvey found, bool isFloat);
 
   /// Whether a flip could make an edge that already exists on some rank. Then flips need a guard
   /// (GuardRound).
   bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
+  /// Of ids and coordinates.
+  std::vector<Defect> ListDefects() const;
 };
 
-/// The squared cotangent of the smallest angle of a triangle, as defined in AngleSurvey.h.
+/// The squared cotangent of the smallest angle of a triangle, as defined in SmallestAngle.h.
 /// @param x the coordinates of its corners.
 double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey);
 
@@ -57,17 +53,16 @@ struct PartJob
   const ProgressObserver& Progress;
 };
 
-/// Sets Side and StarsAreSimple: whether all triangles of the whole mesh strictly turn to the same
-/// side in the plane, and the triangles around every point cover no direction twice. Then flips
-/// need no guard (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a part, where the
-/// star of a point has some of the same triangles. All ranks must call this together.
+/// Sets Side and StarsAreSimple of the whole mesh: whether all its triangles strictly turn to the
+/// same side in the plane, and the triangles around every point cover no direction twice. Then
+/// flips need no guard (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a part,
+/// where the star of a point has some of the same triangles. All ranks must call this together.
 /// @param keys of which only Keys, Shared and Closed matter.
-void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane, const PointKeys& keys,
-  const ThreadBackend& threads, PieceGroup& group, WholeMesh& whole);
+void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBackend& threads,
+  PieceGroup& group, PartSurvey& survey);
 
 /// The same for a mesh of this process, which may be too large for a session.
-void SurveyStars(const TriangleMesh& mesh, const PlaneProjection& plane,
-  const ThreadBackend& threads, WholeMesh& whole);
+void SurveyStars(const TriangleMesh& mesh, const ThreadBackend& threads, PartSurvey& survey);
 
 }
 

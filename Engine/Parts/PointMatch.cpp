@@ -26,41 +26,6 @@ std::uint64_t GetHash(const Place& place)
   return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
 }
 
-/// Hashes of places, in a table at least half of which is empty. Another place with the same hash
-/// is only asked for in vain.
-class PlaceHashes
-{
-public:
-  explicit PlaceHashes(const std::vector<std::uint64_t>& hashes)
-  {
-    std::size_t size = 1; // a power of two
-    while (size < 2 * hashes.size())
-    {
-      size *= 2;
-    }
-    this->Table.resize(size);
-    for (const std::uint64_t hash : hashes)
-    {
-      this->Table[this->Find(hash | 1)] = hash | 1; // never 0
-    }
-  }
-  bool Has(std::uint64_t hash) const { return this->Table[this->Find(hash | 1)] != 0; }
-
-private:
-  /// The cell of a hash, or the empty one, which is 0, where it would be.
-  std::size_t Find(std::uint64_t hash) const
-  {
-    std::size_t cell = hash >> 8 & (this->Table.size() - 1);
-    while (this->Table[cell] != 0 && this->Table[cell] != hash)
-    {
-      cell = (cell + 1) & (this->Table.size() - 1);
-    }
-    return cell;
-  }
-
-  std::vector<std::uint64_t> Table;
-};
-
 /// If it holds no point, Lower exceeds Upper.
 struct Box
 {
@@ -75,15 +40,14 @@ struct Box
       this->Upper[axis] = std::max(this->Upper[axis], x[axis]);
     }
   }
-  bool Meets(const Box& other) const
+  bool Holds(const double (&x)[3]) const
   {
-    bool meets = true;
+    bool holds = true;
     for (int axis = 0; axis < 3; ++axis)
     {
-      meets =
-        meets && this->Lower[axis] <= other.Upper[axis] && other.Lower[axis] <= this->Upper[axis];
+      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
     }
-    return meets;
+    return holds;
   }
 };
 
@@ -130,15 +94,10 @@ public:
   {
     PointKeys& keys = this->Keys;
     const std::int64_t count = this->Mesh.Points.Count;
-    keys.FirstKeys.push_back(0);
-    for (const std::vector<std::int64_t>& points :
-      GatherRecords(this->Group, std::vector<std::int64_t>{ count }))
-    {
-      keys.FirstKeys.push_back(keys.FirstKeys.back() + points.front());
-    }
-    this->FindBoxes();
-    const std::int64_t first = keys.FirstKeys[this->Group.GetRank()];
-    const PlaceHashes asked(Join(ExchangeRecords(this->Group, this->Ask())));
+    keys.Owners = RankNumbers(count, this->Group);
+    const std::int64_t first = keys.Owners.Firsts[this->Group.GetRank()];
+    std::vector<std::uint64_t> asked = Join(ExchangeRecords(this->Group, this->Ask()));
+    std::sort(asked.begin(), asked.end());
     const RecordLists<Candidate> candidates =
       ExchangeRecords(this->Group, this->List(first, asked));
     keys.UsedPoints = std::count(keys.Used.begin(), keys.Used.end(), 1);
@@ -216,41 +175,24 @@ private:
     return isPlace;
   }
 
-  /// Finds the boxes around the used points of every rank, and the ranks whose boxes are near.
-  void FindBoxes()
-  {
-    Box used, wanted; // NaN changes nothing
-    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
-    {
-      double x[3];
-      this->GetPosition(i, x);
-      if (this->Keys.Used[i] != 0)
-      {
-        used.Add(x);
-      }
-      if (this->IsWanted(i))
-      {
-        wanted.Add(x);
-      }
-    }
-    for (const std::vector<Box>& box : GatherRecords(this->Group, std::vector<Box>{ used }))
-    {
-      const auto rank = static_cast<int>(this->Boxes.size());
-      this->Boxes.push_back(box.front());
-      if (rank != this->Group.GetRank() && wanted.Meets(box.front()))
-      {
-        this->Near.push_back(rank);
-      }
-    }
-  }
-
   /// Asks the ranks whose box holds a point of this one whether they have it, too: a border point,
   /// or any point if points have numbers. It may be inside their part: where three sheets of a
   /// non-manifold mesh meet, two may be on one rank; and sheets that lie on each other may have the
   /// same points.
   RecordLists<std::uint64_t> Ask() const
   {
-    RecordLists<std::uint64_t> questions(this->Group.GetSize());
+    Box used; // NaN changes nothing
+    double x[3];
+    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
+    {
+      if (this->Keys.Used[i] != 0)
+      {
+        this->GetPosition(i, x);
+        used.Add(x);
+      }
+    }
+    const RecordLists<Box> boxes = GatherRecords(this->Group, std::vector<Box>{ used });
+    RecordLists<std::uint64_t> questions(boxes.size());
     for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
     {
       Place place{};
@@ -258,23 +200,10 @@ private:
       {
         continue;
       }
-      double x[3];
-      if (this->GetPosition(i, x))
-      {
-        Box at;
-        at.Add(x);
-        for (const int rank : this->Near)
-        {
-          if (this->Boxes[rank].Meets(at))
-          {
-            questions[rank].push_back(GetHash(place));
-          }
-        }
-        continue;
-      }
+      const bool isSomewhere = this->GetPosition(i, x);
       for (int rank = 0; rank < this->Group.GetSize(); ++rank)
       {
-        if (rank != this->Group.GetRank())
+        if (rank != this->Group.GetRank() && (!isSomewhere || boxes[rank].front().Holds(x)))
         {
           questions[rank].push_back(GetHash(place));
         }
@@ -284,14 +213,16 @@ private:
   }
 
   /// The points that others may have, too, for the homes of their places.
-  RecordLists<Candidate> List(std::int64_t firstKey, const PlaceHashes& asked) const
+  /// @param asked the hashes of places that other ranks have asked for, sorted. Another place with
+  /// the same hash is only sent in vain.
+  RecordLists<Candidate> List(std::int64_t firstKey, const std::vector<std::uint64_t>& asked) const
   {
     RecordLists<Candidate> toHome(this->Group.GetSize());
     for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
     {
       Place place{};
       if (this->IsWanted(i) && this->FindPlace(i, place) &&
-        (this->IsAtBorder(i) || asked.Has(GetHash(place))))
+        (this->IsAtBorder(i) || std::binary_search(asked.begin(), asked.end(), GetHash(place))))
       {
         toHome[GetHome(GetHash(place), this->Group)].push_back(
           { place, firstKey + i, this->Group.GetRank(), this->Keys.Used[i] != 0 ? 0 : 1 });
@@ -354,16 +285,7 @@ private:
   HostVector<std::uint64_t> Fans;
   std::vector<unsigned char> Ends; ///< Of constraints.
   PointKeys Keys;
-  std::vector<Box> Boxes; ///< One per rank.
-  std::vector<int> Near; ///< Other ranks whose box may hold a point of this one.
 };
-}
-
-PieceOrigin PointKeys::FindOrigin(std::int64_t key) const
-{
-  const auto after = std::upper_bound(this->FirstKeys.begin(), this->FirstKeys.end(), key);
-  const auto rank = static_cast<std::int32_t>(after - this->FirstKeys.begin() - 1);
-  return { rank, key - this->FirstKeys[rank] };
 }
 
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group)

@@ -3,8 +3,9 @@
 #ifndef DELAUNAYFLIP_POINTMATCH_H
 #define DELAUNAYFLIP_POINTMATCH_H
 
-#include "HostVector.h"
+#include "HostMemory.h"
 #include "PieceFlip.h"
+#include "Records.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,11 +14,10 @@ namespace delaunayflip
 {
 
 /// The keys of points. A key is a number that stands for one point of the whole mesh: all ranks
-/// that have the point use the same key. FindOrigin gives a rank that has it from the start, and
-/// its id on that rank.
+/// that have the point use the same key.
 struct PointKeys
 {
-  std::vector<std::int64_t> FirstKeys; ///< One per rank, and at the end the number of all keys.
+  RankNumbers Owners; ///< Of keys: a rank that has the point from the start.
   HostVector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
@@ -29,8 +29,6 @@ struct PointKeys
   std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
   /// Points that coincide with others of their rank and with a point of another rank.
   std::int64_t Ambiguous = 0;
-
-  PieceOrigin FindOrigin(std::int64_t key) const;
 };
 
 /// Finds the points that several ranks have: points with the same global number or, without such

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_RECORDS_H
 #define DELAUNAYFLIP_RECORDS_H
 
+#include "PieceFlip.h"
 #include "PieceGroup.h"
 
 #include <algorithm>
@@ -69,6 +70,30 @@ RecordLists<Record> GatherRecords(PieceGroup& group, const std::vector<Record>& 
 {
   return UnpackAll<Record>(group.Gather(Pack(records)));
 }
+
+/// Numbers for the items of all ranks: those of the first rank come first.
+struct RankNumbers
+{
+  RankNumbers() = default;
+  /// @param count of the items of this rank. All ranks must call this together.
+  RankNumbers(std::int64_t count, PieceGroup& group)
+  {
+    for (const auto& counts : GatherRecords(group, std::vector<std::int64_t>{ count }))
+    {
+      this->Firsts.push_back(this->Firsts.back() + counts.front());
+    }
+  }
+
+  /// The rank that has an item, and its number there.
+  PieceOrigin Find(std::int64_t number) const
+  {
+    const auto after = std::upper_bound(this->Firsts.begin(), this->Firsts.end(), number);
+    const auto rank = static_cast<std::int32_t>(after - this->Firsts.begin() - 1);
+    return { rank, number - this->Firsts[rank] };
+  }
+
+  std::vector<std::int64_t> Firsts{ 0 }; ///< One per rank, and at the end the number of all.
+};
 
 /// The sum of a value over all ranks, by operator+= in the order of the ranks.
 template <typename Value>

@@ -343,20 +343,6 @@ void RoundFlips::AddFreed(const PointPair& edge)
 //------------------------------------------------------------------------------
 namespace
 {
-/// An inner edge of a rank, given by the two corners opposite to it.
-struct InnerQuad
-{
-  PartCorner One, Other;
-};
-
-/// An edge to flip, and the edge that this would make.
-struct Question
-{
-  PointPair Ends; ///< Keys, as all here.
-  PointPair Opposite;
-  bool IsSeam; ///< Between ranks, so that it cannot flip now.
-};
-
 /// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
 /// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
 std::vector<InnerQuad> FindWaiting(
@@ -393,12 +379,13 @@ std::vector<InnerQuad> FindWaiting(
 /// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
 /// of the others, the first that asked. All ranks come to the same answers.
 PairMap<PointPair> GrantFlips(
-  const PartMesh& mesh, const std::vector<Question>& own, PieceGroup& group)
+  const PartMesh& mesh, const std::vector<FlipQuestion>& own, PieceGroup& group)
 {
-  std::vector<Question> all = Join(GatherRecords(group, own));
-  std::stable_partition(all.begin(), all.end(), [](const Question& one) { return !one.IsSeam; });
+  std::vector<FlipQuestion> all = Join(GatherRecords(group, own));
+  std::stable_partition(
+    all.begin(), all.end(), [](const FlipQuestion& one) { return !one.IsSeam; });
   std::vector<unsigned char> exists; // the edge that the flip would make
-  for (const Question& question : all)
+  for (const FlipQuestion& question : all)
   {
     const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
     const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
@@ -421,56 +408,54 @@ PairMap<PointPair> GrantFlips(
 }
 }
 
-GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
-  SeamTest& test, PieceGroup& group, bool mayFlip)
+GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
+  const SeamTest& test, PieceGroup& group)
 {
-  std::vector<InnerQuad> quads;
-  DoTogether(group, [&]() { quads = FindWaiting(mesh, std::move(waiting), judge); });
+  GuardRound round;
+  DoTogether(group, [&]() { round.Quads = FindWaiting(mesh, std::move(waiting), judge); });
   waiting.clear();
-  std::vector<Question> questions;
-  for (const InnerQuad& quad : quads)
+  for (const InnerQuad& quad : round.Quads)
   {
     waiting.insert(waiting.end(), { quad.One.Triangle, quad.Other.Triangle });
     const PartTriangle& one = mesh.Triangles[quad.One.Triangle];
     const PartTriangle& other = mesh.Triangles[quad.Other.Triangle];
-    questions.push_back({ mesh.GetKeys(one.GetEdge(quad.One.Slot)),
+    round.Questions.push_back({ mesh.GetKeys(one.GetEdge(quad.One.Slot)),
       mesh.GetKeys({ one.Points[quad.One.Slot], other.Points[quad.Other.Slot] }), false });
   }
+  std::vector<FlipQuestion> questions = round.Questions;
   for (const BadSeam& seam : test.Bad)
   {
     questions.push_back({ seam.Ends, seam.Opposite, true });
   }
-  const PairMap<PointPair> granted = GrantFlips(mesh, questions, group);
+  round.Granted = GrantFlips(mesh, questions, group);
+  round.FreeOfAll = static_cast<std::int64_t>(round.Granted.size());
+  return round;
+}
+
+void GuardRound::Flip(PartMesh& mesh, SeamTest& test)
+{
   const auto isGranted = [&](const PointPair& ends, const PointPair& opposite)
   {
-    const auto found = granted.find(opposite);
-    return found != granted.end() && found->second == ends;
+    const auto found = this->Granted.find(opposite);
+    return found != this->Granted.end() && found->second == ends;
   };
-  GuardRound round;
-  round.FreeOfAll = static_cast<std::int64_t>(granted.size());
-  if (!mayFlip)
-  {
-    return round;
-  }
   std::unordered_set<std::int64_t> changed; // each triangle only once
-  for (std::size_t i = 0; i < quads.size(); ++i)
+  for (std::size_t i = 0; i < this->Quads.size(); ++i)
   {
-    const std::int64_t one = quads[i].One.Triangle;
-    const std::int64_t other = quads[i].Other.Triangle;
-    if (changed.count(one) == 0 && changed.count(other) == 0 &&
-      isGranted(questions[i].Ends, questions[i].Opposite))
+    const auto& [one, other] = this->Quads[i];
+    if (changed.count(one.Triangle) == 0 && changed.count(other.Triangle) == 0 &&
+      isGranted(this->Questions[i].Ends, this->Questions[i].Opposite))
     {
-      round.Gone.push_back(mesh.Triangles[one].GetEdge(quads[i].One.Slot));
-      mesh.Flip(quads[i].One, quads[i].Other);
-      round.Changed.insert(round.Changed.end(), { one, other });
-      changed.insert({ one, other });
+      this->Gone.push_back(mesh.Triangles[one.Triangle].GetEdge(one.Slot));
+      mesh.Flip(one, other);
+      this->Changed.insert(this->Changed.end(), { one.Triangle, other.Triangle });
+      changed.insert({ one.Triangle, other.Triangle });
     }
   }
   // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
   const auto mustStay = [&](const BadSeam& seam)
   { return changed.count(seam.Triangle) > 0 || !isGranted(seam.Ends, seam.Opposite); };
   test.Bad.erase(std::remove_if(test.Bad.begin(), test.Bad.end(), mustStay), test.Bad.end());
-  return round;
 }
 
 }

@@ -114,9 +114,11 @@ public:
   /// Whether an edge of GetNext() is bad and may flip.
   bool HasBad();
 
+  /// Judges the edge that is opposite to both corners.
+  EdgeState Judge(const PartCorner& one, const PartCorner& other) const;
+
 private:
   void Visit(std::int64_t triangle, IterationRecord& record);
-  EdgeState Judge(const PartCorner& one, const PartCorner& other) const;
 
   PartMesh& Mesh;
   const QuadJudge& Rule;
@@ -124,28 +126,48 @@ private:
   std::vector<std::int64_t> Next;
 };
 
-/// What a rank has flipped in the guarded part of a round.
-struct GuardRound
+/// An inner edge of a rank, given by the two corners opposite to it.
+struct InnerQuad
 {
-  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
-  std::vector<std::int64_t> Changed; ///< The triangles of the edges that this rank has flipped.
-  std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
+  PartCorner One, Other;
 };
 
-/// Flips waiting edges as far as the guard allows.
+/// An edge to flip, and the edge that this would make.
+struct FlipQuestion
+{
+  PointPair Ends; ///< Keys, as all here.
+  PointPair Opposite;
+  bool IsSeam; ///< Between ranks, so that it cannot flip now.
+};
+
+/// The guarded part of a round, on one rank.
 ///
 /// The guard keeps a flip from making an edge that another rank has. Such an edge could only join
 /// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
 /// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
 /// does not, one rank may make it.
-///
-/// Removes from `test` the seam edges whose flip would make an edge that exists or that another
-/// flip makes, and those whose triangle has just changed. All ranks must call this together.
+struct GuardRound
+{
+  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
+  std::vector<std::int64_t> Changed; ///< The triangles of the edges that this rank has flipped.
+  std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
+
+  /// Flips waiting edges as far as the guard allows. Removes from `test` the seam edges whose flip
+  /// would make an edge that exists or that another flip makes, and those whose triangle has just
+  /// changed.
+  void Flip(PartMesh& mesh, SeamTest& test);
+
+  std::vector<InnerQuad> Quads; ///< The edges that wait.
+  std::vector<FlipQuestion> Questions; ///< About these, in their order.
+  PairMap<PointPair> Granted; ///< The edges that may be made, and by the flip of which edge.
+};
+
+/// Finds the waiting edges, and asks all ranks whether they may flip. All ranks must call this
+/// together.
 /// @param waiting the triangles of edges that are bad and may wait; replaced by those of edges that
 /// were bad now. Other edges can have become bad only where triangles have changed.
-/// @param mayFlip if false, it only finds how many edges may flip.
-GuardRound FlipWaiting(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
-  SeamTest& test, PieceGroup& group, bool mayFlip);
+GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
+  const SeamTest& test, PieceGroup& group);
 
 }
 

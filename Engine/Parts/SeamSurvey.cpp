@@ -3,7 +3,6 @@
 #include "SeamSurvey.h"
 
 #include "DelaunayFlip.h"
-#include "FlipLoopChoice.h"
 #include "JoinReports.h"
 
 #include <algorithm>
@@ -66,36 +65,9 @@ std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
 }
 
 //------------------------------------------------------------------------------
-namespace
-{
-/// What the engine knows of a mesh when it chooses a rule.
-MeshSurvey DescribeMesh(const PartSurvey& survey)
-{
-  MeshSurvey mesh;
-  mesh.Geometry = survey.Geometry;
-  mesh.Projection = survey.Projection;
-  mesh.Precision = survey.IsFloat ? FloatPrecision : DoublePrecision;
-  return mesh;
-}
-
-/// @param rule for the points 0 to 3.
-template <typename Rule>
-EdgeState Decide(const Rule& rule)
-{
-  const Quad quad{ 0, 0, 0, 1, 2, 3 };
-  const EdgeState state = rule.Judge(quad);
-  return state == EdgeState::Uncertain ? rule.JudgeExactly(quad) : state;
-}
-}
-
 QuadJudge::QuadJudge(const PartSurvey& survey, const FlipOptions& options)
-  : Plan(PlanPacking(DescribeMesh(survey), options.Criterion, false)),
-    Criterion(options.Criterion),
-    IsSurface(survey.Geometry == GeometryKind::Surface),
-    Canonical(options.TieRule == TieRuleKind::Canonical),
-    FiltersApply(survey.FiltersApply),
-    Tolerance(GetTolerance(options, DescribeMesh(survey))),
-    Range(survey.Range)
+  : Plan(PlanPacking(survey, options.Criterion, false)),
+    Rule(survey, options)
 {
 }
 
@@ -108,17 +80,13 @@ EdgeState QuadJudge::Judge(const double (&apqb)[4][3]) const
     const int k = i % components;
     packed[i] = this->Plan.Flat && k == 2 ? 0.0 : apqb[i / components][this->Plan.Axes[k]];
   }
-  if (this->IsSurface)
-  {
-    return Decide(SurfaceRule<double>{ { packed, this->Tolerance, this->Range } });
-  }
-  if (this->Criterion == CriterionKind::OppositeAngles)
-  {
-    return Decide(PlanarAngleRule{ { packed, this->Tolerance, this->Range } });
-  }
-  return components == 3
-    ? Decide(PlanarRule<double, 3>{ packed, 0, this->Canonical, this->FiltersApply })
-    : Decide(PlanarRule<double, 2>{ packed, 0, this->Canonical, this->FiltersApply });
+  return this->Rule.Visit(nullptr, packed, 0,
+    [](const auto& rule)
+    {
+      const Quad quad{ 0, 0, 0, 1, 2, 3 };
+      const EdgeState state = rule.Judge(quad);
+      return state == EdgeState::Uncertain ? rule.JudgeExactly(quad) : state;
+    });
 }
 
 EdgeState QuadJudge::Judge(const SeamSide& one, const SeamSide& other) const

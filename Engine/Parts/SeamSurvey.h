@@ -4,13 +4,14 @@
 #define DELAUNAYFLIP_SEAMSURVEY_H
 
 #include "EdgeMesh.h"
+#include "FlipLoopChoice.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
-#include "OppositeAngles.h"
-#include "PackedPoints.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
 #include "Records.h"
+#include "SpatialOrder.h"
+#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -113,12 +114,7 @@ public:
 
 private:
   PackingPlan Plan;
-  CriterionKind Criterion;
-  bool IsSurface;
-  bool Canonical;
-  bool FiltersApply;
-  AngleTolerance Tolerance;
-  CoordinateRange Range;
+  RuleChoice Rule;
 };
 
 /// Counts of seam edges, and of constraints between shared points.

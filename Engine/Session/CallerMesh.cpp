@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CallerMesh.h"
 
-#include "DeviceCopies.h"
+#include "Array.h"
 #include "FlipError.h"
 
 #include <algorithm>
@@ -41,27 +41,6 @@ std::vector<T> CopyPoints(const T* values, const DevicePointArray& points, Devic
     wide[3 * i + 1] = copy[2 * i + 1];
   }
   return wide;
-}
-
-int RequireDevice(const void* memory, const char* what)
-{
-  const int device = FindDeviceOf(memory);
-  if (device < 0)
-  {
-    throw InvalidOptions(std::string(what) +
-      " not in the memory of a GPU; arrays in the host's "
-      "memory are flipped on a GPU by the functions for these");
-  }
-  return device;
-}
-
-void RequireComponents(const DevicePointArray& points)
-{
-  if (points.Components != 2 && points.Components != 3)
-  {
-    throw InvalidOptions(
-      "points must have 2 or 3 components, not " + std::to_string(points.Components));
-  }
 }
 }
 
@@ -111,18 +90,14 @@ CallerMesh::CallerMesh(const DeviceMesh& mesh)
   : Device(mesh),
     Copied(std::make_shared<Copies>())
 {
-  RequireComponents(mesh.Points);
+  if (mesh.Points.Components != 2 && mesh.Points.Components != 3)
+  {
+    throw InvalidOptions(
+      "points must have 2 or 3 components, not " + std::to_string(mesh.Points.Components));
+  }
   static_cast<FixedEdges&>(this->Host) = mesh;
   this->Host.Points.Count = mesh.Points.Count;
   this->Host.Triangles.Count = mesh.Triangles.Count;
-}
-
-bool CallerMesh::HasConstraintsToInsert() const
-{
-  const unsigned char* flags = this->Host.ConstraintsToInsert;
-  return flags &&
-    std::any_of(flags, flags + this->Host.NumberOfConstraintEdges,
-      [](unsigned char flag) { return flag != 0; });
 }
 
 const TriangleMesh& CallerMesh::GetOnHost()
@@ -138,42 +113,37 @@ const TriangleMesh& CallerMesh::GetOnHost()
   return *this->Copied->View;
 }
 
+int RequireOnDevice(const void* memory, std::int64_t size, const char* what)
+{
+  const int device = size > 0 ? FindDeviceOf(memory) : -1;
+  if (size > 0 && device < 0)
+  {
+    throw InvalidOptions(std::string(what) +
+      " not in the memory of a GPU; arrays in the host's "
+      "memory are flipped on a GPU by the functions for these");
+  }
+  return device;
+}
+
 int CallerMesh::ChooseDevice(int requested) const
 {
   int chosen = requested;
-  const auto join = [&](const void* memory, std::int64_t size, const char* what)
+  const auto join = [&](const auto& array, const char* what)
   {
-    const int device = size > 0 ? RequireDevice(memory, what) : chosen;
-    if (chosen >= 0 && device != chosen)
+    const int device = RequireOnDevice(array.Data(), array.Count, what);
+    if (chosen >= 0 && device >= 0 && device != chosen)
     {
       throw InvalidOptions(std::string(what) + " in the memory of GPU " + std::to_string(device) +
         ", but GPU " + std::to_string(chosen) + " has other arrays of the mesh or was requested");
     }
-    chosen = device;
+    chosen = std::max(chosen, device);
   };
   if (this->Device)
   {
-    const TriangleArray& triangles = this->Device->Triangles;
-    join(this->Device->Points.Data(), this->Device->Points.Count, "the points are");
-    join(triangles.Data(), triangles.Count, "the triangles are");
+    join(this->Device->Points, "the points are");
+    join(this->Device->Triangles, "the triangles are");
   }
   return chosen;
-}
-
-void RequireOnDevice(const MutableTriangleArray& triangles)
-{
-  if (triangles.Count > 0)
-  {
-    RequireDevice(triangles.Data(), "the array for triangles is");
-  }
-}
-
-void RequireOnDevice(const std::int32_t* values, std::int64_t count)
-{
-  if (count > 0)
-  {
-    RequireDevice(values, "the array for flip counts is");
-  }
 }
 
 }

@@ -23,8 +23,7 @@ public:
   std::int64_t CountPoints() const { return this->Host.Points.Count; }
   std::int64_t CountTriangles() const { return this->Host.Triangles.Count; }
 
-  /// Whether there are constraint edges that flips may have to make.
-  bool HasConstraintsToInsert() const;
+  const FixedEdges& GetFixedEdges() const { return this->Host; }
 
   /// Whether this array in the host's memory is that of the triangles.
   bool HasTriangles(const void* ids) const { return ids && ids == this->Host.Triangles.Data(); }
@@ -49,9 +48,10 @@ private:
   std::shared_ptr<Copies> Copied; ///< Null for a mesh in the host's memory.
 };
 
-/// @throws InvalidOptions if an output is not in the memory of a GPU.
-void RequireOnDevice(const MutableTriangleArray& triangles);
-void RequireOnDevice(const std::int32_t* values, std::int64_t count);
+/// @param what the array, for the message, e.g. "the points are".
+/// @returns CUDA's number of the GPU that has an array, or -1 if the array is empty.
+/// @throws InvalidOptions if no GPU has it.
+int RequireOnDevice(const void* memory, std::int64_t size, const char* what);
 
 }
 

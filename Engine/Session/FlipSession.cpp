@@ -2,25 +2,376 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DelaunayFlip.h"
 
-#include "DeviceCopies.h"
-#include "DividedSession.h"
-#include "FlipError.h"
+#include "Array.h"
+#include "BuildProgress.h"
+#include "CallerMesh.h"
+#include "ConstraintInsertion.h"
+#include "CudaDevice.h"
+#include "DividedCopy.h"
+#include "HostMemory.h"
 #include "InputChecks.h"
-#include "SessionWork.h"
-#include "WholeSession.h"
+#include "LoadedMesh.h"
+#include "RunProgress.h"
+#include "StopWatch.h"
+#include "SurfaceAngles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
 
+namespace
+{
+/// Iterations that a surface may take beyond its number of triangles before the loop gives up.
+constexpr std::int64_t SafetyMargin = 1000;
+constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
+
+/// Gives a variable another value for as long as this lives.
+template <typename Value>
+class TemporaryValue
+{
+public:
+  TemporaryValue(Value& variable, const Value& value)
+    : Variable(variable),
+      Before(std::exchange(variable, value))
+  {
+  }
+  ~TemporaryValue() { this->Variable = std::move(this->Before); }
+  TemporaryValue(const TemporaryValue&) = delete;
+  TemporaryValue& operator=(const TemporaryValue&) = delete;
+
+private:
+  Value& Variable;
+  Value Before;
+};
+
+/// Stores into a temporary array first, so that the target is unchanged after a failure.
+template <typename Id>
+void StoreAtOnce(const LoadedMesh& mesh, Id* ids, std::int64_t count)
+{
+  HostMemory memory;
+  Array<Id> stored(static_cast<std::size_t>(3 * count), memory);
+  mesh.StoreTriangles(MutableTriangleArray(stored.Data(), count));
+  std::copy_n(stored.Data(), 3 * count, ids);
+}
+}
+
+/// What a session has. BackendKind::Auto uses a GPU if there is one and the mesh is large enough.
+/// If the GPU fails, at any time, the CPU repeats what was done, with the same bits, and continues.
+struct FlipSession::Work
+{
+  Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+
+  /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
+  /// @throws BackendUnavailable with BackendKind::CUDA.
+  template <typename Function>
+  auto OnBackend(const Function& work)
+  {
+    try
+    {
+      const std::unique_ptr<DeviceScope> current = this->Loaded->MakeCurrent();
+      return work(*this->Loaded);
+    }
+    catch (const BackendUnavailable& error)
+    {
+      this->FallBack(error);
+    }
+    return work(*this->Loaded);
+  }
+
+  /// The same, if a mesh is loaded. @returns whether it was called and no observer stopped it.
+  template <typename Function>
+  bool TryOnBackend(const Function& work)
+  {
+    try
+    {
+      if (this->Loaded)
+      {
+        this->OnBackend(work);
+      }
+    }
+    catch (const RunAborted&)
+    {
+      this->Abort();
+    }
+    return this->Loaded != nullptr;
+  }
+
+  void Build();
+  void Load();
+  void FallBack(const BackendUnavailable& error);
+  void Reset();
+  void Abort();
+
+  bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
+  std::int64_t CountIterations() const
+  {
+    return static_cast<std::int64_t>(this->Report.Iterations.size());
+  }
+  std::int64_t GetIterationLimit() const;
+  void Resume();
+  void KeepFound(const StepCounts& found);
+  void Keep(const IterationCounts& counts, double seconds);
+  double MeasureAngle();
+  void MeasureEnd();
+
+  CallerMesh Mesh;
+  FlipOptions Options;
+  ProgressObserver Observer; ///< Of the call under way, else the constructor's.
+  FlipReport Report;
+  std::unique_ptr<DividedCopy> Divided; ///< Null unless in several parts. Then only this is used.
+
+  ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
+  std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
+  BuildProgress Building; ///< Of the loading.
+  std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was aborted.
+  std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
+  RunProgress Progress;
+  StepCounts Found; ///< The counts of the last detection.
+  bool HasDetected = false; ///< Whether the first detection has been made.
+  bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
+};
+
+FlipSession::Work::Work(
+  const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+  : Mesh(mesh),
+    Options(options),
+    Observer(progress)
+{
+  if (mesh.GetOnDevice() && options.NumberOfPieces > 1)
+  {
+    throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
+  }
+  if (!mesh.GetOnDevice() && CountPieces(options, mesh.CountTriangles()) > 1)
+  {
+    this->Divided = std::make_unique<DividedCopy>(this->Mesh.GetOnHost(), options, progress);
+    return;
+  }
+  CheckOptions(options);
+  CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  this->Options.Device = mesh.ChooseDevice(options.Device);
+  try
+  {
+    this->Build();
+  }
+  catch (const RunAborted&)
+  {
+    this->Abort();
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Inserts constraints, loads the mesh, reports on the input, and tests all edges. When an
+/// exception leaves, no mesh is loaded.
+void FlipSession::Work::Build()
+try
+{
+  const StopWatch watch;
+  const auto tell = [this](double share) { return this->Progress.Tell(this->Observer, share); };
+  this->Insertion = ConstraintInsertion();
+  this->Start = this->Mesh;
+  if (ConstraintInsertion::IsRequested(this->Mesh.GetFixedEdges()))
+  {
+    const TriangleMesh& mesh = this->Mesh.GetOnHost();
+    this->Insertion = ConstraintInsertion(mesh, this->Options,
+      [&](double share) { return tell(ConstraintInsertion::ShareOfRun * share); });
+    this->Start = CallerMesh(this->Insertion.GetMesh(mesh));
+  }
+  const double begin = this->Insertion.GetShare();
+  this->Building =
+    BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
+  this->Load();
+  this->Report = this->Loaded->GetInputReport();
+  this->Insertion.AddTo(this->Report);
+  const GeometryKind geometry = this->Report.GeometryUsed;
+  this->Building.Reach(geometry, BuildStep::Prepared);
+  this->Report.MinimumAngleBefore = this->MeasureAngle();
+  this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
+  this->Report.BuildSeconds = watch.GetSeconds();
+  this->Building.Reach(geometry, BuildStep::Measured);
+
+  const StopWatch flipWatch;
+  this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
+  this->HasDetected = true;
+  this->Report.NonDelaunayBefore = this->Report.NonDelaunayAfter;
+  this->Report.FlipSeconds = flipWatch.GetSeconds();
+  this->Building.Reach(geometry, BuildStep::Tested);
+  this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
+}
+catch (...)
+{
+  this->Reset();
+  throw;
+}
+
+void FlipSession::Work::Load()
+{
+  const FlipOptions options = this->Insertion.GetOptions(this->Options);
+  const DeviceMesh* device = this->Start->GetOnDevice();
+  const bool wantsCuda = options.Backend == BackendKind::CUDA ||
+    (options.Backend == BackendKind::Auto &&
+      (device || (this->Mesh.CountTriangles() >= SmallestMeshForCuda && HasCudaDevice())));
+  if (!wantsCuda)
+  {
+    this->Loaded = LoadOnThreads(this->Start->GetOnHost(), options, this->Building);
+    return;
+  }
+  try
+  {
+    this->Loaded = device ? LoadOnCuda(*device, options, this->Building)
+                          : LoadOnCuda(this->Start->GetOnHost(), options, this->Building);
+  }
+  catch (const BackendUnavailable& error)
+  {
+    this->FallBack(error);
+  }
+}
+
+/// Replaces a GPU that has failed by the CPU, which repeats all iterations that were reported, in
+/// batches of up to a tenth of a second. To be called while the error is handled.
+void FlipSession::Work::FallBack(const BackendUnavailable& error)
+{
+  if (this->Options.Backend == BackendKind::CUDA)
+  {
+    throw;
+  }
+  this->Fallback = error.what();
+  this->Loaded.reset();
+  this->Loaded = LoadOnThreads(
+    this->Start->GetOnHost(), this->Insertion.GetOptions(this->Options), this->Building);
+  if (!this->HasDetected)
+  {
+    return;
+  }
+  FlipLoop& loop = this->Loaded->GetLoop();
+  this->Building.Reach(this->Report.GeometryUsed, BuildStep::Measured);
+  loop.Detect();
+  this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
+  std::int64_t batch = 1;
+  for (std::int64_t done = 0; done < this->CountIterations();)
+  {
+    const StopWatch watch;
+    const AdvancePlan plan{ std::min(batch, this->CountIterations() - done), false, false };
+    done += static_cast<std::int64_t>(loop.Advance(plan).size());
+    batch = watch.GetSeconds() < 0.05 ? 2 * batch : batch;
+    this->Building.Tell(0.0);
+  }
+}
+
+void FlipSession::Work::Reset()
+{
+  this->Loaded.reset();
+  this->Start.reset();
+  this->Fallback.clear();
+  this->HasDetected = false;
+  this->Insertion = ConstraintInsertion();
+  this->Report = FlipReport();
+  this->Report.Points = this->Mesh.CountPoints();
+  this->Report.Triangles = this->Mesh.CountTriangles();
+  this->IsMeasured = true;
+}
+
+/// Forgets all after an observer has stopped the session before there is a mesh to show for it:
+/// while one is built, or while the CPU repeats what a GPU has lost.
+void FlipSession::Work::Abort()
+{
+  this->Reset();
+  this->Report.StopReason = StopReasonKind::Aborted;
+}
+
+//------------------------------------------------------------------------------
+std::int64_t FlipSession::Work::GetIterationLimit() const
+{
+  if (this->Options.MaximumIterations >= 0)
+  {
+    return this->Options.MaximumIterations;
+  }
+  const bool mayCycle = this->Report.GeometryUsed == GeometryKind::Surface ||
+    this->Options.Criterion == CriterionKind::OppositeAngles;
+  return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;
+}
+
+/// Continues, even after an abort, unless there is nothing to do or no iteration is left.
+void FlipSession::Work::Resume()
+{
+  this->Report.StopReason = this->Found.Bad == 0           ? StopReasonKind::Converged
+    : this->CountIterations() >= this->GetIterationLimit() ? StopReasonKind::IterationLimit
+                                                           : StopReasonKind::Running;
+}
+
+void FlipSession::Work::KeepFound(const StepCounts& found)
+{
+  this->Found = found;
+  this->Report.NonDelaunayAfter = found.Bad + found.GetBlocked();
+  this->Report.BlockedByShape = found.BlockedByShape;
+  this->Report.BlockedByEdge = found.BlockedByEdge;
+}
+
+void FlipSession::Work::Keep(const IterationCounts& counts, double seconds)
+{
+  IterationRecord record;
+  record.Iteration = this->CountIterations() + 1;
+  record.Tested = counts.Tested;
+  record.NonDelaunay = counts.Bad + counts.Blocked;
+  record.Blocked = counts.Blocked;
+  record.Flipped = counts.Flipped;
+  record.Excluded = counts.Bad - counts.Flipped;
+  record.MinimumAngle = ToDegrees(counts.SquaredCotangent);
+  record.Seconds = seconds;
+  this->Report.Iterations.push_back(record);
+  this->Report.TotalFlips += record.Flipped;
+  this->Report.TotalExcluded += record.Excluded;
+  this->Report.TotalBlocked += record.Blocked;
+}
+
+double FlipSession::Work::MeasureAngle()
+{
+  return ToDegrees(
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().FindLargestSquaredCotangent(); }));
+}
+
+/// The smallest angle is known after the first and the last iteration. If a run stops in between,
+/// this takes a pass over the mesh, made only when the report is requested. Also lists the defects
+/// of the input and, at the end of a run, those that flips have caused.
+void FlipSession::Work::MeasureEnd()
+{
+  if (this->IsMeasured)
+  {
+    return;
+  }
+  this->Report.MinimumAngleAfter = this->MeasureAngle();
+  this->IsMeasured = true;
+  this->Report.Defects = this->Loaded->GetInputReport().Defects;
+  AddDefects(this->Insertion.GetRefused(), this->Report.Defects);
+  if (!this->IsRunning())
+  {
+    this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
+    const Defect turned =
+      this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); });
+    if (turned.Count > 0)
+    {
+      this->Report.Defects.push_back(turned);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 FlipSession::FlipSession(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Work(SessionWork::Make(CallerMesh(mesh), options, progress))
+  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress))
 {
 }
 
 FlipSession::FlipSession(
   const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Work(SessionWork::Make(CallerMesh(mesh), options, progress))
+  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress))
 {
 }
 
@@ -30,79 +381,200 @@ FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
 
 bool FlipSession::Advance(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+try
 {
-  return this->Work->Advance(iterations, observer, progress);
+  Work& work = *this->Own;
+  if (work.Divided)
+  {
+    return work.Divided->Advance(iterations, observer, progress);
+  }
+  const TemporaryValue<ProgressObserver> told(work.Observer, progress);
+  if (!work.Loaded)
+  {
+    work.Build();
+  }
+  FlipReport& report = work.Report;
+  const StopWatch watch;
+  const double secondsBefore = report.FlipSeconds;
+  const std::int64_t limit = iterations < 0 ? NoLimit : work.CountIterations() + iterations;
+  work.Resume();
+  while (work.IsRunning() && work.CountIterations() < limit)
+  {
+    // At least one iteration; with observers no more than they can wait for.
+    const StopWatch batchWatch;
+    const std::int64_t first = work.CountIterations();
+    const std::int64_t most = std::min(limit, work.GetIterationLimit()) - first;
+    const AdvancePlan plan{ observer || progress ? std::min(most, work.Progress.GetBatch()) : most,
+      first == 0, work.Options.TrackQuality };
+    const std::vector<IterationCounts> made =
+      work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
+    work.IsMeasured = false;
+    work.KeepFound(work.Loaded->GetLoop().GetFound());
+    const double seconds = batchWatch.GetSeconds() / static_cast<double>(made.size());
+    work.Progress.KeepTime(seconds);
+    for (const IterationCounts& counts : made)
+    {
+      work.Keep(counts, seconds);
+    }
+#if !defined(NDEBUG)
+    // Now that the iterations are in the report: the CPU repeats those where the GPU fails here.
+    work.OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
+#endif
+    work.Resume();
+    bool continues = true;
+    for (std::int64_t i = first; observer && i < work.CountIterations(); ++i)
+    {
+      continues = observer(report.Iterations[i]) && continues;
+    }
+    continues = continues &&
+      (!work.IsRunning() ||
+        work.Progress.TellFlips(progress, report, work.Found.Bad, work.GetIterationLimit()));
+    if (!continues && work.IsRunning())
+    {
+      report.StopReason = StopReasonKind::Aborted;
+    }
+  }
+  if (!work.IsRunning())
+  {
+    work.MeasureEnd();
+  }
+  report.FlipSeconds = secondsBefore + watch.GetSeconds();
+  if (!work.IsRunning() && report.StopReason != StopReasonKind::Aborted)
+  {
+    work.Progress.Tell(progress, 1.0);
+  }
+  return work.IsRunning();
+}
+catch (const RunAborted&)
+{
+  this->Own->Abort();
+  return false;
 }
 
-const FlipReport& FlipSession::GetReport() const { return this->Work->GetReport(); }
+const FlipReport& FlipSession::GetReport() const
+{
+  Work& work = *this->Own;
+  if (work.Divided)
+  {
+    return work.Divided->GetReport();
+  }
+  try
+  {
+    work.MeasureEnd();
+  }
+  catch (const RunAborted&)
+  {
+    work.Abort();
+  }
+  if (work.Loaded)
+  {
+    work.Report.Backend = work.Loaded->GetInputReport().Backend;
+    work.Report.Fallback = work.Fallback;
+  }
+  return work.Report;
+}
 
+/// Into the caller's input nothing is written until the whole result is known.
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
-  this->Work->StoreTriangles(triangles);
+  Work& work = *this->Own;
+  if (work.Divided)
+  {
+    work.Divided->StoreTriangles(triangles);
+    return;
+  }
+  const bool atOnce = work.Mesh.HasTriangles(triangles.Data());
+  const auto store = [&](const LoadedMesh& mesh)
+  {
+    if (!atOnce)
+    {
+      mesh.StoreTriangles(triangles);
+    }
+    else if (triangles.Ids32)
+    {
+      StoreAtOnce(mesh, triangles.Ids32, triangles.Count);
+    }
+    else
+    {
+      StoreAtOnce(mesh, triangles.Ids64, triangles.Count);
+    }
+  };
+  if (work.TryOnBackend(store))
+  {
+    return;
+  }
+  const TriangleArray& input = work.Mesh.GetOnHost().Triangles;
+  for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
+  {
+    const int slot = static_cast<int>(id % 3);
+    triangles.Set(id / 3, slot, input.Get(id / 3, slot));
+  }
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  this->Work->StoreFlipCounts(counts);
+  Work& work = *this->Own;
+  if (work.Divided)
+  {
+    work.Divided->StoreFlipCounts(counts);
+  }
+  else if (work.TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); }))
+  {
+    work.Insertion.AddFlipCounts(counts);
+  }
+  else
+  {
+    std::fill_n(counts, work.Mesh.CountTriangles(), 0);
+  }
 }
 
 void FlipSession::StoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream) const
 {
-  this->Work->StoreTriangles(triangles, stream);
-}
-
-void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
-{
-  this->Work->StoreFlipCounts(counts, stream);
-}
-
-EngineTriangles FlipSession::ViewTriangles() const { return this->Work->ViewTriangles(); }
-HostTriangles FlipSession::ViewHostTriangles() const { return this->Work->ViewHostTriangles(); }
-
-//------------------------------------------------------------------------------
-std::unique_ptr<SessionWork> SessionWork::Make(
-  const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-{
-  if (mesh.GetOnDevice())
-  {
-    if (options.NumberOfPieces > 1)
-    {
-      throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
-    }
-    return std::make_unique<WholeSession>(mesh, options, progress);
-  }
-  if (CountPieces(options, mesh.CountTriangles()) > 1)
-  {
-    return std::make_unique<DividedSession>(mesh, options, progress);
-  }
-  return std::make_unique<WholeSession>(mesh, options, progress);
-}
-
-void SessionWork::StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream)
-{
-  RequireOnDevice(triangles);
-  if (this->TryToStoreTriangles(triangles, stream))
-  {
-    return;
-  }
+  RequireOnDevice(triangles.Data(), triangles.Count, "the array for triangles is");
+  bool isStored = false;
+  this->Own->TryOnBackend(
+    [&](const LoadedMesh& mesh) { isStored = mesh.StoreTrianglesOnDevice(triangles, stream); });
   const auto pass = [&](auto* ids)
   {
     StoreThroughHost(ids, 3 * triangles.Count, stream,
       [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
   };
-  triangles.Ids32 ? pass(triangles.Ids32) : pass(triangles.Ids64);
+  if (!isStored)
+  {
+    triangles.Ids32 ? pass(triangles.Ids32) : pass(triangles.Ids64);
+  }
 }
 
-void SessionWork::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream)
+void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
 {
-  const std::int64_t size = this->Mesh.CountTriangles();
-  RequireOnDevice(counts, size);
-  if (!this->TryToStoreFlipCounts(counts, stream))
+  const std::int64_t size = this->Own->Mesh.CountTriangles();
+  RequireOnDevice(counts, size, "the array for flip counts is");
+  bool isStored = false;
+  if (!this->Own->Insertion.HasFlips())
+  {
+    this->Own->TryOnBackend(
+      [&](const LoadedMesh& mesh) { isStored = mesh.StoreFlipCountsOnDevice(counts, stream); });
+  }
+  if (!isStored)
   {
     StoreThroughHost(
       counts, size, stream, [this](std::int32_t* host) { this->StoreFlipCounts(host); });
   }
+}
+
+/// None if constraints were inserted: those flips would be missing.
+DeviceTriangles FlipSession::ViewTriangles() const
+{
+  return this->Own->Loaded && !this->Own->Insertion.HasFlips() ? this->Own->Loaded->ViewTriangles()
+                                                               : DeviceTriangles();
+}
+
+HostTriangles FlipSession::ViewHostTriangles() const
+{
+  return this->Own->Loaded && !this->Own->Insertion.HasFlips()
+    ? this->Own->Loaded->ViewHostTriangles()
+    : HostTriangles();
 }
 
 //------------------------------------------------------------------------------

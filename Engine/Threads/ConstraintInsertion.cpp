@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 
-#include "BackendEngine.h"
+#include "MeshOnBackend.h"
 #include "ConstraintFlips.h"
 #include "EdgeMeshBuilder.h"
 #include "MeshSurveyBuilder.h"
-#include "MissingConstraints.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -14,23 +13,8 @@
 
 namespace delaunayflip
 {
-
 namespace
 {
-/// Shares of the time that an insertion takes: the edge mesh, and all constraints.
-constexpr double BuildShare = 0.6;
-constexpr double FlipShare = 0.95;
-
-/// Constraints between two calls of the observer, a few milliseconds.
-constexpr std::size_t ConstraintsPerCall = 64;
-
-void Tell(const ProgressObserver& progress, double share)
-{
-  if (progress && !progress(share))
-  {
-    throw RunAborted();
-  }
-}
 
 /// By Refusal.
 constexpr const char* Reasons[] = {
@@ -50,147 +34,8 @@ Refusal ToRefusal(PathResult result)
     ? Refusal::LeavesMesh
     : (result == PathResult::CrossesFixedEdge ? Refusal::CrossesFixedEdge : Refusal::MeetsOverlap);
 }
+
 }
-
-/// Fills a ConstraintInsertion.
-class ConstraintInserter
-{
-public:
-  ConstraintInserter(ConstraintInsertion& target, const TriangleMesh& mesh,
-    const FlipOptions& options, const ProgressObserver& progress)
-    : Target(target),
-      Mesh(mesh),
-      Options(options),
-      Progress(progress),
-      Backend(options.NumberOfThreads)
-  {
-  }
-
-  void Run()
-  {
-    this->Missing = FindMissingConstraints(this->Mesh, this->Backend);
-    if (this->Missing.First.empty())
-    {
-      return;
-    }
-    const MeshInput input{ this->Mesh, this->Mesh };
-    const MeshSurvey survey = BuildMeshSurvey(input, this->Options.Geometry, this->Backend);
-    this->KeepOthers();
-    const bool isOnSurface = survey.Geometry == GeometryKind::Surface;
-    if (!isOnSurface && !this->Mesh.Whole.SharedPoints)
-    {
-      this->Flip(input, survey);
-      return;
-    }
-    for (const std::int64_t constraint : this->Missing.First)
-    {
-      this->Refuse(constraint, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);
-    }
-  }
-
-private:
-  /// All constraints but the missing ones go to the engine as they are.
-  void KeepOthers()
-  {
-    this->Target.HasEdges = true;
-    for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
-      if (!this->Missing.IsMissing[i])
-      {
-        this->Target.Edges.insert(this->Target.Edges.end(), ends, ends + 2);
-      }
-    }
-  }
-
-  void Flip(const MeshInput& input, const MeshSurvey& survey)
-  {
-    const SpatialOrder order = OrderMesh(input, survey, this->Backend);
-    const EdgeMeshInput edges{ input, survey, order, this->Options.FeatureAngle };
-    const BuildProgress progress([this](double share)
-      { return !this->Progress || this->Progress(std::min(1.0, share) * BuildShare); });
-    EdgeMeshResult built =
-      BuildEdgeMesh(edges, LoadTriangles(edges, this->Backend), this->Backend, progress);
-    const PlaneMesh plane{ built.Edges.View(), this->Mesh.Points, order.View(), survey.Projection };
-    ConstraintFlips flips(
-      plane, this->Mesh.Points.Count, this->Mesh.Triangles.Count, built.Table.View());
-    Tell(this->Progress, BuildShare);
-    this->InsertAll(flips, order.View());
-    this->Target.Flips = flips.GetNumberOfFlips();
-    if (this->Target.Flips > 0)
-    {
-      this->Target.Geometry = survey.Geometry;
-      this->Target.GeometryReason = survey.GeometryReason;
-      this->Store(built.Edges, order.View());
-    }
-    this->StoreSegments(flips, order.View());
-  }
-
-  void InsertAll(ConstraintFlips& flips, const SpatialOrderView& order)
-  {
-    const std::vector<std::int64_t>& missing = this->Missing.First;
-    for (std::size_t i = 0; i < missing.size(); ++i)
-    {
-      const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * missing[i];
-      const PathResult result = flips.Insert(order.GetRank(ends[0]), order.GetRank(ends[1]));
-      if (result == PathResult::Found)
-      {
-        ++this->Target.Inserted;
-      }
-      else
-      {
-        this->Refuse(missing[i], ToRefusal(result));
-      }
-      if (i % ConstraintsPerCall == 0)
-      {
-        const double share = static_cast<double>(i) / static_cast<double>(missing.size());
-        Tell(this->Progress, BuildShare + (FlipShare - BuildShare) * share);
-      }
-    }
-  }
-
-  void StoreSegments(const ConstraintFlips& flips, const SpatialOrderView& order)
-  {
-    for (const auto& [from, to] : flips.GetSegments())
-    {
-      this->Target.Edges.push_back(order.GetVertex(from));
-      this->Target.Edges.push_back(order.GetVertex(to));
-    }
-  }
-
-  void Store(EdgeMesh& edges, const SpatialOrderView& order)
-  {
-    const std::int64_t count = edges.NumberOfTriangles;
-    const bool isNarrow = this->Mesh.Triangles.Ids32 != nullptr;
-    this->Target.Ids32.resize(isNarrow ? 3 * count : 0);
-    this->Target.Ids64.resize(isNarrow ? 0 : 3 * count);
-    this->Backend.StoreTriangles(isNarrow ? MutableTriangleArray(this->Target.Ids32.data(), count)
-                                          : MutableTriangleArray(this->Target.Ids64.data(), count),
-      StoreStep{ edges.Triangles.Data(), order });
-    for (std::int64_t t = 0; t < count; ++t)
-    {
-      const TriangleRecord& triangle = edges.Triangles[t];
-      const auto flips = static_cast<std::int32_t>(triangle.Flips / OneFlip);
-      if (flips > 0)
-      {
-        this->Target.FlipCounts.emplace_back(triangle.InputTriangle, flips);
-      }
-    }
-  }
-
-  void Refuse(std::int64_t constraint, Refusal refusal)
-  {
-    const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
-    this->Target.Refused.push_back({ { ends[0], ends[1] }, refusal });
-  }
-
-  ConstraintInsertion& Target;
-  const TriangleMesh& Mesh;
-  const FlipOptions& Options;
-  const ProgressObserver& Progress;
-  const ThreadBackend Backend;
-  MissingConstraints Missing;
-};
 
 const char* Describe(Refusal refusal) { return Reasons[static_cast<std::size_t>(refusal)]; }
 
@@ -214,12 +59,173 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
   }
 }
 
-ConstraintInsertion::ConstraintInsertion(
-  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+bool ConstraintInsertion::IsRequested(const FixedEdges& edges)
 {
-  if (mesh.ConstraintsToInsert && mesh.NumberOfConstraintEdges > 0)
+  const unsigned char* flags = edges.ConstraintsToInsert;
+  return flags &&
+    std::any_of(
+      flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
+}
+
+MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const ThreadBackend& backend)
+{
+  const auto toKey = [](std::int64_t from, std::int64_t to)
+  { return EdgeKey(static_cast<VertexId>(from), static_cast<VertexId>(to)); };
+  std::vector<unsigned char> isEnd(mesh.Points.Count, 0);
+  std::vector<std::uint64_t> keys; // of the edges that constraints are to become
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
-    ConstraintInserter(*this, mesh, options, progress).Run();
+    const std::int64_t from = CheckConstraint(mesh, i, 0);
+    const std::int64_t to = CheckConstraint(mesh, i, 1);
+    if (mesh.ConstraintsToInsert[i] != 0 && from != to)
+    {
+      keys.push_back(toKey(from, to));
+      isEnd[from] = isEnd[to] = 1;
+    }
+  }
+  MissingConstraints missing;
+  if (keys.empty())
+  {
+    return missing;
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  const auto find = [&](std::int64_t from, std::int64_t to) // keys.size() if it is not wanted
+  {
+    const auto place = std::lower_bound(keys.begin(), keys.end(), toKey(from, to));
+    const bool isThere = place != keys.end() && *place == toKey(from, to);
+    return isThere ? static_cast<std::size_t>(place - keys.begin()) : keys.size();
+  };
+  const auto mayEndAt = [&](std::int64_t point)
+  { return point >= 0 && point < mesh.Points.Count && isEnd[point] != 0; };
+  std::vector<unsigned char> isEdge(keys.size(), 0);
+  backend.ForEach(mesh.Triangles.Count,
+    [&](std::int64_t t)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const std::int64_t from = mesh.Triangles.Get(t, slot);
+        const std::int64_t to = mesh.Triangles.Get(t, NextSlot(slot));
+        const std::size_t i = mayEndAt(from) && mayEndAt(to) ? find(from, to) : keys.size();
+        if (i < keys.size())
+        {
+          AtomicStore<unsigned char>(&isEdge[i], 1);
+        }
+      }
+    });
+  std::vector<bool> isListed(keys.size(), false);
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const std::size_t found = find(mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
+    missing.IsMissing.push_back(found < keys.size() && isEdge[found] == 0);
+    if (missing.IsMissing.back() && !isListed[found])
+    {
+      isListed[found] = true;
+      missing.First.push_back(i);
+    }
+  }
+  return missing;
+}
+
+ConstraintInsertion::ConstraintInsertion(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer)
+{
+  if (!mesh.ConstraintsToInsert || mesh.NumberOfConstraintEdges == 0)
+  {
+    return;
+  }
+  const ThreadBackend backend(options.NumberOfThreads);
+  const MissingConstraints missing = FindMissingConstraints(mesh, backend);
+  if (missing.First.empty())
+  {
+    return;
+  }
+  const MeshInput input{ mesh, mesh };
+  const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
+  this->HasEdges = true; // all but the missing ones as they are
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
+    this->Edges.insert(this->Edges.end(), ends, missing.IsMissing[i] ? ends : ends + 2);
+  }
+  const auto refuse = [&](std::int64_t constraint, Refusal why)
+  {
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * constraint;
+    this->Refused.push_back({ { ends[0], ends[1] }, why });
+  };
+  const bool isOnSurface = survey.Geometry == GeometryKind::Surface;
+  if (isOnSurface || mesh.Whole.SharedPoints)
+  {
+    for (const std::int64_t constraint : missing.First)
+    {
+      refuse(constraint, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);
+    }
+    return;
+  }
+
+  // Shares of the time that an insertion takes: the edge mesh, and all constraints.
+  constexpr double BuildShare = 0.6, FlipShare = 0.95;
+  const SpatialOrder order = OrderMesh(input, survey, backend);
+  const SpatialOrderView ranks = order.View();
+  const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
+  const BuildProgress progress(
+    [&](double share) { return !observer || observer(std::min(1.0, share)); });
+  const BuildProgress building(
+    [&](double share) { return !observer || observer(std::min(1.0, share) * BuildShare); });
+  EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, building);
+  const PlaneMesh plane{ built.Edges.View(), mesh.Points, ranks, survey.Projection };
+  ConstraintFlips flips(plane, mesh.Points.Count, mesh.Triangles.Count, built.Table.View());
+  for (std::size_t i = 0; i < missing.First.size(); ++i)
+  {
+    constexpr std::size_t ConstraintsPerCall = 64; // a few milliseconds
+    if (i % ConstraintsPerCall == 0)
+    {
+      const double share = static_cast<double>(i) / static_cast<double>(missing.First.size());
+      progress.Tell(BuildShare + (FlipShare - BuildShare) * share);
+    }
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * missing.First[i];
+    const PathResult result = flips.Insert(ranks.GetRank(ends[0]), ranks.GetRank(ends[1]));
+    if (result == PathResult::Found)
+    {
+      ++this->Inserted;
+    }
+    else
+    {
+      refuse(missing.First[i], ToRefusal(result));
+    }
+  }
+  for (const auto& [from, to] : flips.GetSegments())
+  {
+    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(from), ranks.GetVertex(to) });
+  }
+  this->Flips = flips.GetNumberOfFlips();
+  if (this->Flips > 0)
+  {
+    this->Geometry = survey.Geometry;
+    this->GeometryReason = survey.GeometryReason;
+    this->Store(mesh, built.Edges, ranks, backend);
+  }
+}
+
+/// Keeps the triangles, with ids as wide as the caller's.
+void ConstraintInsertion::Store(const TriangleMesh& mesh, const EdgeMesh& edges,
+  const SpatialOrderView& order, const ThreadBackend& backend)
+{
+  const std::int64_t count = edges.NumberOfTriangles;
+  const bool isNarrow = mesh.Triangles.Ids32 != nullptr;
+  this->Ids32.resize(isNarrow ? 3 * count : 0);
+  this->Ids64.resize(isNarrow ? 0 : 3 * count);
+  backend.StoreTriangles(isNarrow ? MutableTriangleArray(this->Ids32.data(), count)
+                                  : MutableTriangleArray(this->Ids64.data(), count),
+    StoreStep{ edges.Triangles.Data(), order });
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    const TriangleRecord& triangle = edges.Triangles[t];
+    const auto flips = static_cast<std::int32_t>(triangle.Flips / OneFlip);
+    if (flips > 0)
+    {
+      this->FlipCounts.emplace_back(triangle.InputTriangle, flips);
+    }
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "SpatialOrder.h"
+#include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -47,10 +49,13 @@ public:
   /// For a mesh without constraints to be inserted.
   ConstraintInsertion() = default;
 
-  /// @param progress is told of the insertion; not called if the mesh has all constraints as edges.
+  /// Whether flips may have to make constraint edges.
+  static bool IsRequested(const FixedEdges& edges);
+
+  /// @param observer is told of the insertion; not called if the mesh has all constraints as edges.
   /// @throws as FlipSession's constructor; RunAborted.
   ConstraintInsertion(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer);
 
   std::int64_t GetNumberInserted() const { return this->Inserted; }
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
@@ -80,7 +85,8 @@ public:
   void AddFlipCounts(std::int32_t* counts) const;
 
 private:
-  friend class ConstraintInserter;
+  void Store(const TriangleMesh& mesh, const EdgeMesh& edges, const SpatialOrderView& order,
+    const ThreadBackend& backend);
 
   std::vector<std::int32_t> Ids32; ///< Triangles, if the caller's ids have 32 bits and one changed.
   std::vector<std::int64_t> Ids64; ///< If they have 64 bits.
@@ -93,6 +99,17 @@ private:
   std::int64_t Flips = 0;
   std::vector<RefusedConstraint> Refused;
 };
+
+/// Constraint edges that are to be inserted and are no edges of the mesh.
+struct MissingConstraints
+{
+  std::vector<std::int64_t> First; ///< Their numbers, ascending; of equal ones the first.
+  std::vector<bool> IsMissing; ///< For every constraint edge; also of equal ones.
+};
+
+/// Does not trust the ids of triangles.
+/// @throws InvalidMesh for a constraint that names no point.
+MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const ThreadBackend& backend);
 
 }
 

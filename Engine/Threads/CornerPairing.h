@@ -6,7 +6,6 @@
 #include "Array.h"
 #include "Atomics.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
 #include "EdgeTable.h"
 #include "ThreadBackend.h"
 
@@ -137,18 +136,6 @@ private:
       this->BucketBits;
   }
 
-  /// Counts how many corners of triangles [begin, end) every bucket gets.
-  void CountIn(std::int64_t begin, std::int64_t end, std::vector<std::uint32_t>& counts) const
-  {
-    for (std::int64_t t = begin; t < end; ++t)
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        ++counts[this->GetBucket(this->Triangles[t], slot)];
-      }
-    }
-  }
-
   void CountCorners()
   {
     constexpr std::int64_t Grain = ThreadBackend::DefaultGrain;
@@ -158,7 +145,13 @@ private:
       {
         std::vector<std::uint32_t>& counts = this->CountsOfRange[begin / Grain];
         counts.assign(this->Starts.size() - 1, 0);
-        this->CountIn(begin, end, counts);
+        for (std::int64_t t = begin; t < end; ++t)
+        {
+          for (int slot = 0; slot < 3; ++slot)
+          {
+            ++counts[this->GetBucket(this->Triangles[t], slot)];
+          }
+        }
         for (std::size_t bucket = 0; bucket < counts.size(); ++bucket)
         {
           AtomicAdd(&this->Starts[bucket + 1], counts[bucket]);

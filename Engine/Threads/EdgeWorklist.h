@@ -4,8 +4,6 @@
 #define DELAUNAYFLIP_EDGEWORKLIST_H
 
 #include "EdgeMesh.h"
-#include "InCircleBatch.h"
-#include "StateWords.h"
 #include "ThreadBackend.h"
 #include "ThreadSteps.h"
 
@@ -13,42 +11,100 @@
 #include <cstdint>
 #include <vector>
 
+#if defined(__SSE2__) && !defined(__SANITIZE_THREAD__)
+#define DELAUNAYFLIP_STATES_BY_SSE2
+#include <emmintrin.h>
+#endif
+
 /// @file
-/// The worklist of a range of edges: segments of 1024 edges, with a flag for every segment that may
-/// contain work. A detection visits only flagged segments, and finds its candidates by their
-/// states, in order, so its cost depends only on what is active. It lists the bad edges, one list
-/// per task; the rest of an iteration uses these lists.
+/// The worklist of a range of edges: units of 1024 edges, with a flag for every unit that may
+/// contain work. A detection visits only flagged units, and finds its candidates by their states,
+/// in order, so its cost depends only on what is active. It lists the bad edges, one list per task;
+/// the rest of an iteration uses these lists.
 
 namespace delaunayflip
 {
 
+//------------------------------------------------------------------------------
+// The states of 64 edges at once, as a set of bits.
+
+constexpr std::int64_t StatesPerSet = 64;
+
+#if defined(DELAUNAYFLIP_STATES_BY_SSE2)
+
+/// Which of 64 states are wanted. Other threads may change states meanwhile whose bits the caller
+/// ignores.
+inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
+{
+  const __m128i first = _mm_set1_epi8(static_cast<char>(wanted.First));
+  const __m128i range = _mm_set1_epi8(
+    static_cast<char>(static_cast<int>(wanted.Last) - static_cast<int>(wanted.First)));
+  std::uint64_t set = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    const __m128i above =
+      _mm_sub_epi8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(states) + i), first);
+    const __m128i matches = _mm_cmpeq_epi8(_mm_min_epu8(above, range), above);
+    set |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(matches)))
+      << (16 * i);
+  }
+  return set;
+}
+
+#else
+
+/// The same, by the bytes of machine words.
+inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
+{
+  using Word __attribute__((may_alias)) = std::uint64_t;
+  constexpr std::uint64_t EveryByte = 0x0101010101010101u;
+  const std::uint64_t first = (0x80 - static_cast<std::uint64_t>(wanted.First)) * EveryByte;
+  const std::uint64_t last = (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
+  std::uint64_t set = 0;
+  for (int i = 0; i < 8; ++i)
+  {
+    const std::uint64_t word =
+      __atomic_load_n(reinterpret_cast<const Word*>(states) + i, __ATOMIC_RELAXED);
+    // States are below 16, so bytes do not carry into each other, and their top bits have the
+    // answer.
+    const std::uint64_t matches = (word + first) & ~(word + last) & (0x80 * EveryByte);
+    // The product gathers bit 0 of the eight bytes in the last byte.
+    set |= (((matches >> 7) * 0x0102040810204080u) >> 56) << (8 * i);
+  }
+  return set;
+}
+
+#endif
+
+//------------------------------------------------------------------------------
+
 class EdgeWorklist
 {
 public:
-  /// Edges [first, last), every segment active.
+  /// Edges [first, last), every unit active.
   /// @param mayBlock whether steps may leave edges blocked.
   EdgeWorklist(const EdgeState* states, std::int64_t first, std::int64_t last, bool mayBlock)
     : States(states),
       MayBlock(mayBlock),
       FirstEdge(first),
       LastEdge(last),
-      FirstSegment(first >> SegmentBits),
-      Flags(first < last ? ((last - 1) >> SegmentBits) - FirstSegment + 1 : 0, 1)
+      FirstUnit(first >> UnitBits),
+      Flags(first < last ? ((last - 1) >> UnitBits) - FirstUnit + 1 : 0, 1)
   {
   }
 
-  /// The flags, which steps set for the segments of edges that they make candidates.
-  SegmentFlags GetFlags() { return { this->Flags.data(), this->FirstSegment }; }
+  /// The flags, which steps set for the units of edges that they make candidates.
+  UnitFlags GetFlags() { return { this->Flags.data(), this->FirstUnit }; }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Runs steps on the candidates of flagged segments: all steps on a few segments, then on the
+  /// Runs steps on the candidates of flagged units: all steps on a few units, then on the
   /// next. So no step may write what another edge's step reads. Then lists and counts the bad
-  /// edges. Segments with a bad or blocked edge stay flagged. @returns the counts.
+  /// edges. Units with a bad or blocked edge stay flagged. @returns the counts.
   template <typename... Steps>
   StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
   {
-    this->Gather(SegmentsPerTask);
+    this->Gather(UnitsPerTask);
     return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
   }
 
@@ -64,14 +120,36 @@ public:
   template <typename Step>
   void Filter(const ThreadBackend& backend, const Step& step)
   {
-    this->ForTasks(backend, [&](Task& task) { return FilterTask(task, step); });
+    this->ForTasks(backend,
+      [&](Task& task)
+      {
+        EdgeId* edges = task.Edges.data();
+        std::int64_t kept = 0;
+        ForEdges(step, edges, task.Size,
+          [&](std::int64_t i, const auto& item)
+          {
+            const EdgeId edge = edges[i];
+            edges[kept] = edge;
+            kept += step(edge, item) ? 1 : 0;
+          });
+        task.Size = kept;
+        return StepCounts();
+      });
   }
 
   /// Runs a step on the edges of the lists. @returns its counts.
   template <typename Step>
   StepCounts Run(const ThreadBackend& backend, const Step& step)
   {
-    return this->ForTasks(backend, [&](Task& task) { return RunOnTask(step, task); });
+    return this->ForTasks(backend,
+      [&](Task& task)
+      {
+        StepCounts counts;
+        const EdgeId* edges = task.Edges.data();
+        ForEdges(step, task.Edges.data(), task.Size,
+          [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+        return counts;
+      });
   }
 
   /// Filters the lists by the step's choice and runs the step on the winners, a few edges at a
@@ -79,17 +157,38 @@ public:
   StepCounts ChooseAndFlip(const ChooseAndFlipStep& step)
   {
     StepCounts counts;
+    EdgeId winners[ChoicesAtOnce + 1];
+    int size = 0;
+    const auto flip = [&]()
+    {
+      for (int i = 0; i < size; ++i)
+      {
+        step(winners[i], counts);
+      }
+      size = 0;
+    };
     for (Task& task : this->Tasks)
     {
-      ChooseAndFlip(step, task, counts);
+      EdgeId* edges = task.Edges.data();
+      ForEdges(step, edges, task.Size,
+        [&](std::int64_t i, const OuterHalfEdges& outer)
+        {
+          winners[size] = edges[i];
+          size += step.Choose(edges[i], outer) ? 1 : 0;
+          if (size == ChoicesAtOnce)
+          {
+            flip();
+          }
+        });
+      flip();
     }
     return counts;
   }
 
 private:
-  static constexpr int SegmentBits = SegmentFlags::SegmentBits;
-  static constexpr std::int64_t SegmentSize = std::int64_t(1) << SegmentBits;
-  static constexpr std::int64_t SegmentsPerTask = 8;
+  static constexpr int UnitBits = UnitFlags::UnitBits;
+  static constexpr std::int64_t UnitSize = std::int64_t(1) << UnitBits;
+  static constexpr std::int64_t UnitsPerTask = 8;
   static constexpr std::int64_t SetSize = StatesPerSet;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 16;
@@ -98,7 +197,7 @@ private:
   /// Room at the end of lists, for edges that are prefetched but not worked on.
   static constexpr std::int64_t Padding = 3 * PrefetchDistance;
 
-  /// A task: some of the gathered segments.
+  /// A task: some of the gathered units.
   struct Task
   {
     std::int64_t Begin, End;
@@ -106,24 +205,24 @@ private:
     std::int64_t Size = 0; ///< Without padding.
   };
 
-  /// Divides the flagged segments into tasks.
-  void Gather(std::int64_t segmentsPerTask)
+  /// Divides the flagged units into tasks.
+  void Gather(std::int64_t unitsPerTask)
   {
-    this->Segments.clear();
-    for (std::size_t segment = 0; segment < this->Flags.size(); ++segment)
+    this->Units.clear();
+    for (std::size_t unit = 0; unit < this->Flags.size(); ++unit)
     {
-      if (this->Flags[segment])
+      if (this->Flags[unit])
       {
-        this->Segments.push_back(this->FirstSegment + static_cast<std::int64_t>(segment));
+        this->Units.push_back(this->FirstUnit + static_cast<std::int64_t>(unit));
       }
     }
-    const auto size = static_cast<std::int64_t>(this->Segments.size());
-    this->Tasks.resize((size + segmentsPerTask - 1) / segmentsPerTask);
+    const auto size = static_cast<std::int64_t>(this->Units.size());
+    this->Tasks.resize((size + unitsPerTask - 1) / unitsPerTask);
     std::int64_t begin = 0;
     for (Task& task : this->Tasks)
     {
       task.Begin = begin;
-      task.End = std::min(size, begin + segmentsPerTask);
+      task.End = std::min(size, begin + unitsPerTask);
       begin = task.End;
       task.Edges.clear();
       task.Size = 0;
@@ -143,14 +242,14 @@ private:
   StepCounts DetectIn(Task& task, const Steps&... steps)
   {
     StepCounts counts;
-    for (std::int64_t begin = task.Begin; begin < task.End; begin += SegmentsPerTask)
+    for (std::int64_t begin = task.Begin; begin < task.End; begin += UnitsPerTask)
     {
       StepCounts group;
-      const std::int64_t end = std::min(task.End, begin + SegmentsPerTask);
-      (this->RunOnSegments(steps, begin, end, group), ...);
+      const std::int64_t end = std::min(task.End, begin + UnitsPerTask);
+      (this->RunOnUnits(steps, begin, end, group), ...);
       for (std::int64_t i = begin; i < end; ++i)
       {
-        this->ListBad(this->Segments[i], task.Edges, group);
+        this->ListBad(this->Units[i], task.Edges, group);
       }
       counts += group;
     }
@@ -201,77 +300,25 @@ private:
   }
 
   template <typename Step>
-  static StepCounts RunOnTask(const Step& step, Task& task)
+  void RunOnUnits(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
-    StepCounts counts;
-    EdgeId* edges = task.Edges.data();
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
-    return counts;
-  }
-
-  template <typename Step>
-  static StepCounts FilterTask(Task& task, const Step& step)
-  {
-    EdgeId* edges = task.Edges.data();
-    std::int64_t kept = 0;
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const auto& item)
-      {
-        const EdgeId edge = edges[i];
-        edges[kept] = edge;
-        kept += step(edge, item) ? 1 : 0;
-      });
-    task.Size = kept;
-    return {};
-  }
-
-  static void ChooseAndFlip(const ChooseAndFlipStep& step, Task& task, StepCounts& counts)
-  {
-    EdgeId* edges = task.Edges.data();
-    EdgeId winners[ChoicesAtOnce + 1];
-    int size = 0;
-    const auto flip = [&]()
-    {
-      for (int i = 0; i < size; ++i)
-      {
-        step(winners[i], counts);
-      }
-      size = 0;
-    };
-    ForEdges(step, edges, task.Size,
-      [&](std::int64_t i, const OuterHalfEdges& outer)
-      {
-        winners[size] = edges[i];
-        size += step.Choose(edges[i], outer) ? 1 : 0;
-        if (size == ChoicesAtOnce)
-        {
-          flip();
-        }
-      });
-    flip();
-  }
-
-  template <typename Step>
-  void RunOnSegments(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
-  {
-    EdgeId edges[SegmentsPerTask * SegmentSize + Padding];
+    EdgeId edges[UnitsPerTask * UnitSize + Padding];
     const std::int64_t size = this->FindAll(Step::Wanted, begin, end, edges);
     ForEdges(
       step, edges, size, [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
   }
 
   template <typename Real>
-  void RunOnSegments(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin,
-    std::int64_t end, StepCounts& counts)
+  void RunOnUnits(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin, std::int64_t end,
+    StepCounts& counts)
   {
     using Batch = InCircleBatch<Real>;
     if (!Batch::Suits(step.Decision))
     {
-      this->RunOnSegments<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
+      this->RunOnUnits<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
       return;
     }
-    EdgeId edges[SegmentsPerTask * SegmentSize + Padding];
+    EdgeId edges[UnitsPerTask * UnitSize + Padding];
     const std::int64_t size =
       this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
     Batch batch(step.Mesh, step.Decision);
@@ -282,48 +329,48 @@ private:
 
   /// Not inlined, because exact arithmetic is seldom needed.
   template <typename Rule>
-  void RunOnSegments(
+  void RunOnUnits(
     const ResolveStep<Rule>& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
     if (counts.Uncertain > 0)
     {
-      this->RunOnSegments<ResolveStep<Rule>>(step, begin, end, counts);
+      this->RunOnUnits<ResolveStep<Rule>>(step, begin, end, counts);
     }
   }
 
-  /// Lists and counts the bad edges of a segment.
-  void ListBad(std::int64_t segment, std::vector<EdgeId>& list, StepCounts& counts)
+  /// Lists and counts the bad edges of a unit.
+  void ListBad(std::int64_t unit, std::vector<EdgeId>& list, StepCounts& counts)
   {
-    EdgeId edges[SegmentSize];
-    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, segment, edges);
+    EdgeId edges[UnitSize];
+    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, unit, edges);
     list.insert(list.end(), edges, edges + bad);
     const auto count = [&](EdgeState state) {
-      return this->MayBlock ? this->Find({ state, state }, segment, edges) : 0;
+      return this->MayBlock ? this->Find({ state, state }, unit, edges) : 0;
     };
     const std::int64_t byShape = count(EdgeState::BlockedByShape);
     const std::int64_t byEdge = count(EdgeState::BlockedByEdge);
     counts.Bad += bad;
     counts.BlockedByShape += byShape;
     counts.BlockedByEdge += byEdge;
-    this->Flags[segment - this->FirstSegment] = bad + byShape + byEdge > 0;
+    this->Flags[unit - this->FirstUnit] = bad + byShape + byEdge > 0;
   }
 
-  /// Calls Find for the gathered segments [begin, end).
+  /// Calls Find for the gathered units [begin, end).
   std::int64_t FindAll(StateRange wanted, std::int64_t begin, std::int64_t end, EdgeId* found) const
   {
     std::int64_t size = 0;
     for (std::int64_t i = begin; i < end; ++i)
     {
-      size += this->Find(wanted, this->Segments[i], found + size);
+      size += this->Find(wanted, this->Units[i], found + size);
     }
     return size;
   }
 
-  /// Stores the edges of a segment that are in a wanted state. @returns how many.
-  std::int64_t Find(StateRange wanted, std::int64_t segment, EdgeId* found) const
+  /// Stores the edges of a unit that are in a wanted state. @returns how many.
+  std::int64_t Find(StateRange wanted, std::int64_t unit, EdgeId* found) const
   {
-    const std::int64_t first = std::max(this->FirstEdge, segment << SegmentBits);
-    const std::int64_t last = std::min(this->LastEdge, (segment + 1) << SegmentBits);
+    const std::int64_t first = std::max(this->FirstEdge, unit << UnitBits);
+    const std::int64_t last = std::min(this->LastEdge, (unit + 1) << UnitBits);
     const std::uint64_t all = ~std::uint64_t(0);
     EdgeId* end = found;
     for (std::int64_t base = first / SetSize * SetSize; base < last; base += SetSize)
@@ -343,9 +390,9 @@ private:
   bool MayBlock;
   std::int64_t FirstEdge;
   std::int64_t LastEdge;
-  std::int64_t FirstSegment;
+  std::int64_t FirstUnit;
   std::vector<std::uint8_t> Flags;
-  std::vector<std::int64_t> Segments; ///< The flagged segments.
+  std::vector<std::int64_t> Units; ///< The flagged units.
   std::vector<Task> Tasks;
 };
 

@@ -6,6 +6,8 @@
 #include "Array.h"
 
 #include <cstddef>
+#include <new>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -22,6 +24,55 @@ public:
   void* AllocateSparse(std::size_t bytes);
   void Free(void* memory, std::size_t bytes) noexcept override;
 };
+
+template <typename T>
+struct HostAllocator
+{
+  using value_type = T;
+
+  HostAllocator() = default;
+  template <typename Other>
+  explicit HostAllocator(const HostAllocator<Other>&)
+  {
+  }
+
+  T* allocate(std::size_t count)
+  {
+    return static_cast<T*>(HostMemory().Allocate(count * sizeof(T)));
+  }
+  void deallocate(T* values, std::size_t count) noexcept
+  {
+    HostMemory().Free(values, count * sizeof(T));
+  }
+
+  bool operator==(const HostAllocator&) const { return true; }
+  bool operator!=(const HostAllocator&) const { return false; }
+};
+
+/// A vector in HostMemory, which takes huge pages if it is large.
+template <typename T>
+using HostVector = std::vector<T, HostAllocator<T>>;
+
+template <typename T>
+struct RawAllocator : HostAllocator<T>
+{
+  RawAllocator() = default;
+  template <typename Other>
+  explicit RawAllocator(const RawAllocator<Other>&)
+  {
+  }
+
+  T* allocate(std::size_t count)
+  {
+    return static_cast<T*>(HostMemory().AllocateSparse(count * sizeof(T)));
+  }
+  void construct(T* value) noexcept { ::new (static_cast<void*>(value)) T; }
+};
+
+/// The same, but resize leaves what it adds as it is, so that this takes no time, and no memory
+/// where nothing is ever written. It takes small pages.
+template <typename T>
+using RawVector = std::vector<T, RawAllocator<T>>;
 
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThreadBackend.h"
 
+#include "CornerPairing.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,10 +12,7 @@
 #include <optional>
 #include <thread>
 
-#if defined(DELAUNAYFLIP_STD_THREADS)
-#include <exception>
-#include <mutex>
-#else
+#if !defined(DELAUNAYFLIP_STD_THREADS)
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -65,41 +64,33 @@ int CountStartable(int most)
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
-/// Whether there is memory for what oneTBB allocates when it starts or gets an arena. The heap may
-/// have some of its own that oneTBB cannot use.
-bool HasRoomForTBB()
+/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
+/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
+/// for ever where memory fails meanwhile; one thread does without oneTBB.
+int ResolveThreads(int wanted)
 {
-  constexpr std::size_t room = 16 << 20; // many times what it takes
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int threads = wanted > 0 ? std::min(wanted, std::max(MostThreads, 2 * cores)) : cores;
+  if (threads > mostStarted)
+  {
+    threads = std::clamp((1 + CountStartable(2 * threads - 1)) / 2, 1, threads);
+  }
+  if (threads == 1)
+  {
+    return 1;
+  }
+  // The heap may have some memory of its own that oneTBB cannot use.
+  constexpr std::size_t room = 16 << 20; // many times what oneTBB takes at first or for an arena
   HostMemory memory;
   try
   {
     memory.Free(memory.AllocateSparse(room), room);
-    return true;
+    return threads;
   }
   catch (const std::bad_alloc&)
   {
-    return false;
+    return 1;
   }
-}
-
-/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
-/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
-/// for ever where memory fails meanwhile; one thread does without oneTBB.
-int LimitToStartable(int threads)
-{
-  if (threads > mostStarted)
-  {
-    const int startable = 1 + CountStartable(2 * threads - 1);
-    threads = std::clamp(startable / 2, 1, threads);
-  }
-  return threads == 1 || HasRoomForTBB() ? threads : 1;
-}
-
-int ResolveThreads(int threads)
-{
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int most = std::max(MostThreads, 2 * cores);
-  return LimitToStartable(threads > 0 ? std::min(threads, most) : cores);
 }
 }
 
@@ -116,37 +107,22 @@ public:
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
     std::atomic<std::int64_t> next{ 0 };
-    std::exception_ptr error;
-    std::mutex errorMutex;
     const auto drain = [&]()
     {
       for (std::int64_t task = next++; task < count; task = next++)
       {
-        try
-        {
-          work(task);
-        }
-        catch (...)
-        {
-          const std::lock_guard<std::mutex> lock(errorMutex);
-          error = std::current_exception();
-        }
+        work(task);
       }
     };
-    std::vector<std::thread> helpers;
-    helpers.reserve(this->Size);
+    std::vector<std::future<void>> helpers; // their destructors wait, too
     for (std::int64_t i = 1; i < std::min<std::int64_t>(this->Size, count); ++i)
     {
-      helpers.emplace_back(drain);
+      helpers.push_back(std::async(std::launch::async, drain));
     }
     drain();
-    for (std::thread& helper : helpers)
+    for (std::future<void>& helper : helpers)
     {
-      helper.join();
-    }
-    if (error)
-    {
-      std::rethrow_exception(error);
+      helper.get();
     }
   }
 
@@ -236,6 +212,19 @@ void ThreadBackend::ForTasks(
   {
     work(task);
   }
+}
+
+bool ThreadBackend::PairCorners(
+  EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const
+{
+  CornerPairing pairing(mesh, vertices, *this);
+  if (!pairing.IsEven())
+  {
+    return false;
+  }
+  sums = pairing.Run();
+  numbering = this->Count(mesh.NumberOfTriangles, OtherCornerStep{ mesh.Triangles.Data() });
+  return true;
 }
 
 }

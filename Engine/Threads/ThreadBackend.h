@@ -5,10 +5,9 @@
 
 #include "Array.h"
 #include "EdgeMesh.h"
-#include "EdgeMeshSteps.h"
-#include "FlipEngine.h"
+#include "EdgeTable.h"
+#include "LoadedMesh.h"
 #include "HostMemory.h"
-#include "OutputSlice.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
@@ -161,7 +160,30 @@ public:
 
   /// 0 .. size - 1 by keyOf(i), a number of KeyBits bits; equal keys keep their order.
   template <int KeyBits, typename KeyOf>
-  Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const;
+  Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const
+  {
+    static_assert(KeyBits % 2 == 0, "two passes, half of the bits each");
+    constexpr int DigitBits = KeyBits / 2;
+    struct KeyedIndex
+    {
+      std::uint32_t Key, Index;
+    };
+    Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
+    Array<KeyedIndex> sorted = this->MakeArray<KeyedIndex>(size); // by the lower digit
+    this->ForRange(size,
+      [&](std::int64_t begin, std::int64_t end)
+      { Loop(begin, end, keyOf, [&](std::int64_t i) { keys[i] = keyOf(i); }); });
+    this->PlaceByDigit<DigitBits>(
+      size, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
+      [&](std::int64_t i, std::uint32_t place) {
+        sorted[place] = { keys[i], static_cast<std::uint32_t>(i) };
+      });
+    Array<std::uint32_t> indices = std::move(keys);
+    this->PlaceByDigit<DigitBits>(
+      size, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
+      [&](std::int64_t i, std::uint32_t place) { indices[place] = sorted[i].Index; });
+    return indices;
+  }
 
   /// Finds the other corner of every corner's edge without a table of all edges
   /// (CornerPairing.h), and numbers the edges.
@@ -224,24 +246,25 @@ private:
   /// Items between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 32;
 
-  template <typename Work, typename = void>
-  struct Prefetches : std::false_type
-  {
-  };
+  /// Call work.Prefetch(i) and work.PrefetchFar(i), if they exist.
   template <typename Work>
-  struct Prefetches<Work, std::void_t<decltype(std::declval<const Work&>().Prefetch(0))>>
-    : std::true_type
+  static auto Request(const Work& work, std::int64_t i, int) -> decltype(work.Prefetch(i))
   {
-  };
-  template <typename Work, typename = void>
-  struct PrefetchesFar : std::false_type
-  {
-  };
+    work.Prefetch(i);
+  }
   template <typename Work>
-  struct PrefetchesFar<Work, std::void_t<decltype(std::declval<const Work&>().PrefetchFar(0))>>
-    : std::true_type
+  static auto RequestFar(const Work& work, std::int64_t i, int) -> decltype(work.PrefetchFar(i))
   {
-  };
+    work.PrefetchFar(i);
+  }
+  template <typename Work>
+  static void Request(const Work&, std::int64_t, long)
+  {
+  }
+  template <typename Work>
+  static void RequestFar(const Work&, std::int64_t, long)
+  {
+  }
 
   /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i) and, still earlier,
   /// work.PrefetchFar(i), if they exist.
@@ -250,14 +273,8 @@ private:
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      if constexpr (PrefetchesFar<Work>::value)
-      {
-        work.PrefetchFar(std::min(i + 2 * PrefetchDistance, end - 1));
-      }
-      if constexpr (Prefetches<Work>::value)
-      {
-        work.Prefetch(std::min(i + PrefetchDistance, end - 1));
-      }
+      RequestFar(work, std::min(i + 2 * PrefetchDistance, end - 1), 0);
+      Request(work, std::min(i + PrefetchDistance, end - 1), 0);
       call(i);
     }
   }
@@ -265,75 +282,46 @@ private:
   /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
   /// i by digitOf(i), of DigitBits bits.
   template <int DigitBits, typename DigitOf, typename Put>
-  void PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const;
+  void PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const
+  {
+    constexpr std::uint32_t Digits = 1u << DigitBits;
+    constexpr std::int64_t Grain = 1 << 17;
+    const std::int64_t pieces = (size + Grain - 1) / Grain;
+    std::vector<std::uint32_t> starts(pieces * Digits, 0);
+    const auto count = [&](std::int64_t begin, std::int64_t end)
+    {
+      std::uint32_t* counts = &starts[begin / Grain * Digits];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        ++counts[digitOf(i)];
+      }
+    };
+    this->ForRange(size, count, Grain);
+    std::uint32_t start = 0;
+    for (std::uint32_t digit = 0; digit < Digits; ++digit)
+    {
+      for (std::int64_t piece = 0; piece < pieces; ++piece)
+      {
+        const std::uint32_t items = starts[piece * Digits + digit];
+        starts[piece * Digits + digit] = start;
+        start += items;
+      }
+    }
+    const auto place = [&](std::int64_t begin, std::int64_t end)
+    {
+      std::uint32_t* next = &starts[begin / Grain * Digits];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        put(i, next[digitOf(i)]++);
+      }
+    };
+    this->ForRange(size, place, Grain);
+  }
 
   class Pool;
   std::unique_ptr<Pool> Threads;
   std::unique_ptr<HostMemory> Memory;
 };
-
-template <int DigitBits, typename DigitOf, typename Put>
-void ThreadBackend::PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const
-{
-  constexpr std::uint32_t Digits = 1u << DigitBits;
-  constexpr std::int64_t Grain = 1 << 17;
-  const std::int64_t pieces = (size + Grain - 1) / Grain;
-  std::vector<std::uint32_t> starts(pieces * Digits, 0);
-  const auto count = [&](std::int64_t begin, std::int64_t end)
-  {
-    std::uint32_t* counts = &starts[begin / Grain * Digits];
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      ++counts[digitOf(i)];
-    }
-  };
-  this->ForRange(size, count, Grain);
-  std::uint32_t start = 0;
-  for (std::uint32_t digit = 0; digit < Digits; ++digit)
-  {
-    for (std::int64_t piece = 0; piece < pieces; ++piece)
-    {
-      const std::uint32_t items = starts[piece * Digits + digit];
-      starts[piece * Digits + digit] = start;
-      start += items;
-    }
-  }
-  const auto place = [&](std::int64_t begin, std::int64_t end)
-  {
-    std::uint32_t* next = &starts[begin / Grain * Digits];
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      put(i, next[digitOf(i)]++);
-    }
-  };
-  this->ForRange(size, place, Grain);
-}
-
-template <int KeyBits, typename KeyOf>
-Array<std::uint32_t> ThreadBackend::SortIndices(std::int64_t size, const KeyOf& keyOf) const
-{
-  static_assert(KeyBits % 2 == 0, "two passes, half of the bits each");
-  constexpr int DigitBits = KeyBits / 2;
-  struct KeyedIndex
-  {
-    std::uint32_t Key, Index;
-  };
-  Array<std::uint32_t> keys = this->MakeArray<std::uint32_t>(size);
-  Array<KeyedIndex> sorted = this->MakeArray<KeyedIndex>(size); // by the lower digit
-  this->ForRange(size,
-    [&](std::int64_t begin, std::int64_t end)
-    { Loop(begin, end, keyOf, [&](std::int64_t i) { keys[i] = keyOf(i); }); });
-  this->PlaceByDigit<DigitBits>(
-    size, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
-    [&](std::int64_t i, std::uint32_t place) {
-      sorted[place] = { keys[i], static_cast<std::uint32_t>(i) };
-    });
-  Array<std::uint32_t> indices = std::move(keys);
-  this->PlaceByDigit<DigitBits>(
-    size, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
-    [&](std::int64_t i, std::uint32_t place) { indices[place] = sorted[i].Index; });
-  return indices;
-}
 
 }
 

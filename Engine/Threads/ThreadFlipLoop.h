@@ -3,11 +3,11 @@
 #ifndef DELAUNAYFLIP_THREADFLIPLOOP_H
 #define DELAUNAYFLIP_THREADFLIPLOOP_H
 
-#include "AngleSurvey.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "EdgeWorklist.h"
 #include "FlipLoop.h"
+#include "SmallestAngle.h"
 #include "ThreadBackend.h"
 #include "ThreadSteps.h"
 
@@ -46,9 +46,16 @@ public:
 
   double FindLargestSquaredCotangentWithout(const unsigned char* omitted) const override
   {
+    const AngleSurvey<Rule> survey = this->Angles();
     return this->Backend
-      .template Sum<LargestValue>(
-        this->Mesh.NumberOfTriangles, OtherAngles{ this->Angles(), omitted })
+      .template Sum<LargestValue>(this->Mesh.NumberOfTriangles,
+        [&](std::int64_t triangle, LargestValue& sum)
+        {
+          if (omitted[triangle] == 0)
+          {
+            survey(triangle, sum);
+          }
+        })
       .Value;
   }
 
@@ -191,22 +198,6 @@ private:
       { std::replace(states + begin, states + end, EdgeState::Deferred, EdgeState::Candidate); });
     this->Worklist.ActivateAll();
   }
-
-  /// The angles of triangles without a flag.
-  struct OtherAngles
-  {
-    AngleSurvey<Rule> All;
-    const unsigned char* Omitted;
-
-    void Prefetch(std::int64_t t) const { this->All.Prefetch(t); }
-    void operator()(std::int64_t t, LargestValue& sum) const
-    {
-      if (this->Omitted[t] == 0)
-      {
-        this->All(t, sum);
-      }
-    }
-  };
 
   AngleSurvey<Rule> Angles() const
   {

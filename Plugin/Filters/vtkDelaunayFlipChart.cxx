@@ -12,9 +12,6 @@
 
 vtkStandardNewMacro(vtkDelaunayFlipChart);
 
-vtkDelaunayFlipChart::vtkDelaunayFlipChart() = default;
-vtkDelaunayFlipChart::~vtkDelaunayFlipChart() = default;
-
 namespace
 {
 

@@ -32,8 +32,8 @@ public:
   ///@}
 
 protected:
-  vtkDelaunayFlipChart();
-  ~vtkDelaunayFlipChart() override;
+  vtkDelaunayFlipChart() = default;
+  ~vtkDelaunayFlipChart() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,

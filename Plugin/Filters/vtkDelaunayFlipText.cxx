@@ -19,9 +19,6 @@
 
 vtkStandardNewMacro(vtkDelaunayFlipText);
 
-vtkDelaunayFlipText::vtkDelaunayFlipText() = default;
-vtkDelaunayFlipText::~vtkDelaunayFlipText() = default;
-
 namespace
 {
 

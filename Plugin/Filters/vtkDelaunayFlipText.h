@@ -23,8 +23,8 @@ public:
   vtkTypeMacro(vtkDelaunayFlipText, vtkTableAlgorithm);
 
 protected:
-  vtkDelaunayFlipText();
-  ~vtkDelaunayFlipText() override;
+  vtkDelaunayFlipText() = default;
+  ~vtkDelaunayFlipText() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,

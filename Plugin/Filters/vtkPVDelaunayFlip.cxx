@@ -2,19 +2,263 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPVDelaunayFlip.h"
 
-#include "SurfaceCells.h"
-
+#include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 
-using namespace delaunayflip;
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+/// The four cell arrays of a vtkPolyData, in the order of its cells.
+enum Kind : std::size_t
+{
+  Verts,
+  Lines,
+  Polys,
+  Strips,
+  NumberOfKinds,
+  Blanked,
+  NoSurface
+};
+
+Kind GetKind(int cellType)
+{
+  switch (cellType)
+  {
+    case VTK_EMPTY_CELL:
+      return Blanked;
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+      return Verts;
+    case VTK_LINE:
+    case VTK_POLY_LINE:
+      return Lines;
+    case VTK_TRIANGLE:
+    case VTK_QUAD:
+    case VTK_PIXEL:
+    case VTK_POLYGON:
+      return Polys;
+    case VTK_TRIANGLE_STRIP:
+      return Strips;
+    default:
+      return NoSurface;
+  }
+}
+
+/// Cells of one kind, and the ids that they had in the input.
+struct Cells
+{
+  vtkNew<vtkCellArray> Array;
+  vtkNew<vtkIdList> Sources;
+};
+
+vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)
+{
+  if (auto* pointSet = vtkPointSet::SafeDownCast(input))
+  {
+    return pointSet->GetPoints();
+  }
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(input->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    double point[3];
+    input->GetPoint(i, point);
+    points->SetPoint(i, point);
+  }
+  return points;
+}
+
+/// The types of a grid's cells, which VTK 9.6 and newer may keep as one constant.
+vtkDataArray* GetTypes(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
+#endif
+}
+
+/// Checks the arrays of a grid before any of its offsets is used.
+void RequireWholeCells(vtkUnstructuredGrid* grid)
+{
+  vtkCellArray* cells = grid->GetCells();
+  vtkDataArray* types = GetTypes(grid);
+  if (cells &&
+    (!cells->IsValid() || !types || types->GetNumberOfValues() < cells->GetNumberOfCells()))
+  {
+    throw std::invalid_argument(
+      "The offsets, the connectivity and the types of the cells contradict each other.");
+  }
+}
+
+/// Reorders the points of a pixel from row by row to around the quad.
+void TurnPixel(vtkIdType cell, vtkIdList* ids)
+{
+  if (ids->GetNumberOfIds() != 4)
+  {
+    throw std::invalid_argument("Cell " + std::to_string(cell) + " is a pixel, but has " +
+      std::to_string(ids->GetNumberOfIds()) + " points, not 4.");
+  }
+  std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
+}
+
+/// Shares the cell array of an unstructured grid that consists of polygons only.
+bool ShareCells(vtkDataSet* input, vtkPolyData* output)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  for (vtkIdType i = 0; grid && i < grid->GetNumberOfCells(); ++i)
+  {
+    const int type = grid->GetCellType(i);
+    if (GetKind(type) != Polys || type == VTK_PIXEL)
+    {
+      return false;
+    }
+  }
+  if (grid)
+  {
+    output->SetPolys(grid->GetCells());
+    output->GetCellData()->PassData(grid->GetCellData());
+  }
+  return grid != nullptr;
+}
+
+using CellsByKind = std::array<Cells, NumberOfKinds>;
+
+void SortCells(vtkDataSet* input, CellsByKind& cells)
+{
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
+  {
+    const int type = input->GetCellType(i);
+    const Kind kind = GetKind(type);
+    if (kind == Blanked)
+    {
+      continue;
+    }
+    input->GetCellPoints(i, ids);
+    if (type == VTK_PIXEL)
+    {
+      TurnPixel(i, ids);
+    }
+    cells[kind].Array->InsertNextCell(ids);
+    cells[kind].Sources->InsertNextId(i);
+  }
+}
+
+/// Removes the arrays that have too few tuples for the cells from `data` and returns them.
+std::vector<vtkSmartPointer<vtkAbstractArray>> TakeShortArrays(vtkIdType cells, vtkCellData* data)
+{
+  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() < cells)
+    {
+      arrays.emplace_back(array);
+      data->RemoveArray(i);
+    }
+  }
+  return arrays;
+}
+
+/// Arrays that are too short to be copied become empty, so that the filter warns of them.
+void CopyCellData(vtkDataSet* input, const CellsByKind& cells, vtkCellData* output)
+{
+  vtkNew<vtkCellData> source;
+  source->ShallowCopy(input->GetCellData());
+  const auto shortArrays = TakeShortArrays(input->GetNumberOfCells(), source);
+  output->CopyAllOn();
+  output->CopyAllocate(source, input->GetNumberOfCells());
+  vtkIdType next = 0;
+  for (const Cells& some : cells)
+  {
+    for (vtkIdType i = 0; i < some.Sources->GetNumberOfIds(); ++i)
+    {
+      output->CopyData(source, some.Sources->GetId(i), next++);
+    }
+  }
+  for (const auto& array : shortArrays)
+  {
+    const auto empty = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+    empty->SetName(array->GetName());
+    output->AddArray(empty);
+  }
+}
+
+void CopyCells(vtkDataSet* input, vtkPolyData* output)
+{
+  CellsByKind cells;
+  SortCells(input, cells);
+  output->SetVerts(cells[Verts].Array);
+  output->SetLines(cells[Lines].Array);
+  output->SetPolys(cells[Polys].Array);
+  output->SetStrips(cells[Strips].Array);
+  CopyCellData(input, cells, output->GetCellData());
+}
+
+/// Whether a vtkPolyData can hold all cells of a dataset: vertices, lines, triangles, quads,
+/// pixels, polygons and strips. True for a dataset without cells.
+/// @throws std::invalid_argument if the arrays of its cells contradict each other.
+bool HasSurfaceCells(vtkDataSet* input)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    RequireWholeCells(grid);
+  }
+  for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
+  {
+    if (GetKind(input->GetCellType(i)) == NoSurface)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Converts a dataset. Points keep their ids and data. Cells keep their data, in the order
+/// vertices, lines, polygons, strips. Blanked cells are left out.
+/// @param input a dataset for which HasSurfaceCells is true.
+/// @throws std::invalid_argument if a pixel does not have four points.
+vtkSmartPointer<vtkPolyData> ToPolyData(vtkDataSet* input)
+{
+  auto output = vtkSmartPointer<vtkPolyData>::New();
+  output->SetPoints(GetPoints(input));
+  output->GetPointData()->PassData(input->GetPointData());
+  output->GetFieldData()->PassData(input->GetFieldData());
+  if (!ShareCells(input, output))
+  {
+    CopyCells(input, output);
+  }
+  return output;
+}
+
+}
 
 vtkStandardNewMacro(vtkPVDelaunayFlip);
-
-vtkPVDelaunayFlip::vtkPVDelaunayFlip() = default;
-vtkPVDelaunayFlip::~vtkPVDelaunayFlip() = default;
 
 //------------------------------------------------------------------------------
 int vtkPVDelaunayFlip::FillInputPortInformation(int port, vtkInformation* info)

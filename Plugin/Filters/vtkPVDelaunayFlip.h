@@ -32,8 +32,8 @@ public:
   vtkTypeMacro(vtkPVDelaunayFlip, vtkPDelaunayFlip);
 
 protected:
-  vtkPVDelaunayFlip();
-  ~vtkPVDelaunayFlip() override;
+  vtkPVDelaunayFlip() = default;
+  ~vtkPVDelaunayFlip() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input) override;

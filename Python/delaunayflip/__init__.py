@@ -27,35 +27,18 @@ Modules are imported at their first use: the functions for arrays need NumPy but
 needs VTK but no OpenGL, and the live view needs VTK's OpenGL modules too.
 """
 import importlib
+import importlib.util
 import typing
 
 if typing.TYPE_CHECKING:
-    from ._errors import BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge
-    from ._flip import Result, flip, smallest_angles
-    from ._library import has_cuda_device, release_cuda_memory
+    from ._library import (
+        BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge, has_cuda_device,
+        release_cuda_memory)
     from ._report import Report
-    from ._session import Session
+    from ._session import Result, Session, flip, smallest_angles
     from ._vtk import vtkDelaunayFlip
 
     __version__: str
-
-_HOMES = {
-    "flip": "._flip",
-    "Result": "._flip",
-    "Session": "._session",
-    "Report": "._report",
-    "smallest_angles": "._flip",
-    "has_cuda_device": "._library",
-    "release_cuda_memory": "._library",
-    "FlipError": "._errors",
-    "InvalidMesh": "._errors",
-    "InvalidOptions": "._errors",
-    "MeshTooLarge": "._errors",
-    "BackendUnavailable": "._errors",
-    "vtkDelaunayFlip": "._vtk",
-    "vtkDelaunayFlipLiveView": "._vtk_rendering",
-    "vtkPDelaunayFlip": "._vtk_parallel",
-}
 
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
@@ -63,12 +46,26 @@ __all__ = [
     "vtkDelaunayFlip",
 ]
 
+# Modules of the names that are not in _library.
+_HOMES = {
+    "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
+    "smallest_angles": "_session", "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk",
+    "vtkPDelaunayFlip": "_vtk",
+}
+# What these need beside VTK.
+_NEEDS = {
+    "vtkDelaunayFlip": "numpy",
+    "vtkDelaunayFlipLiveView": f"{__name__}.vtkDelaunayFlipRendering",
+    "vtkPDelaunayFlip": f"{__name__}.vtkDelaunayFlipFiltersParallel",
+}
+
 
 def __getattr__(name: str) -> typing.Any:
     if name == "__version__":
         value = importlib.import_module("._library", __name__).version()
-    elif name in _HOMES:
-        value = getattr(importlib.import_module(_HOMES[name], __name__), name)
+    elif name in __all__ or name in _HOMES:
+        home = importlib.import_module(f".{_HOMES.get(name, '_library')}", __name__)
+        value = getattr(home, name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     globals()[name] = value
@@ -76,4 +73,7 @@ def __getattr__(name: str) -> typing.Any:
 
 
 def __dir__() -> typing.List[str]:
-    return sorted([*globals(), *_HOMES, "__version__"])
+    """Only names that can be had: help() and inspect.getmembers() look all of them up."""
+    find = importlib.util.find_spec
+    absent = {name for name, needed in _NEEDS.items() if not find("vtkmodules") or not find(needed)}
+    return sorted({*globals(), *__all__, *_HOMES, "__version__"} - absent)

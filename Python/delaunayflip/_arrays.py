@@ -5,7 +5,7 @@ copied. What does not fit is a ValueError or TypeError that names the argument."
 import numpy
 
 from . import _library
-from ._errors import InvalidMesh
+from ._library import TYPES, InvalidMesh
 
 _CONVERSION_ERRORS = (TypeError, ValueError, OverflowError, RuntimeError, BufferError)
 
@@ -27,10 +27,10 @@ def _as_array(name, values):
         raise kind(f"{name} cannot be made an array: {error}") from error
 
 
-def _choose_type(array, kinds, other):
-    """The array's type in native byte order if it is one of these, else the other."""
+def _choose_type(array, *kinds):
+    """The array's type in native byte order if it is one of these, else the last of them."""
     native = array.dtype if array.dtype.isnative else array.dtype.newbyteorder("=")
-    return native if native in kinds else numpy.dtype(other)
+    return native if native in kinds else numpy.dtype(kinds[-1])
 
 
 def _convert(array, kind):
@@ -47,7 +47,7 @@ def as_points(points):
         raise _shape_error("points", points, "(n, 3) or (n, 2)")
     if points.dtype.kind not in "fiu":
         raise TypeError(f"points must be real numbers, not {points.dtype}")
-    kind = _choose_type(points, (numpy.float32, numpy.float64), numpy.float64)
+    kind = _choose_type(points, numpy.float32, numpy.float64)
     if points.shape[1] == 2:
         flat, points = points, numpy.zeros((len(points), 3), dtype=kind)
         points[:, :2] = flat
@@ -57,7 +57,7 @@ def as_points(points):
 def as_ids(name, ids, columns):
     """Ids of shape (m, columns), int32 or int64; other integers become int64."""
     ids = _as_array(name, ids)
-    kind = _choose_type(ids, (numpy.int32, numpy.int64), numpy.int64)
+    kind = _choose_type(ids, numpy.int32, numpy.int64)
     if ids.size == 0 and (ids.ndim < 2 or ids.shape == (0, columns)):
         ids = numpy.empty((0, columns), dtype=kind)
     if ids.ndim != 2 or ids.shape[1] != columns:
@@ -103,8 +103,7 @@ class Mesh:
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
                  insert_constraints=True, triangle_numbers=None):
-        self.struct = _library.Mesh()
-        _library.library().delaunayflip_mesh_init(self.struct)
+        self.struct = _library.make(_library.Mesh)
         self._take(points, triangles)
         edges = as_ids("constraints", [] if constraints is None else constraints, 2)
         flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
@@ -139,20 +138,17 @@ class Mesh:
     def _take(self, points, triangles):
         self.points = as_points(points)
         self.triangles = as_ids("triangles", triangles, 3)
-        self._set("points", self.points)
-        self._set("triangles", self.triangles)
-        is_single = self.points.dtype == numpy.float32
-        self.struct.point_type = _library.FLOAT32 if is_single else _library.FLOAT64
-        self.struct.id_type = id_type(self.triangles)
+        self._set(self.points.dtype.name, self.triangles.dtype.name)
 
-    def _set(self, name, array):
-        setattr(self.struct, name, address(array))
-        setattr(self.struct, f"number_of_{name}", len(array))
+    def _set(self, point_type, id_type):
+        struct = self.struct
+        struct.points, struct.number_of_points = address(self.points), len(self.points)
+        struct.triangles, struct.number_of_triangles = address(self.triangles), len(self.triangles)
+        struct.point_type, struct.id_type = TYPES[point_type], TYPES[id_type]
 
 
 def address(array):
-    return array.ctypes.data
-
-
-def id_type(array):
-    return _library.INT32 if array.dtype == numpy.int32 else _library.INT64
+    """Of an array of NumPy, or of one on a GPU."""
+    if isinstance(array, numpy.ndarray):
+        return array.ctypes.data
+    return array.__cuda_array_interface__["data"][0]

@@ -1,98 +1,63 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of CuPy, PyTorch and Numba in the memory of a GPU, and of other libraries by DLPack."""
+import importlib
 import importlib.util
 import sys
 
 import numpy
 
 from . import _arrays, _library
+from ._arrays import address
+from ._library import TYPES
+
+
+# Each class has the functions of a library that the package needs; there are no objects of it.
 
 
 class _CuPy:
-    """The functions of CuPy that the package needs."""
-
-    @staticmethod
     def as_contiguous(array):
-        import cupy
+        return importlib.import_module("cupy").ascontiguousarray(array)
 
-        return cupy.ascontiguousarray(array)
-
-    @staticmethod
     def make_empty(like, shape, dtype):
-        import cupy
-
         with like.device:
-            return cupy.empty(shape, dtype)
+            return importlib.import_module("cupy").empty(shape, dtype)
 
-    @staticmethod
     def get_stream(array):
-        import cupy
-
         with array.device:
-            return cupy.cuda.get_current_stream().ptr
+            return importlib.import_module("cupy").cuda.get_current_stream().ptr
 
-    @staticmethod
     def to_host(array):
         return array.get()
 
-    @staticmethod
-    def view(array):
-        import cupy
-
-        return cupy.from_dlpack(array)
-
 
 class _Torch:
-    """The functions of PyTorch that the package needs."""
-
-    @staticmethod
     def as_contiguous(array):
         return array.detach().contiguous()
 
-    @staticmethod
     def make_empty(like, shape, dtype):
-        import torch
+        torch = importlib.import_module("torch")
+        return torch.empty(shape, dtype=getattr(torch, dtype), device=like.device)
 
-        return torch.empty(shape, dtype=getattr(torch, numpy.dtype(dtype).name), device=like.device)
-
-    @staticmethod
     def get_stream(array):
-        import torch
+        return importlib.import_module("torch").cuda.current_stream(array.device).cuda_stream
 
-        return torch.cuda.current_stream(array.device).cuda_stream
-
-    @staticmethod
     def to_host(array):
         return array.detach().cpu().numpy()
 
-    @staticmethod
-    def view(array):
-        import torch
-
-        return torch.from_dlpack(array)
-
 
 class _Numba:
-    """The functions of Numba that the package needs."""
-
-    @staticmethod
     def as_contiguous(array):
         if not array.is_c_contiguous():
             raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
-    @staticmethod
     def make_empty(like, shape, dtype):
-        from numba import cuda
+        return importlib.import_module("numba.cuda").device_array(shape, dtype)
 
-        return cuda.device_array(shape, dtype)
-
-    @staticmethod
     def get_stream(array):
         return array.__cuda_array_interface__.get("stream") or 0
 
-    @staticmethod
     def to_host(array):
         return array.copy_to_host()
 
@@ -139,7 +104,7 @@ def _view(name, array, library):
     if library not in _VIEWERS or not hasattr(array, "__dlpack__"):
         raise TypeError(f"{name} must be an array of {library}, as the other array is, not of {own}; "
                         "cupy.asarray views both without a copy")
-    return _ADAPTERS[library].view(array)
+    return importlib.import_module(library).from_dlpack(array)
 
 
 def _adapt(array):
@@ -180,21 +145,20 @@ def store_triangles(session, target, count):
     if kind not in ("int32", "int64"):
         raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "
                          "byte order that can be written")
-    if is_on_device:
-        _library.call("store_triangles_on_device", session, _address(target), _TYPES[kind],
-                      functions.get_stream(target))
-    else:
-        _library.call("store_triangles", session, _arrays.address(target), _TYPES[kind])
+    name, stream = _find_way(target, functions)
+    _library.call(f"store_triangles{name}", session, address(target), TYPES[kind], *stream)
 
 
 def store_flip_counts(session, counts):
     """Writes the flip counts of a session to an array that make_flip_counts has made."""
-    if _is_on_device(counts):
-        functions, counts = _adapt(counts)
-        _library.call("store_flip_counts_on_device", session, _address(counts),
-                      functions.get_stream(counts))
-    else:
-        _library.call("store_flip_counts", session, _arrays.address(counts))
+    functions, counts = _adapt(counts) if _is_on_device(counts) else (None, counts)
+    name, stream = _find_way(counts, functions)
+    _library.call(f"store_flip_counts{name}", session, address(counts), *stream)
+
+
+def _find_way(target, functions):
+    """How a function that stores values there ends, and its last arguments."""
+    return ("_on_device", [functions.get_stream(target)]) if functions else ("", [])
 
 
 class Mesh(_arrays.Mesh):
@@ -216,25 +180,10 @@ class Mesh(_arrays.Mesh):
         self.triangles = self._library.as_contiguous(_view("triangles", triangles, library))
         point_type = _check("points", self.points, ("float32", "float64"), (3, 2))
         self._id_type = _check("triangles", self.triangles, ("int32", "int64"), (3,))
-        self._set("points", self.points)
-        self._set("triangles", self.triangles)
-        self.struct.point_type = _TYPES[point_type]
-        self.struct.id_type = _TYPES[self._id_type]
+        self._set(point_type, self._id_type)
         self.struct.point_components = self.points.shape[1]
         self.struct.memory = _library.CUDA
         self.struct.stream = self._library.get_stream(self.triangles)
-
-    def _set(self, name, array):
-        setattr(self.struct, name, _address(array))
-        setattr(self.struct, f"number_of_{name}", array.shape[0])
-
-
-_TYPES = {
-    "float32": _library.FLOAT32,
-    "float64": _library.FLOAT64,
-    "int32": _library.INT32,
-    "int64": _library.INT64,
-}
 
 
 def _check(name, array, types, columns):
@@ -261,9 +210,5 @@ def _can_be_written(array, functions):
     NumPy."""
     if functions:
         is_read_only = array.__cuda_array_interface__["data"][1]
-        return not is_read_only and _address(functions.as_contiguous(array)) == _address(array)
+        return not is_read_only and address(functions.as_contiguous(array)) == address(array)
     return array.flags.carray
-
-
-def _address(array):
-    return array.__cuda_array_interface__["data"][0]

@@ -1,18 +1,52 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""libdelaunayflip by ctypes: delaunayflip_c.h in Python."""
+"""libdelaunayflip by ctypes: delaunayflip_c.h in Python, and the engine's exceptions. If memory runs
+out, MemoryError is raised."""
 import ctypes
 import functools
 import pathlib
 from ctypes import c_char_p, c_double, c_int32, c_int64, c_void_p
 
-from . import _errors
+class FlipError(Exception):
+    """Base class of the others."""
+
+
+class InvalidMesh(FlipError, ValueError):
+    """A triangle or constraint edge names a point that does not exist.
+
+    Attributes:
+        cell: The triangle, or the constraint edge.
+        point: The id that it names.
+    """
+
+    def __init__(self, message: str, cell: int = -1, point: int = -1) -> None:
+        super().__init__(message)
+        self.cell = cell
+        self.point = point
+
+
+class InvalidOptions(FlipError, ValueError):
+    """Options that are out of range, or contradict each other or the mesh."""
+
+
+class MeshTooLarge(FlipError, ValueError):
+    """More triangles or points than 32-bit indices can number."""
+
+
+class Stopped(FlipError):
+    """A callback stopped a call that cannot return a partial result."""
+
+
+class BackendUnavailable(FlipError, RuntimeError):
+    """The requested backend cannot run here."""
+
 
 INTERFACE_VERSION = 1
 LIBRARY = f"libdelaunayflip.so.{INTERFACE_VERSION}"
 
-FLOAT32, FLOAT64, INT32, INT64 = range(4)
-HOST, CUDA = range(2)
+#: By NumPy's names.
+TYPES = {"float32": 0, "float64": 1, "int32": 2, "int64": 3}
+CUDA = 1  # a memory
 
 # In the order of the enumerations of the header.
 GEOMETRIES = ("auto", "planar", "planar-xy", "surface")
@@ -22,101 +56,51 @@ BACKENDS = ("auto", "cuda", "threads")
 STOP_REASONS = ("not started", "converged", "iteration limit", "aborted", "running")
 
 
+def _of(kind, names):
+    return [(name, kind) for name in names.split()]
+
+
 class Mesh(ctypes.Structure):
     _fields_ = [
-        ("size", c_int64),
-        ("points", c_void_p),
-        ("number_of_points", c_int64),
-        ("triangles", c_void_p),
-        ("number_of_triangles", c_int64),
-        ("point_type", c_int32),
-        ("id_type", c_int32),
-        ("constraint_edges", c_void_p),
-        ("number_of_constraint_edges", c_int64),
-        ("constraints_to_insert", c_void_p),
-        ("regions", c_void_p),
-        ("frozen_triangles", c_void_p),
-        ("triangle_numbers", c_void_p),
-        ("memory", c_int32),
-        ("point_components", c_int32),
-        ("stream", c_void_p),
+        *_of(c_int64, "size"), *_of(c_void_p, "points"), *_of(c_int64, "number_of_points"),
+        *_of(c_void_p, "triangles"), *_of(c_int64, "number_of_triangles"),
+        *_of(c_int32, "point_type id_type"), *_of(c_void_p, "constraint_edges"),
+        *_of(c_int64, "number_of_constraint_edges"),
+        *_of(c_void_p, "constraints_to_insert regions frozen_triangles triangle_numbers"),
+        *_of(c_int32, "memory point_components"), *_of(c_void_p, "stream"),
     ]
 
 
 class Polygons(ctypes.Structure):
-    _fields_ = [
-        ("size", c_int64),
-        ("number_of_polygons", c_int64),
-        ("offsets", c_void_p),
-        ("corners", c_void_p),
-    ]
+    _fields_ = [*_of(c_int64, "size number_of_polygons"), *_of(c_void_p, "offsets corners")]
 
 
 class Options(ctypes.Structure):
     _fields_ = [
-        ("size", c_int64),
-        ("geometry", c_int32),
-        ("criterion", c_int32),
-        ("tie_rule", c_int32),
-        ("backend", c_int32),
-        ("tolerance", c_double),
-        ("feature_angle", c_double),
-        ("maximum_iterations", c_int64),
-        ("number_of_threads", c_int32),
-        ("device", c_int32),
-        ("track_quality", c_int32),
-        ("number_of_pieces", c_int32),
-        ("devices", c_char_p),
+        *_of(c_int64, "size"), *_of(c_int32, "geometry criterion tie_rule backend"),
+        *_of(c_double, "tolerance feature_angle"), *_of(c_int64, "maximum_iterations"),
+        *_of(c_int32, "number_of_threads device track_quality number_of_pieces"),
+        *_of(c_char_p, "devices"),
     ]
 
 
 class Iteration(ctypes.Structure):
     _fields_ = [
-        ("iteration", c_int64),
-        ("tested", c_int64),
-        ("non_delaunay", c_int64),
-        ("flipped", c_int64),
-        ("excluded", c_int64),
-        ("blocked", c_int64),
-        ("minimum_angle", c_double),
-        ("seconds", c_double),
+        *_of(c_int64, "iteration tested non_delaunay flipped excluded blocked"),
+        *_of(c_double, "minimum_angle seconds"),
     ]
 
 
 class Report(ctypes.Structure):
     _fields_ = [
-        ("size", c_int64),
-        ("stop_reason", c_int32),
-        ("geometry_used", c_int32),
-        ("geometry_reason", c_char_p),
-        ("backend", c_char_p),
-        ("fallback", c_char_p),
-        ("tolerance", c_char_p),
-        ("defects", c_char_p),
-        ("number_of_iterations", c_int64),
-        ("total_flips", c_int64),
-        ("total_excluded", c_int64),
-        ("total_blocked", c_int64),
-        ("non_delaunay_before", c_int64),
-        ("non_delaunay_after", c_int64),
-        ("blocked_by_shape", c_int64),
-        ("blocked_by_edge", c_int64),
-        ("edges", c_int64),
-        ("boundary_edges", c_int64),
-        ("non_manifold_edges", c_int64),
-        ("wrongly_wound_edges", c_int64),
-        ("feature_edges", c_int64),
-        ("constraint_edges", c_int64),
-        ("region_edges", c_int64),
-        ("fixed_edges", c_int64),
-        ("unmatched_constraints", c_int64),
-        ("inserted_constraints", c_int64),
-        ("constraint_flips", c_int64),
-        ("euler_characteristic", c_int64),
-        ("minimum_angle_before", c_double),
-        ("minimum_angle_after", c_double),
-        ("build_seconds", c_double),
-        ("flip_seconds", c_double),
+        *_of(c_int64, "size"), *_of(c_int32, "stop_reason geometry_used"),
+        *_of(c_char_p, "geometry_reason backend fallback tolerance defects"),
+        *_of(c_int64, """number_of_iterations total_flips total_excluded total_blocked
+             non_delaunay_before non_delaunay_after blocked_by_shape blocked_by_edge edges
+             boundary_edges non_manifold_edges wrongly_wound_edges feature_edges constraint_edges
+             region_edges fixed_edges unmatched_constraints inserted_constraints constraint_flips
+             euler_characteristic"""),
+        *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
     ]
 
 
@@ -159,10 +143,8 @@ def library():
         ("error_message", c_char_p, []),
         ("error_cell", c_int64, []),
         ("error_point", c_int64, []),
-        ("mesh_init", None, [pointer(Mesh)]),
-        ("options_init", None, [pointer(Options)]),
-        ("report_init", None, [pointer(Report)]),
-        ("callbacks_init", None, [pointer(Callbacks)]),
+        *((f"{kind.__name__.lower()}_init", None, [pointer(kind)])
+          for kind in (Mesh, Options, Report, Callbacks, Polygons)),
         ("open", c_int32, [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
         ("advance", c_int32, [c_void_p, c_int64, pointer(Callbacks), pointer(c_int32)]),
         ("get_report", c_int32, [c_void_p, pointer(Report)]),
@@ -174,7 +156,6 @@ def library():
         ("close", None, [c_void_p]),
         ("triangle_angles", c_int32, [pointer(Mesh), c_int32, c_void_p]),
         ("triangle_normals", c_int32, [pointer(Mesh), c_void_p]),
-        ("polygons_init", None, [pointer(Polygons)]),
         ("split_polygons", c_int32,
          [pointer(Mesh), pointer(Polygons), pointer(Callbacks), c_void_p]),
         ("has_cuda_device", c_int32, []),
@@ -186,15 +167,15 @@ def library():
     return loaded
 
 
-_EXCEPTIONS = {
-    1: _errors.InvalidMesh,
-    2: _errors.InvalidOptions,
-    3: _errors.MeshTooLarge,
-    4: _errors.BackendUnavailable,
-    5: MemoryError,
-    6: ValueError,
-    8: _errors.Stopped,
-}
+_EXCEPTIONS = {2: InvalidOptions, 3: MeshTooLarge, 4: BackendUnavailable, 5: MemoryError,
+               6: ValueError, 8: Stopped}
+
+
+def make(kind):
+    """A struct with its size and the defaults."""
+    struct = kind()
+    getattr(library(), f"delaunayflip_{kind.__name__.lower()}_init")(struct)
+    return struct
 
 
 def call(name, *arguments):
@@ -205,8 +186,8 @@ def call(name, *arguments):
     message = library().delaunayflip_error_message().decode(errors="replace")
     if status == 1:
         place = library().delaunayflip_error_cell(), library().delaunayflip_error_point()
-        raise _errors.InvalidMesh(message, *place)
-    raise _EXCEPTIONS.get(status, _errors.FlipError)(message)
+        raise InvalidMesh(message, *place)
+    raise _EXCEPTIONS.get(status, FlipError)(message)
 
 
 def version() -> str:

@@ -1,28 +1,69 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keyword arguments as the engine's options, and the checks of all numbers before ctypes takes them:
-it would cut off what is too large."""
+"""The types of arguments and results. Keyword arguments as the engine's options, and the checks of all
+numbers before ctypes takes them: it would cut off what is too large."""
 import numbers
 import operator
+import typing
 
 import numpy
+import numpy.typing
 
 from . import _library
-from ._errors import InvalidOptions
+from ._library import InvalidOptions
 
-_CHOICES = {
-    "geometry": _library.GEOMETRIES,
-    "criterion": _library.CRITERIA,
-    "tie_rule": _library.TIE_RULES,
-    "backend": _library.BACKENDS,
-}
+
+class OnDevice(typing.Protocol):
+    """An array in the memory of a GPU, of CuPy, PyTorch or Numba."""
+
+    @property
+    def __cuda_array_interface__(self) -> typing.Any: ...
+
+
+class ByDlpack(typing.Protocol):
+    """An array of any library with DLPack, in the memory of the host or of a GPU."""
+
+    @property
+    def __dlpack__(self) -> typing.Callable[..., typing.Any]: ...
+
+    def __dlpack_device__(self) -> typing.Tuple[int, int]: ...
+
+
+Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice, ByDlpack]
+Array = numpy.typing.NDArray[typing.Any]
+Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
+Criterion = typing.Literal["in-circle", "opposite-angles"]
+TieRule = typing.Literal["keep", "canonical"]
+Backend = typing.Literal["auto", "cuda", "threads"]
+#: CUDA's numbers of GPUs, as a sequence or as a text such as "0,1"; or "all".
+Devices = typing.Union[str, typing.Sequence[int]]
+#: Returning False aborts; any other value continues.
+Progress = typing.Callable[[float], typing.Optional[bool]]
+OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bool]]
+
+
+class Options(typing.TypedDict, total=False):
+    """The keywords of `flip` that a Session takes too."""
+
+    geometry: Geometry
+    criterion: Criterion
+    tie_rule: TieRule
+    tolerance: float
+    feature_angle: float
+    maximum_iterations: int
+    backend: Backend
+    threads: int
+    device: int
+    devices: Devices
+    pieces: int
+    track_quality: bool
+
+
+CHOICES = {"geometry": _library.GEOMETRIES, "criterion": _library.CRITERIA,
+           "tie_rule": _library.TIE_RULES, "backend": _library.BACKENDS}
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
-_RANGES = {
-    "maximum_iterations": (-1, 2**63 - 1),
-    "threads": (0, 2**31 - 1),
-    "device": (-1, 2**31 - 1),
-    "pieces": (0, 255),
-}
+_RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
+           "device": (-1, 2**31 - 1), "pieces": (0, 255)}
 
 
 def make_options(**keywords):
@@ -32,8 +73,7 @@ def make_options(**keywords):
         TypeError: A keyword that is no option, or a value of a wrong type.
         ValueError: A word that is not among the choices, or a number out of range.
     """
-    options = _library.Options()
-    _library.library().delaunayflip_options_init(options)
+    options = _library.make(_library.Options)
     known = {name for name, _ in options._fields_} - {"size"}
     for keyword, value in keywords.items():
         name = _NAMES.get(keyword, keyword)
@@ -43,19 +83,19 @@ def make_options(**keywords):
             value = _list_devices(value)
         elif keyword == "track_quality":
             value = check_integer(keyword, value, 0, 1, "True or False")
-        elif keyword in _CHOICES:
+        elif keyword in CHOICES:
             value = choose(keyword, value)
         elif keyword in _RANGES:
             value = check_integer(keyword, value, *_RANGES[keyword])
         else:
-            value = _check_number(keyword, value)
+            value = _to_number(keyword, value)
         setattr(options, name, value)
     return options
 
 
 def choose(keyword, word):
     """The number of a word among the choices of an option."""
-    choices = _CHOICES[keyword]
+    choices = CHOICES[keyword]
     if not isinstance(word, str) or word not in choices:
         raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {word!r}")
     return choices.index(word)
@@ -78,7 +118,7 @@ def check_integer(name, value, low, high, wanted=""):
     return number
 
 
-def _check_number(name, value):
+def _to_number(name, value):
     if not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {value!r}")
     try:

@@ -15,9 +15,7 @@ ITERATION = numpy.dtype(
 )
 # What VTK's field data and tables tell, by their names.
 FIELD_PREFIX = "DelaunayFlip:"
-COLUMNS = {"Iteration": "iteration", "Tested": "tested", "NonDelaunay": "non_delaunay",
-           "Flipped": "flipped", "Excluded": "excluded", "Blocked": "blocked",
-           "MinimumAngle": "minimum_angle", "Seconds": "seconds"}
+COLUMNS = {name.title().replace("_", ""): name for name in ITERATION.names}
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
@@ -89,20 +87,6 @@ def from_struct(struct: _library.Report) -> Report:
     return Report(**values)
 
 
-def describe_trouble(defects, report, options):
-    """The text of a warning, or "". Reaching a limit that the user has set gives no warning."""
-    texts = [defects] if defects else []
-    if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
-        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
-                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
-    if options["tolerance"] >= 0 and report.tolerance == "none":
-        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
-                     "opposite angles")
-    if report.fallback:
-        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
-    return "; ".join(texts)
-
-
 class Totals:
     """The report on one mesh, or the sum over several. Attributes that are not counts have the
     names of those of `Report`; `geometry_used` may be "mixed"."""
@@ -119,7 +103,7 @@ class Totals:
 
     @classmethod
     def of_run(cls, session, data):
-        """Of a session for `data`, a FlipInput with triangles."""
+        """Of a session for `data`, a MeshInput with triangles."""
         report = session.report
         totals = cls(report.stop_reason)
         totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}
@@ -154,13 +138,6 @@ class Totals:
         self.has_triangles = self.has_triangles or other.has_triangles
         self.has_angles = self.has_angles or other.has_angles
         self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
-
-    def get_geometry(self):
-        """The number of the geometry, as vtkDelaunayFlip.GEOMETRY_... have it."""
-        return (*_library.GEOMETRIES, "mixed").index(self.geometry_used)
-
-    def get_stop_reason(self):
-        return _library.STOP_REASONS.index(self.stop_reason)
 
     def list_columns(self):
         """(name, values) with a value per iteration."""

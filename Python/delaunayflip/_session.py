@@ -1,21 +1,92 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run in steps."""
+"""A run in steps, the whole run in one call, and Python functions as the engine's callbacks."""
 import contextlib
 import ctypes
+import dataclasses
+import signal
 import threading
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 
 from . import _arrays, _device, _library, _report
-from ._observers import Observers
-from ._options import check_integer, make_options
-from ._report import ITERATION
-from ._types import Array, Numbers, OnIteration, Options, Progress
+from ._options import (
+    Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
+    check_integer, choose, make_options)
+from ._report import ITERATION, Report
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+
+@contextlib.contextmanager
+def _interrupt_as(note):
+    """While the block runs, Ctrl-C calls `note` instead of raising KeyboardInterrupt, which ctypes
+    would swallow in a callback. Only Python's own handler is replaced."""
+    is_ours = (
+        threading.current_thread() is threading.main_thread()
+        and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )
+    if not is_ours:
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *_: note(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+class Observers:
+    """Callbacks for one call of the engine. If one raises an exception, the run is aborted and the
+    exception raised after it.
+
+    There is always a progress callback, even without an observer: while Python runs in it, the
+    interpreter handles signals, so Ctrl-C works.
+    """
+
+    def __init__(self, progress=None, on_iteration=None):
+        for name, function in (("progress", progress), ("on_iteration", on_iteration)):
+            if function is not None and not callable(function):
+                raise TypeError(f"{name} must be a function, not {function!r}")
+        self._progress = progress
+        self._on_iteration = on_iteration
+        self._raised = None
+        self.struct = _library.make(_library.Callbacks)
+        self.struct.progress = _library.ProgressFunction(self._tell_progress)
+        if on_iteration is not None:
+            self.struct.iteration = _library.IterationFunction(self._tell_iteration)
+
+    @contextlib.contextmanager
+    def raising(self):
+        """Raises, after the block, an exception of a callback in it, or KeyboardInterrupt."""
+        with _interrupt_as(self._note):
+            yield self.struct
+        if self._raised is not None:
+            raised, self._raised = self._raised, None
+            raise raised
+
+    def _tell_progress(self, share, _):
+        return self._ask(self._progress, share)
+
+    def _tell_iteration(self, record, _):
+        values = record.contents
+        return self._ask(self._on_iteration, {name: getattr(values, name) for name, _ in values._fields_})
+
+    def _note(self, error):
+        self._raised = error
+
+    def _ask(self, function, value):
+        """Returns 0, which aborts, if the function returned False or raised an exception."""
+        try:
+            answer = function(value) if function is not None else None
+            if isinstance(answer, (bool, numpy.bool_)) and not answer:
+                return 0
+        except BaseException as error:
+            self._note(error)
+        return int(self._raised is None)
+
 
 class Session:
     """Flips a mesh step by step.
@@ -23,8 +94,8 @@ class Session:
     Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
     `advance` flips. The arrays must not change while the session lives. A session is a context
     manager; leaving it frees its memory. It does one thing at a time: while a call is at work, its
-    observers and other threads get RuntimeError; it cannot be copied. With `triangle_numbers`, (m,) integers, reports name the
-    triangles by these.
+    observers and other threads get RuntimeError; it cannot be copied. With `triangle_numbers`, (m,)
+    integers, reports name the triangles by these.
 
     Points and triangles may be arrays of CuPy, PyTorch or Numba in the memory of a GPU: float32 or
     float64, and int32 or int64. They are flipped there, after what is in the library's current
@@ -56,8 +127,7 @@ class Session:
         self._mesh = _device.make_mesh(points, triangles, constraints, regions, frozen,
                                        insert_constraints, triangle_numbers)
         chosen = make_options(**options)
-        observers = Observers(progress)
-        with observers.raising() as callbacks:
+        with Observers(progress).raising() as callbacks:
             _library.call("open", self._mesh.struct, chosen, callbacks, self._handle)
 
     def __enter__(self) -> "Session":
@@ -102,10 +172,9 @@ class Session:
         return bool(running.value)
 
     @property
-    def report(self) -> _report.Report:
+    def report(self) -> Report:
         """The `Report` on the run so far."""
-        struct = _library.Report()
-        _library.library().delaunayflip_report_init(struct)
+        struct = _library.make(_library.Report)
         with self._open() as handle:
             _library.call("get_report", handle, struct)
             return _report.from_struct(struct)
@@ -158,3 +227,99 @@ class Session:
             if not self._handle:
                 raise ValueError("the session is closed")
             yield self._handle
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Result:
+    """What `flip` returns. Only the same object is equal: compare the arrays."""
+
+    triangles: Array  #: (m, 3), in the input's order and of its integers.
+    flip_counts: Array  #: (m,) int32: how many flips each triangle was part of.
+    iterations: Array  #: Structured, a row per iteration; see Session.iterations.
+    report: Report
+
+
+def flip(
+    points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
+    criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
+    feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
+    insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
+    frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
+    threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0,
+    track_quality: bool = False, progress: Optional[Progress] = None,
+    on_iteration: Optional[OnIteration] = None,
+) -> Result:
+    """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
+
+    Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
+    safely stay and are counted. The same input gives the same bits, on any threads or GPUs.
+
+    Args:
+        points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
+        triangles: (m, 3) int32 or int64, used without a copy if contiguous; never written.
+        geometry: "planar": edges are judged in the plane of the points; "planar-xy": by x and y
+            (terrain); "surface": in space; "auto": whichever fits.
+        criterion: "in-circle" (exact; surfaces ignore it) or "opposite-angles".
+        tie_rule: For points on one circle: "keep" edges or, in the plane, "canonical" triangles.
+        tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
+            automatic, from the precision of the points. For "opposite-angles" and surfaces.
+        feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
+        constraints: (k, 2) pairs of point ids: edges that must stay.
+        insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.
+        regions: (m,) integers: edges between triangles of different labels stay.
+        frozen: (m,) flags: the edges of these triangles stay.
+        maximum_iterations: -1: until done; 0: only test.
+        backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
+        threads: 0: as many as the machine has.
+        device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
+        devices: GPUs, connected by NVLink, that share the mesh: [0, 1] or "all"; (): device.
+        pieces: 1 to 255, flipped in turn where a GPU is too small for the mesh; 0: the fewest.
+        track_quality: Compute the smallest angle after every iteration.
+        progress: Called with the share of the work done, 0 to 1; returning False aborts.
+        on_iteration: Called after each iteration with a dict of its numbers; False aborts.
+
+    Returns:
+        A `Result`. After an abort it holds the valid mesh of the last whole iteration.
+
+    Raises:
+        InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
+
+    Example:
+        >>> points = [[0, 0], [2, -1], [4, 0], [2, 1]]
+        >>> result = flip(points, [[0, 1, 2], [0, 2, 3]])
+        >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
+        (1, [[0, 1, 3], [1, 2, 3]])
+    """
+    arguments = dict(locals())
+    del arguments["on_iteration"]
+    with Session(**arguments) as session:
+        if session.report.stop_reason != "aborted":
+            session.advance(progress=progress, on_iteration=on_iteration)
+        return Result(session.triangles, session.flip_counts, session.iterations, session.report)
+
+
+def smallest_angles(
+    points: Numbers, triangles: Numbers, *, geometry: Geometry = "surface"
+) -> Array:
+    """The smallest angle of each triangle.
+
+    Args:
+        points: As for `flip`. What is on a GPU is copied to the host.
+        triangles: As for `flip`.
+        geometry: "planar-xy" measures by x and y, every other in space.
+
+    Returns:
+        (m,) float64 in degrees, 0 to 60; NaN for a triangle with a coordinate that is not finite.
+
+    Raises:
+        InvalidMesh: A triangle names a point that does not exist.
+
+    Example:
+        >>> smallest_angles([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
+        array([45.])
+    """
+    number = choose("geometry", geometry)
+    mesh = _arrays.Mesh(_device.to_host(points), _device.to_host(triangles))
+    angles = numpy.empty(len(mesh.triangles))
+    _library.call("triangle_angles", mesh.struct, number, _arrays.address(angles))
+    return angles

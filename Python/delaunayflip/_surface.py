@@ -1,20 +1,16 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A vtkPolyData of any VTK as arrays, its triangles, and the cells that they become again. Nothing
+"""A vtkPolyData of any VTK as arrays: its triangles, and the edges along lines that must stay. Nothing
 here imports VTK."""
 import dataclasses
 
 import numpy
 
 from . import _arrays, _library
-from ._constraints import Constraints
-from ._errors import InvalidMesh
-from ._flip import smallest_angles
-from ._observers import Observers
-from ._session import Session
+from ._library import InvalidMesh
+from ._session import Observers
 
 NONE = -1
-_GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,7 +18,7 @@ class Settings:
     """The properties that decide which edges exist and which stay."""
 
     triangulate: bool = True
-    lines: bool = True
+    lines_as_constraints: bool = True
     insert_lines: bool = False
     insert_constraints: bool = True
     region_array: str = ""
@@ -54,8 +50,7 @@ class Cells:
     def gather(self, chosen):
         """The corners of the chosen cells, one after the other."""
         sizes = self.sizes[chosen]
-        steps = numpy.arange(sizes.sum()) - numpy.repeat(numpy.cumsum(sizes) - sizes, sizes)
-        return self.corners[numpy.repeat(self.offsets[chosen], sizes) + steps]
+        return self.corners[numpy.repeat(self.offsets[chosen], sizes) + _count_up(sizes)]
 
 
 def name_out_of_range(what, cell, point, count):
@@ -73,16 +68,15 @@ class Surface:
         self._mesh, self._view = mesh, view
         counts = [getattr(mesh, "GetNumberOf" + kind)() for kind in self.KINDS]
         self.first = dict(zip(self.KINDS, numpy.cumsum([0, *counts]).tolist()))
-        self.points = self._read_points()
-
-    def _read_points(self):
-        if self._mesh.GetNumberOfPoints() == 0:
-            return numpy.empty((0, 3))
-        data = self._mesh.GetPoints().GetData()
-        if data.GetNumberOfComponents() != 3:
-            raise InvalidMesh(f"Points must have 3 coordinates, not {data.GetNumberOfComponents()}.")
-        points = self._view(data)
-        return points if points.dtype in (numpy.float32, numpy.float64) else points.astype(float)
+        self.points = numpy.empty((0, 3))
+        if mesh.GetNumberOfPoints():
+            data = mesh.GetPoints().GetData()
+            if data.GetNumberOfComponents() != 3:
+                raise InvalidMesh(
+                    f"Points must have 3 coordinates, not {data.GetNumberOfComponents()}.")
+            points = view(data)
+            is_real = points.dtype in (numpy.float32, numpy.float64)
+            self.points = points if is_real else points.astype(float)
 
     def read(self, kind, what="cell"):
         """The Cells of a kind.
@@ -90,30 +84,29 @@ class Surface:
         Raises:
             InvalidMesh: Offsets and connectivity contradict each other.
         """
-        return read_cells(getattr(self._mesh, "Get" + kind)(), what, self.first[kind], self._view)
-
-
-def read_cells(array, what, first, view):
-    if not array.IsValid():
-        raise InvalidMesh(
-            f"The offsets and the connectivity of the cell array of {what} {first} and the "
-            "following ones contradict each other.", first)
-    if array.GetNumberOfCells() == 0:
-        return Cells(numpy.zeros(1, dtype=int), numpy.zeros(0, dtype=int), what, first)
-    return Cells(view(array.GetOffsetsArray()), view(array.GetConnectivityArray()), what, first)
+        array, first = getattr(self._mesh, "Get" + kind)(), self.first[kind]
+        if not array.IsValid():
+            raise InvalidMesh(
+                f"The offsets and the connectivity of the cell array of {what} {first} and the "
+                "following ones contradict each other.", first)
+        if array.GetNumberOfCells() == 0:
+            return Cells(numpy.zeros(1, dtype=int), numpy.zeros(0, dtype=int), what, first)
+        return Cells(self._view(array.GetOffsetsArray()), self._view(array.GetConnectivityArray()),
+                     what, first)
 
 
 class Slots:
-    """Views of the triangles if all polygons are triangles and there are no strips; else the
-    triangles into which polygons and strips are split.
+    """The triangles into which polygons and strips are split; views if all are triangles already.
 
     Attributes:
-        triangles: (m, 3), views or copies.
+        in_place: whether the triangles are the polygons, without a copy.
+        triangles: (m, 3).
         cells: (m,) the cell of each triangle.
         frozen: (m,) whether a triangle belongs to a cell that stays; None: none does.
         polygon_cells, polygon_triangles: for each polygon of the output the cell from which it is
             made, and its triangle, or NONE if the polygon is the whole cell.
         kept_strips: the cells that stay strips.
+        divides_cells: whether the output has several cells for one.
     """
 
     def __init__(self, surface, triangulate, progress=None):
@@ -123,149 +116,35 @@ class Slots:
         self.strips, self.polygons = surface.read("Strips"), surface.read("Polys")
         self.in_place = self.strips.count == 0 and self.polygons.are_triangles()
         if self.in_place:
-            self._view()
-            return
-        self.polygons.require_points(len(surface.points))
-        self.strips.require_points(len(surface.points))
-        parts = (_split(self.polygons, surface.points, triangulate, progress),
-                 _split_strips(self.strips, triangulate))
-        self._join(parts)
-        self.kept_strips = self.strips.first + numpy.flatnonzero(
-            _stay(self.strips.sizes, triangulate, 2))
+            self.triangles = self.polygons.corners.reshape(-1, 3)
+        else:
+            for cells in (self.polygons, self.strips):
+                cells.require_points(len(surface.points))
+            self.triangles = numpy.concatenate([_split(self.polygons, surface.points, progress),
+                                                _split_strips(self.strips)])
+        self._number_cells(triangulate)
 
-    def _view(self):
-        count = self.polygons.count
-        self.triangles = self.polygons.corners.reshape(-1, 3)
-        self.cells = self.polygon_cells = self.first_polygon + numpy.arange(count)
-        self.polygon_triangles = numpy.arange(count)
-        self.frozen = None
-        self.kept_strips = numpy.empty(0, dtype=int)
-        self.divides_cells = False
+    def _number_cells(self, triangulate):
+        """Cells that stay are split too, into frozen triangles: those without area, and all that are
+        not to be split."""
+        sizes = numpy.concatenate([self.polygons.sizes, self.strips.sizes])
+        is_strip = numpy.arange(len(sizes)) >= self.polygons.count
+        counts = numpy.maximum(sizes - 2, 0)
+        stays = (sizes < 3) | ((sizes > 3 - is_strip) & (not triangulate))
+        ids = self.first_polygon + numpy.arange(len(sizes))
+        self.cells = numpy.repeat(ids, counts)
+        self.frozen = numpy.repeat(stays, counts) if stays.any() else None
+        rows = numpy.where(stays, ~is_strip, counts)
+        self.polygon_cells = numpy.repeat(ids, rows)
+        triangles = numpy.repeat(numpy.cumsum(counts) - counts, rows) + _count_up(rows)
+        self.polygon_triangles = numpy.where(numpy.repeat(stays, rows), NONE, triangles)
+        self.kept_strips = ids[stays & is_strip]
+        self.divides_cells = bool(((counts > 1) & ~stays).any())
 
-    def _join(self, parts):
-        self.triangles = numpy.concatenate([part.triangles for part in parts])
-        self.cells = numpy.concatenate([part.cells for part in parts])
-        self.frozen = numpy.concatenate([part.frozen for part in parts])
-        before = numpy.cumsum([0] + [len(part.triangles) for part in parts])
-        lists = [part.list_output(start) for part, start in zip(parts, before)]
-        self.polygon_cells = numpy.concatenate([cells for cells, _ in lists])
-        self.polygon_triangles = numpy.concatenate([triangles for _, triangles in lists])
-        self.divides_cells = any(((part.counts > 1) & ~part.stays).any() for part in parts)
-
-    @property
-    def are_polygons_triangles(self):
-        """Whether each output polygon i is triangle i, and there are no others."""
-        return self.in_place or (len(self.polygon_cells) == len(self.triangles)
-                                 and bool((self.polygon_triangles != NONE).all()))
-
-
-class FlipInput:
-    """What a Session gets of a surface, and the cells of its result. Subclasses and users set
-    `regions`, (m,) labels or None, and call `freeze`."""
-
-    def __init__(self, surface, others, settings, progress=None):
-        self.points = surface.points
-        self.slots = Slots(surface, settings.triangulate, progress)
-        self.constraints = Constraints(surface, others, settings, self.slots.triangles)
-        self.regions, self.frozen = None, self.slots.frozen
-
-    def freeze(self, ghosts):
-        """The edges of ghost cells stay. `ghosts`: VTK's types of the cells, of which there may be
-        too few, or None."""
-        if ghosts is not None:
-            padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(ghosts)), numpy.uint8)
-            padded[:len(ghosts)] = ghosts
-            are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
-            self.frozen = are_ghosts if self.frozen is None else are_ghosts | self.frozen
-
-    def get_session_arguments(self):
-        """Keyword arguments of a Session."""
-        pairs = self.constraints.pairs
-        return {
-            "points": self.points, "triangles": self.slots.triangles, "regions": self.regions,
-            "frozen": self.frozen, "constraints": pairs if len(pairs) else None,
-            "insert_constraints": self.constraints.to_insert if len(pairs) else False,
-            "triangle_numbers": self.slots.cells,
-        }
-
-    def open(self, **arguments):
-        """A Session. Errors name the cell, not the triangle."""
-        try:
-            return Session(**{**self.get_session_arguments(), **arguments})
-        except InvalidMesh as error:
-            raise name_out_of_range(
-                "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
-
-    def describe_unmatched(self):
-        """Texts of a warning."""
-        count = self.constraints.unmatched
-        edges = "edge" if count == 1 else "edges"
-        text = f"{count} constraint {edges} of the second input that the mesh does not have"
-        return [text] if count else []
-
-    @property
-    def cell_sources(self):
-        """The cell of the input from which each cell of the output is made."""
-        return numpy.concatenate([numpy.arange(self.slots.first_polygon), self.slots.polygon_cells,
-                                  self.slots.kept_strips])
-
-    @property
-    def polygon_sizes(self):
-        """How many corners the polygons of the output have."""
-        slots = self.slots
-        sizes = numpy.full(len(slots.polygon_cells), 3)
-        whole = slots.polygon_triangles == NONE
-        if whole.any():
-            sizes[whole] = slots.polygons.sizes[slots.polygon_cells[whole] - slots.first_polygon]
-        return sizes
-
-    def fill_polygons(self, session, corners):
-        """Writes the corners of the output's polygons."""
-        slots = self.slots
-        if slots.are_polygons_triangles:
-            session.store_triangles(corners.reshape(-1, 3))
-            return
-        is_triangle = slots.polygon_triangles != NONE
-        of_triangle = numpy.repeat(is_triangle, self.polygon_sizes)
-        corners[of_triangle] = session.triangles[slots.polygon_triangles[is_triangle]].ravel()
-        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
-        corners[~of_triangle] = slots.polygons.gather(whole)
-
-    def renew_normals(self, values, triangles):
-        """Writes the normals of changed triangles to those of all output cells. Normals that pointed
-        against the winding still do."""
-        slots = self.slots
-        polygons = numpy.flatnonzero(slots.polygon_triangles != NONE)
-        chosen = slots.polygon_triangles[polygons]
-        changed = (slots.triangles[chosen] != triangles[chosen]).any(axis=1)
-        cells, chosen = slots.first_polygon + polygons[changed], chosen[changed]
-        old, new = (self._find_normals(some[chosen]) for some in (slots.triangles, triangles))
-        against = (old * values[cells]).sum(axis=1) < 0
-        values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
-
-    def _find_normals(self, triangles):
-        """Unit normals by the right-hand rule; 0 for triangles without area."""
-        mesh = _arrays.Mesh(self.points, triangles)
-        normals = numpy.empty((len(triangles), 3))
-        _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
-        return normals
-
-    def list_numbers(self, session, counts, angles):
-        """(name, values per output cell) of the requested cell arrays."""
-        if counts:
-            yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
-        if angles:
-            used = session.report.geometry_used
-            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
-                yield "vtkDelaunayFlipAngle" + name, self._spread(
-                    smallest_angles(self.points, triangles, geometry=used), numpy.nan)
-
-    def _spread(self, values, elsewhere):
-        slots = self.slots
-        of_cells = numpy.full(len(self.cell_sources), elsewhere, dtype=values.dtype)
-        polygons = numpy.flatnonzero(slots.polygon_triangles != NONE)
-        of_cells[slots.first_polygon + polygons] = values[slots.polygon_triangles[polygons]]
-        return of_cells
+    def list_triangles(self):
+        """The polygons of the output that are triangles, and the triangle of each."""
+        polygons = numpy.flatnonzero(self.polygon_triangles != NONE)
+        return polygons, self.polygon_triangles[polygons]
 
 
 def number_tuples(values):
@@ -280,58 +159,148 @@ def number_tuples(values):
                         return_inverse=True)[1].ravel().astype(numpy.int32)
 
 
-class _Part:
-    """The triangles of the polygons or of the strips. `counts` has their number for each cell.
-    Cells that stay are split into triangles too, which are frozen."""
-
-    def __init__(self, cells, triangles, counts, stays, stay_as_polygons):
-        ids = cells.first + numpy.arange(cells.count)
-        self.triangles, self.counts, self.stays = triangles, counts, stays
-        self.cells = numpy.repeat(ids, counts)
-        self.frozen = numpy.repeat(stays, counts)
-        self._ids = ids
-        self._stay_as_polygons = stay_as_polygons
-
-    def list_output(self, before):
-        """(cells, triangles) of the output's polygons, after the first `before` triangles."""
-        rows = numpy.where(self.stays, int(self._stay_as_polygons), self.counts)
-        starts = before + numpy.cumsum(self.counts) - self.counts
-        steps = numpy.arange(rows.sum()) - numpy.repeat(numpy.cumsum(rows) - rows, rows)
-        triangles = numpy.where(numpy.repeat(self.stays, rows), NONE,
-                                numpy.repeat(starts, rows) + steps)
-        return numpy.repeat(self._ids, rows), triangles
+def _count_up(sizes):
+    """0, 1, ... for each of these sizes."""
+    return numpy.arange(sizes.sum()) - numpy.repeat(numpy.cumsum(sizes) - sizes, sizes)
 
 
-def _stay(sizes, triangulate, largest):
-    """Which cells stay as they are: those without area, and those that are not to be split."""
-    return (sizes < 3) | ((sizes > largest) & (not triangulate))
-
-
-def _split(polygons, points, triangulate, progress):
-    counts = numpy.maximum(polygons.sizes - 2, 0)
-    triangles = numpy.empty((int(counts.sum()), 3), dtype=numpy.int64)
-    mesh = _arrays.Mesh(points, numpy.empty((0, 3), dtype=numpy.int64))
+def _split(polygons, points, progress):
+    triangles = numpy.empty((int(numpy.maximum(polygons.sizes - 2, 0).sum()), 3), dtype=numpy.int64)
+    mesh = _arrays.Mesh(points, triangles[:0])
     offsets = numpy.ascontiguousarray(polygons.offsets, dtype=numpy.int64)
     corners = numpy.ascontiguousarray(polygons.corners, dtype=numpy.int64)
-    struct = _library.Polygons()
-    _library.library().delaunayflip_polygons_init(struct)
+    struct = _library.make(_library.Polygons)
     struct.number_of_polygons = polygons.count
     struct.offsets, struct.corners = _arrays.address(offsets), _arrays.address(corners)
     with Observers(progress).raising() as callbacks:
         _library.call("split_polygons", mesh.struct, struct, callbacks, _arrays.address(triangles))
-    return _Part(polygons, triangles, counts, _stay(polygons.sizes, triangulate, 3), True)
+    return triangles
 
 
-def _split_strips(strips, triangulate):
+def _split_strips(strips):
     counts = numpy.maximum(strips.sizes - 2, 0)
-    return _Part(strips, split_strips(strips), counts, _stay(strips.sizes, triangulate, 2), False)
-
-
-def split_strips(strips):
-    """(m, 3) the triangles of strips, which are Cells."""
-    counts = numpy.maximum(strips.sizes - 2, 0)
-    steps = numpy.arange(counts.sum()) - numpy.repeat(numpy.cumsum(counts) - counts, counts)
+    steps = _count_up(counts)
     first = numpy.repeat(strips.offsets[:-1], counts) + steps
     odd = steps % 2  # every other triangle of a strip is wound the other way
     places = numpy.stack([first + odd, first + 1 - odd, first + 2], axis=1)
     return strips.corners[places].astype(numpy.int64).reshape(-1, 3)
+
+
+class Constraints:
+    """Edges that must stay. `surface` and `others`, or None, are Surfaces.
+
+    Attributes:
+        pairs: (k, 2) int64, unique, in the order given, the smaller id of each pair first.
+        to_insert: (k,) whether a pair is to be inserted if the mesh does not have it.
+        unmatched: how many edges of the second input end at no point of the mesh.
+    """
+
+    def __init__(self, surface, others, settings, triangles):
+        pairs, flags, self.unmatched, points = [], [], 0, surface.points
+        if settings.lines_as_constraints:
+            lines = surface.read("Lines", "line, cell")
+            lines.require_points(len(points))
+            pairs.append(_drop_points(_list_pairs(lines, False)))
+            flags.append(numpy.full(len(pairs[-1]), settings.insert_lines))
+        if others is not None:
+            found, self.unmatched = _find_others(others, points, triangles)
+            pairs.append(found)
+            flags.append(numpy.full(len(found), settings.insert_constraints))
+        self.pairs, self.to_insert = _unite(pairs, flags, max(len(points), 1))
+
+
+def _list_pairs(cells, are_closed):
+    """(k, 2) consecutive points of each cell; of closed ones also the last and the first."""
+    corners, offsets = cells.corners.astype(numpy.int64), cells.offsets
+    following = numpy.arange(1, len(corners) + 1)
+    ends = offsets[1:][cells.sizes > 0] - 1  # the last corner of each cell
+    is_last = numpy.zeros(len(corners), dtype=bool)
+    is_last[ends] = True
+    following[ends] = offsets[:-1][cells.sizes > 0]
+    kept = ~is_last
+    if are_closed:
+        kept[offsets[1:][cells.sizes > 2] - 1] = True
+    return numpy.stack([corners[kept], corners[following[kept]]], axis=1)
+
+
+def _drop_points(pairs):
+    """The pairs without those of equal ends; the smaller end comes first."""
+    return numpy.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)
+
+
+def _unite(pairs, flags, count):
+    """Each pair once, at its first position; its flag is set if any of its flags is."""
+    if not pairs:
+        return numpy.empty((0, 2), dtype=numpy.int64), numpy.empty(0, dtype=numpy.uint8)
+    pairs, flags = numpy.concatenate(pairs), numpy.concatenate(flags)
+    _, first, inverse = numpy.unique(
+        pairs[:, 0] * count + pairs[:, 1], return_index=True, return_inverse=True)
+    united = numpy.zeros(len(first), dtype=numpy.uint8)
+    numpy.maximum.at(united, inverse.ravel(), flags.astype(numpy.uint8))
+    order = numpy.argsort(first)
+    return numpy.ascontiguousarray(pairs[first[order]]), united[order]
+
+
+def _find_others(others, points, triangles):
+    """The pairs of the second input, and how many of its edges end at no point of the mesh."""
+    other_points = others.points
+    has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
+                     and other_points.tobytes() == points.tobytes())
+    is_by_id = len(other_points) == 0 or has_same_bits
+    pairs = []
+    for kind in ("Lines", "Polys"):
+        cells = others.read(kind, "constraint cell")
+        cells.require_points(len(points if is_by_id else other_points))
+        pairs.append(_list_pairs(cells, are_closed=kind == "Polys"))
+    pairs = numpy.concatenate(pairs)
+    return (_drop_points(pairs), 0) if is_by_id else _match_places(
+        pairs, other_points, points, triangles)
+
+
+def _number_places(points, other_points):
+    """Numbers of the places of the points of both meshes; -1, -2, ... for points that are not
+    finite."""
+    single = numpy.float32 in (points.dtype, other_points.dtype)
+    kind = numpy.float32 if single else numpy.float64
+    with numpy.errstate(over="ignore"):
+        joined = numpy.concatenate([points.astype(kind), other_points.astype(kind)])
+    joined += kind(0)  # -0 becomes 0
+    finite = numpy.isfinite(joined).all(axis=1)
+    bits = numpy.ascontiguousarray(joined).view(numpy.dtype((numpy.void, 3 * joined.itemsize)))
+    places = -1 - numpy.arange(len(joined))
+    places[finite] = numpy.unique(bits[finite].ravel(), return_inverse=True)[1].ravel()
+    return places[:len(points)], places[len(points):]
+
+
+def _match_places(pairs, other_points, points, triangles):
+    """Pairs of points of the mesh at the places of other points. Where several points of the mesh
+    lie at one place, all pairs of them that are edges match."""
+    places, other_places = _number_places(points, other_points)
+    wanted = _drop_points(other_places[pairs])
+    size = int(max(places.max(initial=-1), other_places.max(initial=-1))) + 1
+    shift = len(places) + len(other_places)  # so that none is negative
+    wanted = _unite([wanted + shift], [numpy.zeros(len(wanted))], 2 * shift)[0] - shift
+    known = places[places >= 0]
+    crowd = numpy.append(numpy.bincount(known, minlength=size), 0)  # [-1]: a place without points
+    first = numpy.full(size + 1, -1)
+    ids = numpy.flatnonzero(places >= 0)[::-1]
+    first[places[ids]] = ids
+    matches = numpy.prod(crowd[numpy.maximum(wanted, -1)], axis=1)
+    single = _drop_points(first[wanted[matches == 1]])
+    crowded, found = _find_crowded(wanted[matches > 1], places, triangles, size)
+    unmatched = int((matches == 0).sum()) + int((matches > 1).sum()) - found
+    return numpy.concatenate([single, crowded]), unmatched
+
+
+def _find_crowded(wanted, places, triangles, size):
+    """The edges of the mesh between these pairs of places, and how many pairs have any."""
+    if len(wanted) == 0:
+        return numpy.empty((0, 2), dtype=numpy.int64), 0
+    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(numpy.int64)
+    sides = sides[((sides >= 0) & (sides < len(places))).all(axis=1)]
+    at = numpy.sort(places[sides], axis=1)
+    keys = at[:, 0] * size + at[:, 1]
+    keys[at[:, 0] < 0] = -1
+    wanted_keys = wanted[:, 0] * size + wanted[:, 1]
+    matching = numpy.isin(keys, wanted_keys)
+    return _drop_points(sides[matching]), len(numpy.unique(keys[matching]))

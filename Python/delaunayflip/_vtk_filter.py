@@ -1,21 +1,116 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkDelaunayFlip for every VTK with Python: the interface of the C++ class, on libdelaunayflip."""
+import dataclasses
+import operator
+import re
+import typing
+
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow
+from vtkmodules.vtkCommonCore import VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
 from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._vtk_mesh import add_arrays
-from ._vtk_properties import PROPERTIES, add_properties, add_snake_case
+from ._vtk_mesh import vtk_of
 from ._vtk_update import Failure, Update, explain
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
 
 
-@add_properties
+def _to_snake_case(name):
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+
+
+@dataclasses.dataclass(frozen=True)
+class _Property:
+    """One property. The meaning of each is documented in vtkDelaunayFlip.h."""
+
+    name: str
+    default: typing.Any
+    low: typing.Any = None  #: Numbers are clamped to low .. high; None: no limit.
+    high: typing.Any = None
+    choices: typing.Tuple[str, ...] = ()  #: SetXTo... methods and X_... constants.
+    modifies: bool = True
+
+    @property
+    def key(self):
+        return _to_snake_case(self.name)
+
+    def convert(self, value):
+        """The value that a setter stores."""
+        if isinstance(self.default, str):
+            return "" if value is None else str(value)
+        if isinstance(self.default, bool):
+            return bool(value)
+        value = float(value) if isinstance(self.default, float) else operator.index(value)
+        return value if self.low is None else min(max(value, self.low), self.high)
+
+
+_PROPERTIES = (
+    _Property("Geometry", 0, 0, 3, ("Auto", "Planar", "PlanarXY", "Surface")),
+    _Property("Criterion", 0, 0, 1, ("InCircle", "OppositeAngles")),
+    _Property("Tolerance", -1.0),
+    _Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
+    _Property("FeatureAngle", 30.0, 0.0, 180.0),
+    _Property("RegionArray", ""),
+    *(_Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
+    _Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
+    _Property("DeviceId", -1, -1, VTK_INT_MAX),
+    _Property("Devices", ""),
+    _Property("NumberOfPieces", 0, 0, 255),
+    _Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
+    _Property("MaximumIterations", -1, -1, VTK_ID_MAX),
+    *(_Property(name, False) for name in (
+        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality", "LiveUpdate")),
+    _Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
+    _Property("Paused", False, modifies=False),
+)
+
+
+def _accessors(item):
+    def get(self):
+        return self._values[item.name]
+
+    def set_(self, value):
+        value = item.convert(value)
+        if value != self._values[item.name]:
+            self._values[item.name] = value
+            if item.modifies:
+                self.Modified()
+
+    return get, set_
+
+
+def _add_properties(cls):
+    """Adds the constants to a class, and for each property the methods that VTK's macros make."""
+    constants = {item.name: item.choices for item in _PROPERTIES if item.choices}
+    constants["Geometry"] += ("Mixed",)
+    constants["StopReason"] = (*_library.STOP_REASONS, "failed")
+    constants["Failure"] = [failure.name for failure in Failure]
+    for group, names in constants.items():
+        for value, name in enumerate(names):
+            name = _to_snake_case(f"{group}_{name.replace(' ', '_')}").upper()
+            setattr(cls, name, value)
+    for item in _PROPERTIES:
+        get, set_ = _accessors(item)
+        setattr(cls, "Get" + item.name, get)
+        setattr(cls, "Set" + item.name, set_)
+        setattr(cls, item.key, property(get, set_))
+        if item.low is not None:
+            for limit, value in (("Min", item.low), ("Max", item.high)):
+                setattr(cls, f"Get{item.name}{limit}Value", lambda self, value=value: value)
+        if isinstance(item.default, bool):
+            setattr(cls, item.name + "On", lambda self, set_=set_: set_(self, True))
+            setattr(cls, item.name + "Off", lambda self, set_=set_: set_(self, False))
+        for value, choice in enumerate(item.choices):
+            setattr(cls, f"Set{item.name}To{choice}",
+                    lambda self, set_=set_, value=value: set_(self, value))
+    return cls
+
+
+@_add_properties
 class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
@@ -30,12 +125,14 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
 
     def __init__(self, **properties):
         super().__init__(nInputPorts=2, nOutputPorts=2, inputType="vtkPolyData")
-        self._values = {item.name: item.default for item in PROPERTIES}
+        self._values = {item.name: item.default for item in _PROPERTIES}
         self._is_at_work = False
         self._interrupt = None
         self._update = Update(self)
         for name, value in properties.items():
-            setattr(self, _require_property(name), value)
+            if name not in {item.key for item in _PROPERTIES}:
+                raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
+            setattr(self, name, value)
 
     # Methods of every filter of VTK.
 
@@ -43,10 +140,12 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return "vtkDelaunayFlip"
 
     def __str__(self):
-        names = [item.name for item in PROPERTIES]
+        names = [item.name for item in _PROPERTIES]
         names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
                   "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge"]
-        lines = [f"  {name}: {_print(getattr(self, 'Get' + name)())}" for name in names]
+        values = ((name, getattr(self, "Get" + name)()) for name in names)
+        lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
+                 for name, value in values]
         lines += [f"  StopReason: {self.GetStopReasonAsString()}",
                   f"  GeometryUsed: {self.GetGeometryUsedAsString()}",
                   f"  GeometryReason: {self.GetGeometryReason()}"]
@@ -132,7 +231,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         finally:
             self._is_at_work = False
         self._update = update
-        add_arrays(table.GetRowData(), "", update.totals.list_columns())
+        vtk_of(table).add_arrays(table.GetRowData(), "", update.totals.list_columns())
         update.tell(self._tell)
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1
@@ -161,85 +260,58 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
     def GetIterations(self):
         return self.GetOutputDataObject(1)
 
-    def Advance(self):
-        return False  # for live updates, which this class does not have
-
-    def Step(self):
-        return False
-
     def Restart(self):
         self.Modified()
-
-    def GetNeedsUpdate(self):
-        return False
 
     def ReleaseDeviceMemory(self):
         _library.release_cuda_memory()
 
-    def GetNumberOfIterations(self):
-        return len(self._update.totals.iterations)
 
-    def GetConverged(self):
-        return self.GetFailure() == Failure.NONE and self._update.totals.converged
-
-    def GetStopReason(self):
-        if self.GetFailure():
-            return self.STOP_REASON_FAILED
-        return self._update.totals.get_stop_reason()
-
-    def GetStopReasonAsString(self):
-        failed = self.GetFailure() != Failure.NONE
-        return "failed: " + self.GetErrorMessage() if failed else self._update.totals.stop_reason
-
-    def GetGeometryUsed(self):
-        return self._update.totals.get_geometry()
-
-    def GetGeometryUsedAsString(self):
-        return self._update.totals.geometry_used
-
-    def GetNumberOfRounds(self):
-        return 0  # of pieces on several ranks
-
-    def GetNumberOfMovedTriangles(self):
-        return 0
-
-    def GetGeometryReason(self):
-        return self._update.totals.texts["geometry_reason"]
-
-    def GetBackendUsed(self):
-        return self._update.totals.texts["backend"]
-
-    def GetFailure(self):
-        return int(self._update.failure)
-
-    def GetErrorMessage(self):
-        return self._update.error_message
-
-    def GetErrorCode(self):
-        return _USER_ERROR + self.GetFailure() if self.GetFailure() else 0
+def _get_stop_reason(update):
+    return "failed: " + update.error_message if update.failure else update.totals.stop_reason
 
 
-def _add_counts(cls):
-    for name, count in (("TotalFlips", "total_flips"),
-                        ("NumberOfConstraintEdges", "constraint_edges"),
-                        ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
-                        ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
-                        ("NumberOfConstraintFlips", "constraint_flips"),
-                        ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
-                        ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
-                        ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
-        setattr(cls, "Get" + name, lambda self, count=count: self._update.totals.counts[count])
+# What the last update did, and what only the class in C++ has: live updates, pieces on ranks.
+_ANSWERS = {
+    "Advance": lambda update: False,
+    "Step": lambda update: False,
+    "GetNeedsUpdate": lambda update: False,
+    "GetNumberOfRounds": lambda update: 0,
+    "GetNumberOfMovedTriangles": lambda update: 0,
+    "GetNumberOfIterations": lambda update: len(update.totals.iterations),
+    "GetConverged": lambda update: not update.failure and update.totals.converged,
+    "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
+    else _library.STOP_REASONS.index(update.totals.stop_reason),
+    "GetStopReasonAsString": _get_stop_reason,
+    "GetGeometryUsed":
+    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
+    "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
+    "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
+    "GetBackendUsed": lambda update: update.totals.texts["backend"],
+    "GetFailure": lambda update: int(update.failure),
+    "GetErrorMessage": lambda update: update.error_message,
+    "GetErrorCode": lambda update: int(update.failure and _USER_ERROR + update.failure),
+}
+for _name, _count in (("TotalFlips", "total_flips"),
+                      ("NumberOfConstraintEdges", "constraint_edges"),
+                      ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
+                      ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
+                      ("NumberOfConstraintFlips", "constraint_flips"),
+                      ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
+                      ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
+                      ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
+    _ANSWERS["Get" + _name] = lambda update, count=_count: update.totals.counts[count]
+for _name, _answer in _ANSWERS.items():
+    setattr(vtkDelaunayFlip, _name, lambda self, answer=_answer: answer(self._update))
 
 
-_add_counts(vtkDelaunayFlip)
-add_snake_case(vtkDelaunayFlip)
+def _add_snake_case(cls):
+    """Adds a property for every getter and setter of the class itself, as VTK 9.6 does."""
+    methods = dict(vars(cls))
+    for name in {name[3:] for name in methods if re.match("[GS]et[A-Z]", name)}:
+        key = _to_snake_case(name)
+        if not hasattr(cls, key):
+            setattr(cls, key, property(methods.get("Get" + name), methods.get("Set" + name)))
 
 
-def _require_property(name):
-    if name not in {item.key for item in PROPERTIES}:
-        raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
-    return name
-
-
-def _print(value):
-    return int(value) if isinstance(value, bool) else value
+_add_snake_case(vtkDelaunayFlip)

@@ -1,193 +1,299 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts a vtkPolyData to the engine's arrays, and back."""
+"""Converts a vtkPolyData of any VTK to the engine's arrays, and back."""
+import functools
+import importlib
+
 import numpy
-from vtkmodules.util.numpy_support import get_numpy_array_type, numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    VTK_ID_TYPE, VTK_INT_MAX, VTK_UNSIGNED_CHAR, vtkBitArray, vtkDataArray, vtkIdList,
-    vtkStringArray, vtkTypeInt32Array, vtkTypeInt64Array)
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
-from ._errors import InvalidOptions
-from ._surface import FlipInput, Surface, number_tuples
+from . import _arrays, _library
+from ._library import InvalidMesh, InvalidOptions
+from ._report import FIELD_PREFIX
+from ._session import Session, smallest_angles
+from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
+
+_GHOSTS = "vtkGhostType"
+_GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
 
-class MeshInput(FlipInput):
-    """Arrays for a Session, and the parts of the input that the output needs."""
+class Vtk:
+    """The modules and arrays of one VTK. PyVista may use another one than vtkmodules."""
 
-    def __init__(self, mesh, others, settings, progress):
-        self.mesh = mesh.NewInstance()
+    def __init__(self, package):
+        self.core = importlib.import_module(f"{package}.vtkCommonCore")
+        self.model = importlib.import_module(f"{package}.vtkCommonDataModel")
+        self.support = importlib.import_module(f"{package}.util.numpy_support")
+
+    def add_arrays(self, data, prefix, arrays):
+        """`arrays`: (name, values, a number or a text) of each."""
+        for name, values in arrays:
+            if isinstance(values, str):
+                array = self.core.vtkStringArray()
+                array.InsertNextValue(values)
+            else:
+                values = numpy.atleast_1d(values)
+                kind = self.core.VTK_ID_TYPE if values.dtype == numpy.int64 else None
+                array = self.support.numpy_to_vtk(values, deep=True, array_type=kind)
+            array.SetName(prefix + name)
+            data.AddArray(array)
+
+    def copy_cell_data(self, mesh, sources, target):
+        """Copies the tuples of the source cells. Returns the arrays that are too short for that, and
+        are left out."""
+        whole, short = self.model.vtkDataSetAttributes(), []
+        whole.ShallowCopy(mesh.GetCellData())
+        for i in reversed(range(whole.GetNumberOfArrays())):
+            if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
+                short.append(whole.GetAbstractArray(i))
+                whole.RemoveArray(i)
+        target.CopyAllOn()
+        target.CopyAllocate(whole, len(sources))
+        target.CopyData(whole, self._make_ids(sources), self._make_ids(range(len(sources))))
+        return short
+
+    def read(self, mesh):
+        """A Surface. Its arrays are copies: observers may change the input during the run."""
+        return Surface(mesh, lambda array: self.view(array).copy())
+
+    def view(self, array):
+        """The values of a vtkDataArray, (n,) or (n, components)."""
+        if not array.HasStandardMemoryLayout() or isinstance(array, self.core.vtkBitArray):
+            array = self.copy_array(array)
+        if array.GetNumberOfValues() == 0:
+            width, kind = array.GetNumberOfComponents(), array.GetDataType()
+            return numpy.empty((0, width) if width > 1 else 0, self.support.get_numpy_array_type(kind))
+        return self.support.vtk_to_numpy(array)
+
+    def copy_array(self, array):
+        """A deep copy in contiguous memory, of the same type (bits become bytes)."""
+        is_bits = isinstance(array, self.core.vtkBitArray)
+        plain = self.core.vtkDataArray.CreateDataArray(
+            self.core.VTK_UNSIGNED_CHAR if is_bits else array.GetDataType())
+        plain.DeepCopy(array)
+        return plain
+
+    def make_cells(self, sizes, is_wide):
+        """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
+        kind = self.core.vtkTypeInt64Array if is_wide else self.core.vtkTypeInt32Array
+        offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
+        offsets.SetNumberOfValues(len(sizes) + 1)
+        self.view(offsets)[0] = 0
+        self.view(offsets)[1:] = ends
+        corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
+        cells = self.model.vtkCellArray()
+        cells.SetData(offsets, corners)
+        return cells, self.view(cells.GetConnectivityArray())
+
+    def label_cells(self, mesh, name):
+        """One int32 label per cell; cells with equal tuples in the array have equal labels.
+
+        Raises:
+            InvalidOptions: There is no such array, or it does not have one tuple per cell.
+        """
+        array = mesh.GetCellData().GetAbstractArray(name)
+        if array is None:
+            raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+        if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
+            raise InvalidOptions(
+                f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
+        if isinstance(array, self.core.vtkDataArray):
+            return number_tuples(self.view(array))
+        texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
+        return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
+
+    def _make_ids(self, values):
+        ids = self.core.vtkIdList()
+        ids.SetNumberOfIds(len(values))
+        for place, value in enumerate(values):
+            ids.SetId(place, int(value))
+        return ids
+
+
+_load = functools.lru_cache(maxsize=None)(Vtk)
+
+
+def vtk_of(data):
+    """The Vtk of a data object."""
+    module = next(cls.__module__ for cls in type(data).__mro__ if cls.__name__ == "vtkDataObject")
+    return _load(module.rpartition(".")[0])
+
+
+class MeshInput:
+    """What a Session gets of a mesh, and the way back. `others`: the second input, or None."""
+
+    def __init__(self, mesh, others, settings, progress=None):
+        self.vtk = vtk_of(mesh)
+        self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
-        others = _read(others) if others is not None else None
-        super().__init__(_read(mesh), others, settings, progress)
+        others = self.vtk.read(others) if others is not None else None
+        surface = self.vtk.read(mesh)
+        self.points = surface.points
+        self.slots = Slots(surface, settings.triangulate, progress)
+        self.constraints = Constraints(surface, others, settings, self.slots.triangles)
+        self._regions, self._frozen = None, self.slots.frozen
         if settings.region_array:
-            self.regions = _label_cells(mesh, settings.region_array)[self.slots.cells]
-        ghosts = mesh.GetCellData().GetArray(vtkDataSetAttributes.GhostArrayName())
+            self._regions = self.vtk.label_cells(mesh, settings.region_array)[self.slots.cells]
+        ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
-            self.freeze(_view(ghosts))
+            self._freeze(self.vtk.view(ghosts))
 
-    def list_defects(self):
+    def _freeze(self, ghosts):
+        """The edges of ghost cells stay. `ghosts`: VTK's types of the cells, of which there may be
+        too few."""
+        padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(ghosts)), numpy.uint8)
+        padded[:len(ghosts)] = ghosts
+        are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
+        self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
+
+    def open(self, **arguments):
+        """A Session. Errors name the cell, not the triangle."""
+        pairs = self.constraints.pairs
+        try:
+            return Session(
+                self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
+                constraints=pairs if len(pairs) else None,
+                insert_constraints=self.constraints.to_insert if len(pairs) else False,
+                triangle_numbers=self.slots.cells, **arguments)
+        except InvalidMesh as error:
+            raise name_out_of_range(
+                "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
+
+    def _list_defects(self):
         """Texts of a warning about the input's constraints and arrays."""
-        mesh, passed = self.mesh, "passed unchanged"
-        texts = self.describe_unmatched()
+        mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
+        texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
+                 "mesh does not have"] if count else []
         texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
         texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                  passed if self.slots.in_place else "left out")
-        name = vtkDataSetAttributes.GhostArrayName()
-        ghosts = mesh.GetCellData().GetAbstractArray(name)
+        ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
-        return texts + ([f'1 ghost array {fault} ignored: "{name}"'] if fault else [])
+        return texts + ([f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else [])
+
+    def report(self, session, output, options, totals):
+        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or "".
+        Reaching a limit that the user has set gives no warning."""
+        self.vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX, totals.list_fields())
+        report = session.report
+        texts = ([report.defects] if report.defects else []) + self._list_defects()
+        if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
+            texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                         f"with {report.non_delaunay_after} edges left that are not Delaunay")
+        if options["tolerance"] >= 0 and report.tolerance == "none":
+            texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                         "opposite angles")
+        if report.fallback:
+            texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+        return "; ".join(texts)
 
     def store(self, session, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
-        mesh = self.mesh
+        mesh, slots = self.mesh, self.slots
+        given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
+        is_wide = _is_wide(given) or 3 * len(slots.triangles) > self.vtk.core.VTK_INT_MAX
+        polygons, corners = self.vtk.make_cells(self.polygon_sizes, is_wide)
+        self.fill_polygons(session, corners)
+        chosen = slots.kept_strips - slots.strips.first
+        strips, corners = self.vtk.make_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
+        corners[:] = slots.strips.gather(chosen)
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
-        output.SetPolys(self._build_polygons(session))
-        output.SetStrips(self._build_strips())
+        output.SetPolys(polygons)
+        output.SetStrips(strips)
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
-        self._pass_cell_data(output)
-        self._pass_normals(session, output)
-        add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
+        self._pass_cell_data(session, output)
+        self.vtk.add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
 
-    def _build_polygons(self, session):
-        mesh = self.mesh
-        given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
-        wide = _is_wide(given) or 3 * len(self.slots.triangles) > VTK_INT_MAX
-        cells, corners = _new_cells(self.polygon_sizes, wide)
-        self.fill_polygons(session, corners)
-        return cells
-
-    def _build_strips(self):
-        strips, chosen = self.mesh.GetStrips(), self.slots.kept_strips - self.slots.strips.first
-        if len(chosen) == strips.GetNumberOfCells():
-            return strips
-        cells, corners = _new_cells(self.slots.strips.sizes[chosen], _is_wide(strips))
-        corners[:] = self.slots.strips.gather(chosen)
-        return cells
-
-    def _pass_cell_data(self, output):
-        data = output.GetCellData()
-        if self.slots.in_place:
+    def _pass_cell_data(self, session, output):
+        data, slots = output.GetCellData(), self.slots
+        data.Initialize()
+        if slots.in_place:
             data.ShallowCopy(self.mesh.GetCellData())
-            return
-        copy_cell_data(self.mesh, self.cell_sources, data)
-        ids = data.GetGlobalIds()
-        if self.slots.divides_cells and ids is not None:  # several cells share an id
+        else:
+            self.vtk.copy_cell_data(self.mesh, self.cell_sources, data)
+        ids, shared = data.GetGlobalIds(), data.GetNormals()
+        if slots.divides_cells and ids is not None:  # several cells share an id
             data.SetActiveAttribute(-1, data.GLOBALIDS)
             if data.GetPedigreeIds() is None:
                 data.SetPedigreeIds(ids)
+        if (shared is not None and shared.GetNumberOfComponents() == 3
+                and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
+            normals = self.vtk.copy_array(shared)
+            self.renew_normals(self.vtk.view(normals), session.triangles)
+            data.SetNormals(normals)
 
-    def _pass_normals(self, session, output):
-        shared = output.GetCellData().GetNormals()
-        if (shared is None or shared.GetNumberOfComponents() != 3
-                or shared.GetNumberOfTuples() < output.GetNumberOfCells()):
+    @property
+    def cell_sources(self):
+        """The cell of the input from which each cell of the output is made."""
+        return numpy.concatenate([numpy.arange(self.slots.first_polygon), self.slots.polygon_cells,
+                                  self.slots.kept_strips])
+
+    @property
+    def polygon_sizes(self):
+        """How many corners the polygons of the output have."""
+        slots = self.slots
+        sizes = numpy.full(len(slots.polygon_cells), 3)
+        whole = slots.polygon_triangles == NONE
+        if whole.any():
+            sizes[whole] = slots.polygons.sizes[slots.polygon_cells[whole] - slots.first_polygon]
+        return sizes
+
+    def fill_polygons(self, session, corners):
+        """Writes the corners of the output's polygons."""
+        slots = self.slots
+        polygons, chosen = slots.list_triangles()
+        if len(polygons) == len(slots.polygon_cells) == len(slots.triangles):
+            session.store_triangles(corners.reshape(-1, 3))
             return
-        normals = _copy(shared)
-        self.renew_normals(_view(normals), session.triangles)
-        output.GetCellData().SetNormals(normals)
+        is_triangle = slots.polygon_triangles != NONE
+        of_triangle = numpy.repeat(is_triangle, self.polygon_sizes)
+        corners[of_triangle] = session.triangles[chosen].ravel()
+        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
+        corners[~of_triangle] = slots.polygons.gather(whole)
 
+    def renew_normals(self, values, triangles):
+        """Writes the normals of changed triangles to those of all output cells. Normals that pointed
+        against the winding still do."""
+        polygons, chosen = self.slots.list_triangles()
+        changed = (self.slots.triangles[chosen] != triangles[chosen]).any(axis=1)
+        cells, chosen = self.slots.first_polygon + polygons[changed], chosen[changed]
+        old, new = (self._find_normals(some[chosen]) for some in (self.slots.triangles, triangles))
+        against = (old * values[cells]).sum(axis=1) < 0
+        values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
 
-def add_arrays(data, prefix, arrays):
-    """`arrays`: (name, values, a number or a text) of each."""
-    for name, values in arrays:
-        if isinstance(values, str):
-            array = vtkStringArray()
-            array.InsertNextValue(values)
-        else:
-            values = numpy.atleast_1d(values)
-            kind = VTK_ID_TYPE if values.dtype == numpy.int64 else None
-            array = numpy_to_vtk(values, deep=True, array_type=kind)
-        array.SetName(prefix + name)
-        data.AddArray(array)
+    def _find_normals(self, triangles):
+        """Unit normals by the right-hand rule; 0 for triangles without area."""
+        mesh = _arrays.Mesh(self.points, triangles)
+        normals = numpy.empty((len(triangles), 3))
+        _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
+        return normals
 
+    def list_numbers(self, session, counts, angles):
+        """(name, values per output cell) of the requested cell arrays."""
+        if counts:
+            yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
+        if angles:
+            used = session.report.geometry_used
+            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
+                yield "vtkDelaunayFlipAngle" + name, self._spread(
+                    smallest_angles(self.points, triangles, geometry=used), numpy.nan)
 
-def copy_cell_data(mesh, sources, target):
-    """Copies the tuples of the source cells. Returns the arrays that are too short for that, and are
-    left out."""
-    whole, short = vtkDataSetAttributes(), []
-    whole.ShallowCopy(mesh.GetCellData())
-    for i in reversed(range(whole.GetNumberOfArrays())):
-        if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
-            short.append(whole.GetAbstractArray(i))
-            whole.RemoveArray(i)
-    target.CopyAllOn()
-    target.CopyAllocate(whole, len(sources))
-    target.CopyData(whole, _make_ids(sources), _make_ids(range(len(sources))))
-    return short
-
-
-def _read(mesh):
-    """The arrays are copies: observers may change the input during the run."""
-    return Surface(mesh, lambda array: _view(array).copy())
-
-
-def _view(array):
-    """The values of a vtkDataArray, (n,) or (n, components)."""
-    if not array.HasStandardMemoryLayout() or isinstance(array, vtkBitArray):
-        array = _copy(array)
-    if array.GetNumberOfValues() == 0:
-        width = array.GetNumberOfComponents()
-        return numpy.empty((0, width) if width > 1 else 0, get_numpy_array_type(array.GetDataType()))
-    return vtk_to_numpy(array)
-
-
-def _copy(array):
-    """A deep copy in contiguous memory, of the same type (bits become bytes)."""
-    kind = VTK_UNSIGNED_CHAR if isinstance(array, vtkBitArray) else array.GetDataType()
-    plain = vtkDataArray.CreateDataArray(kind)
-    plain.DeepCopy(array)
-    return plain
-
-
-def _make_ids(values):
-    ids = vtkIdList()
-    ids.SetNumberOfIds(len(values))
-    for place, value in enumerate(values):
-        ids.SetId(place, int(value))
-    return ids
+    def _spread(self, values, elsewhere):
+        of_cells = numpy.full(len(self.cell_sources), elsewhere, dtype=values.dtype)
+        polygons, chosen = self.slots.list_triangles()
+        of_cells[self.slots.first_polygon + polygons] = values[chosen]
+        return of_cells
 
 
 def _is_wide(cells):
     return cells.GetConnectivityArray().GetDataTypeSize() == 8
 
 
-def _new_cells(sizes, wide):
-    """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
-    kind = vtkTypeInt64Array if wide else vtkTypeInt32Array
-    offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
-    offsets.SetNumberOfValues(len(sizes) + 1)
-    _view(offsets)[0] = 0
-    _view(offsets)[1:] = ends
-    corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
-    cells = vtkCellArray()
-    cells.SetData(offsets, corners)
-    return cells, _view(cells.GetConnectivityArray())
-
-
-def _label_cells(mesh, name):
-    """One int32 label per cell; cells with equal tuples in the array have equal labels.
-
-    Raises:
-        InvalidOptions: There is no such array, or it does not have one tuple per cell.
-    """
-    array = mesh.GetCellData().GetAbstractArray(name)
-    if array is None:
-        raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
-    if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
-        raise InvalidOptions(
-            f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
-    if isinstance(array, vtkDataArray):
-        return number_tuples(_view(array))
-    texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
-    return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
-
-
 def _find_ghost_fault(ghosts):
     """Why a ghost array is ignored, or ""."""
-    if ghosts.GetDataType() != VTK_UNSIGNED_CHAR:
+    if ghosts.GetDataTypeAsString() != "unsigned char":
         return "that is not of type unsigned char"
     return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
 

@@ -10,10 +10,11 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkMultiBlockDataSet,
     vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGridAMR)
 
-from . import _errors, _library
-from ._report import FIELD_PREFIX, ITERATION, Totals, describe, describe_trouble
+from . import _library
+from ._options import CHOICES
+from ._report import ITERATION, Totals, describe
 from ._surface import Settings
-from ._vtk_mesh import MeshInput, add_arrays
+from ._vtk_mesh import MeshInput
 
 #: The shares of a mesh's update after which polygons are split, and edges flipped.
 _SPLIT, _FLIPPED = 0.02, 0.7
@@ -31,13 +32,11 @@ class Failure(enum.IntEnum):
 
 def explain(error):
     """(Failure, message) of an exception."""
-    for kind, failure in ((_errors.InvalidOptions, Failure.OPTIONS),
-                          (_errors.BackendUnavailable, Failure.BACKEND),
-                          (_errors.FlipError, Failure.MESH)):
-        if isinstance(error, kind):
-            return failure, str(error)
-    is_memory = isinstance(error, MemoryError)
-    return Failure.OTHER, "not enough memory" if is_memory else str(error) or type(error).__name__
+    kinds = {_library.InvalidOptions: Failure.OPTIONS, _library.BackendUnavailable: Failure.BACKEND,
+             _library.FlipError: Failure.MESH, Exception: Failure.OTHER}
+    failure = next(failure for kind, failure in kinds.items() if isinstance(error, kind))
+    message = "not enough memory" if isinstance(error, MemoryError) else str(error)
+    return failure, message or type(error).__name__
 
 
 class Update:
@@ -83,21 +82,20 @@ class Update:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _flip_mesh(self, source, constraints, output):
+        trouble = Failure.MESH, "the input is not a surface; apply Extract Surface first"
         try:
             mesh = self._filter.get_mesh(source)
         except Exception as error:
-            self.fail(explain(error))
-            output.Initialize()
-            return
+            mesh, trouble = None, explain(error)
+        if constraints is not None and not isinstance(constraints, vtkPolyData) and mesh is not None:
+            mesh = None
+            trouble = (Failure.OPTIONS,
+                       "the constraints of a single mesh cannot be a composite dataset")
         if mesh is None:
-            self.fail((Failure.MESH, "the input is not a surface; apply Extract Surface first"))
-        elif constraints is not None and not isinstance(constraints, vtkPolyData):
-            self.fail((Failure.OPTIONS,
-                       "the constraints of a single mesh cannot be a composite dataset"))
+            self.fail(trouble)
+            output.Initialize()
         else:
             self._try_to_flip(mesh, constraints, output)
-            return
-        output.Initialize()
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.stop_reason = "converged"  # the result for an input without blocks
@@ -168,10 +166,10 @@ class Update:
         filter_, options = self._filter, self._get_options()
         observe = self._observe_part(_SPLIT, _FLIPPED)
         try:
-            data = MeshInput(
-                mesh, constraints, self._get_settings(), self._observe_part(0.0, _SPLIT))
+            settings = Settings(*(getattr(filter_, one.name) for one in dataclasses.fields(Settings)))
+            data = MeshInput(mesh, constraints, settings, self._observe_part(0.0, _SPLIT))
             session = data.open(progress=observe, **options)
-        except _errors.Stopped:
+        except _library.Stopped:
             return self._pass_after_abort(mesh, output)
         with session:
             self.totals = Totals.of_run(session, data)
@@ -180,35 +178,18 @@ class Update:
             angles = filter_.GetGenerateQuality()
             is_whole = not angles or self._observe_part(_FLIPPED, 1.0)(0.0)
             data.store(session, output, filter_.GetGenerateFlipCount(), angles and is_whole)
-            report, self.totals = session.report, Totals.of_run(session, data)
-        if not is_whole:
-            self.totals.stop_reason = "aborted"
-        add_arrays(output.GetFieldData(), FIELD_PREFIX, self.totals.list_fields())
-        defects = [report.defects] if report.defects else []
-        return describe_trouble("; ".join(defects + data.list_defects()), report, options)
-
-    def _get_settings(self):
-        filter_ = self._filter
-        return Settings(filter_.GetTriangulate(), filter_.GetLinesAsConstraints(),
-                        filter_.GetInsertLines(), filter_.GetInsertConstraints(),
-                        filter_.GetRegionArray())
+            self.totals = Totals.of_run(session, data)
+            if not is_whole:
+                self.totals.stop_reason = "aborted"
+            return data.report(session, output, options, self.totals)
 
     def _get_options(self):
         filter_ = self._filter
-        return {
-            "geometry": _library.GEOMETRIES[filter_.GetGeometry()],
-            "criterion": _library.CRITERIA[filter_.GetCriterion()],
-            "tie_rule": _library.TIE_RULES[filter_.GetTieRule()],
-            "backend": _library.BACKENDS[filter_.GetBackend()],
-            "tolerance": filter_.GetTolerance(),
-            "feature_angle": filter_.GetFeatureAngle(),
-            "maximum_iterations": filter_.GetMaximumIterations(),
-            "threads": filter_.GetNumberOfThreads(),
-            "device": filter_.GetDeviceId(),
-            "devices": filter_.GetDevices(),
-            "pieces": filter_.GetNumberOfPieces(),
-            "track_quality": filter_.GetTrackQuality(),
-        }
+        options = {name: words[getattr(filter_, name)] for name, words in CHOICES.items()}
+        for name in ("tolerance", "feature_angle", "maximum_iterations", "devices", "track_quality"):
+            options[name] = getattr(filter_, name)
+        return {**options, "threads": filter_.GetNumberOfThreads(), "device": filter_.GetDeviceId(),
+                "pieces": filter_.GetNumberOfPieces()}
 
     def _is_abort_requested(self):
         """Whether an abort was requested: directly or, from VTK 9.3 on, through a filter upstream.

@@ -7,7 +7,7 @@ import meshio
 import numpy
 
 from . import _arrays
-from ._flip import flip as _flip
+from ._session import flip as _flip
 
 
 def flip(mesh: "meshio.Mesh", **options: typing.Any) -> "meshio.Mesh":

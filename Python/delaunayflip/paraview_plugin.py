@@ -16,6 +16,7 @@ plugin can read the state files of the other, but only one of the two can be loa
 The file is not called paraview.py, because ParaView imports a plugin under its name, which would
 then hide ParaView's own module.
 """
+import itertools
 import pathlib
 import sys
 from xml.etree import ElementTree
@@ -28,9 +29,15 @@ if str(_FOLDER.parent) not in sys.path:
 from paraview import servermanager
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkVersion
+from vtkmodules.vtkCommonDataModel import (
+    VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
+    VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkDataSet, vtkPointSet, vtkPolyData,
+    vtkUnstructuredGrid)
+
 import delaunayflip
 from delaunayflip._vtk_filter import vtkDelaunayFlip
-from delaunayflip._vtk_surfaces import to_poly_data
+from delaunayflip._vtk_mesh import vtk_of
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
@@ -58,6 +65,82 @@ def _read_properties():
     return "".join(ElementTree.tostring(element, encoding="unicode") for element in proxy)
 
 
+#: The kinds of cells of a vtkPolyData, and the types of cells that become such.
+_KINDS = {
+    "Verts": (VTK_VERTEX, VTK_POLY_VERTEX),
+    "Lines": (VTK_LINE, VTK_POLY_LINE),
+    "Polys": (VTK_TRIANGLE, VTK_QUAD, VTK_PIXEL, VTK_POLYGON),
+    "Strips": (VTK_TRIANGLE_STRIP,),
+}
+
+
+def _to_poly_data(data):
+    """The same points and cells, but without blanked cells; None if a cell is not a surface cell.
+
+    Raises:
+        InvalidMesh: The arrays of the cells contradict each other.
+    """
+    if isinstance(data, vtkPolyData):
+        return data
+    if not isinstance(data, vtkDataSet):
+        return None
+    _require_whole_cells(data)
+    types = [data.GetCellType(cell) for cell in range(data.GetNumberOfCells())]
+    if not set(types) <= {VTK_EMPTY_CELL, *itertools.chain(*_KINDS.values())}:
+        return None
+    output, sources = vtkPolyData(), []
+    output.SetPoints(_get_points(data))
+    output.GetPointData().PassData(data.GetPointData())
+    output.GetFieldData().PassData(data.GetFieldData())
+    for kind, wanted in _KINDS.items():
+        cells, chosen = vtkCellArray(), [i for i, one in enumerate(types) if one in wanted]
+        for cell in chosen:
+            cells.InsertNextCell(_get_corners(data, cell))
+        getattr(output, "Set" + kind)(cells)
+        sources += chosen
+    for array in vtk_of(data).copy_cell_data(data, sources, output.GetCellData()):
+        empty = array.NewInstance()  # the filter warns of it
+        empty.SetName(array.GetName())
+        output.GetCellData().AddArray(empty)
+    return output
+
+
+def _require_whole_cells(data):
+    if not isinstance(data, vtkUnstructuredGrid) or data.GetCells() is None:
+        return
+    version = vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()
+    cells = data.GetCells()
+    types = data.GetCellTypes() if version >= (9, 6) else data.GetCellTypesArray()
+    if (not cells.IsValid() or types is None
+            or types.GetNumberOfValues() < cells.GetNumberOfCells()):
+        raise delaunayflip.InvalidMesh(
+            "The offsets, the connectivity and the types of the cells contradict each other.")
+
+
+def _get_points(data):
+    if isinstance(data, vtkPointSet):
+        return data.GetPoints()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for point in range(data.GetNumberOfPoints()):
+        points.InsertNextPoint(data.GetPoint(point))
+    return points
+
+
+def _get_corners(data, cell):
+    """The points of a cell; those of a pixel, which come row by row, in the order of a quad."""
+    ids = vtkIdList()
+    data.GetCellPoints(cell, ids)
+    if data.GetCellType(cell) == VTK_PIXEL:
+        if ids.GetNumberOfIds() != 4:
+            raise delaunayflip.InvalidMesh(
+                f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
+        third, fourth = ids.GetId(2), ids.GetId(3)
+        ids.SetId(2, fourth)
+        ids.SetId(3, third)
+    return ids
+
+
 _require_no_other()
 
 
@@ -74,4 +157,4 @@ class DelaunayFlip(vtkDelaunayFlip):
         return result
 
     def get_mesh(self, data):
-        return to_poly_data(data)
+        return _to_poly_data(data)

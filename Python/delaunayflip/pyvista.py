@@ -19,38 +19,26 @@ import warnings
 import numpy
 import pyvista
 
-from ._errors import InvalidOptions
-from ._flip import smallest_angles as _angles_of_arrays
-from ._options import check_integer
-from ._report import FIELD_PREFIX, Totals, describe_trouble
-from ._surface import FlipInput, Settings, Slots, Surface, number_tuples
-from ._types import Array, Criterion, Geometry, TieRule
+from ._library import InvalidOptions
+from ._session import smallest_angles as _angles_of_arrays
+from ._options import Array, check_integer
+from ._options import Options as _Options
+from ._report import Totals
+from ._surface import Settings, Slots
+from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
-_SETTINGS = {"triangulate": "triangulate", "lines_as_constraints": "lines",
-             "insert_lines": "insert_lines", "insert_constraints": "insert_constraints"}
-_GLOBAL_IDS, _PEDIGREE_IDS, _ATTRIBUTES = 5, 6, 11  # of vtkDataSetAttributes; how many there are
+_FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
-class Options(typing.TypedDict, total=False):
+class Options(_Options, total=False):
     """Keywords of `flip`; see there and at delaunayflip.flip."""
 
-    geometry: Geometry
-    criterion: Criterion
-    tie_rule: TieRule
-    tolerance: float
-    feature_angle: float
     region_array: str
     lines_as_constraints: bool
     insert_lines: bool
     insert_constraints: bool
     triangulate: bool
-    maximum_iterations: int
-    backend: str
-    threads: int
-    device: int
-    devices: str
-    pieces: int
 
 
 if typing.TYPE_CHECKING:
@@ -71,7 +59,7 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads, device, devices ("0,1") and pieces as for delaunayflip.flip;
+            backend, threads, device, devices, pieces and track_quality as for delaunayflip.flip;
             region_array: a cell array, edges between its values stay; lines_as_constraints,
             insert_lines, insert_constraints and triangulate as in vtkDelaunayFlip.
 
@@ -111,7 +99,7 @@ def smallest_angles(mesh: "pyvista.PolyData") -> Array:
         >>> round(float(angles.min()), 3)
         45.0
     """
-    surface = Surface(_require_mesh("mesh", mesh), _view)
+    surface = vtk_of(_require_mesh("mesh", mesh)).read(mesh)
     polygons = surface.read("Polys")
     if not polygons.are_triangles() or mesh.GetNumberOfStrips():
         raise ValueError("the mesh has polygons that are no triangles, or strips: mesh.triangulate() "
@@ -130,7 +118,7 @@ def plot_quality(mesh: "pyvista.PolyData", **arguments: typing.Any) -> typing.An
     Returns:
         The result of pyvista.PolyData.plot.
     """
-    surface = Surface(_require_mesh("mesh", mesh), _view)
+    surface = vtk_of(_require_mesh("mesh", mesh)).read(mesh)
     shown = _color_by_quality(surface.points, Slots(surface, True).triangles)
     return shown.plot(**{**_look(), "cpos": _choose_camera(mesh), **arguments})
 
@@ -208,41 +196,24 @@ def _require_mesh(name, mesh):
     return mesh
 
 
-def _view(array):
-    """The values of an array of PyVista's VTK."""
-    if not array.HasStandardMemoryLayout():
-        array = array.ToAOSDataArray()
-    return numpy.asarray(pyvista.convert_array(array))
-
-
 class _Run:
     """A session for a mesh, and the way back."""
 
     def __init__(self, mesh, constraints, options):
-        self._mesh, surface = _require_mesh("mesh", mesh), Surface(mesh, _view)
-        others = None
+        self._mesh = _require_mesh("mesh", mesh)
         if constraints is not None:
-            others = Surface(_require_mesh("constraints", constraints), _view)
+            _require_mesh("constraints", constraints)
         for keyword in options:
             if keyword not in Options.__annotations__:
                 raise TypeError(f"{keyword!r} is not an option")
-        flags = {name: bool(check_integer(keyword, options.pop(keyword), 0, 1, "True or False"))
-                 for keyword, name in _SETTINGS.items() if keyword in options}
-        self._input = FlipInput(surface, others, Settings(**flags))
-        self._take_cell_arrays(options.pop("region_array", None))
+        flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
+                 for name in _FLAGS if name in options}
+        regions = options.pop("region_array", None) or ""
+        if regions and regions not in mesh.cell_data:
+            raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r}")
+        self._input = MeshInput(mesh, constraints, Settings(**flags, region_array=regions))
         self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
         self.session = self._input.open(**options)
-
-    def _take_cell_arrays(self, regions):
-        data, cells = self._mesh.cell_data, self._input.slots.cells
-        ghosts = data["vtkGhostType"] if "vtkGhostType" in data else None
-        if ghosts is not None and ghosts.dtype == numpy.uint8 and ghosts.ndim == 1:
-            self._input.freeze(ghosts)
-        if regions:
-            if regions not in data or len(data[regions]) != self._mesh.n_cells:
-                raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r} with a "
-                                     "value for every cell")
-            self._input.regions = number_tuples(numpy.asarray(data[regions]))[cells]
 
     def show(self):
         """The triangles so far, with their smallest angles."""
@@ -250,58 +221,19 @@ class _Run:
 
     def make_mesh(self, flip_counts, quality):
         """The mesh so far. The engine's warnings become Python's."""
-        slots, mesh = self._input.slots, self._mesh
-        made = mesh.copy(deep=False)
-        if len(slots.triangles) == 0:
+        made = self._mesh.copy(deep=False)
+        if len(self._input.slots.triangles) == 0:
             return made
-        made.cell_data.clear()
-        corners = numpy.empty(int(self._input.polygon_sizes.sum()), dtype=numpy.int64)
-        self._input.fill_polygons(self.session, corners)
-        made.faces = _pad(self._input.polygon_sizes, corners)
-        strips = slots.kept_strips - slots.strips.first
-        made.strips = _pad(slots.strips.sizes[strips], slots.strips.gather(strips))
-        left_out = self._pass_cell_data(made)
-        for name, values in self._input.list_numbers(self.session, flip_counts, quality):
-            made.cell_data[name] = values
-        for name, value in Totals.of_run(self.session, self._input).list_fields():
-            made.field_data[FIELD_PREFIX + name] = value if numpy.ndim(value) else [value]
-        report = self.session.report
-        notes = [report.defects] if report.defects else []
-        notes += [*self._input.describe_unmatched(), *left_out]
-        trouble = describe_trouble("; ".join(notes), report, self._options)
+        self._input.store(self.session, made, flip_counts, quality)
+        totals = Totals.of_run(self.session, self._input)
+        trouble = self._input.report(self.session, made, self._options, totals)
         if trouble:
             warnings.warn(trouble, stacklevel=3)
         return made
 
-    def _pass_cell_data(self, made):
-        """Returns texts about arrays that do not fit."""
-        mesh, sources, short = self._mesh, self._input.cell_sources, []
-        for name in mesh.cell_data.keys():
-            values = mesh.cell_data[name]
-            if len(values) < mesh.n_cells:
-                short.append(name)
-            else:
-                made.cell_data[name] = values[sources]
-        given, data = mesh.GetCellData(), made.GetCellData()
-        for kind in range(_ATTRIBUTES):
-            array = given.GetAbstractAttribute(kind)
-            if kind == _GLOBAL_IDS and self._input.slots.divides_cells:
-                kind = _PEDIGREE_IDS  # several cells share an id
-            if array is not None or kind == 0:  # PyVista chooses scalars by itself
-                data.SetActiveAttribute(array.GetName() if array is not None else "", kind)
-        normals = data.GetNormals()
-        if normals is not None and normals.GetNumberOfComponents() == 3:
-            self._input.renew_normals(_view(normals), self.session.triangles)
-        return [f"cell arrays with too few tuples left out: {', '.join(short)}"] if short else []
-
-
-def _pad(sizes, corners):
-    """VTK's old layout of cells: before the corners of each is their number."""
-    return numpy.insert(corners, numpy.cumsum(sizes) - sizes, sizes)
-
 
 def _color_by_quality(points, triangles):
-    shown = pyvista.PolyData(points, faces=_pad(numpy.full(len(triangles), 3), triangles.ravel()))
+    shown = pyvista.PolyData(points, faces=numpy.insert(triangles, 0, 3, axis=1).ravel())
     shown.cell_data[_QUALITY] = _angles_of_arrays(points, triangles)
     return shown
 

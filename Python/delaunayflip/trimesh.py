@@ -6,7 +6,7 @@ import typing
 
 import trimesh
 
-from ._flip import flip as _flip
+from ._session import flip as _flip
 
 
 def flip(mesh: "trimesh.Trimesh", **options: typing.Any) -> "trimesh.Trimesh":

@@ -4,32 +4,30 @@
 #include "DelaunayFlip.h"
 #include "GeneratedMeshes.h"
 #include "Machine.h"
-#include "PeakMemory.h"
 #include "SequentialLawson.h"
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <chrono>
-#include <cstdio>
+#include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 /// @file
 /// Usage: delaunay-flip-benchmark [Google Benchmark's options]. Times the building of edges and the
 /// flips on random bad meshes, CGAL's Delaunay triangulation of the same points, and a sequential
-/// Lawson. Ends with a table of the medians, their ratios and the peak memory, all from this run.
+/// Lawson. Prints the medians of all, and the engine's peak memory.
 
 namespace delaunayflip
 {
 namespace
 {
-
-constexpr std::int64_t Sizes[] = { 100000, 1000000 };
-constexpr int ThreadCounts[] = { 1, 2 };
-constexpr int Repetitions = 5;
-constexpr std::uint32_t Seed = 2013;
 
 using Clock = std::chrono::steady_clock;
 
@@ -44,7 +42,7 @@ const OwnedMesh<float>& GetMesh(std::int64_t points)
   auto found = meshes.find(points);
   if (found == meshes.end())
   {
-    found = meshes.emplace(points, MakeRandomBadMesh(points, Seed)).first;
+    found = meshes.emplace(points, MakeRandomBadMesh(points, 2013)).first;
   }
   return found->second;
 }
@@ -57,15 +55,13 @@ FlipOptions MakeOptions(int threads)
   return options;
 }
 
-void BenchmarkEngine(benchmark::State& state)
+void BenchmarkEngine(benchmark::State& state, int threads, double bytesPerPoint)
 {
   const OwnedMesh<float>& mesh = GetMesh(state.range(0));
-  const FlipOptions options = MakeOptions(static_cast<int>(state.range(1)));
-  for (auto iteration : state)
+  for ([[maybe_unused]] auto iteration : state)
   {
-    (void)iteration;
     const auto start = Clock::now();
-    FlipSession session(mesh.View(), options);
+    FlipSession session(mesh.View(), MakeOptions(threads));
     const double build = SecondsSince(start);
     session.Advance();
     state.SetIterationTime(SecondsSince(start));
@@ -73,6 +69,7 @@ void BenchmarkEngine(benchmark::State& state)
     state.counters["build_ms"] = 1e3 * build;
     state.counters["iterations"] = static_cast<double>(report.Iterations.size());
     state.counters["flips"] = static_cast<double>(report.TotalFlips);
+    state.counters["bytes_per_point"] = bytesPerPoint;
     if (report.NonDelaunayAfter != 0)
     {
       state.SkipWithError("the engine left bad edges");
@@ -83,9 +80,8 @@ void BenchmarkEngine(benchmark::State& state)
 void BenchmarkCgal(benchmark::State& state)
 {
   const OwnedMesh<float>& mesh = GetMesh(state.range(0));
-  for (auto iteration : state)
+  for ([[maybe_unused]] auto iteration : state)
   {
-    (void)iteration;
     const CgalTime time = TimeCgalDelaunay(mesh);
     state.SetIterationTime(time.Seconds);
     if (time.Triangles != mesh.NumberOfTriangles())
@@ -98,144 +94,81 @@ void BenchmarkCgal(benchmark::State& state)
 void BenchmarkLawson(benchmark::State& state)
 {
   const OwnedMesh<float>& mesh = GetMesh(state.range(0));
-  for (auto iteration : state)
+  for ([[maybe_unused]] auto iteration : state)
   {
-    (void)iteration;
     const auto start = Clock::now();
-    SequentialLawson lawson(mesh);
+    SequentialLawson lawson(mesh.View());
     state.counters["build_ms"] = 1e3 * SecondsSince(start);
     state.counters["flips"] = static_cast<double>(lawson.Run());
     state.SetIterationTime(SecondsSince(start));
-    state.PauseTiming();
     OwnedMesh<float> result = mesh;
     result.Triangles = lawson.GetTriangles();
     if (FlipSession(result.View(), MakeOptions(1)).GetReport().NonDelaunayBefore != 0)
     {
       state.SkipWithError("the sequential Lawson left bad edges");
     }
-    state.ResumeTiming();
   }
 }
 
-std::string EngineName(int threads)
+/// A "Name:   123 kB" line of /proc/self/status, in bytes.
+double ReadStatus(const std::string& name)
 {
-  return "Engine " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  std::ifstream file("/proc/self/status");
+  double kilobytes = 0.0;
+  for (std::string word; file >> word;)
+  {
+    if (word == name + ":" && file >> kilobytes)
+    {
+      return 1024.0 * kilobytes;
+    }
+  }
+  throw std::runtime_error("no " + name + " in /proc/self/status");
 }
 
-/// Prints as usual and keeps the times of every repetition.
-class KeepingReporter : public benchmark::ConsoleReporter
+/// The peak resident memory of a whole run beyond its input and output arrays, in bytes.
+///
+/// A forked child shares the input and fills its output array first. It reads its resident size
+/// (VmRSS), runs, and reads the peak since the fork (VmHWM). Threads do not survive a fork, so call
+/// this before any thread is started.
+double MeasurePeakMemory(const OwnedMesh<float>& mesh, const FlipOptions& options)
 {
-public:
-  void ReportRuns(const std::vector<Run>& runs) override
+  int ends[2];
+  double bytes = 0.0;
+  if (pipe(ends) != 0)
   {
-    for (const Run& run : runs)
-    {
-      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
-      {
-        this->Milliseconds[run.run_name.function_name + "/" + run.run_name.args].push_back(
-          run.GetAdjustedRealTime());
-      }
-    }
-    ConsoleReporter::ReportRuns(runs);
+    throw std::runtime_error("no pipe");
   }
-
-  /// Median of the repetitions in milliseconds; 0 if the benchmark did not run.
-  double GetMedian(const std::string& function, const std::string& arguments) const
+  const pid_t child = fork();
+  if (child == 0)
   {
-    const auto found = this->Milliseconds.find(function + "/" + arguments);
-    if (found == this->Milliseconds.end())
-    {
-      return 0.0;
-    }
-    std::vector<double> sorted = found->second;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
+    std::vector<std::int32_t> output = mesh.Triangles;
+    // Memory that the parent has freed but not returned would hide what the run needs.
+    malloc_trim(0);
+    const double before = ReadStatus("VmRSS");
+    FlipToDelaunay(mesh.View(), options, { output.data(), mesh.NumberOfTriangles() });
+    bytes = ReadStatus("VmHWM") - before;
+    _exit(write(ends[1], &bytes, sizeof bytes) == sizeof bytes ? 0 : 1);
   }
+  close(ends[1]);
+  const bool isRead = child > 0 && read(ends[0], &bytes, sizeof bytes) == sizeof bytes;
+  close(ends[0]);
+  if (child > 0)
+  {
+    waitpid(child, nullptr, 0);
+  }
+  return isRead ? bytes : 0.0;
+}
 
-private:
-  std::map<std::string, std::vector<double>> Milliseconds;
-};
-
-void Register(
-  const std::string& name, void (*function)(benchmark::State&), std::vector<std::int64_t> arguments)
+template <typename Function>
+void Register(const std::string& name, std::int64_t points, const Function& function)
 {
   benchmark::RegisterBenchmark(name.c_str(), function)
-    ->Args(arguments)
+    ->Arg(points)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond)
     ->Iterations(1)
-    ->Repetitions(Repetitions);
-}
-
-void RegisterAll()
-{
-  for (std::int64_t points : Sizes)
-  {
-    for (int threads : ThreadCounts)
-    {
-      Register(EngineName(threads), BenchmarkEngine, { points, threads });
-    }
-    Register("CGAL Delaunay", BenchmarkCgal, { points });
-    Register("Sequential Lawson", BenchmarkLawson, { points });
-  }
-}
-
-void PrintRow(const KeepingReporter& reporter, const std::string& name, std::int64_t points,
-  const std::string& arguments)
-{
-  const std::string size = std::to_string(points);
-  const double time = reporter.GetMedian(name, arguments);
-  const double cgal = reporter.GetMedian("CGAL Delaunay", size);
-  const double lawson = reporter.GetMedian("Sequential Lawson", size);
-  if (time > 0.0)
-  {
-    std::printf("%10s  %-18s %10.1f %13.2f %15.2f\n", size.c_str(), name.c_str(), time, cgal / time,
-      lawson / time);
-  }
-}
-
-void PrintRatios(const KeepingReporter& reporter)
-{
-  std::printf(
-    "\n%10s  %-18s %10s %13s %15s\n", "points", "", "median ms", "CGAL / this", "Lawson / this");
-  for (std::int64_t points : Sizes)
-  {
-    const std::string size = std::to_string(points);
-    for (int threads : ThreadCounts)
-    {
-      PrintRow(reporter, EngineName(threads), points, size + "/" + std::to_string(threads));
-    }
-    PrintRow(reporter, "CGAL Delaunay", points, size);
-    PrintRow(reporter, "Sequential Lawson", points, size);
-  }
-}
-
-/// Bytes per point beyond input and output, by size and number of threads.
-using MemoryTable = std::map<std::pair<std::int64_t, int>, double>;
-
-MemoryTable MeasureMemory()
-{
-  MemoryTable table;
-  for (std::int64_t points : Sizes)
-  {
-    for (int threads : ThreadCounts)
-    {
-      const std::int64_t bytes = MeasurePeakMemory(GetMesh(points), MakeOptions(threads));
-      table[{ points, threads }] = static_cast<double>(bytes) / static_cast<double>(points);
-    }
-  }
-  return table;
-}
-
-void PrintMemory(const MemoryTable& table)
-{
-  std::printf("\nPeak memory above input and output (resident size of a forked child, VmHWM at the "
-              "end - VmRSS before):\n");
-  for (const auto& [key, bytes] : table)
-  {
-    std::printf("%10lld  %-18s %10.1f bytes per point\n", static_cast<long long>(key.first),
-      EngineName(key.second).c_str(), bytes);
-  }
+    ->Repetitions(5)
+    ->ReportAggregatesOnly();
 }
 
 }
@@ -244,6 +177,17 @@ void PrintMemory(const MemoryTable& table)
 int main(int argc, char** argv)
 {
   using namespace delaunayflip;
+  for (const std::int64_t points : { 100000, 1000000 })
+  {
+    for (const int threads : { 1, 2 })
+    {
+      const double bytes = MeasurePeakMemory(GetMesh(points), MakeOptions(threads));
+      Register("Engine, threads: " + std::to_string(threads), points,
+        [=](benchmark::State& state) { BenchmarkEngine(state, threads, bytes / points); });
+    }
+    Register("CGAL Delaunay", points, BenchmarkCgal);
+    Register("Sequential Lawson", points, BenchmarkLawson);
+  }
   // Repetitions of the programs alternate, so that other work on the machine slows all of them.
   std::string interleave = "--benchmark_enable_random_interleaving=true";
   std::vector<char*> arguments(argv, argv + argc);
@@ -254,12 +198,7 @@ int main(int argc, char** argv)
   {
     return 1;
   }
-  const MemoryTable memory = MeasureMemory(); // forks, so it must come before any thread
-  RegisterAll();
-  KeepingReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  PrintRatios(reporter);
-  PrintMemory(memory);
-  std::printf("\n%s\n", DescribeMachine().c_str());
+  benchmark::AddCustomContext("machine", DescribeMachine());
+  benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

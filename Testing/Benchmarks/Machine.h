@@ -3,13 +3,34 @@
 #ifndef DELAUNAYFLIP_MACHINE_H
 #define DELAUNAYFLIP_MACHINE_H
 
+#include <fstream>
 #include <string>
+#include <thread>
 
 namespace delaunayflip
 {
 
 /// Describes CPU, cores, compiler and build type in one line.
-std::string DescribeMachine();
+inline std::string DescribeMachine()
+{
+  std::string text = "unknown processor";
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
+    {
+      text = line.substr(colon + 2);
+    }
+  }
+#if defined(__clang__)
+  const std::string compiler = "Clang " __clang_version__;
+#else
+  const std::string compiler = "GCC " __VERSION__;
+#endif
+  return text + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores, " + compiler +
+    ", " DELAUNAYFLIP_BUILD_TYPE;
+}
 
 }
 

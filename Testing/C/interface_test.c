@@ -9,7 +9,7 @@
 #include <string.h>
 
 /** @file
- * Usage: delaunayflip-c-test CASE
+ * The C interface as a C program sees it. Testing/Python/test_arrays.py tests more of what it does.
  */
 
 /* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
@@ -27,64 +27,41 @@ static delaunayflip_mesh MakeMesh(void)
   return mesh;
 }
 
-static int HasShortDiagonal(const int64_t* triangles)
+/* A lattice of points, z = 0, whose columns have been pushed sideways. */
+enum
 {
-  int ends = 0;
-  int i;
-  for (i = 0; i < 6; ++i)
-  {
-    ends += triangles[i] == 1 || triangles[i] == 3;
-  }
-  return ends == 4;
-}
+  Side = 20,
+  LatticeIds = 6 * (Side - 1) * (Side - 1)
+};
+static double LatticePoints[3 * Side * Side];
+static int64_t LatticeTriangles[LatticeIds];
 
-/* A lattice of side x side points, z = 0, whose columns have been pushed sideways. */
-typedef struct
+static delaunayflip_mesh MakeLattice(void)
 {
-  double* points;
-  int64_t* triangles;
-  delaunayflip_mesh mesh;
-} Lattice;
-
-static Lattice MakeLattice(int64_t side)
-{
-  Lattice lattice;
-  int64_t row, column, used = 0;
-  lattice.points = malloc(sizeof(double) * 3 * side * side);
-  lattice.triangles = malloc(sizeof(int64_t) * 6 * (side - 1) * (side - 1));
-  for (row = 0; row < side; ++row)
+  delaunayflip_mesh mesh = MakeMesh();
+  int64_t* next = LatticeTriangles;
+  int64_t row, column;
+  for (row = 0; row < Side; ++row)
   {
-    for (column = 0; column < side; ++column)
+    for (column = 0; column < Side; ++column)
     {
-      double* point = lattice.points + 3 * (row * side + column);
-      point[0] = (double)column + 5.25 * (double)row;
-      point[1] = (double)row;
-      point[2] = 0.0;
+      const int64_t corner = row * Side + column;
+      const int64_t quad[] = { corner, corner + 1, corner + Side + 1, corner, corner + Side + 1,
+        corner + Side };
+      LatticePoints[3 * corner] = (double)column + 5.25 * (double)row;
+      LatticePoints[3 * corner + 1] = (double)row;
+      if (row + 1 < Side && column + 1 < Side)
+      {
+        memcpy(next, quad, sizeof(quad));
+        next += 6;
+      }
     }
   }
-  for (row = 0; row + 1 < side; ++row)
-  {
-    for (column = 0; column + 1 < side; ++column)
-    {
-      const int64_t corner = row * side + column;
-      const int64_t quad[6] = { corner, corner + 1, corner + side + 1, corner, corner + side + 1,
-        corner + side };
-      memcpy(lattice.triangles + used, quad, sizeof(quad));
-      used += 6;
-    }
-  }
-  delaunayflip_mesh_init(&lattice.mesh);
-  lattice.mesh.points = lattice.points;
-  lattice.mesh.number_of_points = side * side;
-  lattice.mesh.triangles = lattice.triangles;
-  lattice.mesh.number_of_triangles = used / 3;
-  return lattice;
-}
-
-static void FreeLattice(Lattice* lattice)
-{
-  free(lattice->points);
-  free(lattice->triangles);
+  mesh.points = LatticePoints;
+  mesh.number_of_points = Side * Side;
+  mesh.triangles = LatticeTriangles;
+  mesh.number_of_triangles = LatticeIds / 3;
+  return mesh;
 }
 
 static delaunayflip_report GetReport(delaunayflip_session* session)
@@ -93,12 +70,6 @@ static delaunayflip_report GetReport(delaunayflip_session* session)
   delaunayflip_report_init(&report);
   CHECK(delaunayflip_get_report(session, &report) == DELAUNAYFLIP_OK);
   return report;
-}
-
-static void TestVersions(void)
-{
-  CHECK(delaunayflip_interface_version() == DELAUNAYFLIP_INTERFACE_VERSION);
-  CHECK(strchr(delaunayflip_version(), '.') != NULL);
 }
 
 static void TestFlipsSquare(void)
@@ -147,15 +118,13 @@ static void TestAllTypes(void)
 
 static void TestSteps(void)
 {
-  Lattice lattice = MakeLattice(20);
+  const delaunayflip_mesh mesh = MakeLattice();
   delaunayflip_session* session;
-  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
-  int64_t* stepped = malloc(bytes);
-  int64_t* whole = malloc(bytes);
-  int32_t* counts = malloc(sizeof(int32_t) * lattice.mesh.number_of_triangles);
+  int64_t stepped[LatticeIds], whole[LatticeIds];
+  int32_t counts[LatticeIds / 3];
   int32_t is_running = 1;
   int64_t steps = 0, flips = 0, i;
-  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
   while (is_running)
   {
     CHECK(delaunayflip_advance(session, 1, NULL, &is_running) == DELAUNAYFLIP_OK);
@@ -166,31 +135,18 @@ static void TestSteps(void)
   CHECK(steps > 2);
   CHECK(delaunayflip_store_triangles(session, stepped, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_store_flip_counts(session, counts) == DELAUNAYFLIP_OK);
-  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, whole, NULL) == DELAUNAYFLIP_OK);
-  CHECK(memcmp(stepped, whole, bytes) == 0);
-  for (i = 0; i < lattice.mesh.number_of_triangles; ++i)
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, whole, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(stepped, whole, sizeof(whole)) == 0);
+  for (i = 0; i < mesh.number_of_triangles; ++i)
   {
     flips += counts[i];
   }
   CHECK(flips == 2 * GetReport(session).total_flips && flips > 0);
   delaunayflip_close(session);
-  free(stepped);
-  free(whole);
-  free(counts);
-  FreeLattice(&lattice);
-}
-
-static void TestInPlace(void)
-{
-  Lattice lattice = MakeLattice(10);
-  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
-  int64_t* apart = malloc(bytes);
-  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, apart, NULL) == DELAUNAYFLIP_OK);
-  CHECK(memcmp(apart, lattice.triangles, bytes) != 0);
-  CHECK(delaunayflip_flip(&lattice.mesh, NULL, NULL, lattice.triangles, NULL) == DELAUNAYFLIP_OK);
-  CHECK(memcmp(apart, lattice.triangles, bytes) == 0);
-  free(apart);
-  FreeLattice(&lattice);
+  /* In place. */
+  CHECK(memcmp(LatticeTriangles, whole, sizeof(whole)) != 0);
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, LatticeTriangles, NULL) == DELAUNAYFLIP_OK);
+  CHECK(memcmp(LatticeTriangles, whole, sizeof(whole)) == 0);
 }
 
 static void TestConstraints(void)
@@ -198,23 +154,22 @@ static void TestConstraints(void)
   const int64_t diagonal[] = { 2, 0 };
   const int32_t regions[] = { 7, 8 };
   const unsigned char frozen[] = { 0, 1 };
-  delaunayflip_mesh mesh = MakeMesh();
-  int64_t triangles[6];
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  mesh.constraint_edges = diagonal;
-  mesh.number_of_constraint_edges = 1;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(memcmp(triangles, LongDiagonal, sizeof(triangles)) == 0);
-  CHECK(report.constraint_edges == 1 && report.total_flips == 0);
-  mesh = MakeMesh();
-  mesh.regions = regions;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(report.region_edges == 1 && report.total_flips == 0);
-  mesh = MakeMesh();
-  mesh.frozen_triangles = frozen;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(report.total_flips == 0);
+  delaunayflip_mesh meshes[] = { MakeMesh(), MakeMesh(), MakeMesh() };
+  int i;
+  meshes[0].constraint_edges = diagonal;
+  meshes[0].number_of_constraint_edges = 1;
+  meshes[1].regions = regions;
+  meshes[2].frozen_triangles = frozen;
+  for (i = 0; i < 3; ++i)
+  {
+    int64_t triangles[6];
+    delaunayflip_report report;
+    delaunayflip_report_init(&report);
+    CHECK(delaunayflip_flip(&meshes[i], NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+    CHECK(memcmp(triangles, LongDiagonal, sizeof(triangles)) == 0);
+    CHECK(report.constraint_edges == (i == 0) && report.region_edges == (i == 1));
+    CHECK(report.total_flips == 0);
+  }
 }
 
 typedef struct
@@ -222,7 +177,6 @@ typedef struct
   int64_t calls;
   int64_t last_call; /* The call that returns 0. */
   double share;
-  int64_t flips;
 } Log;
 
 static int32_t LogProgress(double share, void* user)
@@ -233,78 +187,25 @@ static int32_t LogProgress(double share, void* user)
   return ++log->calls != log->last_call;
 }
 
-static int32_t LogIteration(const delaunayflip_iteration* record, void* user)
-{
-  Log* log = user;
-  log->flips += record->flipped;
-  CHECK(record->iteration == log->calls + 1);
-  return ++log->calls != log->last_call;
-}
-
-static void TestConstraintIsInserted(void)
-{
-  const int64_t shortDiagonal[] = { 0, 1, 3, 1, 2, 3 };
-  const int64_t diagonal[] = { 0, 2 };
-  const unsigned char insert[] = { 1 };
-  delaunayflip_mesh mesh = MakeMesh();
-  int64_t triangles[6];
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  mesh.triangles = shortDiagonal;
-  mesh.constraint_edges = diagonal;
-  mesh.number_of_constraint_edges = 1;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(HasShortDiagonal(triangles));
-  CHECK(report.unmatched_constraints == 1 && report.inserted_constraints == 0);
-  mesh.constraints_to_insert = insert;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(!HasShortDiagonal(triangles));
-  CHECK(report.inserted_constraints == 1 && report.constraint_flips == 1);
-}
-
 static void TestProgressAborts(void)
 {
-  Lattice lattice = MakeLattice(50);
-  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
-  int64_t* triangles = malloc(bytes);
-  Log log = { 0, 0, 0.0, 0 };
+  const delaunayflip_mesh mesh = MakeLattice();
+  int64_t triangles[LatticeIds];
+  Log whole = { 0, 0, 0.0 };
+  Log aborted = { 0, 1, 0.0 };
   delaunayflip_callbacks callbacks;
   delaunayflip_report report;
   delaunayflip_report_init(&report);
   delaunayflip_callbacks_init(&callbacks);
   callbacks.progress = LogProgress;
-  callbacks.user = &log;
-  CHECK(delaunayflip_flip(&lattice.mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(log.calls > 1 && log.share == 1.0);
-  log.calls = 0;
-  log.last_call = 1;
-  log.share = 0.0;
-  CHECK(delaunayflip_flip(&lattice.mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(log.calls == 1);
+  callbacks.user = &whole;
+  CHECK(delaunayflip_flip(&mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(whole.calls > 1 && whole.share == 1.0);
+  callbacks.user = &aborted;
+  CHECK(delaunayflip_flip(&mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(aborted.calls == 1);
   CHECK(report.stop_reason == DELAUNAYFLIP_ABORTED && report.total_flips == 0);
-  CHECK(memcmp(triangles, lattice.triangles, bytes) == 0);
-  free(triangles);
-  FreeLattice(&lattice);
-}
-
-static void TestIterationAborts(void)
-{
-  Lattice lattice = MakeLattice(30);
-  Log log = { 0, 2, 0.0, 0 };
-  delaunayflip_callbacks callbacks;
-  delaunayflip_session* session;
-  int32_t is_running = 1;
-  delaunayflip_callbacks_init(&callbacks);
-  callbacks.iteration = LogIteration;
-  callbacks.user = &log;
-  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
-  CHECK(delaunayflip_advance(session, -1, &callbacks, &is_running) == DELAUNAYFLIP_OK);
-  CHECK(!is_running);
-  CHECK(log.calls == 2);
-  CHECK(GetReport(session).stop_reason == DELAUNAYFLIP_ABORTED);
-  CHECK(GetReport(session).total_flips == log.flips);
-  delaunayflip_close(session);
-  FreeLattice(&lattice);
+  CHECK(memcmp(triangles, LatticeTriangles, sizeof(triangles)) == 0);
 }
 
 static void TestInvalidMesh(void)
@@ -312,15 +213,11 @@ static void TestInvalidMesh(void)
   const int64_t wrong[] = { 0, 1, 2, 0, 2, 4 };
   delaunayflip_mesh mesh = MakeMesh();
   int64_t triangles[6] = { -1, -1, -1, -1, -1, -1 };
-  double angles[2] = { -1.0, -1.0 };
   mesh.triangles = wrong;
   CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_MESH);
   CHECK(delaunayflip_error_cell() == 1 && delaunayflip_error_point() == 4);
   CHECK(strstr(delaunayflip_error_message(), "4") != NULL);
   CHECK(triangles[0] == -1);
-  CHECK(delaunayflip_triangle_angles(&mesh, DELAUNAYFLIP_GEOMETRY_SURFACE, angles) ==
-    DELAUNAYFLIP_INVALID_MESH);
-  CHECK(angles[0] == -1.0);
 }
 
 static void TestInvalidOptions(void)
@@ -418,23 +315,13 @@ static void TestEmptyMesh(void)
   CHECK(isnan(report.minimum_angle_before));
 }
 
-static void TestAngles(void)
-{
-  const delaunayflip_mesh mesh = MakeMesh();
-  double angles[2];
-  CHECK(
-    delaunayflip_triangle_angles(&mesh, DELAUNAYFLIP_GEOMETRY_SURFACE, angles) == DELAUNAYFLIP_OK);
-  CHECK(fabs(angles[0] - 26.565051177077976) < 1e-9);
-  CHECK(fabs(angles[0] - angles[1]) < 1e-12);
-}
-
 static void TestIterations(void)
 {
-  Lattice lattice = MakeLattice(20);
+  const delaunayflip_mesh mesh = MakeLattice();
   delaunayflip_session* session;
   delaunayflip_iteration records[3];
   delaunayflip_report report;
-  CHECK(delaunayflip_open(&lattice.mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_advance(session, 3, NULL, NULL) == DELAUNAYFLIP_OK);
   report = GetReport(session);
   CHECK(report.number_of_iterations == 3);
@@ -447,26 +334,6 @@ static void TestIterations(void)
     DELAUNAYFLIP_INVALID_CALL);
   CHECK(delaunayflip_get_iterations(session, 3, 0, NULL, sizeof(records[0])) == DELAUNAYFLIP_OK);
   delaunayflip_close(session);
-  FreeLattice(&lattice);
-}
-
-static void TestBackendUnavailable(void)
-{
-  const delaunayflip_mesh mesh = MakeMesh();
-  int64_t triangles[6];
-  delaunayflip_options options;
-  delaunayflip_options_init(&options);
-  options.backend = DELAUNAYFLIP_BACKEND_CUDA;
-  if (delaunayflip_has_cuda_device())
-  {
-    CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_OK);
-    CHECK(HasShortDiagonal(triangles));
-    delaunayflip_release_cuda_memory();
-    return;
-  }
-  CHECK(
-    delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_BACKEND_UNAVAILABLE);
-  CHECK(strlen(delaunayflip_error_message()) > 0);
 }
 
 /* device_test.c has what needs a GPU. */
@@ -501,48 +368,6 @@ static void TestDeviceMemory(void)
   delaunayflip_close(session);
 }
 
-static void TestThreads(void)
-{
-  Lattice lattice = MakeLattice(100);
-  const size_t bytes = sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles;
-  int64_t* one = malloc(bytes);
-  int64_t* three = malloc(bytes);
-  delaunayflip_options options;
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  delaunayflip_options_init(&options);
-  options.backend = DELAUNAYFLIP_BACKEND_THREADS;
-  options.number_of_threads = 1;
-  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, one, &report) == DELAUNAYFLIP_OK);
-  CHECK(strcmp(report.backend, "Threads: 1") == 0);
-  options.number_of_threads = 3;
-  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, three, NULL) == DELAUNAYFLIP_OK);
-  CHECK(memcmp(one, three, bytes) == 0);
-  free(one);
-  free(three);
-  FreeLattice(&lattice);
-}
-
-static void TestPieces(void)
-{
-  Lattice lattice = MakeLattice(40);
-  int64_t* triangles = malloc(sizeof(int64_t) * 3 * lattice.mesh.number_of_triangles);
-  delaunayflip_options options;
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  delaunayflip_options_init(&options);
-  CHECK(options.number_of_pieces == 0);
-  options.number_of_pieces = 4;
-  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(report.stop_reason == DELAUNAYFLIP_CONVERGED && report.total_flips > 0);
-  CHECK(report.non_delaunay_after == 0);
-  options.number_of_pieces = 256;
-  CHECK(delaunayflip_flip(&lattice.mesh, &options, NULL, triangles, NULL) ==
-    DELAUNAYFLIP_INVALID_OPTIONS);
-  free(triangles);
-  FreeLattice(&lattice);
-}
-
 /* A quad, a line that is no polygon, and an L of six corners, whose fan would leave it. */
 static void TestPolygons(void)
 {
@@ -553,6 +378,8 @@ static void TestPolygons(void)
   int64_t triangles[18];
   delaunayflip_mesh mesh;
   delaunayflip_polygons polygons;
+  delaunayflip_callbacks callbacks;
+  Log log = { 0, 1, 0.0 };
   int i;
   delaunayflip_mesh_init(&mesh);
   mesh.points = points;
@@ -570,35 +397,15 @@ static void TestPolygons(void)
     const double* c = points + 3 * triangles[i + 2];
     CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
   }
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(
+    delaunayflip_split_polygons(&mesh, &polygons, &callbacks, triangles) == DELAUNAYFLIP_STOPPED);
   mesh.number_of_points = 5;
   CHECK(
     delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_INVALID_MESH);
   CHECK(delaunayflip_error_cell() == 2 && delaunayflip_error_point() == 5);
-}
-
-static int32_t StopAtOnce(double share, void* user)
-{
-  (void)share;
-  (void)user;
-  return 0;
-}
-
-static void TestPolygonsCanBeStopped(void)
-{
-  const int64_t corners[] = { 0, 1, 2, 3 };
-  const int64_t offsets[] = { 0, 4 };
-  int64_t triangles[6];
-  const delaunayflip_mesh mesh = MakeMesh();
-  delaunayflip_callbacks callbacks;
-  delaunayflip_polygons polygons;
-  delaunayflip_polygons_init(&polygons);
-  polygons.number_of_polygons = 1;
-  polygons.offsets = offsets;
-  polygons.corners = corners;
-  delaunayflip_callbacks_init(&callbacks);
-  callbacks.progress = StopAtOnce;
-  CHECK(
-    delaunayflip_split_polygons(&mesh, &polygons, &callbacks, triangles) == DELAUNAYFLIP_STOPPED);
 }
 
 /* Triangle 1 repeats a point; the report calls it 7. */
@@ -650,35 +457,25 @@ static void TestWarmStart(void)
   CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, NULL) == DELAUNAYFLIP_INVALID_CALL);
 }
 
-typedef struct
+int main(void)
 {
-  const char* name;
-  void (*run)(void);
-} Case;
-
-int main(int argc, char** argv)
-{
-  const Case cases[] = { { "versions", TestVersions }, { "flips_square", TestFlipsSquare },
-    { "all_types", TestAllTypes }, { "steps", TestSteps }, { "in_place", TestInPlace },
-    { "constraints", TestConstraints }, { "inserted_constraint", TestConstraintIsInserted },
-    { "progress_aborts", TestProgressAborts }, { "iteration_aborts", TestIterationAborts },
-    { "invalid_mesh", TestInvalidMesh }, { "invalid_options", TestInvalidOptions },
-    { "null_pointers", TestNullPointers }, { "unset_sizes", TestUnsetSizes },
-    { "old_program", TestOldProgram }, { "newer_program", TestNewerProgram },
-    { "empty_mesh", TestEmptyMesh }, { "angles", TestAngles }, { "iterations", TestIterations },
-    { "backend_unavailable", TestBackendUnavailable }, { "device_memory", TestDeviceMemory },
-    { "threads", TestThreads }, { "pieces", TestPieces }, { "polygons", TestPolygons },
-    { "polygons_stopped", TestPolygonsCanBeStopped }, { "triangle_numbers", TestTriangleNumbers },
-    { "warm_start", TestWarmStart }, { "normals", TestNormals } };
-  size_t i;
-  for (i = 0; argc == 2 && i < sizeof(cases) / sizeof(cases[0]); ++i)
-  {
-    if (strcmp(cases[i].name, argv[1]) == 0)
-    {
-      cases[i].run();
-      return 0;
-    }
-  }
-  fprintf(stderr, "usage: delaunayflip-c-test CASE\n");
-  return 2;
+  TestFlipsSquare();
+  TestAllTypes();
+  TestSteps();
+  TestConstraints();
+  TestProgressAborts();
+  TestInvalidMesh();
+  TestInvalidOptions();
+  TestNullPointers();
+  TestUnsetSizes();
+  TestOldProgram();
+  TestNewerProgram();
+  TestEmptyMesh();
+  TestIterations();
+  TestDeviceMemory();
+  TestPolygons();
+  TestTriangleNumbers();
+  TestWarmStart();
+  TestNormals();
+  return 0;
 }

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 try:
+    import vtkmodules.vtkCommonCore as vtk
     from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOBJWriter, vtkSTLReader, vtkSTLWriter
@@ -239,3 +240,74 @@ def edge_counts(triangles):
             uses[key] = uses.get(key, 0) + 1
     counts = list(uses.values())
     return len(counts), counts.count(1), sum(count > 2 for count in counts)
+
+
+def make_values(kind, name, tuples):
+    """An array of a VTK class from tuples of values."""
+    array = getattr(vtk, kind)()
+    array.SetName(name)
+    array.SetNumberOfComponents(len(tuples[0]))
+    for values in tuples:
+        for value in values:
+            array.InsertNextValue(value)
+    return array
+
+
+def values_of(array):
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
+def tuples_of(array):
+    return [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+
+
+def same(first, second):
+    """Equality for which a NaN equals itself."""
+    return len(first) == len(second) and all(
+        a == b or (a != a and b != b) for a, b in zip(first, second)
+    )
+
+
+class BadFileTest(CommandTest):
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def refuse(self, name, *naming):
+        """Expects exit code 3, one line about the file and the reason, and no output."""
+        before = sorted(os.listdir(self.folder))
+        result = self.fail_with(3, name, "out.vtk", naming=[name, *naming])
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+
+class ArrayTest(BadFileTest):
+    """Compares arrays."""
+
+    def convert(self, mesh, *names):
+        """Passes a mesh through files with these names without losses. Returns the last mesh."""
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        for name in names:
+            self.assertEqual(self.succeed(source, name).stderr, "", name)
+            source = name
+        return read_mesh(self.path(names[-1]))
+
+    def read_plainly(self, name):
+        """The mesh that VTK's own reader reads, without errors or warnings."""
+        problems = []
+        window = vtk.vtkStringOutputWindow()
+        before = vtk.vtkOutputWindow.GetInstance()
+        vtk.vtkOutputWindow.SetInstance(window)
+        try:
+            mesh = read_mesh(self.path(name))
+            problems.append(window.GetOutput())
+        finally:
+            vtk.vtkOutputWindow.SetInstance(before)
+        self.assertEqual(problems, [""], name)
+        return mesh
+
+    def assert_array(self, array, kind, values):
+        self.assertIsNotNone(array)
+        self.assertEqual(array.GetDataType(), getattr(vtk, kind)().GetDataType(), array.GetName())
+        self.assertTrue(same(values_of(array), values), f"{array.GetName()}: {values_of(array)}")

@@ -8,24 +8,10 @@ import random
 import struct
 import unittest
 
-from CommandTesting import CommandTest, bumpy_grid, make_mesh, read_mesh, triangles_of, write_mesh
+from CommandTesting import BadFileTest, bumpy_grid, make_mesh, read_mesh, triangles_of, write_mesh
 
 GRID = 4
 TRIANGLES = 2 * (GRID - 1) ** 2
-
-
-class BadFileTest(CommandTest):
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-        return name
-
-    def refuse(self, name, *naming):
-        """Expects exit code 3, one line about the file and the reason, and no output."""
-        before = sorted(os.listdir(self.folder))
-        result = self.fail_with(3, name, "out.vtk", naming=[name, *naming])
-        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before)
 
 
 class Truncated(BadFileTest):
@@ -144,90 +130,7 @@ class Corrupt(BadFileTest):
                 self.refuse(name, str(bad))
 
 
-class LostByVtk(BadFileTest):
-    """VTK's readers give up a part of these, or all, and report nothing."""
-
-    def test_more_sections_than_one_of_a_vtk(self):
-        head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
-        for section in ("POLYGONS", "LINES", "VERTICES", "TRIANGLE_STRIPS"):
-            self.write("a.vtk", head + 2 * f"{section} 1 4\n3 0 1 2\n")
-            self.refuse("a.vtk", section, "2", "1")
-        self.write("a.vtk", head + "POLYGONS 1 4\n3 0 1 2\nPOLYGONS 0 0\n")
-        self.refuse("a.vtk", "POLYGONS", "1", "0")
-
-    def damaged(self):
-        """Damaged files, each with the attribute of Piece that shows it."""
-        path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
-        with open(path, encoding="ascii") as file:
-            good = file.read()
-        words = '<FieldData><Array type="String" Name="w" format="ascii" {}>104 101 abc 0</Array></FieldData>'
-        field = "<PolyData>\n" + words.format('NumberOfTuples="1"')
-        yield "NumberOfPoints", good.replace("<PolyData>", field)
-        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="19"')
-        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="17"')
-        yield "NumberOfPoints", good.replace('NumberOfPoints="16"', 'NumberOfPoints="17"')
-        polys = good.index("<Polys>")
-        for array in ("connectivity", "offsets"):
-            begin = good.index(f'Name="{array}"', polys)
-            begin = good.rindex("<DataArray", 0, begin)
-            end = good.index("</DataArray>", begin) + len("</DataArray>")
-            yield "NumberOfPolys", good[:begin] + good[end:]
-            yield "NumberOfPolys", good.replace(good[begin:end], good[begin:end].replace(array, "x"))
-        for kind, count in (("Points", 16), ("Polys", 18)):
-            yield f"NumberOf{kind}", good.replace(f' NumberOf{kind}="{count}"', "")
-        for kind in ("Lines", "Verts", "Strips"):
-            yield f"NumberOf{kind}", good.replace(f'NumberOf{kind}="0"', f'NumberOf{kind}="2"')
-        for mode in ("Binary", "Appended"):
-            for compressor in ("None", "LZ4"):
-                settings = {f"SetDataModeTo{mode}": (), f"SetCompressorTypeTo{compressor}": ()}
-                write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), **settings)
-                with open(path, encoding="latin-1") as file:
-                    binary = file.read()
-                for kind, count in (("Polys", 18), ("Points", 16)):
-                    for wrong in (count - 1, count + 1):
-                        old, new = (f'NumberOf{kind}="{n}"' for n in (count, wrong))
-                        self.assertIn(old, binary)
-                        yield f"NumberOf{kind}", binary.replace(old, new)
-
-    def test_is_refused(self):
-        for attribute, content in self.damaged():
-            with self.subTest(attribute):
-                before = content.encode("latin-1")
-                self.write("mesh.vtp", before)
-                self.refuse("mesh.vtp")
-                self.fail_with(3, "mesh.vtp", "mesh.vtp", naming=["mesh.vtp"])
-                with open(self.path("mesh.vtp"), "rb") as file:
-                    self.assertEqual(file.read(), before)
-                good = write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk"))
-                self.fail_with(3, good, "out.vtk", "--constraints", "mesh.vtp", naming=["mesh.vtp"])
-
-
 class OtherData(BadFileTest):
-    def test_other_legacy_type(self):
-        self.write(
-            "grid.vtk",
-            "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-            "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
-        )
-        self.refuse("grid.vtk", "UNSTRUCTURED_GRID", "Extract Surface")
-
-    def test_other_xml_type(self):
-        self.write(
-            "grid.vtp",
-            '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1">\n'
-            "<UnstructuredGrid/>\n</VTKFile>\n",
-        )
-        self.refuse("grid.vtp", "UnstructuredGrid", "Extract Surface")
-
-    def test_newer_version(self):
-        """Only a warning, since the file may be readable."""
-        write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
-        with open(self.path("a.vtk"), encoding="ascii") as file:
-            text = file.read()
-        self.assertIn("Version 5.1", text)
-        self.write("a.vtk", text.replace("Version 5.1", "Version 6.7"))
-        self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
-
     def test_no_triangles(self):
         """An input without triangles is not an error."""
         write_mesh(make_mesh([(0, 0, 0), (1, 0, 0)], []), self.path("points.vtk"))

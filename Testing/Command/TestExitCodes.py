@@ -79,9 +79,6 @@ class WrongUsage(CommandTest):
             self.refuse("empty", option, "")
             self.refuse(option, option, "")
 
-    def test_options_are_named_as_options(self):
-        self.refuse("--region-array", "--region-array", "none")
-
     def test_one_name_for_two_files(self):
         self.refuse("out.vtk", "--report", "./out.vtk")
         self.refuse("same", "--report", "same", "--statistics", "same")

@@ -117,7 +117,7 @@ class Terminal(CommandTest):
     def test_progress_bar_never_goes_back(self):
         """Each part of the job continues where the one before it ended."""
         mesh = write_mesh(bumpy_grid(500, 0), self.path("mesh.vtk"))  # some redraws per part
-        for name, most in (("out.vtp", 50), ("out.vtk", 90)):  # .vtp takes longer to be written
+        for name, most in (("out.vtp", 65), ("out.vtk", 90)):  # .vtp takes longer to be written
             text = self.errors_on_terminal(mesh, name).decode()
             bars = re.findall(r"\[(#*)-*\] (\d+) %, (\w+)", text)
             percents = [int(percent) for _, percent, _ in bars]

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small files that ask for much memory, numbers at the ends of their ranges, and pipes as files."""
+"""Small files that ask for much memory, and pipes as files."""
 
-import math
 import os
 import resource
 import threading
@@ -10,16 +9,13 @@ import unittest
 
 from CommandTesting import (
     FORMATS,
+    BadFileTest,
     bumpy_grid,
-    make_mesh,
-    points_of,
     read_mesh,
     triangles_of,
     write_mesh,
 )
-from TestBadFiles import BadFileTest
 from TestNumbers import TRIANGLE, as_text
-from vtkmodules.vtkCommonCore import vtkDoubleArray
 
 MOST_MEMORY = 3 << 30  # for refusing a file of a few hundred bytes
 
@@ -75,6 +71,7 @@ class ExcessiveSizes(BadFileTest):
             ('NumberOfComponents="3"', 'NumberOfComponents="-3"'),
             ('NumberOfComponents="3"', 'NumberOfComponents="3x"'),
             ('NumberOfComponents="3"', 'NumberOfComponents="99999999999"'),
+            ('NumberOfComponents="3"', 'NumberOfComponents="2147483648"'),
             ('NumberOfPoints="3"', 'NumberOfPoints="99999999999"'),
             ('NumberOfPoints="3"', 'NumberOfPoints=" "'),
             ('NumberOfPolys="1"', 'NumberOfPolys="99999999"'),
@@ -85,7 +82,7 @@ class ExcessiveSizes(BadFileTest):
         field = '<FieldData><DataArray type="{}" Name="f" NumberOfTuples="4000000000"/></FieldData>'
         for kind in ("Float64", "String", "Bit"):
             content = good.replace("<Piece", field.format(kind) + "<Piece", 1)
-            self.refuse_quickly("a.vtp", content, "'f'")
+            self.refuse_quickly("a.vtp", content)
 
     def test_counts_of_ply(self):
         good = as_text(TRIANGLE, "a.ply")
@@ -113,56 +110,6 @@ class ExcessiveSizes(BadFileTest):
         self.assertEqual(self.report("a.obj", "out.stl")["triangles"], 300000)
 
 
-class Extremes(BadFileTest):
-    """VTK writes the ranges of such numbers into files and cannot always read them."""
-
-    def round_trip(self, mesh, check):
-        for first in (".vtk", ".vtp"):
-            path = write_mesh(mesh, self.path("in" + first))
-            for second in (".vtk", ".vtp"):
-                self.succeed(path, "out" + second)
-                self.succeed("out" + second, "again.vtk")
-                check(read_mesh(self.path("again.vtk")))
-
-    def test_large_coordinates(self):
-        points = [(0, 0, 0), (1e200, 0, 0), (1.7e308, 1.7e308, 0), (0, -1e300, 0)]
-        self.round_trip(
-            make_mesh(points, [(0, 1, 2), (0, 3, 1)]),
-            lambda mesh: self.assertEqual(points_of(mesh), points),
-        )
-
-    def test_infinite_and_nan_coordinates(self):
-        points = [(0.0, 0.0, 0.0), (math.inf, 0.0, 0.0), (0.0, 1.0, -math.inf)]
-        points += [(math.nan, 0.0, 0.0), (1.0, 1.0, 0.0)]
-        self.round_trip(
-            make_mesh(points, [(0, 1, 2), (0, 3, 4)]),
-            lambda mesh: self.assertEqual(repr(points_of(mesh)), repr(points)),
-        )
-
-    def test_arrays(self):
-        mesh = make_mesh(TRIANGLE, [(0, 1, 2)])
-        arrays = {
-            "nan": [math.nan] * 3,
-            "inf": [math.inf] * 3,
-            "mixed": [-math.inf, math.nan, 1.5],
-            "large": [1.7e308, -1.7e308, 1e200],
-        }
-        for name, values in arrays.items():
-            array = vtkDoubleArray()
-            array.SetName(name)
-            array.SetNumberOfComponents(2)
-            for value in values:
-                array.InsertNextTuple((value, 1))
-            mesh.GetPointData().AddArray(array)
-
-        def check(found):
-            for name, values in arrays.items():
-                array = found.GetPointData().GetArray(name)
-                self.assertEqual(repr([array.GetTuple(i)[0] for i in range(3)]), repr(values), name)
-
-        self.round_trip(mesh, check)
-
-
 class Pipes(BadFileTest):
     def test_every_format(self):
         mesh = bumpy_grid(20, 0)
@@ -188,13 +135,6 @@ class Pipes(BadFileTest):
         writer.start()
         self.fail_with(3, "pipe.obj", "out.vtk", naming=["pipe.obj: line 1: 'x'"])
         writer.join()
-
-    def test_name_that_begins_with_a_dash(self):
-        for name in ("-.obj", "-mesh.obj"):
-            self.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-            self.succeed("--", name, "-out.vtk")
-            self.assertTrue(os.path.exists(self.path("-out.vtk")))
-
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

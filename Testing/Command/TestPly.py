@@ -1,13 +1,25 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every element and property of a .ply, as text and binary of both byte orders."""
+"""Every element and property of a .ply: read as text and binary of both byte orders, and written."""
 
+import math
 import struct
 import unittest
 
-from CommandTesting import cells_of, points_of, read_mesh, triangles_of
-from TestBadFiles import BadFileTest
-from TestObj import tuples_of
+from CommandTesting import (
+    ArrayTest,
+    BadFileTest,
+    bumpy_grid,
+    cells_of,
+    make_mesh,
+    make_values,
+    points_of,
+    read_mesh,
+    triangles_of,
+    tuples_of,
+    values_of,
+    write_mesh,
+)
 
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
          "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
@@ -59,87 +71,55 @@ class PlyTest(BadFileTest):
 
 
 class Elements(PlyTest):
-    def test_triangle_strips(self):
-        """The original form of igea.ply; -1 separates strips."""
-        strips = [([0, 1, 2, 3, -1, 3, 2, 1],), ([0, 1, 3],), ([-1, 2, -1],)]
-        for mesh, _ in self.read_all(
-            ("vertex", XYZ, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]),
-            ("tristrips", ["list int int vertex_indices"], strips),
-        ):
-            triangles = triangles_of(mesh)
-            self.assertEqual(triangles, [(0, 1, 2), (2, 1, 3), (3, 2, 1), (0, 1, 3)])
-
-    def test_faces_and_strips_and_edges(self):
-        for mesh, _ in self.read_all(
+    def test_faces_and_edges(self):
+        for mesh, said in self.read_all(
             ("edge", ["int vertex1", "int vertex2", "uchar red"], [(0, 1, 9), (2, 3, 9)]),
             ("vertex", XYZ, SQUARE),
-            ("tristrips", INDICES, [([0, 2, 3],)]),
             ("face", INDICES + ["short mark"], [([0, 1, 2], -7)]),
         ):
-            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
             self.assertEqual(cells_of(mesh.GetLines()), [(0, 1), (2, 3)])
             marks = [int(mark) for (mark,) in tuples_of(mesh.GetCellData().GetArray("mark"))]
-            self.assertEqual(marks, [0, 0, -7, 0])
+            self.assertEqual(marks, [0, 0, -7])
+            self.assertIn("a.ply: left out the other properties of its edges", said)
 
     def test_unknown_element_with_lists_is_refused(self):
         vertices = ("vertex", XYZ, SQUARE)
         polygons = ("polygons", INDICES, [([0, 1, 2],)])
         self.refuse_all((vertices, polygons), "'polygons'")
-        self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)]), polygons), "'polygons'")
-        self.refuse_all((vertices, ("triangle", ["int a", "int b"], [(0, 1)])), "'triangle'")
+        strips = ("tristrips", ["list int int vertex_indices"], [([0, 1, 2, -1],)])
+        self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)]), strips), "'tristrips'")
 
-    def test_other_elements_are_left_out_with_a_note(self):
+    def test_other_elements_are_left_out_with_a_warning(self):
         for mesh, said in self.read_all(
             ("camera", ["float view", "double far"], [(1, 2)]),
             ("vertex", XYZ, SQUARE),
             ("face", INDICES, [([0, 1, 2],)]),
         ):
-            self.assertIn("a.ply: ignored 1 element of the unknown type 'camera'", said)
+            self.assertIn("warning: a.ply: left out 1 element of the unknown type 'camera'", said)
             self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
 
     def test_vertices_that_do_not_exist(self):
         for bad in (4, -1, -2):
             faces = ("face", INDICES, [([0, 1, 2],), ([0, 1, bad],)])
             self.refuse_all((("vertex", XYZ, SQUARE), faces), f"vertex {bad} is out of range")
-        strips = ("tristrips", INDICES, [([0, 1, 4],)])
-        self.refuse_all((("vertex", XYZ, SQUARE), strips), "vertex 4 is out of range")
         edges = ("edge", ["int vertex1", "int vertex2"], [(0, 4)])
-        self.refuse_all((("vertex", XYZ, SQUARE), edges), "edge 0")
+        self.refuse_all((("vertex", XYZ, SQUARE), edges), "edge 0", "vertex 4 is out of range")
 
     def test_rows_of_another_length(self):
         content = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        for row, line in ((b"3 0 1", 15), (b"3 0 1 2 3", 15), (b"", 16)):
+        for row, place in ((b"3 0 1", "line 15:"), (b"3 0 1 2 3", "line 15:"), (b"", "face 0:")):
             self.write("a.ply", content.replace(b"3 0 1 2\n", row + b"\n"))
-            self.refuse("a.ply", f"line {line}:")
+            self.refuse("a.ply", place)
 
     def test_bytes_behind_the_end_are_named(self):
         for encoding in ENCODINGS:
             content = make_ply(encoding, ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
             self.write("a.ply", content + b"3 0 2 3")
-            self.assertIn("a.ply: ignored 7 bytes after its last", self.succeed("a.ply", "out.vtp").stderr)
+            self.assertIn("a.ply: left out 7 bytes after its last", self.succeed("a.ply", "out.vtp").stderr)
 
 
 class Properties(PlyTest):
-    def test_double_coordinates(self):
-        points = [(581311.123 + i, 4785270.456 + i * i, 1 / 3) for i in range(3)]
-        axes = ["double x", "double y", "double z"]
-        for mesh, said in self.read_all(
-            ("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])
-        ):
-            self.assertEqual(points_of(mesh), points)
-            self.assertEqual(said, "")
-
-    def test_single_precision_stays(self):
-        points = [(0.5, 1.25, 3), (1, 0, 0), (0, 1, 0)]
-        for mesh, _ in self.read_all(("vertex", XYZ, points), ("face", INDICES, [([0, 1, 2],)])):
-            self.assertTrue(mesh.GetPoints().GetData().IsA("vtkFloatArray"))
-
-    def test_mixed_types_of_coordinates(self):
-        points = [(i, i * i, 0.1 * i) for i in range(3)]
-        axes = ["int x", "uchar y", "double z"]
-        for mesh, _ in self.read_all(("vertex", axes, points), ("face", INDICES, [([0, 1, 2],)])):
-            self.assertEqual(points_of(mesh), points)
-
     def test_every_type(self):
         """Values at both ends of the range of each type."""
         types = [kind for kind in CODES if kind[-1].isalpha()]
@@ -193,67 +173,135 @@ class Properties(PlyTest):
                 for text in properties:
                     self.assertEqual(head.count("property " + text), 2, head)
 
-    def test_texture_of_corners(self):
-        face = ["list uchar float texcoord", "list uchar int vertex_index"]
-        first, last = ([0, 0, 1, 0, 1, 1], [0, 1, 2]), ([], [3, 2, 1])
-        for middle, fits in ([0, 0, 1, 1, 0, 1], True), ([0, 0, 0.5, 1, 0, 1], False):
-            rows = [first, (middle, [0, 2, 3]), last]
-            for mesh, said in self.read_all(("vertex", XYZ, SQUARE), ("face", face, rows)):
-                self.assertEqual(points_of(mesh), SQUARE)
-                coordinates = mesh.GetPointData().GetTCoords()
-                if fits:
-                    self.assertEqual(tuples_of(coordinates), [(0, 0), (1, 0), (1, 1), (0, 1)])
-                else:
-                    self.assertIsNone(coordinates)
-                    self.assertIn("warning: a.ply: left out its texture coordinates: 1 point", said)
-        self.refuse_all(
-            (("vertex", XYZ, SQUARE), ("face", face, [([0, 0, 1, 0], [0, 1, 2])])), "face 0"
-        )
-
-    def test_other_lists_are_left_out_with_a_note(self):
+    def test_other_lists_are_left_out_with_a_warning(self):
         vertex = ["list uchar int neighbours"] + XYZ
         rows = [([1, 2, 3], *point) for point in SQUARE]
-        face = ["list int float weights"] + INDICES
+        face = ["list int float texcoord"] + INDICES
         for mesh, said in self.read_all(
             ("vertex", vertex, rows), ("face", face, [([0.5], [0, 1, 2]), ([], [0, 2, 3])])
         ):
-            self.assertIn("a.ply: ignored the lists neighbours of the element vertex", said)
-            self.assertIn("a.ply: ignored the lists weights of the element face", said)
+            self.assertIn("warning: a.ply: left out the lists neighbours of the element vertex", said)
+            self.assertIn("warning: a.ply: left out the lists texcoord of the element face", said)
             self.assertEqual(points_of(mesh), SQUARE)
             self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
 
 
 class Heads(PlyTest):
-    def test_what_is_wrong_is_on_its_line(self):
-        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        for old, new, line in (
-            (b"format ascii", b"format utf8", 2),
-            (b"vertex 4", b"vertex four", 4),
-            (b"vertex 4", b"vertex -4", 4),
-            (b"float y", b"quad y", 6),
-            (b"list uchar", b"list float", 9),
-            (b"element face", b"elements face", 8),
-            (b"element face 1", b"element vertex 1", 8),
-        ):
-            self.assertIn(old, good)
-            self.write("a.ply", good.replace(old, new))
-            self.refuse("a.ply", f"line {line}:")
-
-    def test_the_line_of_an_importer(self):
-        """Open Asset Import Library writes it without the word comment, and VTK reads it."""
-        good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
-        self.write("a.ply", good.replace(b"comment made", b"Created by a test,"))
-        self.assertEqual(self.succeed("a.ply", "out.ply").stderr, "")
-
-    def test_what_is_missing(self):
+    def test_what_is_wrong_is_named(self):
         good = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
         for old, new, naming in (
+            (b"vertex 4", b"vertex four", "line 4:"),
+            (b"vertex 4", b"vertex -4", "line 4:"),
+            (b"float y", b"quad y", "line 6:"),
+            (b"float y", b"float x", "line 6:"),
+            (b"list uchar", b"list float", "line 9:"),
+            (b"element face", b"elements face", "line 8:"),
+            (b"element face 1", b"element vertex 1", "line 8:"),
+            (b"format ascii", b"format utf8", "utf8"),
             (b"float z", b"float w", "x, y and z"),
             (b"vertex_indices", b"corners", "vertex_indices"),
             (b"element vertex", b"element points", "number of vertices is 0"),
         ):
+            self.assertIn(old, good)
             self.write("a.ply", good.replace(old, new))
             self.refuse("a.ply", naming)
+
+# The type of an array, two values of it, and the type that comes back from a .ply.
+PLY_TYPES = [
+    ("vtkSignedCharArray", (-128, 127), None),
+    ("vtkUnsignedCharArray", (0, 255), None),
+    ("vtkShortArray", (-(2**15), 2**15 - 1), None),
+    ("vtkUnsignedShortArray", (0, 2**16 - 1), None),
+    ("vtkIntArray", (-(2**31), 2**31 - 1), None),
+    ("vtkUnsignedIntArray", (0, 2**32 - 1), None),
+    ("vtkFloatArray", (-math.inf, math.nan), None),
+    ("vtkDoubleArray", (1 / 3, -1e300), None),
+    ("vtkBitArray", (0, 1), "vtkUnsignedCharArray"),
+    ("vtkIdTypeArray", (-(2**31), 2**31 - 1), "vtkDoubleArray"),
+    ("vtkUnsignedLongArray", (0, 2**53 - 1), "vtkDoubleArray"),
+]
+
+
+class Written(ArrayTest):
+    def test_arrays_of_every_type(self):
+        mesh = bumpy_grid(3, 0)
+        for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8)):
+            for kind, (low, high), _ in PLY_TYPES:
+                tuples = [(high if i % 3 else low,) for i in range(size)]
+                data.AddArray(make_values(kind, "a " + kind, tuples))
+        out = self.convert(mesh, "out.ply", "out.vtp")
+        for data, size in ((out.GetPointData(), 9), (out.GetCellData(), 8)):
+            self.assertEqual(data.GetNumberOfArrays(), len(PLY_TYPES))
+            for kind, (low, high), back in PLY_TYPES:
+                values = [high if i % 3 else low for i in range(size)]
+                self.assert_array(data.GetArray("a_" + kind), back or kind, values)
+
+    def annotated(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.SetNormals(make_values("vtkDoubleArray", "N", [(i / 3, 1, -i) for i in range(9)]))
+        points.SetTCoords(make_values("vtkFloatArray", "T", [(i / 8, 0.5) for i in range(9)]))
+        points.SetScalars(make_values("vtkUnsignedCharArray", "C", [(i, 2, 255) for i in range(9)]))
+        points.AddArray(make_values("vtkFloatArray", "flow", [(i, -i, 0.5) for i in range(9)]))
+        cells.AddArray(make_values("vtkUnsignedCharArray", "RGBA", [(i, 1, 2, 3) for i in range(8)]))
+        return mesh
+
+    def test_normals_colors_texture_and_vectors(self):
+        out = self.convert(self.annotated(), "out.ply", "out.vtp")
+        points, cells = out.GetPointData(), out.GetCellData()
+        flat = [x for i in range(9) for x in (i / 3, 1, -i)]
+        self.assert_array(points.GetNormals(), "vtkDoubleArray", flat)
+        flat = [x for i in range(9) for x in (i / 8, 0.5)]
+        self.assert_array(points.GetTCoords(), "vtkFloatArray", flat)
+        flat = [x for i in range(9) for x in (i, 2, 255)]
+        self.assert_array(points.GetScalars(), "vtkUnsignedCharArray", flat)
+        for component, factor in enumerate((1, -1, 0)):
+            values = [0.5 if factor == 0 else factor * i for i in range(9)]
+            self.assert_array(points.GetArray(f"flow_{component}"), "vtkFloatArray", values)
+        flat = [x for i in range(8) for x in (i, 1, 2, 3)]
+        self.assert_array(cells.GetArray("RGBA"), "vtkUnsignedCharArray", flat)
+
+    def test_doubles_stay(self):
+        mesh = make_mesh([(581311.123, 1e300, 1 / 3), (1, 0, -0.0), (0, math.nan, 5e-324)], [(0, 1, 2)])
+        source = write_mesh(mesh, self.path("in.vtk"))
+        self.succeed(source, "out.ply", "--quiet")
+        self.succeed("out.ply", "out.vtk", "--quiet")
+        out = read_mesh(self.path("out.vtk"))
+        self.assert_array(out.GetPoints().GetData(), "vtkDoubleArray",
+                          values_of(mesh.GetPoints().GetData()))
+
+    def test_lines_become_edges(self):
+        mesh = bumpy_grid(3, 0)
+        mesh.SetLines(make_mesh([], [], [(0, 1, 2), (), (5,), (3, 4)]).GetLines())
+        out = self.convert_by_vtk(mesh, "out.ply")
+        self.assertEqual(cells_of(out.GetLines()), [(0, 1), (1, 2), (3, 4)])
+        self.read_plainly("out.ply")
+
+    def convert_by_vtk(self, mesh, name):
+        """Like convert, but from a .vtk, which can hold more."""
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        self.succeed(name, "out.vtk")
+        return read_mesh(self.path("out.vtk"))
+
+    def test_cells_of_few_and_many_points(self):
+        points = [(math.cos(i / 50), math.sin(i / 50), 0) for i in range(300)] + [(math.nan, 0, 0)]
+        for cell in ((), (4,), (4, 5), tuple(range(301))):
+            out = self.convert_by_vtk(make_mesh(points, [(0, 1, 2), cell]), "out.ply")
+            self.assertIn(cell, [(), (4,), (4, 5)] + triangles_of(out) + [tuple(range(301))])
+            if len(cell) < 3:
+                self.assertEqual(triangles_of(out), [(0, 1, 2), cell])
+
+    def test_what_does_not_fit_is_named(self):
+        mesh = bumpy_grid(3, 0)
+        points, cells = mesh.GetPointData(), mesh.GetCellData()
+        points.AddArray(make_values("vtkStringArray", "words", [("a",)] * 9))
+        points.AddArray(make_values("vtkLongLongArray", "huge", [(2**53,)] * 9))
+        points.AddArray(make_values("vtkFloatArray", "x", [(1,)] * 9))
+        cells.AddArray(make_values("vtkIntArray", "two words", [(1,)] * 8))
+        cells.AddArray(make_values("vtkIntArray", "two_words", [(1,)] * 8))
+        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        said = self.succeed(source, "out.ply").stderr
+        self.assertIn("point data (words, huge, x), cell data (two_words)\n", said)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ExactReference.h"
-#include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "Predicates.h"
+#include "RandomInputs.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+/// @file
+/// Meshes with every kind of defect: nothing is lost, what cannot be judged stays, the statistics
+/// agree with the audit, and the loop ends by itself.
 
 namespace delaunayflip
 {
@@ -21,32 +25,11 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr GeometryKind Geometries[] = { GeometryKind::Auto, GeometryKind::Planar,
   GeometryKind::PlanarXY, GeometryKind::Surface };
 
-/// Both NaN, or close.
-void ExpectSameAngle(double expected, double angle)
-{
-  EXPECT_EQ(std::isnan(expected), std::isnan(angle)) << expected << " and " << angle;
-  if (!std::isnan(expected))
-  {
-    EXPECT_NEAR(expected, angle, 1e-6);
-  }
-}
-
-/// Flips the mesh in this geometry, and checks what must hold for any input.
 FlipResult FlipDirty(const OwnedMesh<double>& mesh, GeometryKind geometry)
 {
-  FlipOptions options;
+  FlipOptions options = OnSurface();
   options.Geometry = geometry;
-  options.FeatureAngle = 180.0;
-  const FlipResult result = Flip(mesh.View(), options);
-  const TriangleMesh after = WithTriangles(mesh.View(), result.Triangles);
-  EXPECT_TRUE(result.Report.Converged()) << ToString(geometry);
-  EXPECT_EQ(CountNonDelaunayEdges(mesh.View(), options), result.Report.NonDelaunayBefore);
-  EXPECT_EQ(CountNonDelaunayEdges(after, options), result.Report.NonDelaunayAfter);
-  ExpectSameAngle(MinimumAngle(mesh.View(), geometry), result.Report.MinimumAngleBefore);
-  ExpectSameAngle(MinimumAngle(after, geometry), result.Report.MinimumAngleAfter);
-  ExpectSameTopology(mesh.View().Triangles, result.Triangles, result.Report);
-  ExpectConsistentStatistics(result.Report);
-  return result;
+  return FlipAndAudit(mesh.View(), options);
 }
 
 TEST(DirtyInput, EmptyMeshesAreDone)
@@ -66,27 +49,23 @@ TEST(DirtyInput, EmptyMeshesAreDone)
   }
 }
 
-TEST(DirtyInput, OneTriangleHasNothingToFlip)
-{
-  const OwnedMesh<double> mesh = { { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 2, 0, 1 } };
-  for (GeometryKind geometry : Geometries)
-  {
-    const FlipResult result = FlipDirty(mesh, geometry);
-    EXPECT_EQ(mesh.Triangles, result.Triangles);
-    EXPECT_EQ(3, result.Report.Edges.Fixed);
-    EXPECT_NEAR(45.0, result.Report.MinimumAngleAfter, 1e-9);
-  }
-}
-
+/// Among them one triangle, ties, and flat triangles whose apex lies on the line of the shared edge
+/// outside of it: no flip can improve that.
 TEST(DirtyInput, DelaunayMeshesComeBackBitForBit)
 {
-  const OwnedMesh<double> grid = MakeGridMesh(40, 30);
-  for (GeometryKind geometry : Geometries)
+  OwnedMesh<double> notANumber = MakeGridMesh(4, 4);
+  std::fill(notANumber.Points.begin(), notANumber.Points.end(), std::nan(""));
+  const OwnedMesh<double> meshes[] = { { { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 2, 0, 1 } },
+    MakeGridMesh(40, 30), { { 0, 0, 0, 4, 0, 0, 2, 3, 0, 5, 0, 0 }, { 0, 1, 2, 1, 0, 3 } },
+    notANumber };
+  for (const OwnedMesh<double>& mesh : meshes)
   {
-    const FlipResult result = FlipDirty(grid, geometry);
-    EXPECT_EQ(grid.Triangles, result.Triangles);
-    EXPECT_EQ(0, result.Report.TotalFlips);
-    EXPECT_TRUE(result.Report.Iterations.empty() || result.Report.Iterations[0].Flipped == 0);
+    for (GeometryKind geometry : Geometries)
+    {
+      const FlipResult result = FlipDirty(mesh, geometry);
+      EXPECT_EQ(mesh.Triangles, result.Triangles);
+      EXPECT_TRUE(result.Report.Iterations.empty() || result.Report.Iterations[0].Flipped == 0);
+    }
   }
 }
 
@@ -131,18 +110,6 @@ TEST(DirtyInput, NonFinitePointsOfSurfacesAreLeftAlone)
   EXPECT_LT(100, result.Report.TotalFlips);
 }
 
-TEST(DirtyInput, MeshesOfNothingButNaNEnd)
-{
-  OwnedMesh<double> mesh = MakeGridMesh(4, 4);
-  std::fill(mesh.Points.begin(), mesh.Points.end(), std::nan(""));
-  for (GeometryKind geometry : Geometries)
-  {
-    const FlipResult result = FlipDirty(mesh, geometry);
-    EXPECT_EQ(mesh.Triangles, result.Triangles);
-    EXPECT_TRUE(std::isnan(result.Report.MinimumAngleAfter));
-  }
-}
-
 /// A cap whose apex lies exactly on the shared edge: its angle is pi, so the edge is bad.
 TEST(DirtyInput, FlatCapsFlip)
 {
@@ -159,16 +126,6 @@ TEST(DirtyInput, FlatCapsFlip)
       EXPECT_LT(1.0, result.Report.MinimumAngleAfter);
     }
     ReverseTriangles(mesh.Triangles);
-  }
-}
-
-/// The apex lies on the line of the shared edge, but outside it: no flip can improve that.
-TEST(DirtyInput, FlatTrianglesThatOverhangStay)
-{
-  const OwnedMesh<double> mesh = { { 0, 0, 0, 4, 0, 0, 2, 3, 0, 5, 0, 0 }, { 0, 1, 2, 1, 0, 3 } };
-  for (GeometryKind geometry : Geometries)
-  {
-    EXPECT_EQ(mesh.Triangles, FlipDirty(mesh, geometry).Triangles);
   }
 }
 
@@ -276,6 +233,161 @@ TEST(DirtyInput, HugeFansAreProcessed)
   for (GeometryKind geometry : { GeometryKind::Auto, GeometryKind::Surface })
   {
     EXPECT_LT(count / 2, FlipDirty(mesh, geometry).Report.TotalFlips);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Planar meshes that overlap themselves: with either tie rule, flips must end and create no edge
+/// twice.
+std::int64_t FlipOverlapping(const OwnedMesh<double>& mesh)
+{
+  std::int64_t left = 0;
+  for (TieRuleKind rule : { TieRuleKind::Keep, TieRuleKind::Canonical })
+  {
+    FlipOptions options;
+    options.TieRule = rule;
+    const FlipReport report = FlipAndAudit(mesh.View(), options).Report;
+    EXPECT_EQ(GeometryKind::Planar, report.GeometryUsed);
+    left += report.NonDelaunayAfter;
+  }
+  return left;
+}
+
+/// A fan of `count` triangles that winds `turns` times around vertex 0; closed, or open like a
+/// spiral staircase.
+OwnedMesh<double> MakeWindingFan(int count, int turns, bool closed, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0 };
+  for (int i = 0; i <= count; ++i)
+  {
+    const double angle = 6.283185307179586 * turns * i / count;
+    const double radius = 1.0 + DrawIndex(random, 1000) / 100.0;
+    mesh.Points.insert(
+      mesh.Points.end(), { radius * std::cos(angle), radius * std::sin(angle), 0.0 });
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    const std::int32_t next = closed && i + 1 == count ? 1 : i + 2;
+    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, next });
+  }
+  return mesh;
+}
+
+TEST(Overlap, FansThatWindTwiceGainNoEdgeTwice)
+{
+  for (std::uint32_t seed = 0; seed < 200 / Reduction; ++seed)
+  {
+    const int turns = 2 + static_cast<int>(seed % 2);
+    const int count = 3 * turns + static_cast<int>(seed % 11);
+    FlipOverlapping(MakeWindingFan(count, turns, true, seed));
+    FlipOverlapping(MakeWindingFan(count, turns, false, seed));
+    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+  }
+}
+
+/// Diamonds on top of each other that share only their lower and upper ends p and q: the bad edge
+/// of each would become p-q.
+TEST(Overlap, DiamondsThatShareTheirEndsGainNoEdgeTwice)
+{
+  for (std::int32_t layers = 2; layers < 6; ++layers)
+  {
+    OwnedMesh<double> mesh = { { 0, -1, 0, 0, 1, 0 }, {} };
+    for (std::int32_t layer = 0; layer < layers; ++layer)
+    {
+      const double shift = 0.01 * layer;
+      const std::int32_t left = 2 + 3 * layer;
+      mesh.Points.insert(
+        mesh.Points.end(), { -3 + shift, 0, 0, 0.5 + shift, 0, 0, 3 + shift, 0, 0 });
+      mesh.Triangles.insert(mesh.Triangles.end(),
+        { left, 0, left + 1, left, left + 1, 1, left + 2, left + 1, 0, left + 2, 1, left + 1 });
+    }
+    EXPECT_EQ(2 * (layers - 1), FlipOverlapping(mesh)) << layers;
+  }
+}
+
+/// Two fans over the same polygon, back to back and joined along the border: flips on both sides
+/// would make the same edges, and only one side may get each.
+TEST(Overlap, FlatPillowsGainNoEdgeTwice)
+{
+  std::int64_t blocked = 0;
+  for (std::int32_t count = 5; count < 60; ++count)
+  {
+    std::mt19937 random(static_cast<std::uint32_t>(count));
+    OwnedMesh<double> mesh;
+    for (std::int32_t i = 0; i < count; ++i)
+    {
+      const double angle = 6.283185307179586 * (i + DrawIndex(random, 80) / 100.0) / count;
+      mesh.Points.insert(mesh.Points.end(), { 3.0 * std::cos(angle), std::sin(angle), 0.0 });
+    }
+    const std::int32_t other = count / 2;
+    for (std::int32_t i = 1; i + 1 < count; ++i)
+    {
+      const std::int32_t far = (other + i) % count;
+      mesh.Triangles.insert(mesh.Triangles.end(), { 0, i, i + 1, other, (far + 1) % count, far });
+    }
+    blocked += FlipOverlapping(mesh);
+    ASSERT_FALSE(HasFailure()) << count << " points";
+  }
+  EXPECT_LT(0, blocked);
+}
+
+/// The slots of the triangles with this exact orientation: 1, -1, or 0 without area.
+std::vector<std::int64_t> FindTurns(const OwnedMesh<double>& mesh, int side)
+{
+  std::vector<std::int64_t> slots;
+  for (std::int64_t t = 0; t < mesh.NumberOfTriangles(); ++t)
+  {
+    const auto get = [&](int i) { return &mesh.Points[3 * mesh.Triangles[3 * t + i]]; };
+    if (Orientation(get(0), get(1), get(2)) == side)
+    {
+      slots.push_back(t);
+    }
+  }
+  return slots;
+}
+
+/// A vertex that is moved out of its star inverts triangles. Triangles of opposite orientation
+/// never flip with each other.
+TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
+{
+  std::mt19937 random(7);
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000, 71);
+  for (int i = 0; i < 20; ++i)
+  {
+    const std::int32_t point = 4 + DrawIndex(random, 1996);
+    mesh.Points[3 * point] = DrawIndex(random, 1000) / 1000.0;
+  }
+  FlipOverlapping(mesh);
+  std::vector<std::int64_t> inverted = FindTurns(mesh, -1);
+  ASSERT_LT(20u, inverted.size());
+  ASSERT_LT(inverted.size(), FindTurns(mesh, 1).size());
+  ASSERT_TRUE(FindTurns(mesh, 0).empty());
+  const std::vector<Defect> defects = MakeSession(mesh.View()).GetReport().Defects;
+  ASSERT_EQ(1u, defects.size()) << DescribeDefects(defects);
+  EXPECT_EQ("triangles that turn the other way than most", defects[0].What);
+  EXPECT_EQ(static_cast<std::int64_t>(inverted.size()), defects[0].Count);
+  EXPECT_EQ(DefectIds::Triangles, defects[0].Ids);
+  inverted.resize(3);
+  EXPECT_EQ(inverted, defects[0].FirstIds);
+}
+
+/// Thousands of small meshes with every kind of defect, under random options.
+TEST(RandomMess, StaysAsSoundAsItWas)
+{
+  for (std::uint32_t seed = 1; seed <= 5000 / Reduction && !testing::Test::HasFailure(); ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomMess mess = MakeRandomMess(seed);
+    const FlipResult result = Flip(mess.View(), mess.Options);
+    EXPECT_TRUE(result.Report.Converged());
+    ExpectSameTopology(mess.View().Triangles, result.Triangles, result.Report);
+    ExpectConsistentStatistics(result.Report);
+    for (const IterationRecord& row : result.Report.Iterations)
+    {
+      EXPECT_GT(row.Flipped, 0);
+    }
   }
 }
 

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeMesh.h"
 #include "CornerPairing.h"
-#include "EdgeMeshAudit.h"
+#include "EdgeGuard.h"
 #include "EdgeMeshBuilder.h"
-#include "GeneratedMeshes.h"
+#include "FlipSteps.h"
+#include "FlipTestSupport.h"
 #include "MeshSurveyBuilder.h"
 #include "SpatialOrder.h"
 #include "ThreadBackend.h"
@@ -11,21 +13,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <map>
-#include <random>
-#include <utility>
-#include <vector>
 
 /// @file
-/// Compares the edge arrays with brute force: a map from vertex pairs to corners.
+/// The edge arrays against brute force, and what keeps flips from making an edge twice: the table
+/// of edges, the claims of an iteration, and the guard that renews the table.
 
+namespace delaunayflip
+{
 namespace
 {
-using namespace delaunayflip;
-
-using Pair = std::pair<VertexId, VertexId>;
 
 struct Built
 {
@@ -46,9 +43,35 @@ Built Build(const TriangleMesh& mesh, const ThreadBackend& backend,
   return built;
 }
 
-std::map<Pair, std::vector<CornerId>> MapCorners(const EdgeMesh& mesh)
+/// The result of pairing that is stored in the triangles, where the table is filled several times.
+std::vector<std::uint32_t> PairInSlices(
+  const TriangleMesh& mesh, std::int64_t slices, const ThreadBackend& backend)
 {
-  std::map<Pair, std::vector<CornerId>> corners;
+  const MeshInput input{ mesh, mesh };
+  const MeshSurvey survey = BuildMeshSurvey(input, GeometryKind::Auto, backend);
+  const SpatialOrder order = OrderMesh(input, survey, backend);
+  const EdgeMeshInput edges{ input, survey, order, 180.0 };
+  EdgeMeshResult result;
+  result.Edges = LoadTriangles(edges, backend);
+  std::vector<std::uint32_t> paired;
+  for (const std::int64_t count : { std::int64_t(PairByTable(edges, result, slices, backend).Total),
+         result.Counts.Edges, result.Counts.NonManifold })
+  {
+    paired.push_back(static_cast<std::uint32_t>(count));
+  }
+  for (std::int64_t t = 0; t < result.Edges.NumberOfTriangles; ++t)
+  {
+    const TriangleRecord& triangle = result.Edges.Triangles[t];
+    paired.insert(paired.end(), triangle.HalfEdges, triangle.HalfEdges + 3);
+    paired.push_back(triangle.Flips);
+  }
+  return paired;
+}
+
+/// The corners of every edge, in the order of the smallest corner, which edge ids must follow.
+std::vector<std::vector<CornerId>> ExpectedRecords(const EdgeMesh& mesh)
+{
+  std::map<std::pair<VertexId, VertexId>, std::vector<CornerId>> corners;
   for (TriangleId t = 0; t < mesh.NumberOfTriangles; ++t)
   {
     for (int slot = 0; slot < 3; ++slot)
@@ -58,14 +81,8 @@ std::map<Pair, std::vector<CornerId>> MapCorners(const EdgeMesh& mesh)
       corners[std::minmax(a, b)].push_back(MakeCorner(t, slot));
     }
   }
-  return corners;
-}
-
-/// The corners of every edge, in the order of the smallest corner, which edge ids must follow.
-std::vector<std::vector<CornerId>> ExpectedRecords(const EdgeMesh& mesh)
-{
   std::vector<std::vector<CornerId>> records;
-  for (const auto& entry : MapCorners(mesh))
+  for (const auto& entry : corners)
   {
     if (entry.second.size() <= 2)
     {
@@ -109,110 +126,78 @@ OwnedMesh<float> MakeSoup(std::int32_t points, std::int32_t triangles, std::uint
   return mesh;
 }
 
-/// A few vertices with very many edges fill one long stretch of the table.
-TEST(EdgeTableTest, HubsLeaveRoomForAll)
+/// One vertex is in every triangle.
+OwnedMesh<float> MakeHub(std::int32_t spokes)
 {
-  constexpr VertexId Hubs = 2000;
-  constexpr VertexId EdgesOfHub = 30;
-  const ThreadBackend backend(1);
-  EdgeTable table(Hubs * EdgesOfHub, { 0, 4 * Hubs }, false, backend);
-  const EdgeTableView view = table.View();
-  for (VertexId other = 0; other < EdgesOfHub; ++other)
+  OwnedMesh<float> mesh;
+  mesh.Points = { 0.0f, 0.0f, 0.0f };
+  for (std::int32_t i = 0; i <= spokes; ++i)
   {
-    for (VertexId hub = 0; hub < Hubs; ++hub)
+    mesh.Points.insert(mesh.Points.end(), { float(i), 1.0f, 0.0f });
+  }
+  for (std::int32_t i = 1; i <= spokes; ++i)
+  {
+    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, i });
+  }
+  return mesh;
+}
+
+/// Three edges per triangle, twice as many as in a closed mesh: the first table becomes full.
+OwnedMesh<float> MakeSeparateTriangles(std::int32_t corners)
+{
+  OwnedMesh<float> mesh;
+  for (std::int32_t i = 0; i < corners; ++i)
+  {
+    mesh.Points.insert(mesh.Points.end(), { float(i), float(i % 7), float(i % 3) });
+    mesh.Triangles.push_back(i);
+  }
+  return mesh;
+}
+
+/// A planar mesh needs the table of vertex pairs only for constraints; edges are the same without,
+/// and in slices.
+TEST(EdgeMesh, MatchesBruteForce)
+{
+  const ThreadBackend backend(2);
+  std::vector<OwnedMesh<float>> meshes;
+  for (std::uint32_t seed = 0; seed < 20; ++seed)
+  {
+    meshes.push_back(MakeSoup(12, 40, seed));
+  }
+  meshes.push_back(MakeSoup(3, 9, 7));
+  meshes.push_back(MakeSoup(9000, 27000, 7));
+  meshes.push_back(MakeRandomBadMesh(20000, 1)); // large enough to be reordered
+  meshes.push_back(MakeSeparateTriangles(30000));
+  meshes.push_back(MakeHub(4000)); // in slices, one has half of the edges
+  for (const OwnedMesh<float>& mesh : meshes)
+  {
+    SCOPED_TRACE(&mesh - meshes.data());
+    const std::vector<std::int64_t> edge{ mesh.Triangles[0], mesh.Triangles[1] };
+    for (const TriangleMesh& view : { mesh.View(), WithConstraints(mesh.View(), edge) })
     {
-      bool inserted = false;
-      ASSERT_NE(EdgeTableView::NoSlot, view.FindOrInsert(EdgeKey(hub, Hubs + other), inserted));
-      ASSERT_TRUE(inserted);
+      const Built built = Build(view, backend, GeometryKind::PlanarXY);
+      ExpectRecords(built.Result.Edges);
+      EXPECT_EQ(0, CountInconsistencies(built.Result.Edges, backend));
+      EXPECT_EQ(view.NumberOfConstraintEdges == 0, built.Result.Table.IsEmpty());
+    }
+    ExpectRecords(Build(mesh.View(), backend, GeometryKind::Surface).Result.Edges);
+    const std::vector<std::uint32_t> whole = PairInSlices(mesh.View(), 1, backend);
+    for (const std::int64_t slices : { 2, 3, 7 })
+    {
+      EXPECT_TRUE(whole == PairInSlices(mesh.View(), slices, backend)) << slices << " slices";
     }
   }
-  for (VertexId hub = 0; hub < Hubs; ++hub)
-  {
-    EXPECT_NE(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs)));
-    EXPECT_EQ(EdgeTableView::NoSlot, view.Find(EdgeKey(hub, Hubs + EdgesOfHub)));
-  }
 }
 
-/// A planar mesh needs the table of vertex pairs only for constraints. Edges are the same without.
-TEST(EdgeMesh, PairsAlikeWithAndWithoutTheTable)
+/// No cost may grow with the square of the degree of a vertex.
+TEST(EdgeMesh, HubOfManyTriangles)
 {
+  constexpr std::int32_t Spokes = 300000;
+  const OwnedMesh<float> mesh = MakeHub(Spokes);
   const ThreadBackend backend(2);
-  for (const std::int32_t points : { 3, 30, 9000 })
-  {
-    const OwnedMesh<float> mesh = MakeSoup(points, 3 * points, 7);
-    const Built without = Build(mesh.View(), backend, GeometryKind::PlanarXY);
-    ExpectRecords(without.Result.Edges);
-    EXPECT_EQ(0, CountInconsistencies(without.Result.Edges, backend));
-    const std::int64_t constraint[2] = { mesh.Triangles[0], mesh.Triangles[1] };
-    TriangleMesh view = mesh.View();
-    view.ConstraintEdges = constraint;
-    view.NumberOfConstraintEdges = 1;
-    const Built with = Build(view, backend, GeometryKind::PlanarXY);
-    ExpectRecords(with.Result.Edges);
-    EXPECT_TRUE(without.Result.Table.IsEmpty());
-    EXPECT_FALSE(with.Result.Table.IsEmpty());
-    EXPECT_EQ(with.Result.Counts.Edges, without.Result.Counts.Edges);
-    EXPECT_EQ(with.Result.Counts.NonManifold, without.Result.Counts.NonManifold);
-    EXPECT_EQ(with.Result.DuplicateTriangles.Count, without.Result.DuplicateTriangles.Count);
-  }
-}
-
-/// The result of pairing that is stored in the triangles: other corners and roles.
-std::vector<std::uint32_t> PairInSlices(
-  const TriangleMesh& mesh, std::int64_t slices, EdgeCounts& counts, const ThreadBackend& backend)
-{
-  const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = BuildMeshSurvey(input, GeometryKind::Auto, backend);
-  const SpatialOrder order = OrderMesh(input, survey, backend);
-  const EdgeMeshInput edges{ input, survey, order, 180.0 };
-  EdgeMeshResult result;
-  result.Edges = LoadTriangles(edges, backend);
-  const ThreadNumbering numbering = PairByTable(edges, result, slices, backend);
-  counts = result.Counts;
-  std::vector<std::uint32_t> paired{ static_cast<std::uint32_t>(numbering.Total) };
-  for (std::int64_t t = 0; t < result.Edges.NumberOfTriangles; ++t)
-  {
-    const TriangleRecord& triangle = result.Edges.Triangles[t];
-    paired.insert(paired.end(), triangle.HalfEdges, triangle.HalfEdges + 3);
-    paired.push_back(triangle.Flips);
-  }
-  return paired;
-}
-
-void ExpectSlicesAlike(const TriangleMesh& mesh)
-{
-  const ThreadBackend backend(2);
-  EdgeCounts whole;
-  const std::vector<std::uint32_t> expected = PairInSlices(mesh, 1, whole, backend);
-  for (const std::int64_t slices : { 2, 3, 4, 7 })
-  {
-    EdgeCounts counts;
-    EXPECT_TRUE(expected == PairInSlices(mesh, slices, counts, backend)) << slices << " slices";
-    EXPECT_EQ(whole.Edges, counts.Edges) << slices << " slices";
-    EXPECT_EQ(whole.NonManifold, counts.NonManifold) << slices << " slices";
-  }
-}
-
-TEST(EdgeMesh, PairsAlikeInSlices)
-{
-  ExpectSlicesAlike(MakeRandomBadMesh(20000, 1).View());
-  ExpectSlicesAlike(MakeSoup(300, 2000, 5).View());
-}
-
-/// The slice with the hub has half of the edges, more than its share of the table.
-TEST(EdgeMesh, PairsUnevenSlicesTogether)
-{
-  OwnedMesh<float> fan;
-  constexpr int Rim = 4000;
-  fan.Points = { 0.0f, 0.0f, 0.0f };
-  for (int i = 0; i < Rim; ++i)
-  {
-    const double angle = 6.283185307179586 * i / Rim;
-    fan.Points.insert(fan.Points.end(),
-      { static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f });
-    fan.Triangles.insert(fan.Triangles.end(), { 0, 1 + i, 1 + (i + 1) % Rim });
-  }
-  ExpectSlicesAlike(fan.View());
+  const Built built = Build(mesh.View(), backend);
+  EXPECT_EQ(2 * Spokes + 1, built.Result.Counts.Edges);
+  EXPECT_EQ(Spokes + 2, built.Result.Counts.Boundary);
 }
 
 /// These triangles have no edges between different points, and still one repeats another.
@@ -226,74 +211,6 @@ TEST(EdgeMesh, FindsRepeatedTrianglesOfOnePoint)
   EXPECT_EQ(1, built.Result.DuplicateTriangles.Count);
 }
 
-/// One thread would pair all corners of a vertex that has most of the edges.
-TEST(CornerPairing, KnowsWhetherBucketsAreEven)
-{
-  const ThreadBackend backend(2);
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1);
-  Built built = Build(mesh.View(), backend);
-  const CornerPairing pairing(built.Result.Edges, mesh.NumberOfPoints(), backend);
-  EXPECT_TRUE(pairing.IsEven());
-  EXPECT_FALSE(pairing.IsEven(1000));
-}
-
-TEST(EdgeMesh, RandomMeshMatchesBruteForce)
-{
-  const ThreadBackend backend(2);
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(20000, 1); // large enough to be reordered
-  const Built built = Build(mesh.View(), backend);
-  ASSERT_GT(built.Order.VertexOfRank.Size(), 0u);
-  ExpectRecords(built.Result.Edges);
-  EXPECT_EQ(0, CountInconsistencies(built.Result.Edges, backend));
-}
-
-TEST(EdgeMesh, SoupMatchesBruteForce)
-{
-  const ThreadBackend backend(2);
-  for (std::uint32_t seed = 0; seed < 20; ++seed)
-  {
-    const OwnedMesh<float> mesh = MakeSoup(12, 40, seed);
-    const Built built = Build(mesh.View(), backend);
-    ExpectRecords(built.Result.Edges);
-  }
-}
-
-TEST(EdgeMesh, SeparateTrianglesFillTheTable)
-{
-  // Three edges per triangle, twice as many as in a closed mesh: the first table becomes full.
-  const ThreadBackend backend(2);
-  OwnedMesh<float> mesh;
-  for (std::int32_t i = 0; i < 30000; ++i)
-  {
-    mesh.Points.insert(mesh.Points.end(), { float(i), float(i % 7), float(i % 3) });
-    mesh.Triangles.push_back(i);
-  }
-  const Built built = Build(mesh.View(), backend);
-  EXPECT_EQ(30000, built.Result.Counts.Edges);
-  EXPECT_EQ(30000, built.Result.Counts.Boundary);
-  ExpectRecords(built.Result.Edges);
-}
-
-TEST(EdgeMesh, HubOfManyTriangles)
-{
-  // One vertex is in every triangle. No cost may grow with the square of its degree.
-  const ThreadBackend backend(2);
-  constexpr std::int32_t Spokes = 300000;
-  OwnedMesh<float> mesh;
-  mesh.Points = { 0.0f, 0.0f, 0.0f };
-  for (std::int32_t i = 0; i <= Spokes; ++i)
-  {
-    mesh.Points.insert(mesh.Points.end(), { float(i), 1.0f, 0.0f });
-  }
-  for (std::int32_t i = 1; i <= Spokes; ++i)
-  {
-    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, i });
-  }
-  const Built built = Build(mesh.View(), backend);
-  EXPECT_EQ(2 * Spokes + 1, built.Result.Counts.Edges);
-  EXPECT_EQ(Spokes + 2, built.Result.Counts.Boundary);
-}
-
 TEST(EdgeMesh, AuditSeesBrokenWords)
 {
   const ThreadBackend backend(1);
@@ -301,7 +218,138 @@ TEST(EdgeMesh, AuditSeesBrokenWords)
   EdgeMesh& mesh = built.Result.Edges;
   EXPECT_NO_THROW(RequireConsistent(mesh, backend));
   std::swap(mesh.CornerOfHalfEdge[0], mesh.CornerOfHalfEdge[20]);
-  EXPECT_GT(CountInconsistencies(mesh, backend), 0);
   EXPECT_THROW(RequireConsistent(mesh, backend), std::logic_error);
+}
+
+//------------------------------------------------------------------------------
+/// All keys are at one vertex, so that the near slots do not suffice.
+TEST(EdgeTable, HoldsAsManyKeysAsItHasSlots)
+{
+  const ThreadBackend backend(1);
+  EdgeTable table(0, { 0, 1000 }, false, backend);
+  const EdgeTableView view = table.View();
+  bool inserted = false;
+  for (VertexId i = 0; i < view.Capacity; ++i)
+  {
+    EXPECT_NE(EdgeTableView::NoSlot, view.FindOrInsert(EdgeKey(7, 100 + i), inserted));
+    EXPECT_TRUE(inserted);
+  }
+  EXPECT_EQ(EdgeTableView::NoSlot, view.FindOrInsert(EdgeKey(7, 8), inserted));
+  for (VertexId i = 0; i < view.Capacity; ++i)
+  {
+    const std::uint32_t slot = view.Find(EdgeKey(100 + i, 7));
+    ASSERT_LT(slot, view.Capacity);
+    EXPECT_EQ(EdgeKey(7, 100 + i), view.Keys[slot]);
+  }
+}
+
+TEST(EdgeTable, TakesAKeyOnceAndForgetsIt)
+{
+  const ThreadBackend backend(1);
+  EdgeTable table(0, { 0, 1000 }, false, backend);
+  const EdgeTableView view = table.View();
+  const std::uint64_t key = EdgeKey(3, 5);
+  bool fresh = false;
+  for (const bool first : { true, false })
+  {
+    EXPECT_TRUE(view.InsertNew(key, fresh));
+    EXPECT_EQ(first, fresh);
+    EXPECT_EQ(1, std::count(view.Keys, view.Keys + view.Capacity, key));
+    view.Remove(key);
+    EXPECT_EQ(EdgeTableView::NoSlot, view.Find(key));
+  }
+}
+
+TEST(EdgeClaims, GoToTheSmallestPriorityInAnyOrder)
+{
+  constexpr std::uint32_t Size = 100;
+  std::vector<std::uint64_t> words(4 * Size, EdgeClaims::Empty); // with room behind them
+  EdgeClaims claims{ words.data(), Size };
+  for (const bool smallestFirst : { false, true })
+  {
+    for (VertexId i = 0; i < Size; ++i)
+    {
+      claims.Claim(i, 1000 + i, smallestFirst ? i : Size + i);
+      claims.Claim(1000 + i, i, smallestFirst ? Size + i : i);
+    }
+    for (VertexId i = 0; i < Size; ++i)
+    {
+      EXPECT_TRUE(claims.Holds(i, 1000 + i, i));
+      EXPECT_FALSE(claims.Holds(i, 1000 + i, Size + i));
+    }
+    EXPECT_EQ(3 * Size, std::count(words.begin() + Size, words.end(), EdgeClaims::Empty));
+    for (VertexId i = 0; i < Size; ++i)
+    {
+      claims.Release(i, 1000 + i, i);
+    }
+    EXPECT_EQ(4 * Size, std::count(words.begin(), words.end(), EdgeClaims::Empty));
+  }
+}
+
+TEST(EdgeGuard, RenewsItsTableInTime)
+{
+  const ThreadBackend backend(1);
+  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
+  EdgeGuard guard(
+    EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
+  guard.Rebuild(edges, backend);
+  const Quad quad = edges.View().GetQuad(5);
+  const std::uint64_t key = EdgeKey(quad.P, quad.Q);
+  // Only a table made anew from the mesh has the key again.
+  const auto isRenewedAfter = [&](const StepCounts& counts)
+  {
+    guard.View().Edges.Table.Remove(key);
+    guard.Maintain(counts, edges, backend);
+    return guard.View().Edges.Table.Find(key) != EdgeTableView::NoSlot;
+  };
+  EXPECT_FALSE(isRenewedAfter(StepCounts()));
+  StepCounts lost;
+  lost.LostInserts = 1; // an edge found no room
+  EXPECT_TRUE(isRenewedAfter(lost));
+  const std::int64_t left = guard.GetFreshSlotsLeft();
+  EXPECT_GT(left, 0);
+  StepCounts used;
+  used.FreshSlots = left;
+  EXPECT_FALSE(isRenewedAfter(used));
+  used.FreshSlots = 1; // too many slots were used
+  EXPECT_TRUE(isRenewedAfter(used));
+  EXPECT_EQ(left, guard.GetFreshSlotsLeft());
+}
+
+TEST(EdgeGuard, HearsOfFlips)
+{
+  const ThreadBackend backend(1);
+  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
+  EdgeGuard owner(
+    EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
+  owner.Rebuild(edges, backend);
+  const EdgeGuardView guard = owner.View();
+  const auto countEmpty = [&]
+  {
+    return std::count(guard.Edges.Table.Keys, guard.Edges.Table.Keys + guard.Edges.Table.Capacity,
+      EdgeTableView::Empty);
+  };
+  const auto before = countEmpty();
+  StepCounts counts;
+  for (EdgeId edge = 0; edge < edges.NumberOfEdges; ++edge)
+  {
+    if (edges.View().CornerOfHalfEdge[2 * edge + 1] == NoCorner)
+    {
+      continue;
+    }
+    const Quad quad = edges.View().GetQuad(edge);
+    guard.Claims.Claim(quad.A, quad.B, Priority(edge));
+    UpdateGuard(guard, edge, quad, counts);
+    EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.P, quad.Q)));
+    EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.A, quad.B)));
+    EXPECT_EQ(EdgeState::BlockedByEdge, DecideByGuard(guard.Edges, quad));
+    break;
+  }
+  EXPECT_EQ(0, counts.LostInserts);
+  EXPECT_EQ(before - countEmpty(), counts.FreshSlots);
+  EXPECT_EQ(guard.Claims.Size,
+    std::count(guard.Claims.Words, guard.Claims.Words + guard.Claims.Size, EdgeClaims::Empty));
+}
+
 }
 }

@@ -3,8 +3,8 @@
 #include "FakeDevice.h"
 
 #include "CudaDevice.h"
-#include "FlipEngine.h"
 #include "FlipError.h"
+#include "LoadedMesh.h"
 #include "TestDevice.h"
 
 #include <cstdlib>
@@ -60,10 +60,10 @@ struct WidePoints
   }
 };
 
-class FakeEngine : public FlipEngine
+class FakeEngine : public LoadedMesh
 {
 public:
-  explicit FakeEngine(std::unique_ptr<FlipEngine> engine)
+  explicit FakeEngine(std::unique_ptr<LoadedMesh> engine)
     : Engine(std::move(engine)),
       Report(this->Engine->GetInputReport())
   {
@@ -104,21 +104,21 @@ public:
   void Audit() const override { this->Engine->Audit(); }
 
 private:
-  std::unique_ptr<FlipEngine> Engine;
+  std::unique_ptr<LoadedMesh> Engine;
   FlipReport Report;
 };
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return std::unique_ptr<FlipEngine>(new FakeEngine(MakeThreadEngine(mesh, options, progress)));
+  return std::unique_ptr<LoadedMesh>(new FakeEngine(LoadOnThreads(mesh, options, progress)));
 }
 
-std::unique_ptr<FlipEngine> MakeCudaEngine(
+std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  return MakeCudaEngine(WidePoints(mesh).View, options, progress);
+  return LoadOnCuda(WidePoints(mesh).View, options, progress);
 }
 
 bool HasCudaDevice() { return true; }

@@ -21,18 +21,11 @@ class FallbackTest : public testing::Test
 protected:
   ~FallbackTest() override { CallsToFailure = 0; }
 
-  std::vector<std::int32_t> Store(const FlipSession& session) const
-  {
-    std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
-    session.StoreTriangles(MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()));
-    return triangles;
-  }
-
-  FlipResult FlipOnThreads() const
+  void SetUp() override
   {
     FlipOptions options;
     options.Backend = BackendKind::Threads;
-    return Flip(this->Mesh.View(), options);
+    this->Expected = Flip(this->Mesh.View(), options);
   }
 
   /// A session whose backend fails at some call, in steps of two iterations.
@@ -52,13 +45,12 @@ protected:
     EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
     EXPECT_TRUE(session.GetReport().Iterations.empty());
     EXPECT_EQ(0, session.GetReport().TotalFlips);
-    EXPECT_TRUE(this->Mesh.Triangles == this->Store(session));
-    std::vector<std::int32_t> counts(this->Mesh.NumberOfTriangles(), 7);
-    session.StoreFlipCounts(counts.data());
-    EXPECT_EQ(std::vector<std::int32_t>(counts.size(), 0), counts);
+    EXPECT_TRUE(this->Mesh.Triangles == StoreTriangles(session));
+    EXPECT_EQ(std::vector<std::int32_t>(this->Mesh.NumberOfTriangles()), StoreFlipCounts(session));
   }
 
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(12000, 35);
+  FlipResult Expected;
 };
 
 /// What is asked of an observer: false from the moment on when the backend has failed.
@@ -66,13 +58,12 @@ bool IsUnharmed(double) { return CallsToFailure > 0; }
 
 TEST_F(FallbackTest, AnyCallMayFail)
 {
-  const FlipResult expected = this->FlipOnThreads();
   for (int call = 1;; ++call)
   {
     const FlipSession session = this->RunInSteps(call);
-    ASSERT_TRUE(expected.Triangles == this->Store(session)) << call;
+    ASSERT_TRUE(this->Expected.Triangles == StoreTriangles(session)) << call;
     const FlipReport& report = session.GetReport();
-    ExpectSameStatistics(expected.Report, report);
+    ExpectSameStatistics(this->Expected.Report, report);
     if (CallsToFailure > 0)
     {
       EXPECT_LT(20, call);
@@ -85,7 +76,6 @@ TEST_F(FallbackTest, AnyCallMayFail)
 
 TEST_F(FallbackTest, AnAbortEndsTheRepetition)
 {
-  const FlipResult expected = this->FlipOnThreads();
   int call = 1;
   for (;; ++call)
   {
@@ -97,7 +87,7 @@ TEST_F(FallbackTest, AnAbortEndsTheRepetition)
     this->ExpectInput(session);
     session.Advance();
     EXPECT_TRUE(session.GetReport().Converged());
-    ASSERT_TRUE(expected.Triangles == this->Store(session)) << call;
+    ASSERT_TRUE(this->Expected.Triangles == StoreTriangles(session)) << call;
   }
   EXPECT_LT(20, call);
 }
@@ -128,7 +118,10 @@ TEST_F(FallbackTest, AnAbortMayComeWhileResultsAreFetched)
     CallsToFailure = 1;
     if (!fetchesReport)
     {
-      EXPECT_TRUE(this->Mesh.Triangles == this->Store(session));
+      std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
+      session.StoreTriangles(
+        MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()));
+      EXPECT_TRUE(this->Mesh.Triangles == triangles);
     }
     this->ExpectInput(session);
     EXPECT_EQ(0, CallsToFailure);
@@ -138,7 +131,6 @@ TEST_F(FallbackTest, AnAbortMayComeWhileResultsAreFetched)
 /// The CPU takes a copy of what is on the device.
 TEST_F(FallbackTest, AnyCallMayFailForDeviceArrays)
 {
-  const FlipResult expected = this->FlipOnThreads();
   const DeviceArrays<double, std::int32_t> device(this->Mesh.View(), 2);
   for (int call = 1;; ++call)
   {
@@ -147,9 +139,9 @@ TEST_F(FallbackTest, AnyCallMayFailForDeviceArrays)
     session.Advance();
     session.StoreTriangles(device.ViewResult(), {});
     session.StoreFlipCounts(device.FlipCounts.Data(), {});
-    ASSERT_TRUE(expected.Triangles == device.Result.Get()) << call;
-    ASSERT_TRUE(expected.FlipCounts == device.FlipCounts.Get()) << call;
-    ExpectSameStatistics(expected.Report, session.GetReport());
+    ASSERT_TRUE(this->Expected.Triangles == device.Result.Get()) << call;
+    ASSERT_TRUE(this->Expected.FlipCounts == device.FlipCounts.Get()) << call;
+    ExpectSameStatistics(this->Expected.Report, session.GetReport());
     if (CallsToFailure > 0)
     {
       EXPECT_LT(5, call);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
 
 namespace delaunayflip
@@ -67,16 +69,9 @@ auto RunOnTestBackend(const FlipOptions& options, const Run& run)
 
 FlipResult FlipOnce(const TriangleMesh& mesh, const FlipOptions& options)
 {
-  const auto triangles = static_cast<std::size_t>(mesh.Triangles.Count);
-  FlipResult result;
-  result.Triangles.resize(3 * triangles);
-  result.FlipCounts.resize(triangles);
   FlipSession session(mesh, options);
   session.Advance();
-  session.StoreTriangles(MutableTriangleArray(result.Triangles.data(), mesh.Triangles.Count));
-  session.StoreFlipCounts(result.FlipCounts.data());
-  result.Report = session.GetReport();
-  return result;
+  return { StoreTriangles(session), StoreFlipCounts(session), session.GetReport() };
 }
 
 }
@@ -91,6 +86,78 @@ FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options)
 {
   return RunOnTestBackend(
     options, [&](const FlipOptions& chosen) { return FlipOnce(mesh, chosen); });
+}
+
+std::vector<std::int32_t> StoreTriangles(const FlipSession& session)
+{
+  const std::int64_t count = session.GetReport().Triangles;
+  std::vector<std::int32_t> triangles(3 * count);
+  session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
+  return triangles;
+}
+
+std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session)
+{
+  std::vector<std::int32_t> counts(session.GetReport().Triangles, -1);
+  session.StoreFlipCounts(counts.data());
+  return counts;
+}
+
+namespace
+{
+
+/// Both NaN, or close.
+void ExpectNearAngle(double expected, double angle)
+{
+  EXPECT_EQ(expected != expected, angle != angle) << expected << " and " << angle;
+  EXPECT_FALSE(std::abs(expected - angle) > 1e-6) << expected << " and " << angle;
+}
+
+}
+
+FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  FlipResult result = Flip(mesh, options);
+  const FlipReport& report = result.Report;
+  FlipOptions audit = options;
+  audit.Geometry = report.GeometryUsed; // flips may change what Auto chooses
+  const TriangleMesh after = WithTriangles(mesh, result.Triangles);
+  EXPECT_TRUE(report.Converged());
+  EXPECT_EQ(report.TotalFlips + report.ConstraintFlips, SumFlips(result.FlipCounts));
+  const std::int64_t badBefore = CountNonDelaunayEdges(mesh, audit);
+  EXPECT_LE(badBefore, report.NonDelaunayBefore); // which has ties, too, where a rule decides them
+  EXPECT_TRUE(badBefore == report.NonDelaunayBefore || audit.TieRule == TieRuleKind::Canonical);
+  EXPECT_EQ(CountNonDelaunayEdges(after, audit), report.NonDelaunayAfter);
+  ExpectNearAngle(MinimumAngle(mesh, audit.Geometry), report.MinimumAngleBefore);
+  ExpectNearAngle(MinimumAngle(after, audit.Geometry), report.MinimumAngleAfter);
+  ExpectSameTopology(mesh.Triangles, result.Triangles, report);
+  ExpectConsistentStatistics(report);
+  return result;
+}
+
+FlipOptions OnSurface(double featureAngle)
+{
+  FlipOptions options;
+  options.Geometry = GeometryKind::Surface;
+  options.FeatureAngle = featureAngle;
+  return options;
+}
+
+FlipOptions InPlane(TieRuleKind ties)
+{
+  FlipOptions options;
+  options.Geometry = GeometryKind::PlanarXY;
+  options.TieRule = ties;
+  return options;
+}
+
+OwnedMesh<double> Lift(OwnedMesh<double> mesh, const std::function<double(double, double)>& height)
+{
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    mesh.Points[i + 2] = height(mesh.Points[i], mesh.Points[i + 1]);
+  }
+  return mesh;
 }
 
 OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh)
@@ -110,20 +177,30 @@ TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int3
   return result;
 }
 
+TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& ends)
+{
+  mesh.ConstraintEdges = ends.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(ends.size()) / 2;
+  return mesh;
+}
+
+std::int64_t SumFlips(const std::vector<std::int32_t>& flipCounts)
+{
+  return std::accumulate(flipCounts.begin(), flipCounts.end(), std::int64_t(0)) / 2;
+}
+
 void ExpectSameTopology(
   const TriangleArray& before, const std::vector<std::int32_t>& after, const FlipReport& report)
 {
   const TriangleArray view = ViewTriangles(after);
-  const EdgeCounts a = CountEdges(before);
-  const EdgeCounts b = CountEdges(view);
-  EXPECT_EQ(a.Edges, b.Edges);
-  EXPECT_EQ(a.Boundary, b.Boundary);
-  EXPECT_EQ(a.NonManifold, b.NonManifold);
-  EXPECT_EQ(a.WronglyWound, b.WronglyWound);
-  EXPECT_EQ(a.Edges, report.Edges.Edges);
-  EXPECT_EQ(a.Boundary, report.Edges.Boundary);
-  EXPECT_EQ(a.NonManifold, report.Edges.NonManifold);
-  EXPECT_EQ(a.WronglyWound, report.Edges.WronglyWound);
+  const EdgeCounts expected = CountEdges(before);
+  for (const EdgeCounts& found : { CountEdges(view), report.Edges })
+  {
+    EXPECT_EQ(expected.Edges, found.Edges);
+    EXPECT_EQ(expected.Boundary, found.Boundary);
+    EXPECT_EQ(expected.NonManifold, found.NonManifold);
+    EXPECT_EQ(expected.WronglyWound, found.WronglyWound);
+  }
   EXPECT_EQ(EulerCharacteristic(before), EulerCharacteristic(view));
   EXPECT_EQ(EulerCharacteristic(before), report.EulerCharacteristic);
   EXPECT_EQ(0, CountDuplicateEdgesGained(before, view));

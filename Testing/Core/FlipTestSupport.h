@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ constexpr std::int64_t Reduction = 10;
 #else
 constexpr std::int64_t Reduction = 1;
 #endif
+
+using Point3 = std::array<double, 3>;
 
 /// Triangles in a canonical order: each starts at its smallest id, then all are sorted. Their
 /// winding is kept.
@@ -46,17 +49,38 @@ FlipOptions OnTestBackend(FlipOptions options);
 /// with BackendKind::Auto.
 FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options = {});
 
+/// The triangles that a session has now, and their flips.
+std::vector<std::int32_t> StoreTriangles(const FlipSession& session);
+std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session);
+
 /// Runs all flips on a copy of the triangles, on the backend that MakeSession chooses.
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options = {});
+
+/// The same, and reports a failure for a run that does not end by itself, for statistics that do
+/// not add up, for topology that has changed, and for counts of bad edges and smallest angles,
+/// before and after, that are not those of the audit.
+FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options = {});
+
+/// On a surface, by default without feature edges.
+FlipOptions OnSurface(double featureAngle = 180.0);
+
+/// In the plane of x and y.
+FlipOptions InPlane(TieRuleKind ties = TieRuleKind::Keep);
 
 TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles);
 
 /// `mesh` with other triangles but the same labels and constraints.
 TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles);
 
+/// `mesh` with constraint edges, given as pairs of ids.
+TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& ends);
+
 /// Reports a failure for every count of edges that has changed although flips must not change it.
 void ExpectSameTopology(
   const TriangleArray& before, const std::vector<std::int32_t>& after, const FlipReport& report);
+
+/// The number of flips, from the counts of triangles.
+std::int64_t SumFlips(const std::vector<std::int32_t>& flipCounts);
 
 /// Reports a failure for rows that break NonDelaunay = Flipped + Excluded + Blocked, and for totals
 /// that are not the sums of the rows.
@@ -112,6 +136,24 @@ inline AffineMap ScaleAndMove(double scale, double offset)
 
 /// The mesh with its coordinates rounded to float.
 OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh);
+
+/// The mesh with a height for every x and y.
+OwnedMesh<double> Lift(OwnedMesh<double> mesh, const std::function<double(double, double)>& height);
+
+/// Adds the points, times a factor, and the triangles of another mesh.
+template <typename Real>
+void Append(OwnedMesh<Real>& mesh, const OwnedMesh<double>& other, double factor = 1.0)
+{
+  const auto offset = static_cast<std::int32_t>(mesh.NumberOfPoints());
+  for (const double coordinate : other.Points)
+  {
+    mesh.Points.push_back(static_cast<Real>(factor * coordinate));
+  }
+  for (const std::int32_t id : other.Triangles)
+  {
+    mesh.Triangles.push_back(id + offset);
+  }
+}
 
 }
 

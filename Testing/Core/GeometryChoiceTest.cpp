@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DividedMesh.h"
-#include "FlipTestSupport.h"
 #include "MeshAudit.h"
-#include "Predicates.h"
-#include "SurfaceAngles.h"
+#include "PartTestSupport.h"
+#include "References.h"
 
 #include <gtest/gtest.h>
 
@@ -26,26 +24,10 @@ using HeightOf = std::function<double(double, double)>;
 /// A lattice of columns x rows squares with heights.
 OwnedMesh<double> MakeHeights(std::int32_t columns, std::int32_t rows, const HeightOf& height)
 {
-  OwnedMesh<double> mesh = MakeGridMesh(columns, rows);
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i + 2] = height(mesh.Points[i], mesh.Points[i + 1]);
-  }
-  return mesh;
+  return Lift(MakeGridMesh(columns, rows), height);
 }
 
 double Wave(double x, double y) { return 2.0 * std::sin(0.3 * x) + std::cos(0.4 * y); }
-
-/// Adds the points and triangles of another mesh.
-void Append(OwnedMesh<double>& mesh, const OwnedMesh<double>& other)
-{
-  const auto offset = static_cast<std::int32_t>(mesh.NumberOfPoints());
-  mesh.Points.insert(mesh.Points.end(), other.Points.begin(), other.Points.end());
-  for (const std::int32_t id : other.Triangles)
-  {
-    mesh.Triangles.push_back(id + offset);
-  }
-}
 
 /// Checks the report before the first flip.
 FlipReport Survey(const OwnedMesh<double>& mesh, GeometryKind geometry = GeometryKind::Auto)
@@ -75,18 +57,7 @@ void ExpectNoDefects(const OwnedMesh<double>& mesh)
 /// Triangles that turn right in x and y.
 std::int64_t CountRight(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
 {
-  std::int64_t right = 0;
-  for (std::size_t t = 0; t < triangles.size(); t += 3)
-  {
-    right += Orientation(&mesh.Points[3 * triangles[t]], &mesh.Points[3 * triangles[t + 1]],
-               &mesh.Points[3 * triangles[t + 2]]) < 0;
-  }
-  return right;
-}
-
-TEST(GeometryChoice, APlaneIsPlanar)
-{
-  ExpectChoice(MakeGridMesh(5, 5), GeometryKind::Planar, "all points lie in one plane");
+  return CountTurns(WithTriangles(mesh.View(), triangles)).Right;
 }
 
 /// One point stands off the plane of the others by a share of the bounding box's diagonal.
@@ -163,73 +134,10 @@ TEST(GeometryChoice, DegreesAndMetresArePlanarXY)
   EXPECT_EQ("", DescribeDefects(result.Report.Defects));
 }
 
-/// A hemisphere above x and y, of which 29 % slopes below 45 degrees.
-OwnedMesh<double> MakeDome()
-{
-  constexpr std::int32_t Columns = 90;
-  constexpr std::int32_t Rings = 30;
-  OwnedMesh<double> mesh = { { 0, 0, 1 }, {} };
-  for (std::int32_t ring = 1; ring <= Rings; ++ring)
-  {
-    const double latitude = 1.55 * ring / Rings;
-    for (std::int32_t i = 0; i < Columns; ++i)
-    {
-      const double longitude = 6.283185307179586 * i / Columns;
-      mesh.Points.insert(mesh.Points.end(),
-        { std::sin(latitude) * std::cos(longitude), std::sin(latitude) * std::sin(longitude),
-          std::cos(latitude) });
-      const std::int32_t here = 1 + (ring - 1) * Columns + i;
-      const std::int32_t next = 1 + (ring - 1) * Columns + (i + 1) % Columns;
-      if (ring == 1)
-      {
-        mesh.Triangles.insert(mesh.Triangles.end(), { 0, here, next });
-        continue;
-      }
-      mesh.Triangles.insert(
-        mesh.Triangles.end(), { here - Columns, here, next, here - Columns, next, next - Columns });
-    }
-  }
-  return mesh;
-}
-
-TEST(GeometryChoice, ADomeScanIsASurface)
-{
-  const OwnedMesh<double> dome = MakeDome();
-  ExpectChoice(dome, GeometryKind::Surface,
-    "a height field over x and y, but only 29 % of its area slopes below 45 degrees");
-  ExpectNoDefects(dome);
-}
-
 /// Random points in a square around the origin, badly triangulated: slivers, with heights.
 OwnedMesh<double> MakeSlivers(const HeightOf& height)
 {
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(5000, 34);
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i] = 2.0 * mesh.Points[i] - 1.0;
-    mesh.Points[i + 1] = 2.0 * mesh.Points[i + 1] - 1.0;
-    mesh.Points[i + 2] = height(mesh.Points[i], mesh.Points[i + 1]);
-  }
-  return mesh;
-}
-
-/// Part of the area of triangles whose planes slope below 45 degrees.
-double FindGentleShare(const OwnedMesh<double>& mesh)
-{
-  double all = 0.0;
-  double gentle = 0.0;
-  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
-  {
-    const auto corner = [&](int slot)
-    {
-      const double* p = &mesh.Points[3 * mesh.Triangles[t + slot]];
-      return Vector3{ p[0], p[1], p[2] };
-    };
-    const Vector3 normal = AreaVector(corner(0), corner(1), corner(2));
-    all += Length(normal);
-    gentle += normal.Z > std::hypot(normal.X, normal.Y) ? Length(normal) : 0.0;
-  }
-  return gentle / all;
+  return Lift(Transform(MakeRandomBadMeshDouble(5000, 34), ScaleAndMove(2.0, -1.0)), height);
 }
 
 /// The planes of slivers are steep where no edge is.
@@ -237,7 +145,6 @@ TEST(GeometryChoice, GentleTerrainMayBeFullOfSlivers)
 {
   const OwnedMesh<double> hills =
     MakeSlivers([](double x, double y) { return 0.1 * std::sin(8.0 * x) * std::cos(6.0 * y); });
-  EXPECT_GT(0.1, FindGentleShare(hills));
   ExpectChoice(hills, GeometryKind::PlanarXY, "97 % of its area slopes below 45 degrees");
   const FlipResult result = Flip(hills.View());
   EXPECT_EQ(0, result.Report.NonDelaunayAfter);
@@ -382,9 +289,7 @@ TEST(GeometryChoice, IsTheSameInParts)
   options.Backend = BackendKind::Threads;
   for (const int parts : { 2, 5 })
   {
-    const Owners owners = DivideBySpace(globe.View(), parts);
-    expectSame(
-      FlipDivided(globe.View(), Divide(globe.View(), owners, parts), options).Reports.back());
+    expectSame(FlipDivided(globe.View(), DivideMesh(globe.View(), parts), options).Report);
     options.NumberOfPieces = parts;
     expectSame(Flip(globe.View(), options).Report);
   }
@@ -393,7 +298,7 @@ TEST(GeometryChoice, IsTheSameInParts)
   {
     turned[t] = CountRight(globe, { &globe.Triangles[3 * t], &globe.Triangles[3 * t] + 3 }) > 0;
   }
-  expectSame(FlipDivided(globe.View(), Divide(globe.View(), turned, 2), options).Reports.back());
+  expectSame(FlipDivided(globe.View(), DivideMesh(globe.View(), turned, 2), options).Report);
 }
 
 /// In units in which depths extend hardly ten times as far.

@@ -1,10 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
 #include "FlipTestSupport.h"
+#include "HostMemory.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <new>
+#if defined(__linux__)
+#include <cerrno>
+#include <sys/mman.h>
+#endif
+
+/// @file
+/// Input and options that are refused, and memory that there is not.
 
 namespace delaunayflip
 {
@@ -81,53 +92,67 @@ TEST(InvalidIds, OfConstraintsThrowWithConstraintAndPoint)
   }
 }
 
-template <typename Error, typename Change>
-void ExpectRefused(const TriangleMesh& mesh, const Change& change)
-{
-  FlipOptions options;
-  change(options);
-  EXPECT_THROW(MakeSession(mesh, options), Error);
-}
-
 TEST(InvalidOptions, AreRefused)
 {
-  const OwnedMesh<double> grid = MakeGridMesh(3, 3);
-  const TriangleMesh mesh = grid.View();
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  const OwnedMesh<double> grid = MakeGridMesh(3, 3), sphere = MakeBadSphere(8, 4, 1);
+  const auto expectRefused = [](const OwnedMesh<double>& mesh, const auto& change)
+  {
+    FlipOptions options;
+    change(options);
+    EXPECT_THROW(MakeSession(mesh.View(), options), InvalidOptions);
+  };
   for (double tolerance : { -1e-9, -2.0, 1.0, nan })
   {
-    ExpectRefused<InvalidOptions>(mesh, [&](FlipOptions& o) { o.Tolerance = tolerance; });
+    expectRefused(grid, [&](FlipOptions& o) { o.Tolerance = tolerance; });
   }
   for (double angle : { -0.1, 180.1, nan })
   {
-    ExpectRefused<InvalidOptions>(mesh, [&](FlipOptions& o) { o.FeatureAngle = angle; });
+    expectRefused(grid, [&](FlipOptions& o) { o.FeatureAngle = angle; });
   }
-  ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.MaximumIterations = -2; });
-  ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.NumberOfThreads = -1; });
-  ExpectRefused<InvalidOptions>(mesh, [](FlipOptions& o) { o.Device = -2; });
-}
-
-TEST(InvalidOptions, AreThoseThatTheMeshCannotHonour)
-{
-  const OwnedMesh<double> sphere = MakeBadSphere(8, 4, 1);
-  const OwnedMesh<double> grid = MakeGridMesh(3, 3);
-  const auto setCanonical = [](FlipOptions& o) { o.TieRule = TieRuleKind::Canonical; };
-  ExpectRefused<InvalidOptions>(sphere.View(), setCanonical);
-  ExpectRefused<InvalidOptions>(grid.View(),
-    [&](FlipOptions& o)
+  expectRefused(grid, [](FlipOptions& o) { o.MaximumIterations = -2; });
+  expectRefused(grid, [](FlipOptions& o) { o.NumberOfThreads = -1; });
+  expectRefused(grid, [](FlipOptions& o) { o.Device = -2; });
+  expectRefused(grid, [](FlipOptions& o) { o.Devices = { 0, 1, 0 }; });
+  expectRefused(grid, [](FlipOptions& o) { o.Devices = { -1, 0 }; });
+  // Those that the mesh cannot honour.
+  expectRefused(sphere, [](FlipOptions& o) { o.TieRule = TieRuleKind::Canonical; });
+  expectRefused(grid,
+    [](FlipOptions& o)
     {
-      setCanonical(o);
+      o.TieRule = TieRuleKind::Canonical;
       o.Geometry = GeometryKind::Surface;
     });
-  ExpectRefused<InvalidOptions>(grid.View(),
-    [&](FlipOptions& o)
+  expectRefused(grid,
+    [](FlipOptions& o)
     {
-      setCanonical(o);
+      o.TieRule = TieRuleKind::Canonical;
       o.Criterion = CriterionKind::OppositeAngles;
     });
-  ExpectRefused<InvalidOptions>(
-    sphere.View(), [](FlipOptions& o) { o.Geometry = GeometryKind::Planar; });
-  EXPECT_NO_THROW(Flip(grid.View()));
+  expectRefused(sphere, [](FlipOptions& o) { o.Geometry = GeometryKind::Planar; });
+  FlipOptions threads;
+  threads.Backend = BackendKind::Threads;
+  threads.Devices = { 7, 9 }; // nothing to the CPU
+  EXPECT_NO_THROW(Flip(grid.View(), threads));
+}
+
+TEST(DeviceLists, AreNumbersOrAll)
+{
+  EXPECT_EQ(ParseDevices(""), std::vector<int>());
+  EXPECT_EQ(ParseDevices(" 2, 10 "), std::vector<int>({ 2, 10 }));
+  EXPECT_EQ(static_cast<int>(ParseDevices("all").size()), CountCudaDevices());
+  for (const char* list : { "x", "0,", ",0", "0,,1", "-1", "0.5", "0 1", "all,0", "99999999999" })
+  {
+    try
+    {
+      ParseDevices(list);
+      FAIL() << list;
+    }
+    catch (const InvalidOptions& error)
+    {
+      EXPECT_NE(std::string::npos, std::string(error.what()).find(list)) << error.what();
+    }
+  }
 }
 
 /// More triangles than half-edges can be numbered for: refused before anything is read or
@@ -171,6 +196,52 @@ TEST(ForcedBackend, RunsOrIsRefused)
   options.NumberOfThreads = 3;
   EXPECT_EQ("Threads: 3", Flip(grid.View(), options).Report.Backend);
 }
+
+constexpr std::size_t Megabyte = std::size_t(1) << 20;
+
+TEST(HostMemory, AllocationsAreAlignedAndDisjoint)
+{
+  HostMemory memory;
+  std::vector<Array<std::uint8_t>> arrays;
+  // Some allocations come from the heap, others are pages.
+  for (const std::size_t bytes : { std::size_t(0), std::size_t(1), Megabyte - 1, Megabyte,
+         Megabyte + 1, 2 * Megabyte, 3 * Megabyte - 1, 5 * Megabyte })
+  {
+    arrays.emplace_back(bytes, memory);
+    ASSERT_EQ(0u, reinterpret_cast<std::uintptr_t>(arrays.back().Data()) % 64) << bytes;
+    std::fill_n(arrays.back().Data(), bytes, static_cast<std::uint8_t>(arrays.size()));
+  }
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    const Array<std::uint8_t>& array = arrays[i];
+    EXPECT_TRUE(std::all_of(
+      array.Data(), array.Data() + array.Size(), [i](std::uint8_t byte) { return byte == i + 1; }))
+      << i;
+  }
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+TEST(HostMemory, TooMuchIsBadAlloc)
+{
+  HostMemory memory;
+  EXPECT_THROW(memory.Allocate(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
+}
+
+TEST(HostMemory, LargeAllocationsGoBackToTheSystem)
+{
+  HostMemory memory;
+  constexpr std::size_t Bytes = 64 * Megabyte;
+  void* pages = memory.Allocate(Bytes);
+  unsigned char isResident = 0;
+  static_cast<char*>(pages)[0] = 1;
+  EXPECT_EQ(0, mincore(pages, 1, &isResident));
+  EXPECT_EQ(1, isResident & 1);
+  memory.Free(pages, Bytes);
+  // No longer mapped.
+  EXPECT_EQ(-1, mincore(pages, 1, &isResident));
+  EXPECT_EQ(ENOMEM, errno);
+}
+#endif
 
 }
 }

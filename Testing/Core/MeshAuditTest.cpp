@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
-#include "FlipTestSupport.h"
+#include "References.h"
+#include "TriangleAngles.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace delaunayflip
@@ -53,14 +54,6 @@ EdgeCounts CountByBruteForce(const std::vector<std::int32_t>& triangles, int poi
   return counts;
 }
 
-void ExpectSameCounts(const EdgeCounts& a, const EdgeCounts& b)
-{
-  EXPECT_EQ(a.Edges, b.Edges);
-  EXPECT_EQ(a.Boundary, b.Boundary);
-  EXPECT_EQ(a.NonManifold, b.NonManifold);
-  EXPECT_EQ(a.WronglyWound, b.WronglyWound);
-}
-
 TEST(EdgeCounts, AgreeWithBruteForce)
 {
   std::mt19937 random(3);
@@ -69,8 +62,6 @@ TEST(EdgeCounts, AgreeWithBruteForce)
     const int points = 3 + DrawIndex(random, 12);
     const std::vector<std::int32_t> soup = DrawSoup(random, points, 1 + DrawIndex(random, 30));
     const EdgeCounts expected = CountByBruteForce(soup, points);
-    ExpectSameCounts(expected, CountEdges(ViewTriangles(soup)));
-
     OwnedMesh<double> mesh;
     mesh.Triangles = soup;
     for (int k = 0; k < 3 * points; ++k)
@@ -79,7 +70,13 @@ TEST(EdgeCounts, AgreeWithBruteForce)
     }
     const std::set<std::int32_t> used(soup.begin(), soup.end());
     const FlipReport report = MakeSession(mesh.View()).GetReport();
-    ExpectSameCounts(expected, report.Edges);
+    for (const EdgeCounts& found : { CountEdges(ViewTriangles(soup)), report.Edges })
+    {
+      EXPECT_EQ(expected.Edges, found.Edges);
+      EXPECT_EQ(expected.Boundary, found.Boundary);
+      EXPECT_EQ(expected.NonManifold, found.NonManifold);
+      EXPECT_EQ(expected.WronglyWound, found.WronglyWound);
+    }
     EXPECT_EQ(static_cast<std::int64_t>(used.size()) - expected.Edges + mesh.NumberOfTriangles(),
       report.EulerCharacteristic);
     ASSERT_FALSE(HasFailure()) << "soup " << i;
@@ -93,22 +90,12 @@ TEST(EulerCharacteristic, TellsSurfacesApart)
   EXPECT_EQ(2, EulerCharacteristic(MakeBadSphere(9, 5, 1).View().Triangles));
   EXPECT_EQ(0, EulerCharacteristic(MakeMoebiusStrip(9, 2, 1).View().Triangles));
   EXPECT_EQ(1, EulerCharacteristic(MakeRandomBadMesh(500, 1).View().Triangles));
-}
-
-TEST(GeneratedMeshes, AreWhatTheySay)
-{
-  const EdgeCounts sphere = CountEdges(MakeBadSphere(9, 5, 1).View().Triangles);
-  EXPECT_EQ(0, sphere.Boundary + sphere.NonManifold + sphere.WronglyWound);
-  const EdgeCounts strip = CountEdges(MakeMoebiusStrip(9, 2, 1).View().Triangles);
-  EXPECT_EQ(18, strip.Boundary);
-  EXPECT_EQ(0, strip.NonManifold);
-  EXPECT_EQ(2, strip.WronglyWound);
-  const OwnedMesh<float> bad = MakeRandomBadMesh(5000, 4);
-  EXPECT_EQ(5000, bad.NumberOfPoints());
-  EXPECT_EQ(2 * 5000 - 6, bad.NumberOfTriangles());
-  const EdgeCounts square = CountEdges(bad.View().Triangles);
-  EXPECT_EQ(4, square.Boundary);
-  EXPECT_EQ(0, square.NonManifold + square.WronglyWound);
+  // Tiles fit together, whichever thread makes them.
+  const OwnedMesh<float> tiled = MakeTiledBadMesh(5000, 4, 7, 1);
+  EXPECT_EQ(1, EulerCharacteristic(tiled.View().Triangles));
+  EXPECT_EQ(16, CountEdges(tiled.View().Triangles).Boundary);
+  EXPECT_EQ(2 * 5000 - 16 - 2, CountTurns(tiled.View()).Left);
+  EXPECT_TRUE(tiled.Triangles == MakeTiledBadMesh(5000, 4, 7, 5).Triangles);
 }
 
 TEST(DuplicateEdgesGained, AreCountedWhereThreeTrianglesMeet)
@@ -216,54 +203,6 @@ TEST(NonDelaunayEdges, OfSurfacesObeyFeatureAngleAndTolerance)
   EXPECT_EQ(0, CountNonDelaunayEdges(roof.View(), options));
 }
 
-double SmallestAngle(const std::vector<double>& points, GeometryKind geometry = GeometryKind::Auto)
-{
-  OwnedMesh<double> mesh = { points, {} };
-  for (std::int32_t i = 0; i < mesh.NumberOfPoints(); ++i)
-  {
-    mesh.Triangles.push_back(i);
-  }
-  return MinimumAngle(mesh.View(), geometry);
-}
-
-TEST(MinimumAngle, IsInDegreesAtAnyScale)
-{
-  for (double s : { 1.0, 1e-300, 1e-160, 1e160, 1e308 })
-  {
-    EXPECT_NEAR(45.0, SmallestAngle({ 0, 0, 0, s, 0, 0, 0, 0, s }), 1e-12) << s;
-  }
-  EXPECT_NEAR(60.0, SmallestAngle({ 1, 0, 0, 0, 1, 0, 0, 0, 1 }), 1e-12);
-  EXPECT_NEAR(1e-10 * 57.29577951308232, SmallestAngle({ 0, 0, 0, 1, 0, 0, 1, 1e-10, 0 }), 1e-18);
-  EXPECT_NEAR(30.0,
-    SmallestAngle({ 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, std::sqrt(3.0), 0, 0, 0, 1, 0 }), 1e-12);
-}
-
-TEST(MinimumAngle, KnowsDegenerateAndMissingTriangles)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(SmallestAngle({})));
-  EXPECT_TRUE(std::isnan(SmallestAngle({ 0, 0, nan, 1, 0, 0, 0, 1, 0 })));
-  EXPECT_EQ(0.0, SmallestAngle({ 0, 0, 0, 1, 0, 0, 3, 0, 0 }));
-  EXPECT_EQ(0.0, SmallestAngle({ 0, 0, 0, 0, 0, 0, 3, 0, 0 }));
-  EXPECT_EQ(0.0, SmallestAngle({ 1, 1, 1, 1, 1, 1, 1, 1, 1 }));
-  EXPECT_NEAR(45.0, SmallestAngle({ 0, 0, 0, 1, 0, 50, 0, 1, nan }, GeometryKind::PlanarXY), 1e-12);
-}
-
-TEST(Report, AgreesWithTheAudit)
-{
-  const OwnedMesh<double> meshes[] = { MakeRandomBadMeshDouble(300, 1), MakeBadSphere(20, 9, 2),
-    MakeMoebiusStrip(30, 4, 3), MakeGridMesh(5, 5) };
-  for (const OwnedMesh<double>& mesh : meshes)
-  {
-    const FlipResult result = Flip(mesh.View());
-    const TriangleMesh after = WithTriangles(mesh.View(), result.Triangles);
-    EXPECT_EQ(CountNonDelaunayEdges(mesh.View(), FlipOptions()), result.Report.NonDelaunayBefore);
-    EXPECT_NEAR(
-      MinimumAngle(mesh.View(), GeometryKind::Auto), result.Report.MinimumAngleBefore, 1e-9);
-    EXPECT_NEAR(MinimumAngle(after, GeometryKind::Auto), result.Report.MinimumAngleAfter, 1e-9);
-  }
-}
-
 /// b is off the line p-q by more than it looks like from a, half a unit away.
 TEST(MeshAudit, SeesShortLegsBesideLongOnes)
 {
@@ -276,6 +215,124 @@ TEST(MeshAudit, SeesShortLegsBesideLongOnes)
   options.Tolerance = 0.0;
   EXPECT_EQ(0, CountNonDelaunayEdges(mesh.View(), options));
   EXPECT_EQ(0, Flip(mesh.View(), options).Report.NonDelaunayAfter);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> FindAngles(const TriangleMesh& mesh, GeometryKind geometry, int threads = 2)
+{
+  std::vector<double> angles(mesh.Triangles.Count, -1.0);
+  FindSmallestAngles(mesh, geometry, threads, angles.data());
+  return angles;
+}
+
+void ExpectLongAngles(const TriangleMesh& mesh, GeometryKind geometry)
+{
+  const std::vector<double> angles = FindAngles(mesh, geometry);
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    LongVector corners[3] = {};
+    for (int i = 0; i < 6 + (geometry == GeometryKind::PlanarXY ? 0 : 3); ++i)
+    {
+      corners[i % 3][i / 3] = mesh.Points.Get(mesh.Triangles.Get(t, i % 3), i / 3);
+    }
+    const auto& [a, b, c] = corners;
+    const long double smallest =
+      std::min({ FindAngle(a, b, c), FindAngle(b, c, a), FindAngle(c, a, b) });
+    ASSERT_NEAR(static_cast<double>(smallest * 180.0L / std::acos(-1.0L)), angles[t], 1e-9) << t;
+  }
+}
+
+TEST(TriangleAngles, AreThoseOfInverseTrigonometry)
+{
+  for (const GeometryKind geometry :
+    { GeometryKind::Planar, GeometryKind::Surface, GeometryKind::PlanarXY })
+  {
+    ExpectLongAngles(MakeRandomBadMesh(3000, 5).View(), geometry);
+    ExpectLongAngles(MakeRandomBadMeshDouble(3000, 6).View(), geometry);
+    ExpectLongAngles(MakeBadSphere(40, 21, 7).View(), geometry);
+  }
+}
+
+TEST(TriangleAngles, DoNotDependOnThreadsOrIds)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(30000, 8);
+  const std::vector<std::int64_t> ids(mesh.Triangles.begin(), mesh.Triangles.end());
+  TriangleMesh wide = mesh.View();
+  wide.Triangles = TriangleArray(ids.data(), mesh.NumberOfTriangles());
+  const std::vector<double> expected = FindAngles(mesh.View(), GeometryKind::Planar, 1);
+  for (const int threads : { 0, 2, 7 })
+  {
+    EXPECT_EQ(expected, FindAngles(wide, GeometryKind::Planar, threads));
+  }
+}
+
+/// The smallest angle of one triangle, which the audit finds, too.
+double MeasureOne(const std::vector<double>& points, GeometryKind geometry = GeometryKind::Surface)
+{
+  const OwnedMesh<double> mesh = { points, { 0, 1, 2 } };
+  const double angle = FindAngles(mesh.View(), geometry)[0];
+  const double audited = MinimumAngle(mesh.View(), geometry);
+  EXPECT_TRUE(std::isnan(angle) ? std::isnan(audited) : std::fabs(audited - angle) <= 1e-12);
+  return angle;
+}
+
+TEST(TriangleAngles, AtAnyScaleAndCorner)
+{
+  for (double s : { 1.0, 1e-300, 1e-160, 1e160, 1e308 })
+  {
+    EXPECT_NEAR(30.0, MeasureOne({ 0, 0, 0, s, 0, 0, 0, s * std::sqrt(1.0 / 3.0), 0 }), 1e-12) << s;
+    EXPECT_NEAR(45.0, MeasureOne({ 0, 0, 0, s, 0, 0, 0, 0, s }), 1e-12) << s;
+  }
+  EXPECT_NEAR(60.0, MeasureOne({ 1, 0, 0, 0, 1, 0, 0, 0, 1 }), 1e-12);
+  std::vector<double> needle = { 0, 0, 0, 1, 0, 0, 1, 1e-10, 0 };
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    EXPECT_NEAR(1e-10 * 57.29577951308232, MeasureOne(needle, GeometryKind::Planar), 1e-24);
+    std::rotate(needle.begin(), needle.begin() + 3, needle.end());
+  }
+  EXPECT_TRUE(std::isnan(MinimumAngle(TriangleMesh(), GeometryKind::Auto)));
+}
+
+TEST(TriangleAngles, WithoutAreaTheyAreZero)
+{
+  for (const std::vector<double>& points :
+    std::vector<std::vector<double>>{
+      { 0, 0, 0, 1, 0, 0, 3, 0, 0 }, { 0, 0, 0, 0, 0, 0, 3, 0, 0 }, { 1, 1, 1, 1, 1, 1, 1, 1, 1 } })
+  {
+    EXPECT_EQ(0.0, MeasureOne(points));
+    EXPECT_EQ(0.0, MeasureOne(points, GeometryKind::PlanarXY));
+  }
+  EXPECT_EQ(0.0, MeasureOne({ 0, 0, 0, 1, 0, 1, 2, 0, 0 }, GeometryKind::PlanarXY));
+  EXPECT_NEAR(45.0, MeasureOne({ 0, 0, 0, 1, 0, 1, 2, 0, 0 }), 1e-12);
+}
+
+TEST(TriangleAngles, NaNWhereACoordinateThatMattersIsNotFinite)
+{
+  for (const double x : std::initializer_list<double>{ std::nan(""), -INFINITY })
+  {
+    EXPECT_TRUE(std::isnan(MeasureOne({ 0, 0, 0, 1, x, 0, 0, 1, 0 }, GeometryKind::PlanarXY)));
+    EXPECT_TRUE(std::isnan(MeasureOne({ 0, 0, 0, 1, 0, 0, 0, 1, x })));
+    EXPECT_NEAR(45.0, MeasureOne({ 0, 0, 0, 1, 0, 0, 0, 1, x }, GeometryKind::PlanarXY), 1e-12);
+  }
+}
+
+TEST(TriangleAngles, NameATriangleWithoutItsPoint)
+{
+  const std::vector<double> points{ 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  const std::vector<std::int64_t> triangles{ 0, 1, 2, 0, 3, 2, 0, 1, -1 };
+  TriangleMesh mesh;
+  mesh.Points = PointArray(points.data(), 3);
+  mesh.Triangles = TriangleArray(triangles.data(), 3);
+  try
+  {
+    FindAngles(mesh, GeometryKind::Planar);
+    FAIL() << "no exception";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_EQ(1, error.Cell);
+    EXPECT_EQ(3, error.Point);
+  }
 }
 
 }

@@ -7,35 +7,41 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <stdexcept>
 #include <thread>
+
+/// @file
+/// Observers of iterations and of progress: what they see, and how they end a run.
 
 namespace delaunayflip
 {
 namespace
 {
 
-std::vector<std::int32_t> Store(const FlipSession& session)
-{
-  std::vector<std::int32_t> triangles(3 * session.GetReport().Triangles);
-  session.StoreTriangles(MutableTriangleArray(triangles.data(), session.GetReport().Triangles));
-  return triangles;
-}
-
 class ObserverTest : public testing::Test
 {
 protected:
   void SetUp() override { this->Complete = Flip(this->Mesh.View()); }
 
-  /// Checks that the session's mesh is valid and that its report counts the bad edges that are
-  /// left.
+  /// Checks that the session's mesh is valid and that its report is that of this mesh.
   void ExpectValid(const FlipSession& session) const
   {
-    const std::vector<std::int32_t> triangles = Store(session);
-    ExpectSameTopology(this->Mesh.View().Triangles, triangles, session.GetReport());
-    ExpectConsistentStatistics(session.GetReport());
-    EXPECT_EQ(CountNonDelaunayEdges(WithTriangles(this->Mesh.View(), triangles), FlipOptions()),
-      session.GetReport().NonDelaunayAfter);
+    const std::vector<std::int32_t> triangles = StoreTriangles(session);
+    const TriangleMesh mesh = WithTriangles(this->Mesh.View(), triangles);
+    const FlipReport& report = session.GetReport();
+    ExpectSameTopology(this->Mesh.View().Triangles, triangles, report);
+    ExpectConsistentStatistics(report);
+    EXPECT_EQ(CountNonDelaunayEdges(mesh, FlipOptions()), report.NonDelaunayAfter);
+    EXPECT_NEAR(MinimumAngle(mesh, GeometryKind::Planar), report.MinimumAngleAfter, 1e-9);
+  }
+
+  void ExpectCompletion(FlipSession& session) const
+  {
+    this->ExpectValid(session);
+    EXPECT_FALSE(session.Advance());
+    EXPECT_TRUE(session.GetReport().Converged());
+    EXPECT_TRUE(this->Complete.Triangles == StoreTriangles(session));
   }
 
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(5000, 51);
@@ -74,18 +80,10 @@ TEST_F(ObserverTest, MayAbortAndTheRunCanContinue)
   FlipSession session = MakeSession(this->Mesh.View());
   session.Advance(-1, [](const IterationRecord& record) { return record.Iteration < 3; });
   EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
-  EXPECT_FALSE(session.GetReport().Converged());
   EXPECT_EQ(3u, session.GetReport().Iterations.size());
   EXPECT_LT(0, session.GetReport().NonDelaunayAfter);
-  this->ExpectValid(session);
+  this->ExpectCompletion(session);
 
-  EXPECT_FALSE(session.Advance());
-  EXPECT_TRUE(session.GetReport().Converged());
-  EXPECT_TRUE(this->Complete.Triangles == Store(session));
-}
-
-TEST_F(ObserverTest, AbortStopsTheOneCallDoorToo)
-{
   std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
   const FlipReport report = FlipToDelaunay(this->Mesh.View(), OnTestBackend({}),
     MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()),
@@ -110,18 +108,11 @@ TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
   // On a GPU the whole batch is in the report before the observer is called.
   const std::size_t done = session.GetReport().Iterations.size();
   EXPECT_TRUE(done == 2 || (IsTestBackendCuda() && done > 2)) << done;
-  this->ExpectValid(session);
-  session.Advance();
-  EXPECT_TRUE(session.GetReport().Converged());
-  EXPECT_TRUE(this->Complete.Triangles == Store(session));
-}
+  this->ExpectCompletion(session);
 
-TEST_F(ObserverTest, NothingIsWrittenWhenAnExceptionLeaves)
-{
   std::vector<std::int32_t> triangles = this->Mesh.Triangles;
   EXPECT_THROW(FlipToDelaunay(this->Mesh.View(), OnTestBackend({}),
-                 MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()),
-                 [](const IterationRecord&) -> bool { throw std::logic_error("at once"); }),
+                 MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()), throwing),
     std::logic_error);
   EXPECT_TRUE(this->Mesh.Triangles == triangles);
 }
@@ -130,9 +121,9 @@ TEST_F(ObserverTest, TheIterationLimitHolds)
 {
   const auto needed = static_cast<std::int64_t>(this->Complete.Report.Iterations.size());
   ASSERT_LT(5, needed);
+  FlipOptions options;
   for (std::int64_t limit : { std::int64_t(0), std::int64_t(1), std::int64_t(5), needed - 1 })
   {
-    FlipOptions options;
     options.MaximumIterations = limit;
     FlipSession session = MakeSession(this->Mesh.View(), options);
     EXPECT_FALSE(session.Advance());
@@ -140,11 +131,10 @@ TEST_F(ObserverTest, TheIterationLimitHolds)
     EXPECT_EQ(limit, static_cast<std::int64_t>(session.GetReport().Iterations.size()));
     EXPECT_LT(0, session.GetReport().NonDelaunayAfter);
     this->ExpectValid(session);
-    EXPECT_TRUE(limit > 0 || this->Mesh.Triangles == Store(session));
+    EXPECT_TRUE(limit > 0 || this->Mesh.Triangles == StoreTriangles(session));
   }
-  for (std::int64_t limit : { needed, needed + 1, std::int64_t(-1) })
+  for (std::int64_t limit : { needed, needed + 1 })
   {
-    FlipOptions options;
     options.MaximumIterations = limit;
     const FlipResult result = Flip(this->Mesh.View(), options);
     EXPECT_TRUE(result.Report.Converged()) << limit;
@@ -152,43 +142,225 @@ TEST_F(ObserverTest, TheIterationLimitHolds)
   }
 }
 
-TEST_F(ObserverTest, ReportsHaveTheAngleOfEveryStop)
-{
-  FlipSession session = MakeSession(this->Mesh.View());
-  for (int stop = 0; stop < 3; ++stop)
-  {
-    ASSERT_TRUE(session.Advance(1));
-    ASSERT_TRUE(session.Advance(1)); // the angle before it was not requested
-    const std::vector<std::int32_t> triangles = Store(session);
-    EXPECT_NEAR(MinimumAngle(WithTriangles(this->Mesh.View(), triangles), GeometryKind::Planar),
-      session.GetReport().MinimumAngleAfter, 1e-9);
-    EXPECT_EQ(stop > 0, std::isnan(session.GetReport().Iterations[2 * stop].MinimumAngle));
-    EXPECT_TRUE(std::isnan(session.GetReport().Iterations.back().MinimumAngle));
-  }
-  session.Advance();
-  EXPECT_EQ(this->Complete.Report.MinimumAngleAfter, session.GetReport().MinimumAngleAfter);
-  EXPECT_EQ(
-    this->Complete.Report.MinimumAngleAfter, session.GetReport().Iterations.back().MinimumAngle);
-}
-
+/// Those of the first and the last iteration are known; all of them if quality is tracked, or if
+/// they were asked for.
 TEST_F(ObserverTest, AnglesAreMeasuredAtBothEndsOrEverywhere)
 {
   const std::vector<IterationRecord>& rows = this->Complete.Report.Iterations;
-  EXPECT_FALSE(std::isnan(rows.front().MinimumAngle));
-  EXPECT_FALSE(std::isnan(rows.back().MinimumAngle));
-  EXPECT_TRUE(std::isnan(rows[rows.size() / 2].MinimumAngle));
+  for (const IterationRecord& row : rows)
+  {
+    const bool isEnd = &row == &rows.front() || &row == &rows.back();
+    EXPECT_EQ(!isEnd, std::isnan(row.MinimumAngle)) << row.Iteration;
+  }
   EXPECT_EQ(this->Complete.Report.MinimumAngleAfter, rows.back().MinimumAngle);
   EXPECT_LT(this->Complete.Report.MinimumAngleBefore, rows.back().MinimumAngle);
 
+  FlipSession plain = MakeSession(this->Mesh.View());
   FlipOptions options;
   options.TrackQuality = true;
-  FlipSession session = MakeSession(this->Mesh.View(), options);
-  while (session.Advance(1))
+  FlipSession tracked = MakeSession(this->Mesh.View(), options);
+  for (int stop = 0; stop < 3; ++stop)
   {
-    const std::vector<std::int32_t> triangles = Store(session);
-    EXPECT_NEAR(MinimumAngle(WithTriangles(this->Mesh.View(), triangles), GeometryKind::Planar),
-      session.GetReport().Iterations.back().MinimumAngle, 1e-9);
+    ASSERT_TRUE(plain.Advance(1));
+    ASSERT_TRUE(plain.Advance(1)); // the angle before it was not requested
+    this->ExpectValid(plain);
+    EXPECT_EQ(stop > 0, std::isnan(plain.GetReport().Iterations[2 * stop].MinimumAngle));
+    EXPECT_TRUE(std::isnan(plain.GetReport().Iterations.back().MinimumAngle));
+    ASSERT_TRUE(tracked.Advance(2));
+    for (const std::size_t i : { 2 * stop, 2 * stop + 1 })
+    {
+      EXPECT_FALSE(std::isnan(tracked.GetReport().Iterations[i].MinimumAngle));
+    }
+    EXPECT_EQ(
+      plain.GetReport().MinimumAngleAfter, tracked.GetReport().Iterations.back().MinimumAngle);
   }
+}
+
+//------------------------------------------------------------------------------
+/// Records the progress that it is told, and ends the run at a given call.
+class Watcher
+{
+public:
+  explicit Watcher(std::size_t lastCall = SIZE_MAX)
+    : LastCall(lastCall)
+  {
+  }
+
+  ProgressObserver GetObserver()
+  {
+    return [this](double fraction)
+    {
+      EXPECT_EQ(this->Caller, std::this_thread::get_id());
+      EXPECT_LE(this->Told.empty() ? 0.0 : this->Told.back(), fraction);
+      EXPECT_LE(fraction, 1.0);
+      this->Told.push_back(fraction);
+      return this->Told.size() < this->LastCall;
+    };
+  }
+
+  std::vector<double> Told;
+
+private:
+  std::size_t LastCall;
+  std::thread::id Caller = std::this_thread::get_id();
+};
+
+struct NamedMesh
+{
+  const char* Name;
+  OwnedMesh<double> (*Make)();
+};
+
+void PrintTo(const NamedMesh& mesh, std::ostream* stream) { *stream << mesh.Name; }
+
+class ProgressTest : public testing::TestWithParam<NamedMesh>
+{
+protected:
+  void SetUp() override
+  {
+    this->Mesh = GetParam().Make();
+    this->Options = OnTestBackend({});
+    this->Options.FeatureAngle = 180.0;
+    this->Unwatched = Flip(this->Mesh.View(), this->Options);
+  }
+
+  /// Runs to the end, or until `watcher` ends it.
+  FlipSession Run(Watcher& watcher) const
+  {
+    FlipSession session(this->Mesh.View(), this->Options, watcher.GetObserver());
+    if (session.GetReport().StopReason != StopReasonKind::Aborted)
+    {
+      session.Advance(-1, {}, watcher.GetObserver());
+    }
+    return session;
+  }
+
+  OwnedMesh<double> Mesh;
+  FlipOptions Options;
+  FlipResult Unwatched;
+};
+
+TEST_P(ProgressTest, IsToldFromTheBuildToTheEnd)
+{
+  Watcher watcher;
+  FlipSession session(this->Mesh.View(), this->Options, watcher.GetObserver());
+  const std::size_t inBuild = watcher.Told.size();
+  EXPECT_LE(5u, inBuild);
+  EXPECT_LT(0.4, watcher.Told.back());
+  EXPECT_GT(0.7, watcher.Told.back());
+  EXPECT_EQ(StopReasonKind::NotStarted, session.GetReport().StopReason);
+  session.Advance(-1, {}, watcher.GetObserver());
+  EXPECT_EQ(1.0, watcher.Told.back());
+  ASSERT_LE(2u, watcher.Told.size());
+  EXPECT_GT(1.0, watcher.Told[watcher.Told.size() - 2]);
+  EXPECT_TRUE(IsTestBackendCuda() || watcher.Told.size() > inBuild + 2);
+  EXPECT_TRUE(this->Unwatched.Triangles == StoreTriangles(session));
+  ExpectSameStatistics(this->Unwatched.Report, session.GetReport());
+}
+
+/// After an abort the mesh is that of a run with the same number of iterations.
+TEST_P(ProgressTest, EndsTheRunAtAnyCall)
+{
+  Watcher whole;
+  this->Run(whole);
+  bool endedBeforeFlips = false;
+  for (std::size_t call = 1; call < whole.Told.size(); ++call)
+  {
+    Watcher watcher(call);
+    const FlipSession session = this->Run(watcher);
+    const FlipReport& report = session.GetReport();
+    if (report.Converged())
+    {
+      continue; // in fewer, longer batches than before
+    }
+    ASSERT_EQ(StopReasonKind::Aborted, report.StopReason) << call;
+    ASSERT_EQ(call, watcher.Told.size());
+    EXPECT_EQ(this->Mesh.NumberOfPoints(), report.Points);
+    endedBeforeFlips = endedBeforeFlips || report.Iterations.empty();
+    FlipOptions options = this->Options;
+    options.MaximumIterations = static_cast<std::int64_t>(report.Iterations.size());
+    const FlipResult cut = Flip(this->Mesh.View(), options);
+    ASSERT_TRUE(cut.Triangles == StoreTriangles(session)) << call;
+    ASSERT_TRUE(cut.FlipCounts == StoreFlipCounts(session)) << call;
+    EXPECT_EQ(cut.Report.TotalFlips, report.TotalFlips);
+  }
+  EXPECT_TRUE(endedBeforeFlips);
+}
+
+TEST_P(ProgressTest, LetsTheRunContinue)
+{
+  for (std::size_t call : { 1, 4, 12 })
+  {
+    Watcher watcher(call);
+    FlipSession session = this->Run(watcher);
+    Watcher second(1);
+    session.Advance(-1, {}, second.GetObserver());
+    EXPECT_EQ(1u, second.Told.size());
+    session.Advance();
+    EXPECT_TRUE(session.GetReport().Converged());
+    EXPECT_TRUE(this->Unwatched.Triangles == StoreTriangles(session)) << call;
+    EXPECT_EQ(this->Unwatched.Report.Iterations.size(), session.GetReport().Iterations.size());
+    EXPECT_EQ(this->Unwatched.Report.TotalFlips, session.GetReport().TotalFlips);
+  }
+}
+
+TEST_P(ProgressTest, ExceptionsOfTheObserverPass)
+{
+  const auto throwing = [](double) -> bool { throw std::logic_error("from the observer"); };
+  EXPECT_THROW(FlipSession(this->Mesh.View(), this->Options, throwing), std::logic_error);
+  Watcher watcher(1);
+  FlipSession session(this->Mesh.View(), this->Options, watcher.GetObserver());
+  EXPECT_THROW(session.Advance(-1, {}, throwing), std::logic_error);
+  EXPECT_TRUE(this->Mesh.Triangles == StoreTriangles(session));
+  session.Advance();
+  EXPECT_TRUE(session.GetReport().Converged());
+}
+
+OwnedMesh<double> MakeSmallPlane() { return MakeRandomBadMeshDouble(2000, 61); }
+
+INSTANTIATE_TEST_SUITE_P(Meshes, ProgressTest,
+  testing::Values(NamedMesh{ "SmallPlane", MakeSmallPlane },
+    NamedMesh{ "Chunks", [] { return MakeRandomBadMeshDouble(40000, 62); } },
+    NamedMesh{ "Surface", [] { return MakeBadSphere(80, 40, 63); } }),
+  [](const auto& test) { return std::string(test.param.Name); });
+
+/// Also of the whole run in one call. Invalid input is an error before.
+TEST(Progress, IsToldAndEndsTheRun)
+{
+  OwnedMesh<double> mesh = MakeSmallPlane();
+  std::vector<std::int32_t> triangles(mesh.Triangles.size());
+  const MutableTriangleArray target(triangles.data(), mesh.NumberOfTriangles());
+  Watcher all;
+  FlipReport report = FlipToDelaunay(mesh.View(), OnTestBackend({}), target, {}, all.GetObserver());
+  EXPECT_TRUE(report.Converged());
+  EXPECT_EQ(1.0, all.Told.back());
+  EXPECT_FALSE(mesh.Triangles == triangles);
+  Watcher first(1);
+  report = FlipToDelaunay(mesh.View(), OnTestBackend({}), target, {}, first.GetObserver());
+  EXPECT_EQ(StopReasonKind::Aborted, report.StopReason);
+  EXPECT_EQ(1u, first.Told.size());
+  EXPECT_TRUE(mesh.Triangles == triangles);
+  mesh.Triangles[30] = 1000000;
+  Watcher none(1);
+  EXPECT_THROW(FlipSession(mesh.View(), OnTestBackend({}), none.GetObserver()), InvalidMesh);
+  EXPECT_TRUE(none.Told.empty());
+}
+
+/// With an iteration limit n, progress after iteration n - 1 is at least (n - 1) / n of the loop's.
+TEST(Progress, FollowsTheIterationLimit)
+{
+  const OwnedMesh<double> mesh = MakeWorstCaseMesh(300);
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  options.MaximumIterations = 10;
+  Watcher watcher;
+  FlipSession session(mesh.View(), options, watcher.GetObserver());
+  const double begin = watcher.Told.back();
+  session.Advance(-1, {}, watcher.GetObserver());
+  EXPECT_EQ(StopReasonKind::IterationLimit, session.GetReport().StopReason);
+  ASSERT_LE(2u, watcher.Told.size());
+  EXPECT_LE(begin + 0.9 * (1.0 - begin), watcher.Told[watcher.Told.size() - 2] + 1e-12);
+  EXPECT_EQ(1.0, watcher.Told.back());
 }
 
 }

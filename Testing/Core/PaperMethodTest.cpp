@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PaperMethod.h"
-#include "CgalReference.h"
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "References.h"
 #include "TestBackend.h"
 
 #include <gtest/gtest.h>
-
-#include <stdexcept>
 
 /// @file
 /// The baseline of the benchmarks is the paper's method, and does what the paper says of it. Which
@@ -84,37 +82,18 @@ TEST(PaperMethod, FindsTheDelaunayTriangulation)
       const PaperResult result = RunPaper(mesh.View(), options);
       ExpectSound(mesh.View(), result);
       EXPECT_EQ(expected, ToTriangleSet(result.Triangles));
-      EXPECT_GT(result.CountFlips(), mesh.NumberOfPoints());
+      // The paper excludes under 20 %. Threads of a CPU, which come to many neighbours of an edge
+      // after its flip, exclude more; on a GPU more of them read at once.
+      std::int64_t bad = 0;
+      for (const PaperIteration& iteration : result.Counts)
+      {
+        EXPECT_LE(iteration.Flipped, iteration.Bad);
+        bad += iteration.Bad;
+      }
+      EXPECT_LT(result.CountFlips(), bad) << "nobody was excluded: neighbours flipped at once";
+      EXPECT_GT(result.CountFlips(), 0.6 * static_cast<double>(bad));
     }
   }
-}
-
-/// The paper excludes under 20 %. Threads of a CPU, which come to many neighbours of an edge after
-/// its flip, exclude more; on a GPU more of them read at once.
-TEST(PaperMethod, CountsExcludedThreads)
-{
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(20000 / Reduction, 5);
-  const PaperResult result = RunPaper(mesh.View(), InDouble(1e-7));
-  std::int64_t bad = 0;
-  for (const PaperIteration& iteration : result.Counts)
-  {
-    EXPECT_LE(iteration.Flipped, iteration.Bad);
-    bad += iteration.Bad;
-  }
-  EXPECT_LT(result.CountFlips(), bad) << "nobody was excluded: neighbours flipped at once";
-  EXPECT_GT(result.CountFlips(), 0.6 * static_cast<double>(bad));
-}
-
-TEST(PaperMethod, FlipsClockwiseMeshesToo)
-{
-  OwnedMesh<float> mesh = MakeRandomBadMesh(2000, 6);
-  ReverseTriangles(mesh.Triangles);
-  TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
-  PaperOptions options = InDouble(1e-15);
-  options.Test = PaperTestKind::InCircle;
-  std::vector<std::int32_t> found = RunPaper(mesh.View(), options).Triangles;
-  ReverseTriangles(found);
-  EXPECT_EQ(expected, ToTriangleSet(found));
 }
 
 TEST(PaperMethod, StopsAtTheLimit)
@@ -134,9 +113,7 @@ TEST(PaperMethod, MakesASurfaceDelaunay)
   options.Dimension = 3;
   const PaperResult result = RunPaper(mesh.View(), options);
   ExpectSound(mesh.View(), result);
-  FlipOptions judge;
-  judge.Geometry = GeometryKind::Surface;
-  judge.FeatureAngle = 180.0;
+  FlipOptions judge = OnSurface();
   judge.Tolerance = 2e-7;
   EXPECT_GT(CountNonDelaunayEdges(mesh.View(), judge), 0);
   EXPECT_EQ(0, CountNonDelaunayEdges(WithTriangles(mesh.View(), result.Triangles), judge));
@@ -156,25 +133,6 @@ TEST(PaperMethod, KeepsEdgesBeyondTheNormalThreshold)
   EXPECT_EQ(0, flips[0]);
   EXPECT_LT(flips[0], flips[1]);
   EXPECT_LT(flips[1], flips[2]);
-}
-
-TEST(PaperMethod, LeavesAloneWhatTwoTrianglesCannotHold)
-{
-  const OwnedMesh<double> mesh = RepeatTriangles(MakeBadSphere(20, 12, 10));
-  PaperOptions options = InDouble(1e-7);
-  options.Dimension = 3;
-  options.MaximumIterations = 50;
-  const PaperResult result = RunPaper(mesh.View(), options);
-  EXPECT_GT(result.CountFlips(), 0);
-  EXPECT_EQ(mesh.Triangles.size(), result.Triangles.size());
-}
-
-TEST(PaperMethod, HasNoInCircleTestInSpace)
-{
-  PaperOptions options = InDouble(0.0);
-  options.Dimension = 3;
-  options.Test = PaperTestKind::InCircle;
-  EXPECT_THROW(PaperMethod(MakeBadSphere(8, 4, 1).View(), options), std::invalid_argument);
 }
 
 }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CgalReference.h"
-#include "ExactReference.h"
 #include "MeshAudit.h"
+#include "References.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <ostream>
 #include <set>
+
+/// @file
+/// Whole runs in a plane become what CGAL, rational numbers and Lawson's algorithm make.
 
 namespace delaunayflip
 {
@@ -25,16 +28,22 @@ FlipOptions WithTieRule(TieRuleKind rule)
 }
 
 /// All that must hold for a planar, counter-clockwise result.
-void ExpectDelaunay(const TriangleMesh& mesh, const FlipResult& result)
+FlipResult ExpectDelaunay(const TriangleMesh& mesh, TieRuleKind rule = TieRuleKind::Keep)
 {
+  const FlipResult result = FlipAndAudit(mesh, WithTieRule(rule));
   const TriangleMesh after = WithTriangles(mesh, result.Triangles);
-  EXPECT_TRUE(result.Report.Converged());
   EXPECT_EQ(0, result.Report.NonDelaunayAfter);
-  EXPECT_EQ(0, CountNonDelaunayEdges(after, FlipOptions()));
   EXPECT_EQ(0, CountCgalViolations(after));
   EXPECT_EQ(mesh.Triangles.Count, CountTurns(after).Left);
-  ExpectSameTopology(mesh.Triangles, result.Triangles, result.Report);
-  ExpectConsistentStatistics(result.Report);
+  return result;
+}
+
+/// With ties that the rule decides, also CGAL's very triangles.
+void ExpectCgals(const TriangleMesh& mesh)
+{
+  ExpectDelaunay(mesh);
+  EXPECT_TRUE(MakeCgalDelaunay(mesh.Points) ==
+    ToTriangleSet(ExpectDelaunay(mesh, TieRuleKind::Canonical).Triangles));
 }
 
 struct RandomMesh
@@ -50,34 +59,20 @@ void PrintTo(const RandomMesh& mesh, std::ostream* stream)
 
 class RandomMeshTest : public testing::TestWithParam<RandomMesh>
 {
-protected:
-  std::int64_t GetSize() const { return std::max<std::int64_t>(4, GetParam().Points / Reduction); }
 };
 
-TEST_P(RandomMeshTest, FloatsBecomeDelaunay)
+/// Floats, doubles and 64-bit ids give the same; and the output may be the input's own array.
+TEST_P(RandomMeshTest, BecomesDelaunay)
 {
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(this->GetSize(), GetParam().Seed);
-  const TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
-  for (TieRuleKind rule : TieRules)
-  {
-    const FlipResult result = Flip(mesh.View(), WithTieRule(rule));
-    ExpectDelaunay(mesh.View(), result);
-    EXPECT_TRUE(rule == TieRuleKind::Keep || expected == ToTriangleSet(result.Triangles));
-  }
-}
-
-TEST_P(RandomMeshTest, DoublesAnd64BitIdsGiveTheSame)
-{
-  const std::int64_t size = this->GetSize();
+  const std::int64_t size = std::max<std::int64_t>(4, GetParam().Points / Reduction);
   const OwnedMesh<float> floats = MakeRandomBadMesh(size, GetParam().Seed);
+  ExpectCgals(floats.View());
   const OwnedMesh<double> doubles = MakeRandomBadMeshDouble(size, GetParam().Seed);
   const FlipResult expected = Flip(floats.View());
   EXPECT_TRUE(expected.Triangles == Flip(doubles.View()).Triangles);
-
   std::vector<std::int64_t> ids(doubles.Triangles.begin(), doubles.Triangles.end());
   TriangleMesh mesh = doubles.View();
   mesh.Triangles = TriangleArray(ids.data(), doubles.NumberOfTriangles());
-  // The output may be the input's own array.
   FlipToDelaunay(mesh, OnTestBackend({}), MutableTriangleArray(ids.data(), mesh.Triangles.Count));
   EXPECT_TRUE(std::equal(ids.begin(), ids.end(), expected.Triangles.begin()));
 }
@@ -90,37 +85,27 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RandomMeshTest,
   { return std::to_string(test.param.Points) + "PointsSeed" + std::to_string(test.param.Seed); });
 
 /// Random points of a small lattice, with many ties.
-std::vector<std::array<double, 2>> DrawLatticePoints(int size, int share, std::uint32_t seed)
-{
-  std::mt19937 random(seed);
-  std::vector<std::array<double, 2>> points;
-  for (int i = 0; i < size * size; ++i)
-  {
-    if (DrawIndex(random, 100) < share)
-    {
-      points.push_back({ double(i % size), double(i / size) });
-    }
-  }
-  return points;
-}
-
-TEST(LatticePoints, BecomeCgalsTrianglesCanonically)
+TEST(LatticePoints, BecomeCgalsTriangles)
 {
   for (std::uint32_t seed = 1; seed <= 40 / Reduction; ++seed)
   {
-    const int share = 25 * (1 + seed % 4);
-    const OwnedMesh<double> mesh =
-      MakeSweptMesh(DrawLatticePoints(4 + static_cast<int>(seed), share, seed));
-    const FlipResult canonical = Flip(mesh.View(), WithTieRule(TieRuleKind::Canonical));
-    ExpectDelaunay(mesh.View(), canonical);
-    EXPECT_TRUE(MakeCgalDelaunay(mesh.View().Points) == ToTriangleSet(canonical.Triangles))
-      << "seed " << seed;
-    ExpectDelaunay(mesh.View(), Flip(mesh.View()));
+    SCOPED_TRACE(seed);
+    const auto size = static_cast<int>(4 + seed), share = static_cast<int>(25 * (1 + seed % 4));
+    std::mt19937 random(seed);
+    std::vector<std::array<double, 2>> points;
+    for (int i = 0; i < size * size; ++i)
+    {
+      if (DrawIndex(random, 100) < share)
+      {
+        points.push_back({ double(i % size), double(i / size) });
+      }
+    }
+    ExpectCgals(MakeSweptMesh(points).View());
   }
 }
 
 /// Integer points on a circle about the origin: every edge is a tie.
-TEST(CirclePoints, BecomeCgalsTrianglesCanonically)
+TEST(CirclePoints, BecomeCgalsTriangles)
 {
   std::vector<std::array<double, 2>> points;
   for (int x = -65; x <= 65; ++x)
@@ -134,77 +119,7 @@ TEST(CirclePoints, BecomeCgalsTrianglesCanonically)
       }
     }
   }
-  const OwnedMesh<double> mesh = MakeSweptMesh(points);
-  const FlipResult canonical = Flip(mesh.View(), WithTieRule(TieRuleKind::Canonical));
-  ExpectDelaunay(mesh.View(), canonical);
-  EXPECT_EQ(MakeCgalDelaunay(mesh.View().Points), ToTriangleSet(canonical.Triangles));
-  ExpectDelaunay(mesh.View(), Flip(mesh.View()));
-}
-
-TEST(CanonicalResult, DoesNotDependOnTheInputsTriangles)
-{
-  const OwnedMesh<double> grid = MakeGridMesh(30, 20);
-  std::vector<std::array<double, 2>> points;
-  for (std::size_t i = 0; i < grid.Points.size(); i += 3)
-  {
-    points.push_back({ grid.Points[i], grid.Points[i + 1] });
-  }
-  const OwnedMesh<double> swept = MakeSweptMesh(points);
-  const FlipOptions options = WithTieRule(TieRuleKind::Canonical);
-  const TriangleSet expected = ToTriangleSet(Flip(grid.View(), options).Triangles);
-  EXPECT_EQ(expected, ToTriangleSet(Flip(swept.View(), options).Triangles));
-  // It does not depend on their winding either.
-  OwnedMesh<double> reversed = swept;
-  ReverseTriangles(reversed.Triangles);
-  FlipResult result = Flip(reversed.View(), options);
-  ReverseTriangles(result.Triangles);
-  EXPECT_EQ(expected, ToTriangleSet(result.Triangles));
-}
-
-TEST(ClockwiseMeshes, KeepTheirWinding)
-{
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 6);
-  const TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
-  ReverseTriangles(mesh.Triangles);
-  FlipResult result = Flip(mesh.View());
-  EXPECT_EQ(
-    mesh.NumberOfTriangles(), CountTurns(WithTriangles(mesh.View(), result.Triangles)).Right);
-  ReverseTriangles(result.Triangles);
-  EXPECT_TRUE(expected == ToTriangleSet(result.Triangles));
-}
-
-TEST(MirroredMeshes, GiveTheMirroredResult)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 7);
-  const OwnedMesh<double> mirrored =
-    Transform(mesh, { { { -1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } } });
-  EXPECT_TRUE(
-    ToTriangleSet(Flip(mesh.View()).Triangles) == ToTriangleSet(Flip(mirrored.View()).Triangles));
-}
-
-/// Maps that keep the lattice of the random meshes exact, scaling by powers of two and translation
-/// by integers below 2^28, must not change the triangles of the result.
-TEST(ExactMaps, ChangeNothing)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 8);
-  const TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
-  const AffineMap maps[] = { ScaleAndMove(1.0, 1e7), ScaleAndMove(1.0, -1e8),
-    ScaleAndMove(0x1p500, 0.0), ScaleAndMove(0x1p-500, 0.0), ScaleAndMove(0x1p-997, 0.0),
-    ScaleAndMove(0x1p1023, 0.0), ScaleAndMove(0x1p-1050, 0.0) };
-  for (const AffineMap& map : maps)
-  {
-    const OwnedMesh<double> moved = Transform(mesh, map);
-    const bool isRounded = map[0].X == 0x1p-1050; // to subnormal numbers, so only it still ends
-    for (TieRuleKind rule : TieRules)
-    {
-      const FlipResult result = Flip(moved.View(), WithTieRule(rule));
-      EXPECT_TRUE(result.Report.Converged());
-      EXPECT_EQ(
-        0, CountNonDelaunayEdges(WithTriangles(moved.View(), result.Triangles), FlipOptions()));
-      EXPECT_TRUE(isRounded || expected == ToTriangleSet(result.Triangles))
-        << map[0].X << " " << map[0].Offset;
-    }
-  }
+  ExpectCgals(MakeSweptMesh(points).View());
 }
 
 TEST(RoundedScales, StillEndInDelaunay)
@@ -212,9 +127,8 @@ TEST(RoundedScales, StillEndInDelaunay)
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 9);
   for (double scale : { 1e-300, 1e-100, 3e-8, 1e100, 1e300 })
   {
-    const OwnedMesh<double> scaled = Transform(mesh, ScaleAndMove(scale, 0.0));
-    ExpectDelaunay(scaled.View(), Flip(scaled.View()));
-    ASSERT_FALSE(HasFailure()) << scale;
+    SCOPED_TRACE(scale);
+    ExpectDelaunay(Transform(mesh, ScaleAndMove(scale, 0.0)).View());
   }
 }
 
@@ -226,10 +140,7 @@ TEST(MixedMagnitudes, EndInDelaunay)
   {
     points.insert({ { r, r / 3 }, { -r, r / 7 }, { r / 9, -r }, { -r / 5, -r / 11 } });
   }
-  const OwnedMesh<double> mesh = MakeSweptMesh({ points.begin(), points.end() });
-  ExpectDelaunay(mesh.View(), Flip(mesh.View()));
-  EXPECT_EQ(MakeCgalDelaunay(mesh.View().Points),
-    ToTriangleSet(Flip(mesh.View(), WithTieRule(TieRuleKind::Canonical)).Triangles));
+  ExpectCgals(MakeSweptMesh({ points.begin(), points.end() }).View());
 }
 
 TEST(OppositeAngles, ReachNearlyTheSameMesh)
@@ -237,10 +148,9 @@ TEST(OppositeAngles, ReachNearlyTheSameMesh)
   FlipOptions options;
   options.Criterion = CriterionKind::OppositeAngles;
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 10);
-  const FlipResult result = Flip(mesh.View(), options);
+  const FlipResult result = FlipAndAudit(mesh.View(), options);
   const TriangleMesh after = WithTriangles(mesh.View(), result.Triangles);
-  EXPECT_TRUE(result.Report.Converged());
-  EXPECT_EQ(0, CountNonDelaunayEdges(after, options));
+  EXPECT_EQ(0, result.Report.NonDelaunayAfter);
   EXPECT_EQ(mesh.NumberOfTriangles(), CountTurns(after).Left);
   // In-circle may find edges within the tolerance; the paper reports 0.05 % of edges.
   EXPECT_LE(CountNonDelaunayEdges(after, FlipOptions()), mesh.NumberOfTriangles() / 2000);
@@ -248,32 +158,206 @@ TEST(OppositeAngles, ReachNearlyTheSameMesh)
 
 TEST(Terrain, IsJudgedByXAndYAlone)
 {
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000, 11);
-  const TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
+  const OwnedMesh<double> flat = MakeRandomBadMeshDouble(2000, 11);
   std::mt19937 random(1);
-  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i] = DrawIndex(random, 1000);
-  }
-  FlipOptions options;
-  options.Geometry = GeometryKind::PlanarXY;
-  const FlipResult result = Flip(mesh.View(), options);
+  const OwnedMesh<double> mesh =
+    Lift(flat, [&](double, double) { return DrawIndex(random, 1000); });
+  const FlipResult result = FlipAndAudit(mesh.View(), InPlane());
   EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed);
-  EXPECT_TRUE(expected == ToTriangleSet(result.Triangles));
+  EXPECT_TRUE(MakeCgalDelaunay(flat.View().Points) == ToTriangleSet(result.Triangles));
 }
 
-TEST(FlipCounts, SumToTwiceTheFlips)
+//------------------------------------------------------------------------------
+// Against Lawson's algorithm, flip by flip in rational numbers.
+
+/// Random distinct points of a small lattice, with many ties, and some triangulation of them.
+OwnedMesh<double> DrawMesh(std::mt19937& random)
 {
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000, 12);
-  const FlipResult result = Flip(mesh.View());
-  const std::int64_t sum =
-    std::accumulate(result.FlipCounts.begin(), result.FlipCounts.end(), std::int64_t(0));
-  EXPECT_EQ(2 * result.Report.TotalFlips, sum);
-  for (std::int64_t t = 0; t < mesh.NumberOfTriangles(); ++t)
+  const int size = 3 + DrawIndex(random, 6);
+  std::set<std::array<double, 2>> points;
+  const int count = 3 + DrawIndex(random, size * size);
+  for (int i = 0; i < count; ++i)
   {
-    const bool isSame =
-      std::equal(&mesh.Triangles[3 * t], &mesh.Triangles[3 * t] + 3, &result.Triangles[3 * t]);
-    EXPECT_TRUE(isSame || result.FlipCounts[t] > 0) << t;
+    points.insert({ double(DrawIndex(random, size)), double(DrawIndex(random, size)) });
+  }
+  return MakeSweptMesh({ points.begin(), points.end() });
+}
+
+/// Canonical meshes are Lawson's, triangle for triangle. If ties are kept, the result depends on
+/// the order of flips, but nothing is left to flip.
+TEST(Lawson, FindsTheSameMesh)
+{
+  std::mt19937 random(91);
+  for (int i = 0; i < 800 / Reduction && !testing::Test::HasFailure(); ++i)
+  {
+    SCOPED_TRACE(i);
+    const TieRuleKind rule = TieRules[i % 2];
+    OwnedMesh<double> mesh = DrawMesh(random);
+    std::set<VertexPair> constraints;
+    std::vector<std::int64_t> ids;
+    for (const auto& [edge, opposite] : FindOpposites(mesh.View().Triangles))
+    {
+      if (i % 4 > 1 && DrawIndex(random, 8) == 0)
+      {
+        constraints.insert(std::minmax(edge.first, edge.second));
+        ids.insert(ids.end(), { edge.first, edge.second });
+      }
+    }
+    const FlipResult result = FlipAndAudit(WithConstraints(mesh.View(), ids), WithTieRule(rule));
+    EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+    const std::int64_t flips = FlipByLawson(mesh, constraints, rule);
+    EXPECT_EQ(flips > 0, result.Report.TotalFlips > 0);
+    if (rule == TieRuleKind::Canonical)
+    {
+      EXPECT_EQ(ToTriangleSet(mesh.Triangles), ToTriangleSet(result.Triangles));
+    }
+    mesh.Triangles = result.Triangles;
+    EXPECT_EQ(0, FlipByLawson(mesh, constraints, rule));
+  }
+}
+
+//------------------------------------------------------------------------------
+// The paper's worst case.
+
+std::vector<std::int64_t> GetFlips(const FlipReport& report)
+{
+  std::vector<std::int64_t> flips;
+  for (const IterationRecord& row : report.Iterations)
+  {
+    if (row.Flipped > 0)
+    {
+      flips.push_back(row.Flipped);
+    }
+  }
+  return flips;
+}
+
+/// The paper's Fig. 6: 8 vertices, 13 edges, 6 triangles. The opposite-angle sum, its own
+/// criterion, makes the same decisions.
+TEST(WorstCase, OfThePaperTakesItsFlips)
+{
+  FlipOptions options;
+  for (const CriterionKind criterion : { CriterionKind::InCircle, CriterionKind::OppositeAngles })
+  {
+    options.Criterion = criterion;
+    const FlipReport report = FlipAndAudit(MakeWorstCaseMesh(4).View(), options).Report;
+    EXPECT_EQ(8, report.Points);
+    EXPECT_EQ(13, report.Edges.Edges);
+    EXPECT_EQ(6, report.Triangles);
+    EXPECT_EQ((std::vector<std::int64_t>{ 1, 2, 3, 2, 1 }), GetFlips(report));
+  }
+}
+
+/// m triangles take m - 1 iterations: with m = 2 k - 2 of them, (k - 1)^2 flips in 2 k - 3.
+TEST(WorstCase, GrowsAsThePaperSays)
+{
+  for (std::int32_t k = 2; k <= 40; ++k)
+  {
+    const OwnedMesh<double> mesh = MakeWorstCaseMesh(k);
+    const FlipResult result = FlipAndAudit(mesh.View());
+    const std::vector<std::int64_t> flips = GetFlips(result.Report);
+    ASSERT_EQ(2 * k - 3, static_cast<std::int64_t>(flips.size())) << "k = " << k;
+    for (std::int32_t i = 0; i < 2 * k - 3; ++i)
+    {
+      EXPECT_EQ(std::min(i + 1, 2 * k - 3 - i), flips[i]) << "k = " << k << ", flip set " << i;
+    }
+    EXPECT_EQ((k - 1) * (k - 1), result.Report.TotalFlips);
+    EXPECT_EQ(0, CountRationalViolations(WithTriangles(mesh.View(), result.Triangles)));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Planes that are tilted in space.
+
+constexpr AffineRow X = { 1, 0, 0, 0 };
+constexpr AffineRow Y = { 0, 1, 0, 0 };
+constexpr AffineRow Constant = { 0, 0, 0, 4 };
+
+/// Whether all triangles face the same way as the first, in the projection along some axis.
+bool FaceOneWay(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    AffineMap project = {};
+    project[0] = axis == 0 ? Y : X;
+    project[1] = axis == 2 ? Y : AffineRow{ 0, 0, 1, 0 };
+    const OwnedMesh<double> flat = Transform(mesh, project);
+    const TriangleTurns turns = CountTurns(WithTriangles(flat.View(), triangles));
+    if (turns.Straight != mesh.NumberOfTriangles())
+    {
+      return turns.Left == mesh.NumberOfTriangles() || turns.Right == mesh.NumberOfTriangles();
+    }
+  }
+  return false;
+}
+
+FlipResult FlipTilted(const OwnedMesh<double>& mesh, TieRuleKind rule = TieRuleKind::Keep)
+{
+  FlipResult result = FlipAndAudit(mesh.View(), WithTieRule(rule));
+  EXPECT_EQ(GeometryKind::Planar, result.Report.GeometryUsed);
+  EXPECT_TRUE(FaceOneWay(mesh, result.Triangles));
+  return result;
+}
+
+/// Similarities that keep the lattice: it does not matter which coordinate is constant, which way
+/// the plane faces, or how it is tilted. Sheared meshes become Delaunay in their own plane.
+TEST(TiltedPlane, BecomesDelaunayInItself)
+{
+  const OwnedMesh<double> flat = MakeRandomBadMeshDouble(3000 / Reduction, 21);
+  const TriangleSet expected = MakeCgalDelaunay(flat.View().Points);
+  const AffineMap maps[] = { { { X, Y, Constant } }, { { Y, X, Constant } }, { { X, Constant, Y } },
+    { { Y, Constant, X } }, { { Constant, X, Y } }, { { Constant, Y, X } },
+    { { { 3, 0, 0, 0 }, { 0, 5, 0, 0 }, { 4, 0, 0, 0 } } },
+    { { { 0, -5, 0, 7 }, { 4, 0, 0, 0 }, { 3, 0, 0, -9 } } },
+    { { { 1, 2, 0, 0 }, { 2, -2, 0, 0 }, { 2, 1, 0, 0 } } },
+    { { { 1, 2, 0, 1e6 }, { 2, -2, 0, -1e6 }, { 2, 1, 0, 1e6 } } },
+    // From here on they are sheared.
+    { { X, Y, { 1, 1, 0, 0 } } }, { { X, Y, { 2, -3, 0, 0 } } }, { { { 1, 1, 0, 0 }, X, Y } },
+    { { X, { 100, 1, 0, 0 }, Y } }, { { { 1, 7, 0, 0 }, { -2, 3, 0, 0 }, { 5, 1, 0, 1e5 } } } };
+  for (const AffineMap& map : maps)
+  {
+    SCOPED_TRACE(&map - maps);
+    const OwnedMesh<double> mesh = Transform(flat, map);
+    const FlipResult result = FlipTilted(mesh);
+    EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+    EXPECT_EQ(0, CountRationalViolations(WithTriangles(mesh.View(), result.Triangles)));
+    EXPECT_TRUE(&map - maps >= 10 || expected == ToTriangleSet(result.Triangles));
+  }
+}
+
+/// A canonical result does not depend on the triangles of the input.
+TEST(TiltedPlane, LatticePointsGiveTheSameCanonicalMeshWhateverTheStart)
+{
+  const OwnedMesh<double> grid = MakeGridMesh(12, 9);
+  std::vector<std::array<double, 2>> points;
+  for (std::size_t i = 0; i < grid.Points.size(); i += 3)
+  {
+    points.push_back({ grid.Points[i], grid.Points[i + 1] });
+  }
+  for (const AffineMap& map :
+    { AffineMap{ { X, Y, Constant } }, { { { 3, 0, 0, 0 }, { 0, 5, 0, 0 }, { 4, 0, 0, 0 } } } })
+  {
+    const OwnedMesh<double> tilted = Transform(grid, map);
+    EXPECT_EQ(grid.Triangles, FlipTilted(tilted).Triangles);
+    const FlipResult swept =
+      FlipTilted(Transform(MakeSweptMesh(points), map), TieRuleKind::Canonical);
+    EXPECT_EQ(ToTriangleSet(FlipTilted(tilted, TieRuleKind::Canonical).Triangles),
+      ToTriangleSet(swept.Triangles));
+  }
+}
+
+/// Rotations by any angle round coordinates, so points leave their plane by some units in the last
+/// place. Flips must end, agree with the audit, and leave a valid mesh.
+TEST(TiltedPlane, RoundedRotationsEnd)
+{
+  const OwnedMesh<double> flat = MakeRandomBadMeshDouble(2000 / Reduction, 23);
+  for (int i = 1; i <= 8; ++i)
+  {
+    SCOPED_TRACE(i);
+    const double a = 0.7 * i, b = 1.1 * i;
+    FlipTilted(Transform(flat,
+      { { { std::cos(a), -std::sin(a) * std::cos(b), 0, 0.1 },
+        { std::sin(a), std::cos(a) * std::cos(b), 0, 100.3 }, { 0, std::sin(b), 0, 0 } } }));
   }
 }
 

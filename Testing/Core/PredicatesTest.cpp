@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates.h"
 #include "ExactPredicates.h"
-#include "FlipTestSupport.h"
-#include "PointFamilies.h"
+#include "FilteredPredicates.h"
+#include "FlipRules.h"
+#include "HilbertCurve.h"
+#include "RandomInputs.h"
+#include "References.h"
+#include "SurfaceAngles.h"
 
 #include <gtest/gtest.h>
 
@@ -43,43 +47,23 @@ std::string Describe(const FourPoints& points)
   return text;
 }
 
-TEST_P(PredicatesTest, OrientationIsExact)
+TEST_P(PredicatesTest, AreExact)
 {
   this->ForCases(
     [](const FourPoints& p)
     {
-      const int expected = RationalTurn(p[0], p[1], p[2]);
-      EXPECT_EQ(expected, Orientation(p[0].data(), p[1].data(), p[2].data())) << Describe(p);
-      EXPECT_EQ(expected, Orientation(p[1].data(), p[2].data(), p[0].data())) << Describe(p);
-      EXPECT_EQ(-expected, Orientation(p[1].data(), p[0].data(), p[2].data())) << Describe(p);
-    });
-}
-
-TEST_P(PredicatesTest, InCircleIsExact)
-{
-  this->ForCases(
-    [](const FourPoints& p)
-    {
-      const int expected = RationalInCircle(p[0], p[1], p[2], p[3]);
-      EXPECT_EQ(expected, InCircle(p[0].data(), p[1].data(), p[2].data(), p[3].data()))
-        << Describe(p);
-      EXPECT_EQ(-expected, InCircle(p[1].data(), p[0].data(), p[2].data(), p[3].data()))
-        << Describe(p);
-      EXPECT_EQ(-expected, InCircle(p[3].data(), p[1].data(), p[2].data(), p[0].data()))
-        << Describe(p);
-    });
-}
-
-TEST_P(PredicatesTest, InCircleTiltedIsExact)
-{
-  this->ForCases(
-    [](const FourPoints& p)
-    {
-      const int expected = RationalInCircle(p[0], p[1], p[2], p[3], true);
-      EXPECT_EQ(expected, InCircleTilted(p[0].data(), p[1].data(), p[2].data(), p[3].data()))
-        << Describe(p);
-      EXPECT_EQ(-expected, InCircleTilted(p[0].data(), p[1].data(), p[3].data(), p[2].data()))
-        << Describe(p);
+      const double *a = p[0].data(), *b = p[1].data(), *c = p[2].data(), *d = p[3].data();
+      const int turn = RationalTurn(p[0], p[1], p[2]);
+      EXPECT_EQ(turn, Orientation(a, b, c)) << Describe(p);
+      EXPECT_EQ(turn, Orientation(b, c, a)) << Describe(p);
+      EXPECT_EQ(-turn, Orientation(b, a, c)) << Describe(p);
+      const int inCircle = RationalInCircle(p[0], p[1], p[2], p[3]);
+      EXPECT_EQ(inCircle, InCircle(a, b, c, d)) << Describe(p);
+      EXPECT_EQ(-inCircle, InCircle(b, a, c, d)) << Describe(p);
+      EXPECT_EQ(-inCircle, InCircle(d, b, c, a)) << Describe(p);
+      const int tilted = RationalInCircle(p[0], p[1], p[2], p[3], true);
+      EXPECT_EQ(tilted, InCircleTilted(a, b, c, d)) << Describe(p);
+      EXPECT_EQ(-tilted, InCircleTilted(a, b, d, c)) << Describe(p);
     });
 }
 
@@ -184,6 +168,142 @@ TEST(NonFiniteCoordinates, GiveZero)
         EXPECT_EQ(0, InCircle(p[0].data(), p[1].data(), p[2].data(), p[3].data()));
         const int expected = position < 9 ? 0 : 1;
         EXPECT_EQ(expected, Orientation(p[0].data(), p[1].data(), p[2].data()));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The rules on single quads, and the numbers that their proofs rest on.
+
+/// What the proofs of FilteredPredicates.h ask for; no sample of points comes near to it.
+TEST(FilterBounds, AreThoseOfTheProofs)
+{
+  constexpr double Unit = std::numeric_limits<double>::epsilon() / 2.0;
+  EXPECT_GE(OrientationBound, (3.0 + 16.0 * Unit) * Unit);
+  EXPECT_GE(InCircleBound, (10.0 + 96.0 * Unit) * Unit);
+  EXPECT_GE(TiltedInCircleBound, (12.0 + 128.0 * Unit) * Unit);
+  // Lifts are sums of three products of differences, the sum of W doubling one of them.
+  const double lift = 4.0 * LargestFilteredDifference * LargestFilteredDifference;
+  EXPECT_LE(lift, 0x1p502);
+  // Six products may underflow; each loses 2^-1074 at most.
+  EXPECT_GE(SmallestCertifiable, 6.0 * 0x1p-1074 * lift);
+  EXPECT_LE(2.0 * LargestFilteredCoordinate, LargestFilteredDifference);
+}
+
+/// A quad a, p, q, b with p at the left and q at the right, and its mirror image.
+void ExpectConvex(EdgeState expected, const PlanePoint (&apqb)[4])
+{
+  const int side = ExactOrientation(apqb[0], apqb[1], apqb[2]);
+  ASSERT_EQ(side, ExactOrientation(apqb[3], apqb[2], apqb[1]));
+  EXPECT_EQ(expected, CheckConvex<ExactSigns>(apqb, side));
+  PlanePoint mirrored[4];
+  std::transform(apqb, apqb + 4, mirrored,
+    [](const PlanePoint& p) {
+      return PlanePoint{ -p.U, p.V, p.W };
+    });
+  EXPECT_EQ(expected, CheckConvex<ExactSigns>(mirrored, -side));
+}
+
+TEST(CheckConvex, LooksAtBothEnds)
+{
+  ExpectConvex(EdgeState::Bad, { { 0, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 0, -1, 0 } });
+  // Dented at p, then at q; then straight there.
+  ExpectConvex(
+    EdgeState::BlockedByShape, { { -3, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { -3, -1, 0 } });
+  ExpectConvex(EdgeState::BlockedByShape, { { 3, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 3, -1, 0 } });
+  ExpectConvex(
+    EdgeState::BlockedByShape, { { -2, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { -2, -1, 0 } });
+  ExpectConvex(EdgeState::BlockedByShape, { { 2, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 2, -1, 0 } });
+}
+
+bool Spans(double a, double p, double q, double b)
+{
+  const PlanePoint apqb[4] = { { 3 * a, a, 0 }, { 3 * p, p, 0 }, { 3 * q, q, 0 }, { 3 * b, b, 0 } };
+  const PlanePoint turned[4] = { apqb[3], apqb[2], apqb[1], apqb[0] };
+  const PlanePoint upright[4] = { { 1, a, 0 }, { 1, p, 0 }, { 1, q, 0 }, { 1, b, 0 } };
+  EXPECT_EQ(SpansOpposite(apqb), SpansOpposite(turned));
+  EXPECT_EQ(SpansOpposite(apqb), SpansOpposite(upright));
+  return SpansOpposite(apqb);
+}
+
+TEST(SpansOpposite, HoldsWhereTheFlipShortensTheEdge)
+{
+  EXPECT_TRUE(Spans(1, 0, 3, 2));
+  EXPECT_TRUE(Spans(2, 0, 3, 1));
+  EXPECT_TRUE(Spans(1, 0, 3, 1));
+  EXPECT_TRUE(Spans(0, 0, 3, 2));
+  EXPECT_TRUE(Spans(3, 0, 3, 2));
+  EXPECT_TRUE(Spans(0, 0, 3, 0));
+  EXPECT_FALSE(Spans(0, 0, 3, 3));
+  EXPECT_FALSE(Spans(3, 0, 3, 0));
+  EXPECT_FALSE(Spans(1, 0, 3, 4));
+  EXPECT_FALSE(Spans(-1, 0, 3, 2));
+  EXPECT_FALSE(Spans(-1, 0, 3, 4));
+  EXPECT_FALSE(Spans(1, 0, 0, 2));
+  EXPECT_FALSE(Spans(0, 0, 0, 0));
+}
+
+/// A kite whose angles at a and b are obtuse, so small and so near to the origin that the product
+/// of its lengths is far below the smallest number; beside it a mesh of usual size may lie.
+TEST(SurfaceRule, JudgesQuadsOfAnySize)
+{
+  for (const double size : { 1.0, 0x1p-200, 0x1p-300, 0x1p-600, 0x1p-1060 })
+  {
+    const double points[] = { 0, size, 0, -3 * size, 0, 0, 3 * size, 0, 0, 0, -size, 0, 0, 9 * size,
+      0 };
+    for (const AngleTolerance tolerance :
+      { AngleTolerance{ 0.0, 1.0, DoublePrecision }, AngleTolerance{ 1e-9, 1.0, 0.0 } })
+    {
+      const SurfaceRule<double> rule{ { points, tolerance, CoordinateRange::Usual } };
+      EXPECT_EQ(EdgeState::Bad, rule.Judge({ 0, 0, 0, 1, 2, 3 })) << size;
+      EXPECT_EQ(EdgeState::Good, rule.Judge({ 0, 0, 1, 3, 0, 2 })) << size;
+      EXPECT_EQ(EdgeState::Good, rule.Judge({ 0, 0, 4, 1, 2, 3 })) << size;
+    }
+  }
+}
+
+/// A new triangle that stands upright on the quad's vector area, exactly, would be the first step
+/// of a fold.
+TEST(SurfaceRule, SetsNoTriangleUpright)
+{
+  const Vector3 origin = { 0, 0, 0 };
+  EXPECT_TRUE(FoldsOver({ { 0, -3, -2 }, origin, { 3, -3, -3 }, { -1, -3, -1 } }));
+  EXPECT_TRUE(FoldsOver({ { 3, 2, 2 }, origin, { 3, 1, 2 }, { 1, 1, 1 } }));
+  EXPECT_FALSE(FoldsOver({ { 1, 2, 0 }, origin, { 3, 0, 0 }, { 1, -2, 0 } }));
+}
+
+/// The curve visits every cell of a square or cube, and each is next to the one before it.
+TEST(HilbertCurve, FillsSquaresAndCubes)
+{
+  for (const int axes : { 2, 3 })
+  {
+    for (int bits = 1; bits <= 12 / axes; ++bits)
+    {
+      std::vector<int> cells(std::size_t(1) << (axes * bits), -1);
+      const int side = 1 << bits;
+      for (int cell = 0; cell < static_cast<int>(cells.size()); ++cell)
+      {
+        std::uint32_t place[3] = {};
+        for (int axis = 0; axis < axes; ++axis)
+        {
+          place[axis] = cell >> (axis * bits) & (side - 1);
+        }
+        std::uint32_t square[2] = { place[0], place[1] };
+        const std::uint32_t index =
+          axes == 3 ? HilbertIndex(place, bits) : HilbertIndex(place[0], place[1], bits);
+        EXPECT_TRUE(axes == 3 || index == HilbertIndex(square, bits));
+        cells.at(index) = cell;
+      }
+      for (std::size_t i = 1; i < cells.size(); ++i)
+      {
+        int distance = 0;
+        for (int axis = 0; axis < axes; ++axis)
+        {
+          distance += std::abs((cells[i] >> (axis * bits) & (side - 1)) -
+            (cells[i - 1] >> (axis * bits) & (side - 1)));
+        }
+        ASSERT_EQ(1, distance) << "at " << i << " of " << cells.size();
       }
     }
   }

@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_TESTDEVICE_H
 #define DELAUNAYFLIP_TESTDEVICE_H
 
-#include "DeviceCopies.h"
+#include "Array.h"
 #include "DeviceMesh.h"
 #include "TriangleMesh.h"
 

@@ -9,7 +9,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkPoints.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +28,7 @@ const char* const Reason = "this build has no CUDA backend";
 #endif
 
 /// Just large enough for a GPU to be chosen.
-vtkSmartPointer<vtkPolyData> MakeLargeMesh()
+Mesh MakeLargeMesh()
 {
   auto mesh = ToPolyData(delaunayflip::MakeRandomBadMesh(10300, 5));
   EXPECT_GE(mesh->GetNumberOfPolys(), delaunayflip::SmallestMeshForCuda);
@@ -50,38 +49,11 @@ bool RanOn(WatchedFilter& filter, const std::string& backend)
 
 }
 
-TEST(VtkDelaunayFlip, DeviceIdIsAProperty)
-{
-  vtkNew<vtkDelaunayFlip> filter;
-  EXPECT_EQ(filter->GetDeviceId(), -1);
-  const vtkMTimeType before = filter->GetMTime();
-  filter->SetDeviceId(3);
-  EXPECT_EQ(filter->GetDeviceId(), 3);
-  EXPECT_GT(filter->GetMTime(), before);
-  filter->SetDeviceId(-7);
-  EXPECT_EQ(filter->GetDeviceId(), -1);
-}
-
-TEST(VtkDelaunayFlip, DevicesIsAProperty)
-{
-  vtkNew<vtkDelaunayFlip> filter;
-  EXPECT_STREQ(filter->GetDevices(), "");
-  const vtkMTimeType before = filter->GetMTime();
-  filter->SetDevices("0,1");
-  EXPECT_STREQ(filter->GetDevices(), "0,1");
-  EXPECT_GT(filter->GetMTime(), before);
-  std::ostringstream text;
-  filter->Print(text);
-  EXPECT_NE(text.str().find("Devices: 0,1"), std::string::npos);
-}
-
-TEST(VtkDelaunayFlip, DevicesThatCannotBeReadAreAnError)
+TEST(Backend, DevicesThatCannotBeReadAreAnError)
 {
   WatchedFilter filter(MakeRhombus());
   filter->SetDevices("0;1");
-  filter->Update();
-  ASSERT_EQ(filter.GetErrors().size(), 1u);
-  EXPECT_NE(filter.GetErrors()[0].find("0;1"), std::string::npos);
+  ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "0;1");
   filter->SetDevices("3,5"); // nothing to the CPU
   filter->SetBackendToThreads();
   filter->Update();
@@ -89,20 +61,7 @@ TEST(VtkDelaunayFlip, DevicesThatCannotBeReadAreAnError)
   EXPECT_EQ(filter->GetTotalFlips(), 1);
 }
 
-TEST(VtkDelaunayFlip, NumberOfPiecesIsAProperty)
-{
-  vtkNew<vtkDelaunayFlip> filter;
-  EXPECT_EQ(filter->GetNumberOfPieces(), 0);
-  filter->SetNumberOfPieces(3);
-  EXPECT_EQ(filter->GetNumberOfPieces(), 3);
-  std::ostringstream text;
-  filter->Print(text);
-  EXPECT_NE(text.str().find("NumberOfPieces: 3"), std::string::npos);
-  filter->SetNumberOfPieces(1000);
-  EXPECT_EQ(filter->GetNumberOfPieces(), 255);
-}
-
-TEST(VtkDelaunayFlip, PiecesGiveTheSameMesh)
+TEST(Backend, PiecesGiveTheSameMesh)
 {
   const auto mesh = ToPolyData(delaunayflip::MakeRandomBadMesh(2000, 6));
   std::set<std::set<vtkIdType>> expected;
@@ -127,7 +86,7 @@ TEST(VtkDelaunayFlip, PiecesGiveTheSameMesh)
   }
 }
 
-TEST(VtkDelaunayFlip, ALiveUpdateFlipsPiecesAtOnce)
+TEST(Backend, ALiveUpdateFlipsPiecesAtOnce)
 {
   WatchedFilter filter(ToPolyData(delaunayflip::MakeRandomBadMesh(500, 7)));
   filter->LiveUpdateOn();
@@ -139,7 +98,7 @@ TEST(VtkDelaunayFlip, ALiveUpdateFlipsPiecesAtOnce)
   EXPECT_FALSE(filter->Advance());
 }
 
-TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)
+TEST(Backend, DeviceIdIsNothingToTheCpu)
 {
   auto large = MakeLargeMesh();
   WatchedFilter threads(large);
@@ -154,7 +113,7 @@ TEST(VtkDelaunayFlip, DeviceIdIsNothingToTheCpu)
   EXPECT_TRUE(RanOn(small, "Threads"));
 }
 
-TEST(VtkDelaunayFlip, AutoIsSilent)
+TEST(Backend, AutoIsSilent)
 {
   auto mesh = MakeLargeMesh();
   WatchedFilter filter(mesh);
@@ -165,7 +124,7 @@ TEST(VtkDelaunayFlip, AutoIsSilent)
 }
 
 /// Also run with OldDriver, with which the GPU of any machine fails.
-TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
+TEST(Backend, FallbackGivesOneWarning)
 {
   if (!delaunayflip::HasCudaDevice())
   {
@@ -176,53 +135,32 @@ TEST(VtkDelaunayFlip, FallbackGivesOneWarning)
   filter->SetBackendToAuto();
   filter->SetDeviceId(NoSuchDevice);
   filter->SetMaximumIterations(100000); // so that there is no other warning
-  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), RunOnThreads(mesh));
-  EXPECT_TRUE(filter.GetErrors().empty());
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  const std::string& warning = filter.GetWarnings()[0];
-  EXPECT_NE(warning.find("the GPU could not be used, the CPU did the work: CUDA could not "),
-    std::string::npos)
-    << warning;
-  EXPECT_NE(warning.find(filter->GetReport().Fallback), std::string::npos);
+  const std::string warning = RunToWarning(filter);
+  EXPECT_EQ(filter.GetPolygons(), RunOnThreads(mesh));
+  ExpectHolds(warning, "the GPU could not be used, the CPU did the work: CUDA could not ");
+  ExpectHolds(warning, filter->GetReport().Fallback);
   EXPECT_TRUE(RanOn(filter, "Threads"));
+  mesh->GetPoints()->SetPoint(0, NAN, 0.0, 0.0); // which shares the warning
+  WatchedFilter dirty(mesh);
+  dirty->SetBackendToAuto();
+  dirty->SetDeviceId(NoSuchDevice);
+  const std::string both = RunToWarning(dirty);
+  ExpectHolds(both, "NaN");
+  ExpectHolds(both, "the GPU could not be used");
 }
 
-TEST(VtkDelaunayFlip, FallbackSharesTheWarning)
-{
-  if (!delaunayflip::HasCudaDevice())
-  {
-    GTEST_SKIP() << "no GPU";
-  }
-  auto mesh = MakeLargeMesh();
-  mesh->GetPoints()->SetPoint(0, NAN, 0.0, 0.0);
-  WatchedFilter filter(mesh);
-  filter->SetBackendToAuto();
-  filter->SetDeviceId(NoSuchDevice);
-  filter.Run();
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_NE(filter.GetWarnings()[0].find("NaN"), std::string::npos);
-  EXPECT_NE(filter.GetWarnings()[0].find("the GPU could not be used"), std::string::npos);
-}
-
-TEST(VtkDelaunayFlip, ForcedBackendThatIsAbsentIsAnError)
+TEST(Backend, ForcedBackendThatIsAbsentIsAnError)
 {
   WatchedFilter filter(MakeRhombus());
   filter->SetBackendToCUDA();
   filter->SetDeviceId(delaunayflip::HasCudaDevice() ? NoSuchDevice : -1);
-  vtkPolyData* output = filter.Run();
-  ASSERT_EQ(filter.GetErrors().size(), 1u);
-  EXPECT_NE(filter.GetErrors()[0].find(Reason), std::string::npos) << filter.GetErrors()[0];
-  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_BACKEND);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
-  EXPECT_EQ(output->GetNumberOfCells(), 0);
-  EXPECT_EQ(output->GetNumberOfPoints(), 0);
-
+  ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_BACKEND), Reason);
   filter->SetBackendToThreads(); // then there is no error
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
 }
 
-TEST(VtkDelaunayFlip, ForcedBackendThatIsThereRuns)
+TEST(Backend, ForcedBackendThatIsThereRuns)
 {
   if (!delaunayflip::HasCudaDevice())
   {
@@ -238,7 +176,7 @@ TEST(VtkDelaunayFlip, ForcedBackendThatIsThereRuns)
   }
 }
 
-TEST(VtkDelaunayFlip, DeviceMemoryMayBeReleasedAtAnyTime)
+TEST(Backend, DeviceMemoryMayBeReleasedAtAnyTime)
 {
   auto mesh = MakeLargeMesh();
   WatchedFilter filter(mesh);
@@ -252,4 +190,16 @@ TEST(VtkDelaunayFlip, DeviceMemoryMayBeReleasedAtAnyTime)
   filter->ReleaseDeviceMemory();
   filter->Modified();
   EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), cells);
+}
+
+TEST(Backend, ThreadCountsAgree)
+{
+  WatchedFilter filter(MakeBadPlane());
+  filter->SetBackendToThreads();
+  filter->SetNumberOfThreads(1);
+  const Cells cells = GetCells(RunCleanly(filter)->GetPolys());
+  EXPECT_EQ(filter->GetReport().Backend, "Threads: 1");
+  filter->SetNumberOfThreads(3);
+  EXPECT_EQ(cells, GetCells(RunCleanly(filter)->GetPolys()));
+  EXPECT_EQ(filter->GetReport().Backend, "Threads: 3");
 }

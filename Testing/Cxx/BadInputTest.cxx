@@ -1,218 +1,219 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Input that is wrong, dirty or empty.
+/// Input that is wrong, dirty, unusual or empty; and that the update after an error works.
 
 #include "FilterTestSupport.h"
 
+#include "FlipReport.h"
+
+#include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkPoints.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkTable.h"
-#include "vtkTypeInt32Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace
 {
 
-/// The only error for a mesh, whose output must be empty.
-std::string GetError(WatchedFilter& filter)
+/// The edges that not two triangles have, with how many have them.
+std::map<Cell, int> FindRims(vtkPolyData* mesh)
 {
-  vtkPolyData* output = filter.Run();
-  EXPECT_EQ(output->GetNumberOfCells(), 0);
-  EXPECT_EQ(output->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
-  EXPECT_EQ(filter.GetErrors().size(), 1u);
-  return filter.GetErrors().empty() ? "" : filter.GetErrors()[0];
+  std::map<Cell, int> counts;
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    for (std::size_t i = 0; i < cell.size(); ++i)
+    {
+      const vtkIdType from = cell[i], to = cell[(i + 1) % cell.size()];
+      ++counts[{ std::min(from, to), std::max(from, to) }];
+    }
+  }
+  for (auto edge = counts.begin(); edge != counts.end();)
+  {
+    edge = edge->second == 2 ? counts.erase(edge) : std::next(edge);
+  }
+  return counts;
 }
 
-std::string GetWarning(WatchedFilter& filter)
+/// Options that fail for a surface, one after the other; -1: options that work.
+void SetWrong(WatchedFilter& filter, int which)
 {
-  filter.Run();
-  EXPECT_TRUE(filter.GetErrors().empty());
-  EXPECT_EQ(filter.GetWarnings().size(), 1u);
-  return filter.GetWarnings().empty() ? "" : filter.GetWarnings()[0];
+  filter->SetGeometry(which < 0 ? vtkDelaunayFlip::GEOMETRY_AUTO
+      : which % 3 == 0          ? vtkDelaunayFlip::GEOMETRY_PLANAR
+                                : vtkDelaunayFlip::GEOMETRY_SURFACE);
+  filter->SetTieRule(
+    which % 3 == 1 ? vtkDelaunayFlip::TIE_RULE_CANONICAL : vtkDelaunayFlip::TIE_RULE_KEEP);
+  filter->SetRegionArray(which % 3 == 2 ? ("Region" + std::to_string(which)).c_str() : "");
 }
 
-}
-
-TEST(VtkDelaunayFlip, EmptyInputPasses)
+void ExpectError(WatchedFilter& filter, int failure)
 {
-  vtkNew<vtkPolyData> empty;
-  WatchedFilter filter(empty);
-  auto output = RunCleanly(filter);
-  EXPECT_EQ(output->GetNumberOfCells(), 0);
-  EXPECT_EQ(filter->GetIterations()->GetNumberOfColumns(), 8);
+  const std::string error = RunToError(filter, failure);
+  ExpectHolds(error, filter->GetErrorMessage());
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + failure));
+  EXPECT_STRNE(filter->GetErrorMessage(), "");
+  EXPECT_EQ(filter->GetStopReasonAsString(), "failed: " + std::string(filter->GetErrorMessage()));
+  EXPECT_FALSE(filter->GetConverged());
+  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 0);
   EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
-  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfColumns(), 8);
 }
 
-TEST(VtkDelaunayFlip, InputWithoutPolygonsPasses)
+void ExpectWorks(WatchedFilter& filter, const Cells& triangles)
 {
-  auto mesh = MakeMesh({ { 0, 0, 0 }, { 1, 0, 0 } }, {});
-  mesh->SetLines(MakeCells({ { 0, 1 } }));
-  AddNumbers(mesh->GetCellData(), "Number", 1, 4);
-  WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
-  EXPECT_EQ(output->GetNumberOfLines(), 1);
-  EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>({ 4 }));
+  const std::size_t errors = filter.GetErrors().size();
+  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), triangles);
+  EXPECT_EQ(filter.GetErrors().size(), errors);
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_STREQ(filter->GetErrorMessage(), "");
+  EXPECT_STREQ(filter->GetStopReasonAsString(), "converged");
 }
 
-TEST(VtkDelaunayFlip, TriangleOutOfRangeIsAnError)
+}
+
+TEST(BadInput, WithoutPolygonsPasses)
 {
-  for (const vtkIdType id : { 4, -1, 1 << 30 })
+  WatchedFilter none(vtkNew<vtkPolyData>().Get());
+  EXPECT_EQ(RunCleanly(none)->GetNumberOfCells(), 0);
+  EXPECT_EQ(none->GetIterations()->GetNumberOfColumns(), 8);
+  EXPECT_EQ(none->GetIterations()->GetNumberOfRows(), 0);
+  EXPECT_TRUE(none->GetConverged());
+  for (const Cells& lines : { Cells{}, Cells{ { 0, 1 } } })
   {
-    auto mesh = MakeRhombusAnd({}, { { 0, 1, id } });
-    mesh->SetVerts(MakeCells({ { 0 } })); // so that the ids of polygons do not start at 0
+    auto mesh = MakeLines({ { 0, 0, 0 }, { 1, 0, 0 } }, lines);
+    AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 4);
     WatchedFilter filter(mesh);
-    const std::string error = GetError(filter);
-    EXPECT_TRUE(Holds(error, "cell 3")) << error;
-    EXPECT_TRUE(Holds(error, "point " + std::to_string(id))) << error;
+    auto output = RunCleanly(filter);
+    EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
+    EXPECT_EQ(GetCells(output->GetLines()), lines);
+    EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), std::vector<int>(lines.size(), 4));
   }
+  WatchedFilter isolated(MakeRhombusAnd({ { 5, 5, 0 }, { 6, 5, 0 } }, {}));
+  EXPECT_EQ(RunCleanly(isolated)->GetNumberOfPoints(), 6);
 }
 
-TEST(VtkDelaunayFlip, PolygonOutOfRangeIsAnError)
+TEST(BadInput, IdsOutOfRangeAreErrorsThatNameCellAndPoint)
 {
-  for (const vtkIdType id : { 4, -1, 1 << 30 })
+  for (const vtkIdType id : { 6, -1, 1 << 30 })
   {
-    WatchedFilter filter(MakeRhombusAnd({}, { { 0, 1, id, 3, 2 } }));
-    const std::string error = GetError(filter);
-    EXPECT_TRUE(Holds(error, "cell 2")) << error;
-    EXPECT_TRUE(Holds(error, "point " + std::to_string(id))) << error;
+    const std::string point = "point " + std::to_string(id);
+    auto triangle = MakeRhombusAnd({ { 9, 9, 0 }, { 8, 8, 0 } }, { { 0, 1, id } });
+    triangle->SetVerts(MakeCells({ { 0 } })); // so that the ids of polygons do not start at 0
+    auto polygon = MakeRhombusAnd({ { 9, 9, 0 }, { 8, 8, 0 } }, { { 0, 1, id, 3, 2 } });
+    auto strip = MakeRhombusAnd({ { 9, 9, 0 }, { 8, 8, 0 } }, {});
+    strip->SetStrips(MakeCells({ { 0, 1, 2, id } }));
+    auto line = MakeRhombusAnd({ { 9, 9, 0 }, { 8, 8, 0 } }, {});
+    line->SetLines(MakeCells({ { 0, 2 }, { 1, id } }));
+    const std::pair<Mesh, const char*> cases[] = { { triangle, "cell 3" }, { polygon, "cell 2" },
+      { strip, "cell 2" }, { line, "cell 1" } };
+    for (const auto& [mesh, cell] : cases)
+    {
+      WatchedFilter filter(mesh);
+      const std::string error = RunToError(filter);
+      ExpectHolds(error, cell);
+      ExpectHolds(error, point);
+    }
+    auto constraints = MakeLines({ { -3, 0, 0 }, { 3, 0, 0 } }, { { 0, id } });
+    for (int i = 0; i < 2; ++i)
+    {
+      WatchedFilter filter(MakeRhombus());
+      filter->SetConstraintsData(constraints);
+      const std::string error = RunToError(filter);
+      ExpectHolds(error, "constraint");
+      ExpectHolds(error, point);
+      constraints->SetPoints(nullptr); // then the ids are those of the mesh
+    }
   }
+  vtkNew<vtkPolyData> pointless;
+  pointless->SetPolys(MakeCells({ { 0, 1, 2 } }));
+  WatchedFilter filter(pointless);
+  ExpectHolds(RunToError(filter), "point 0");
 }
 
-TEST(VtkDelaunayFlip, StripOutOfRangeIsAnError)
+/// Beside each, the rhombus is flipped.
+TEST(BadInput, DirtyCellsStayWithOneWarning)
 {
-  auto mesh = MakeRhombus();
-  mesh->SetStrips(MakeCells({ { 0, 1, 2, 77 } }));
-  WatchedFilter filter(mesh);
-  const std::string error = GetError(filter);
-  EXPECT_TRUE(Holds(error, "cell 2") && Holds(error, "point 77")) << error;
-}
-
-TEST(VtkDelaunayFlip, ConstraintOutOfRangeIsAnError)
-{
-  auto mesh = MakeRhombus();
-  mesh->SetLines(MakeCells({ { 0, 2 }, { 1, -5 } }));
-  WatchedFilter filter(mesh);
-  const std::string error = GetError(filter);
-  EXPECT_TRUE(Holds(error, "cell 1") && Holds(error, "point -5")) << error;
-
-  vtkNew<vtkPolyData> constraints;
-  constraints->SetPolys(MakeCells({ { 0, 1, 9 } }));
-  WatchedFilter second(MakeRhombus());
-  second->SetConstraintsData(constraints);
-  const std::string other = GetError(second);
-  EXPECT_TRUE(Holds(other, "constraint") && Holds(other, "point 9")) << other;
-}
-
-TEST(VtkDelaunayFlip, CellsWithoutPointsAreAnError)
-{
-  vtkNew<vtkPolyData> mesh;
-  mesh->SetPolys(MakeCells({ { 0, 1, 2 } }));
-  WatchedFilter filter(mesh);
-  EXPECT_TRUE(Holds(GetError(filter), "point 0"));
-}
-
-TEST(VtkDelaunayFlip, BrokenOffsetsAreAnError)
-{
-  vtkNew<vtkTypeInt32Array> offsets;
-  vtkNew<vtkTypeInt32Array> connectivity;
-  for (const int offset : { 0, 3, 600 })
+  const Points line = { { 10, 0, 0 }, { 11, 0, 0 }, { 12, 0, 0 }, { 13, 0, 0 } };
+  const struct
   {
-    offsets->InsertNextValue(offset);
-  }
-  for (const int id : { 0, 1, 2, 0, 2, 3 })
+    const char* Warning;
+    Points Others;
+    Cells Polygons;
+    bool IsHeightField;
+  } cases[] = { { "1 triangle with a repeated point id", {}, { { 1, 1, 2 } }, false },
+    { "1 triangle that repeats another", { { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } },
+      { { 4, 5, 6 }, { 6, 5, 4 } }, false },
+    { "2 points with NaN or infinite coordinates",
+      { { 10, 0, 0 }, { 11, NAN, 0 }, { 10, 1, INFINITY } }, { { 4, 5, 6 } }, false },
+    { "without area", line, { { 4, 5, 6 } }, false },
+    { "2 triangles without area (first: 2)", line, { { 4, 5, 6, 7 } }, false },
+    // 4 and 5 lie at one place, and are not merged.
+    { "without area", { { 10, 0, 0 }, { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } },
+      { { 4, 5, 6 }, { 4, 6, 7 }, { 5, 4, 7 } }, false },
+    // Folded back over the other one.
+    { "turns the other way than most", { { 10, 0, 0 }, { 16, 0, 0 }, { 13, 1, 0 }, { 13, 2, 5 } },
+      { { 4, 5, 6 }, { 5, 4, 7 } }, true } };
+  for (const auto& given : cases)
   {
-    connectivity->InsertNextValue(id);
+    auto mesh = MakeRhombusAnd(given.Others, given.Polygons);
+    const auto rims = FindRims(mesh);
+    WatchedFilter filter(mesh);
+    filter->SetGeometry(
+      given.IsHeightField ? vtkDelaunayFlip::GEOMETRY_PLANAR_XY : vtkDelaunayFlip::GEOMETRY_AUTO);
+    ExpectHolds(RunToWarning(filter), given.Warning);
+    vtkPolyData* output = filter->GetOutput();
+    EXPECT_TRUE(filter->GetConverged());
+    EXPECT_TRUE(HasEdge(output, 1, 3));
+    EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
+    if (given.Polygons.front().size() == 3) // else it is split
+    {
+      EXPECT_EQ(FindRims(output), rims);
+    }
   }
-  auto mesh = MakeRhombus();
-  mesh->GetPolys()->SetData(offsets, connectivity);
-  WatchedFilter filter(mesh);
-  EXPECT_TRUE(Holds(GetError(filter), "offsets"));
 }
 
-TEST(VtkDelaunayFlip, ErrorIsOverWhenTheInputIs)
-{
-  auto mesh = MakeRhombusAnd({}, { { 0, 1, 99 } });
-  WatchedFilter filter(mesh);
-  GetError(filter);
-  filter->SetInputData(MakeRhombus());
-  EXPECT_EQ(filter.Run()->GetNumberOfCells(), 2);
-  EXPECT_TRUE(filter->GetConverged());
-}
-
-TEST(VtkDelaunayFlip, RepeatedIdsWarnAndStay)
-{
-  WatchedFilter filter(MakeRhombusAnd({}, { { 1, 1, 2 } }));
-  EXPECT_TRUE(Holds(GetWarning(filter), "1 triangle with a repeated point id"));
-  EXPECT_EQ(GetCell(filter->GetOutput(), 2), Cell({ 1, 1, 2 }));
-}
-
-TEST(VtkDelaunayFlip, DuplicateTrianglesWarnAndStay)
-{
-  const Points far = { { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } };
-  WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6 }, { 6, 5, 4 } }));
-  const std::string warning = GetWarning(filter);
-  EXPECT_TRUE(Holds(warning, "1 triangle that repeats another")) << warning;
-  EXPECT_EQ(GetCell(filter->GetOutput(), 3), Cell({ 6, 5, 4 }));
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-}
-
-TEST(VtkDelaunayFlip, NaNPointsWarnAndStay)
-{
-  const Points far = { { 10, 0, 0 }, { 11, NAN, 0 }, { 10, 1, INFINITY } };
-  auto mesh = MakeRhombusAnd(far, { { 4, 5, 6 } });
-  WatchedFilter filter(mesh);
-  EXPECT_TRUE(Holds(GetWarning(filter), "2 points with NaN or infinite coordinates"));
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-  EXPECT_EQ(filter->GetOutput()->GetPoints(), mesh->GetPoints());
-}
-
-TEST(VtkDelaunayFlip, ZeroAreaWarns)
-{
-  const Points far = { { 10, 0, 0 }, { 11, 0, 0 }, { 12, 0, 0 } };
-  WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6 } }));
-  EXPECT_TRUE(Holds(GetWarning(filter), "without area"));
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-}
-
-TEST(VtkDelaunayFlip, WarningNamesAPolygonOnce)
-{
-  const Points far = { { 10, 0, 0 }, { 11, 0, 0 }, { 12, 0, 0 }, { 13, 0, 0 } };
-  WatchedFilter filter(MakeRhombusAnd(far, { { 4, 5, 6, 7 } }));
-  const std::string warning = GetWarning(filter);
-  EXPECT_TRUE(Holds(warning, "2 triangles without area (first: 2)")) << warning;
-}
-
-TEST(VtkDelaunayFlip, InvertedTrianglesWarn)
+TEST(BadInput, InvertedTrianglesWarn)
 {
   auto mesh = ToPolyData(delaunayflip::MakeGridMesh(4, 4));
   mesh->GetPoints()->SetPoint(12, 20.0, 20.0, 0.0); // the middle, far outside
   WatchedFilter filter(mesh);
-  EXPECT_TRUE(Holds(GetWarning(filter), "turn the other way"));
+  ExpectHolds(RunToWarning(filter), "turn the other way");
 }
 
-TEST(VtkDelaunayFlip, TiesStayBitIdentical)
+TEST(BadInput, TiesStayBitIdentical)
 {
-  auto mesh = ToPolyData(delaunayflip::MakeGridMesh(8, 5));
-  WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  EXPECT_EQ(filter->GetTotalFlips(), 0);
-  EXPECT_EQ(GetCells(output->GetPolys()), GetCells(mesh->GetPolys()));
+  Points circle; // 3-4-5: the points of a lattice at distance 5 from the origin
+  for (const auto& [x, y] : { std::pair<double, double>{ 5, 0 }, { 4, 3 }, { 3, 4 }, { 0, 5 },
+         { -3, 4 }, { -4, 3 }, { -5, 0 }, { -4, -3 }, { -3, -4 }, { 0, -5 }, { 3, -4 }, { 4, -3 } })
+  {
+    circle.push_back({ x, y, 0.0 });
+  }
+  Cells fan;
+  for (vtkIdType i = 1; i < 11; ++i)
+  {
+    fan.push_back({ 0, i, i + 1 });
+  }
+  for (const Mesh& mesh : { ToPolyData(delaunayflip::MakeGridMesh(8, 5)), MakeMesh(circle, fan) })
+  {
+    WatchedFilter filter(mesh);
+    EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), GetCells(mesh->GetPolys()));
+    EXPECT_EQ(filter->GetTotalFlips(), 0);
+  }
 }
 
-TEST(VtkDelaunayFlip, ClockwiseInputStaysClockwise)
+TEST(BadInput, ClockwiseInputStaysClockwise)
 {
-  auto mesh = MakeMesh(
-    { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 2, 1, 0 }, { 3, 2, 0 } });
+  auto mesh = MakeRhombus();
+  mesh->SetPolys(MakeCells({ { 2, 1, 0 }, { 3, 2, 0 } }));
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   EXPECT_TRUE(HasEdge(output, 1, 3));
@@ -226,57 +227,122 @@ TEST(VtkDelaunayFlip, ClockwiseInputStaysClockwise)
   }
 }
 
-TEST(VtkDelaunayFlip, WronglyWoundPairsStay)
+TEST(BadInput, NonManifoldAndWronglyWoundEdgesStay)
 {
-  auto mesh = MakeMesh(
-    { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 3, 2 } });
-  WatchedFilter filter(mesh);
-  EXPECT_TRUE(HasEdge(filter.Run(), 0, 2));
-  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  auto wound = MakeRhombus();
+  wound->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 3, 2 } }));
+  for (const Mesh& mesh : { MakeRhombusAnd({ { 0, 0, 2 } }, { { 0, 2, 4 } }), wound })
+  {
+    WatchedFilter filter(mesh);
+    filter->SetFeatureAngle(180.0);
+    EXPECT_EQ(GetCells(filter.Run()->GetPolys()), GetCells(mesh->GetPolys()));
+    EXPECT_EQ(GetTotal(filter->GetOutput(), "NonManifoldEdges"), mesh == wound ? 0.0 : 1.0);
+  }
 }
 
-TEST(VtkDelaunayFlip, NonManifoldEdgesStay)
+TEST(BadInput, MoebiusStripsAndBowTiesKeepTheirRims)
 {
-  auto mesh = MakeRhombusAnd({ { 0, 0, 2 } }, { { 0, 2, 4 } });
-  WatchedFilter filter(mesh);
+  // A second rhombus that hangs on point 2 of the first.
+  auto tie =
+    MakeRhombusAnd({ { 6, -1, 0 }, { 9, 0, 0 }, { 6, 1, 0 } }, { { 2, 4, 5 }, { 2, 5, 6 } });
+  WatchedFilter bow(tie);
+  auto output = RunCleanly(bow);
+  EXPECT_TRUE(HasEdge(output, 1, 3) && HasEdge(output, 4, 6));
+  EXPECT_EQ(FindRims(output), FindRims(tie));
+  auto strip = ToPolyData(delaunayflip::MakeMoebiusStrip(40, 6, 1));
+  WatchedFilter filter(strip);
   filter->SetFeatureAngle(180.0);
-  vtkPolyData* output = filter.Run();
-  EXPECT_EQ(GetCells(output->GetPolys()), GetCells(mesh->GetPolys()));
-  EXPECT_EQ(
-    output->GetFieldData()->GetArray("DelaunayFlip:NonManifoldEdges")->GetComponent(0, 0), 1.0);
+  EXPECT_EQ(FindRims(filter.Run()), FindRims(strip));
+  EXPECT_TRUE(filter.GetErrors().empty() && filter->GetConverged());
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  EXPECT_GT(filter->GetReport().Edges.WronglyWound, 0);
 }
 
-TEST(VtkDelaunayFlip, IsolatedPointsStay)
+TEST(BadInput, UnstructuredGridIsATypeError)
 {
-  auto mesh = MakeRhombusAnd({ { 5, 5, 0 }, { 6, 5, 0 } }, {});
-  WatchedFilter filter(mesh);
-  EXPECT_EQ(RunCleanly(filter)->GetNumberOfPoints(), 6);
-}
-
-TEST(VtkDelaunayFlip, UnstructuredGridIsATypeError)
-{
-  vtkNew<vtkUnstructuredGrid> grid;
-  WatchedFilter filter;
-  filter->SetInputDataObject(grid);
+  WatchedFilter filter(vtkNew<vtkUnstructuredGrid>().Get());
   filter->Update(); // the executive refuses it
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_STREQ(filter->GetErrorMessage(), "");
 }
 
-TEST(VtkDelaunayFlip, ContradictingOptionsAreErrors)
+TEST(Errors, OfOptionsEndWithTheOptions)
 {
-  WatchedFilter canonical(MakeRhombus());
-  canonical->SetGeometryToSurface();
-  canonical->SetTieRuleToCanonical();
-  EXPECT_FALSE(GetError(canonical).empty());
-
+  auto mesh = MakeBadSphere();
+  const Cells expected = FlipAtOnce(mesh);
+  WatchedFilter filter(mesh);
+  vtkNew<vtkAppendPolyData> below; // executes after an error, too
+  below->AddInputConnection(filter->GetOutputPort());
+  for (int i = 0; i < 12; ++i)
+  {
+    SetWrong(filter, i);
+    ExpectError(filter, vtkDelaunayFlip::FAILURE_OPTIONS);
+    EXPECT_EQ(below->GetExecutive()->Update(), 1);
+    EXPECT_EQ(below->GetOutput()->GetNumberOfCells(), 0);
+    if (i % 4 != 0) // else the next error follows
+    {
+      SetWrong(filter, -1);
+      ExpectWorks(filter, expected);
+      below->Update();
+      EXPECT_EQ(below->GetOutput()->GetNumberOfCells(), mesh->GetNumberOfCells());
+    }
+  }
+  EXPECT_TRUE(filter.GetExecutiveErrors().empty());
+  filter->SetGeometryToPlanar();
+  ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "plane");
   WatchedFilter tolerance(MakeRhombus());
   tolerance->SetTolerance(1.0);
-  EXPECT_FALSE(GetError(tolerance).empty());
+  ExpectError(tolerance, vtkDelaunayFlip::FAILURE_OPTIONS);
+}
 
-  auto bent = MakeRhombus();
-  bent->GetPoints()->SetPoint(3, 0, 1, 1);
-  WatchedFilter planar(bent);
-  planar->SetGeometryToPlanar();
-  EXPECT_TRUE(Holds(GetError(planar), "plane"));
+TEST(Errors, OfAMeshEndWithTheMesh)
+{
+  auto mesh = MakeRhombus();
+  const vtkSmartPointer<vtkCellArray> right = mesh->GetPolys();
+  const Cells expected = FlipAtOnce(mesh);
+  WatchedFilter filter(mesh);
+  for (int i = 0; i < 3; ++i)
+  {
+    mesh->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 44 } }));
+    ExpectError(filter, vtkDelaunayFlip::FAILURE_MESH);
+    mesh->SetPolys(right);
+    ExpectWorks(filter, expected);
+  }
+}
+
+TEST(Errors, AreTriedAgainWhenModified)
+{
+  WatchedFilter filter(MakeBadSphere());
+  filter->SetGeometryToPlanar();
+  for (const int piece : { 0, 1 })
+  {
+    const std::size_t before = filter.GetErrors().size();
+    filter->UpdatePiece(piece, 2, 0);
+    filter->UpdatePiece(piece, 2, 0); // nothing has changed
+    EXPECT_EQ(filter.GetErrors().size(), before + 1);
+    filter->Modified();
+    filter->UpdatePiece(piece, 2, 0);
+    EXPECT_EQ(filter.GetErrors().size(), before + 2);
+  }
+}
+
+TEST(Errors, InALiveRunLetTheNextBegin)
+{
+  auto mesh = MakeBadSphere();
+  LiveFilter filter(mesh);
+  filter.Run();
+  for (int i = 0; i < 3; ++i)
+  {
+    SetWrong(filter, i);
+    ExpectError(filter, vtkDelaunayFlip::FAILURE_OPTIONS);
+    EXPECT_FALSE(filter->Advance());
+    EXPECT_FALSE(filter->GetNeedsUpdate());
+  }
+  SetWrong(filter, -1);
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  filter->Advance();
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh));
 }

@@ -1,35 +1,83 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Edges that stay: lines, the second input, regions, ghosts, features, the tolerance.
+/// Edges that stay: lines, the second input by ids and by place, regions, features; and constraints
+/// that are not edges of the mesh and become edges.
 
 #include "FilterTestSupport.h"
 
+#include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFeatureEdges.h"
 #include "vtkIntArray.h"
 #include "vtkLongLongArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
+#include "vtkTable.h"
+#include "vtkVariantArray.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace
 {
 
+/// Lines or polygons in ids of the mesh.
+Mesh MakeLines(const Cells& lines)
+{
+  auto mesh = Mesh::New();
+  mesh->SetLines(MakeCells(lines));
+  return mesh;
+}
+
+/// The same mesh with points of this type (VTK_FLOAT, ...).
+void Convert(vtkPolyData* mesh, int type)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type);
+  points->DeepCopy(mesh->GetPoints());
+  mesh->SetPoints(points);
+}
+
+/// The results for constraints: edges kept, edges unmatched.
+using Counts = std::pair<vtkIdType, vtkIdType>;
+
+Counts Constrain(WatchedFilter& filter, vtkPolyData* constraints)
+{
+  filter->SetConstraintsData(constraints);
+  vtkPolyData* output = filter.Run();
+  EXPECT_TRUE(filter.GetErrors().empty());
+  const Counts counts(
+    filter->GetNumberOfConstraintEdges(), filter->GetNumberOfUnmatchedConstraintEdges());
+  EXPECT_EQ(counts.first, GetTotal(output, "ConstraintEdges"));
+  EXPECT_EQ(counts.second, GetTotal(output, "UnmatchedConstraintEdges"));
+  EXPECT_EQ(filter.GetWarnings().size(), counts.second > 0 ? 1u : 0u);
+  return counts;
+}
+
+Counts Constrain(vtkPolyData* mesh, vtkPolyData* constraints)
+{
+  WatchedFilter filter(mesh);
+  return Constrain(filter, constraints);
+}
+
+/// MakeRhombus(), with point 4 at the place of point 0, and point 5 at that of point 2. Point 5 is
+/// a corner of the triangle (5, 6, 7).
+Mesh MakeCrowdedRhombus()
+{
+  return MakeRhombusAnd({ { -3, 0, 0 }, { 3, 0, 0 }, { 9, 0, 0 }, { 6, 2, 0 } }, { { 5, 6, 7 } });
+}
+
 /// How many flips the rhombus takes if its two triangles have these region labels.
 template <typename ArrayT, typename Value>
-vtkIdType CountFlips(const std::vector<Value>& values, int components)
+vtkIdType CountFlips(const std::vector<Value>& values, int components = 1)
 {
   auto mesh = MakeRhombus();
-  vtkNew<ArrayT> regions;
-  regions->SetName("Region");
-  regions->SetNumberOfComponents(components);
-  regions->SetNumberOfTuples(2);
+  const auto regions = MakeArray<ArrayT>("Region", 2, components);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
     regions->SetValue(static_cast<vtkIdType>(i), values[i]);
@@ -41,92 +89,198 @@ vtkIdType CountFlips(const std::vector<Value>& values, int components)
   return filter->GetTotalFlips();
 }
 
-vtkIdType CountFlipsWithGhost(int flag)
+/// A lattice of 7 x 7 unit squares, all cut along the same diagonal; point 8 y + x.
+Mesh MakeLattice() { return ToPolyData(delaunayflip::MakeGridMesh(7, 7)); }
+
+bool HasEdges(vtkPolyData* mesh, const Cell& chain)
 {
-  auto mesh = MakeRhombus();
-  mesh->SetVerts(MakeCells({ { 0 } }));
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->InsertNextValue(0);
-  ghosts->InsertNextValue(0);
-  ghosts->InsertNextValue(static_cast<unsigned char>(flag));
-  mesh->GetCellData()->AddArray(ghosts);
-  WatchedFilter filter(mesh);
-  RunCleanly(filter);
-  return filter->GetTotalFlips();
+  bool all = true;
+  for (std::size_t i = 1; i < chain.size(); ++i)
+  {
+    all = all && HasEdge(mesh, chain[i - 1], chain[i]);
+  }
+  return all;
 }
+
+const Cells Lines = { { 0, 50, 7 }, { 16, 39 }, { 3, 3 } }; // 16-39 crosses both parts of the first
+const Cell FirstChain = { 0, 25, 50 }; // by ids: (0, 0), (1, 3), (2, 6)
 
 }
 
-TEST(VtkDelaunayFlip, LinesConstrain)
+TEST(Constraints, AreLinesOfTheMesh)
 {
   auto mesh = MakeRhombus();
   mesh->SetLines(MakeCells({ { 1, 2, 0, 3 } })); // its middle segment is the long diagonal
   WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  EXPECT_TRUE(HasEdge(output, 0, 2));
-  EXPECT_EQ(filter->GetTotalFlips(), 0);
-
+  EXPECT_TRUE(HasEdge(RunCleanly(filter), 0, 2));
   filter->LinesAsConstraintsOff();
-  output = RunCleanly(filter);
+  auto output = RunCleanly(filter);
   EXPECT_TRUE(HasEdge(output, 1, 3));
   EXPECT_EQ(GetCells(output->GetLines()), Cells({ { 1, 2, 0, 3 } }));
 }
 
-TEST(VtkDelaunayFlip, SecondInputConstrainsByLines)
+TEST(Constraints, OfTheSecondInputByIdsOrByPlace)
 {
-  vtkNew<vtkPolyData> constraints; // needs no points of its own
-  constraints->SetLines(MakeCells({ { 2, 0 } }));
-  WatchedFilter filter(MakeRhombus());
-  filter->SetConstraintsData(constraints);
-  filter->LinesAsConstraintsOff(); // which concerns only the first input
-  EXPECT_TRUE(HasEdge(RunCleanly(filter), 0, 2));
+  const double near = std::nextafter(3.0, 4.0);
+  auto polygon = Mesh::New();
+  polygon->SetPolys(MakeCells({ { 2, 3, 0 } })); // its closing edge is the long diagonal
+  const struct
+  {
+    const char* Name;
+    Mesh Constraints;
+    Counts Expected;
+    bool Keeps; ///< The long diagonal.
+  } cases[] = { { "lines without points", MakeLines({ { 0, 2 }, { 1, 3 } }), { 1, 1 }, true },
+    { "polygon without points", polygon, { 3, 0 }, true },
+    { "polygon", MakeMesh({ { 3, 0, 0 }, { 0, 1, 0 }, { -3, 0, 0 } }, { { 0, 1, 2 } }), { 3, 0 },
+      true },
+    { "numbered otherwise",
+      MakeLines({ { 7, 7, 7 }, { 3, 0, 0 }, { 8, 8, 8 }, { -3, 0, 0 }, { 9, 9, 9 } }, { { 1, 3 } }),
+      { 1, 0 }, true },
+    { "minus zero", MakeLines({ { -3, -0.0, 0 }, { 3, 0, -0.0 } }, { { 0, 1 } }), { 1, 0 }, true },
+    { "near", MakeLines({ { -3, 0, 0 }, { near, 0, 0 } }, { { 0, 1 } }), { 0, 1 }, false },
+    { "nowhere",
+      MakeLines({ { NAN, 0, 0 }, { 3, 0, 0 }, { INFINITY, 0, 0 } }, { { 0, 1 }, { 1, 2 } }),
+      { 0, 2 }, false },
+    { "twice, and of no length",
+      MakeLines({ { -3, 0, 0 }, { 3, 0, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 3, 0, 0 }, { -3, 0, 0 },
+                  { 0, 1, 0 }, { 0, 1, 0 }, { 5, 5, 5 }, { 5, 5, 5 } },
+        { { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 }, { 1, 8 }, { 9, 2 } }),
+      { 2, 1 }, true } };
+  for (const auto& given : cases)
+  {
+    SCOPED_TRACE(given.Name);
+    WatchedFilter filter(MakeRhombus());
+    filter->LinesAsConstraintsOff(); // which concerns only the first input
+    EXPECT_EQ(Constrain(filter, given.Constraints), given.Expected);
+    EXPECT_EQ(HasEdge(filter->GetOutput(), 0, 2), given.Keeps);
+  }
 }
 
-TEST(VtkDelaunayFlip, SecondInputConstrainsByPolygons)
-{
-  vtkNew<vtkPolyData> constraints;
-  constraints->SetPolys(MakeCells({ { 2, 3, 0 } })); // its closing edge is the long diagonal
-  WatchedFilter filter(MakeRhombus());
-  filter->SetConstraintsData(constraints);
-  EXPECT_TRUE(HasEdge(RunCleanly(filter), 0, 2));
-}
-
-TEST(VtkDelaunayFlip, MissingConstraintsGiveOneWarning)
+TEST(Constraints, OfBothInputsTogether)
 {
   auto mesh = MakeRhombus();
-  mesh->SetLines(MakeCells({ { 1, 3 }, { 3, 1 }, { 0, 1 } }));
+  mesh->SetLines(MakeCells({ { 0, 1 }, { 1, 3 } }));
   WatchedFilter filter(mesh);
-  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3)); // not an edge at first, so 0-2 may flip
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_NE(filter.GetWarnings()[0].find("1 constraint edge"), std::string::npos)
-    << filter.GetWarnings()[0];
+  EXPECT_EQ(Constrain(filter,
+              MakeLines({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 4, 0, 0 } },
+                { { 0, 1 }, { 0, 2 }, { 2, 3 } })),
+    Counts(2, 2));
+  ExpectHolds(filter.GetWarnings()[0], "1 constraint edge that is not an edge of the mesh");
+  ExpectHolds(
+    filter.GetWarnings()[0], "1 constraint edge of the second input that the mesh does not have");
 }
 
-TEST(VtkDelaunayFlip, BordersOfRegionsStay)
+TEST(Constraints, OutputOfFeatureEdgesHoldsEveryEdge)
 {
-  EXPECT_EQ((CountFlips<vtkIntArray, int>({ 7, 7 }, 1)), 1);
-  EXPECT_EQ((CountFlips<vtkIntArray, int>({ 7, -7 }, 1)), 0);
-  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ 0.25, 0.25 }, 1)), 1);
-  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ 0.25, 0.5 }, 1)), 0);
-  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, NAN }, 1)), 1);
-  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, 0.5 }, 1)), 0);
-  // Different only beyond the 53 bits of a double.
-  EXPECT_EQ((CountFlips<vtkLongLongArray, long long>({ 1LL << 60, (1LL << 60) + 1 }, 1)), 0);
+  vtkNew<vtkFeatureEdges> edges; // all with two triangles, with points in a different order
+  edges->BoundaryEdgesOff();
+  edges->FeatureEdgesOff();
+  edges->NonManifoldEdgesOff();
+  edges->ManifoldEdgesOn();
+  for (const Mesh& mesh : { MakeBadPlane(), MakeBadSphere() })
+  {
+    for (const int type : { VTK_DOUBLE, VTK_FLOAT })
+    {
+      Convert(mesh, type);
+      for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION })
+      {
+        edges->SetInputData(mesh);
+        edges->SetOutputPointsPrecision(precision);
+        edges->Update();
+        WatchedFilter filter(mesh);
+        EXPECT_EQ(
+          Constrain(filter, edges->GetOutput()), Counts(edges->GetOutput()->GetNumberOfLines(), 0));
+        EXPECT_EQ(filter->GetTotalFlips(), 0);
+      }
+    }
+  }
 }
 
-TEST(VtkDelaunayFlip, RegionsOfAnyArray)
+TEST(Constraints, PlacesAreComparedInTheLowerPrecision)
 {
+  auto mesh = MakeRhombus();
+  mesh->GetPoints()->SetPoint(0, -3.1, 0.0, 0.0);
+  Mesh line = MakeLines({ { -3.1, 0, 0 }, { 3, 0, 0 } }, { { 0, 1 } });
+  Mesh other = MakeLines({ { -3.2, 0, 0 }, { 3, 0, 0 } }, { { 0, 1 } });
+  Convert(line, VTK_FLOAT);
+  EXPECT_EQ(Constrain(mesh, line), Counts(1, 0));
+  Convert(line, VTK_DOUBLE); // the values of the floats, which differ from those of the mesh
+  EXPECT_EQ(Constrain(mesh, line), Counts(0, 1));
+  Convert(mesh, VTK_FLOAT);
+  EXPECT_EQ(Constrain(mesh, line), Counts(1, 0));
+  EXPECT_EQ(Constrain(mesh, other), Counts(0, 1));
+}
+
+TEST(Constraints, OfCoincidentPointsEveryPairThatIsAnEdge)
+{
+  auto mesh = MakeCrowdedRhombus();
+  EXPECT_EQ(Constrain(mesh, MakeLines({ { 3, 0, 0 }, { -3, 0, 0 } }, { { 0, 1 } })), Counts(1, 0));
+  EXPECT_EQ(Constrain(mesh, MakeLines({ { -3, 0, 0 }, { 9, 0, 0 } }, { { 0, 1 } })), Counts(0, 1));
+  auto sheets = MakeRhombusAnd(
+    { { -3, 0, 0 }, { 0, -1, 1 }, { 3, 0, 0 }, { 0, 1, 1 } }, { { 4, 5, 6 }, { 4, 6, 7 } });
+  EXPECT_EQ(
+    Constrain(sheets, MakeLines({ { 3, 0, 0 }, { -3, 0, 0 } }, { { 0, 1 } })), Counts(2, 0));
+}
+
+TEST(Constraints, TheSamePointsGoByIds)
+{
+  auto mesh = MakeCrowdedRhombus();
+  Mesh constraints = MakeLines({ { 4, 2 } }); // no edge, although 4 is at the place of 0
+  constraints->SetPoints(mesh->GetPoints());
+  EXPECT_EQ(Constrain(mesh, constraints), Counts(0, 1));
+  Convert(constraints, VTK_DOUBLE); // other points with the same bits
+  EXPECT_EQ(Constrain(mesh, constraints), Counts(0, 1));
+  Convert(constraints, VTK_FLOAT); // other bits
+  EXPECT_EQ(Constrain(mesh, constraints), Counts(1, 0));
+}
+
+TEST(Constraints, WarmStartsKeepThemAndTheirCounts)
+{
+  auto mesh = MakeRhombus();
+  Mesh lines = MakeLines({ { -3, 0, 0 }, { 4, 0, 0 }, { 5, 5, 5 } }, { { 0, 1 }, { 1, 2 } });
+  LiveFilter filter(mesh);
+  filter->SetConstraintsData(lines);
+  filter.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+  lines->GetPoints()->SetPoint(1, 3, 0, 0); // moved constraints restart a live run
+  lines->GetPoints()->Modified();
+  filter.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
+  for (int move = 0; move < 2; ++move)
+  {
+    Shear(mesh, 0.01); // no point is at a place of the constraints any more
+    filter.RunToTheEnd();
+    EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
+    EXPECT_EQ(filter->GetNumberOfConstraintEdges(), 1);
+    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  }
+}
+
+TEST(Regions, OfAnyArrayKeepTheirBorders)
+{
+  EXPECT_EQ((CountFlips<vtkIntArray, int>({ 7, 7 })), 1);
+  EXPECT_EQ((CountFlips<vtkIntArray, int>({ 7, -7 })), 0);
   EXPECT_EQ((CountFlips<vtkIntArray, int>({ 1, 2, 1, 2 }, 2)), 1);
   EXPECT_EQ((CountFlips<vtkIntArray, int>({ 1, 2, 1, 3 }, 2)), 0);
-  EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "oak", "oak" }, 1)), 1);
-  EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "oak", "elm" }, 1)), 0);
+  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ 0.25, 0.25 })), 1);
+  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, NAN })), 1);
+  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, 0.5 })), 0);
+  EXPECT_EQ((CountFlips<vtkDoubleArray, double>({ NAN, 1, 2, 3, 4, NAN, 1, 2, 3, 5 }, 5)), 0);
+  // Different only beyond the 53 bits of a double.
+  EXPECT_EQ((CountFlips<vtkLongLongArray, long long>({ 1LL << 60, (1LL << 60) + 1 })), 0);
+  EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "oak", "oak" })), 1);
+  EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "oak", "elm" })), 0);
   EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "a", "b", "a", "b" }, 2)), 1);
-  EXPECT_EQ((CountFlips<vtkSOADataArrayTemplate<float>, float>({ 1.f, 1.f }, 1)), 1);
-  EXPECT_EQ((CountFlips<vtkSOADataArrayTemplate<float>, float>({ 1.f, 2.f }, 1)), 0);
+  EXPECT_EQ((CountFlips<vtkStringArray, std::string>({ "a", "b", "a", "c" }, 2)), 0);
+  EXPECT_EQ((CountFlips<vtkVariantArray, vtkVariant>({ vtkVariant("some"), vtkVariant() })), 0);
+  EXPECT_EQ((CountFlips<vtkBitArray, int>({ 1, 1 })), 1);
+  EXPECT_EQ((CountFlips<vtkBitArray, int>({ 1, 0 })), 0);
+  EXPECT_EQ((CountFlips<vtkSOADataArrayTemplate<float>, float>({ 1.f, 1.f })), 1);
+  EXPECT_EQ((CountFlips<vtkSOADataArrayTemplate<float>, float>({ 1.f, 2.f })), 0);
 }
 
-TEST(VtkDelaunayFlip, RegionsOfSplitCells)
+TEST(Regions, OfSplitCells)
 {
   // The rhombus as a quad: its diagonal lies inside one region.
   auto mesh = MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 3, 3, 0 } },
@@ -136,33 +290,27 @@ TEST(VtkDelaunayFlip, RegionsOfSplitCells)
   WatchedFilter filter(mesh);
   filter->SetRegionArray("Region");
   auto output = RunCleanly(filter);
-  EXPECT_TRUE(HasEdge(output, 1, 3));
-  EXPECT_TRUE(HasEdge(output, 2, 3));
+  EXPECT_TRUE(HasEdge(output, 1, 3) && HasEdge(output, 2, 3));
   EXPECT_EQ(filter->GetTotalFlips(), 1);
 }
 
-TEST(VtkDelaunayFlip, WrongRegionArrayIsAnError)
+TEST(Regions, ArraysThatAreMissingOrOfAnotherLengthAreErrors)
 {
   WatchedFilter filter(MakeRhombus());
   filter->SetRegionArray("Region");
-  EXPECT_EQ(filter.Run()->GetNumberOfCells(), 0);
-  ASSERT_EQ(filter.GetErrors().size(), 1u);
-  EXPECT_NE(filter.GetErrors()[0].find("\"Region\""), std::string::npos);
-
+  ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "\"Region\"");
+  for (const vtkIdType tuples : { 0, 1, 3 })
+  {
+    auto mesh = MakeRhombus();
+    mesh->GetCellData()->AddArray(MakeArray<vtkStringArray>("Region", tuples, 2));
+    filter->SetInputData(mesh);
+    ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "as many tuples");
+  }
   filter->SetRegionArray(nullptr);
   EXPECT_EQ(filter.Run()->GetNumberOfCells(), 2);
 }
 
-TEST(VtkDelaunayFlip, GhostsAreFrozen)
-{
-  EXPECT_EQ(CountFlipsWithGhost(0), 1);
-  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::DUPLICATECELL), 0);
-  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::REFINEDCELL), 0);
-  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::HIDDENCELL), 0);
-  EXPECT_EQ(CountFlipsWithGhost(vtkDataSetAttributes::EXTERIORCELL), 1); // not a ghost
-}
-
-TEST(VtkDelaunayFlip, FeatureEdgesStay)
+TEST(Features, StayUnlessTheAngleIsLarge)
 {
   // The rhombus, folded by about 90 degrees along its long diagonal, with flat ends: a surface.
   auto mesh = MakeRhombus();
@@ -177,21 +325,132 @@ TEST(VtkDelaunayFlip, FeatureEdgesStay)
   EXPECT_EQ(filter->GetTotalFlips(), 1);
 }
 
-TEST(VtkDelaunayFlip, ToleranceIsOfOppositeAnglesOnly)
+TEST(ConstraintInsertion, OfTheSecondInputByDefault)
 {
-  // Opposite angles of 95.4 degrees each: 0.19 radians above pi.
-  const auto mesh = MakeMesh(
-    { { -1.1, 0, 0 }, { 0, -1, 0 }, { 1.1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } });
-  WatchedFilter inCircle(mesh);
-  inCircle->SetTolerance(0.3);
-  inCircle.Run();
-  EXPECT_EQ(inCircle->GetTotalFlips(), 1);
+  Mesh mesh = MakeLattice();
+  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
   WatchedFilter filter(mesh);
-  filter->SetTolerance(0.3);
-  filter->SetCriterionToOppositeAngles();
-  RunCleanly(filter);
+  filter->SetConstraintsData(MakeLines(Lines));
+  const std::string warning = RunToWarning(filter);
+  ExpectHolds(warning, "1 constraint edge");
+  ExpectHolds(warning, "(first: 16-39)");
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_TRUE(HasEdges(output, FirstChain));
+  EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), GetNumbers(mesh->GetCellData(), "Number"));
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 2);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  EXPECT_GE(filter->GetNumberOfConstraintEdges(), 3);
+  EXPECT_GT(filter->GetNumberOfConstraintFlips(), 0);
+  EXPECT_EQ(GetTotal(output, "InsertedConstraintEdges"), 2);
+  EXPECT_EQ(GetTotal(output, "ConstraintFlips"), filter->GetNumberOfConstraintFlips());
+  double flips = 0.0;
+  for (vtkIdType row = 0; row < filter->GetIterations()->GetNumberOfRows(); ++row)
+  {
+    flips += filter.GetRow("Flipped", row);
+  }
+  EXPECT_EQ(flips, filter->GetTotalFlips());
+  filter->InsertConstraintsOff();
+  EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 0);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 3);
   EXPECT_EQ(filter->GetTotalFlips(), 0);
-  filter->SetTolerance(0.1);
-  RunCleanly(filter);
-  EXPECT_EQ(filter->GetTotalFlips(), 1);
+}
+
+TEST(ConstraintInsertion, OfLinesOnRequest)
+{
+  Mesh mesh = MakeLattice();
+  mesh->SetLines(MakeCells(Lines));
+  WatchedFilter filter(mesh);
+  EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 3);
+  filter->InsertLinesOn();
+  EXPECT_TRUE(HasEdges(filter.Run(), FirstChain));
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  filter->LinesAsConstraintsOff();
+  EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
+  EXPECT_EQ(filter->GetNumberOfConstraintEdges(), 0);
+}
+
+TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
+{
+  Mesh mesh = MakeLattice();
+  MovePoints(mesh, [](double* x) { x[2] = 9.0; });
+  Mesh byPlace = MakeLines(
+    { { 7, 4, 9 }, { 0, 2, 9 }, { 0, 0, 9 }, { 2, 6, 9 } }, { { 1, 0 }, { 2, 3 } }); // 16-39, 0-50
+  WatchedFilter places(mesh);
+  EXPECT_EQ(Constrain(places, byPlace).second, 1);
+  EXPECT_FALSE(HasEdges(places->GetOutput(), FirstChain));
+  EXPECT_EQ(places->GetNumberOfInsertedConstraintEdges(), 1);
+  ExpectHolds(places.GetWarnings()[0], "(first: 0-50)");
+  mesh->SetLines(MakeCells({ { 16, 39 } }));
+  WatchedFilter filter(mesh);
+  filter->InsertLinesOn(); // which come before the second input
+  EXPECT_EQ(Constrain(filter, MakeLines({ { 50, 7 }, { 0, 50 } })).second, 2);
+  EXPECT_FALSE(HasEdges(filter->GetOutput(), FirstChain));
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 1);
+  ExpectHolds(filter.GetWarnings()[0], "(first: 7-50, 0-50)");
+}
+
+TEST(ConstraintInsertion, NotOnSurfaces)
+{
+  WatchedFilter filter(MakeBadSphere());
+  EXPECT_EQ(Constrain(filter, MakeLines({ { 4, 40 } })).second, 1);
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 0);
+  ExpectHolds(filter.GetWarnings()[0], "on a surface (first: 4-40)");
+}
+
+TEST(ConstraintInsertion, LiveRunsEndWithTheSameMesh)
+{
+  Mesh mesh = MakeBadPlane();
+  Mesh lines = MakeLines({ { 0, 300 }, { 1, 250 }, { 17, 200 }, { 5, 399 } });
+  WatchedFilter atOnce(mesh);
+  atOnce->SetConstraintsData(lines);
+  atOnce->GenerateFlipCountOn();
+  const std::vector<int> counts = GetNumbers(atOnce.Run()->GetCellData(), "vtkDelaunayFlipCount");
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), vtkIdType(0)),
+    2 * (atOnce->GetTotalFlips() + atOnce->GetNumberOfConstraintFlips()));
+  LiveFilter live(mesh);
+  live->SetConstraintsData(lines);
+  live.Run();
+  EXPECT_EQ(live->GetNumberOfIterations(), 1);
+  EXPECT_GT(live->GetNumberOfConstraintFlips(), 0);
+  EXPECT_GT(live.RunToTheEnd(), 3);
+  EXPECT_EQ(live.GetPolygons(), atOnce.GetPolygons());
+  EXPECT_EQ(live->GetNumberOfConstraintFlips(), atOnce->GetNumberOfConstraintFlips());
+  live->InsertConstraintsOff(); // starts again
+  live.RunToTheEnd();
+  EXPECT_EQ(live->GetNumberOfConstraintFlips(), 0);
+}
+
+TEST(ConstraintInsertion, WarmStartsKeepTheChains)
+{
+  Mesh mesh = MakeLattice();
+  LiveFilter filter(mesh);
+  filter->SetConstraintsData(MakeLines(Lines));
+  filter.RunToTheEnd();
+  const vtkIdType flips = filter->GetNumberOfConstraintFlips();
+  for (int move = 0; move < 2; ++move)
+  {
+    Shear(mesh, move == 0 ? 0.8 : -1.6);
+    filter.RunToTheEnd();
+    EXPECT_TRUE(HasEdges(filter->GetOutput(), FirstChain));
+    EXPECT_GT(filter->GetTotalFlips(), 0);
+    EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 2);
+    EXPECT_EQ(filter->GetNumberOfConstraintFlips(), flips);
+    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  }
+}
+
+TEST(ConstraintInsertion, SumsUpBlocks)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeLattice());
+  blocks->SetBlock(1, MakeLattice());
+  WatchedFilter filter(blocks);
+  filter->SetConstraintsData(MakeLines(Lines));
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 4);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 2);
+  EXPECT_EQ(filter->GetNumberOfConstraintFlips() % 2, 0);
+  EXPECT_GT(filter->GetNumberOfConstraintFlips(), 0);
 }

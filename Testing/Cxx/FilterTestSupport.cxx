@@ -10,9 +10,12 @@
 #include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIntArray.h"
-#include "vtkPoints.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +29,7 @@ vtkSmartPointer<vtkCellArray> MakeCells(const Cells& cells)
   return array;
 }
 
-vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygons)
+Mesh MakeMesh(const Points& points, const Cells& polygons)
 {
   vtkNew<vtkPoints> array;
   array->SetDataTypeToDouble();
@@ -40,13 +43,20 @@ vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygon
   return mesh;
 }
 
-vtkSmartPointer<vtkPolyData> MakeRhombus()
+Mesh MakeLines(const Points& points, const Cells& lines)
+{
+  auto mesh = MakeMesh(points, {});
+  mesh->SetLines(MakeCells(lines));
+  return mesh;
+}
+
+Mesh MakeRhombus()
 {
   return MakeMesh(
     { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } });
 }
 
-vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons)
+Mesh MakeRhombusAnd(const Points& points, const Cells& polygons)
 {
   auto mesh = MakeRhombus();
   for (const auto& point : points)
@@ -60,9 +70,20 @@ vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& p
   return mesh;
 }
 
-bool Holds(const std::string& text, const std::string& part)
+Mesh MakeQuadAndTriangle()
 {
-  return text.find(part) != std::string::npos;
+  return MakeMesh({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 10, 0, 0 },
+                    { 11, 0, 0 }, { 10, 1, 0 } },
+    { { 0, 1, 2, 3 }, { 4, 5, 6 } });
+}
+
+Mesh MakeBadPlane() { return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(400, 3)); }
+
+Mesh MakeBadSphere() { return ToPolyData(delaunayflip::MakeBadSphere(40, 20, 4)); }
+
+void ExpectHolds(const std::string& text, const std::string& part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << '"' << text << "\" lacks \"" << part << '"';
 }
 
 Cell GetCell(vtkPolyData* mesh, vtkIdType cell)
@@ -123,6 +144,38 @@ std::vector<int> GetNumbers(vtkDataSetAttributes* data, const char* name)
   return std::vector<int>(array->GetPointer(0), array->GetPointer(array->GetNumberOfValues()));
 }
 
+void MovePoints(vtkPolyData* mesh, const std::function<void(double*)>& change)
+{
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    double x[3];
+    mesh->GetPoint(point, x);
+    change(x);
+    mesh->GetPoints()->SetPoint(point, x);
+  }
+  mesh->GetPoints()->Modified();
+}
+
+void Shear(vtkPolyData* mesh, double factor)
+{
+  MovePoints(mesh, [factor](double* x) { x[0] += factor * x[1]; });
+}
+
+double GetTotal(vtkPolyData* mesh, const std::string& name, vtkIdType row)
+{
+  vtkDataArray* array = mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
+  EXPECT_NE(array, nullptr) << name;
+  return array && row < array->GetNumberOfTuples() ? array->GetComponent(row, 0) : 0.0;
+}
+
+std::string GetText(vtkPolyData* mesh, const std::string& name)
+{
+  auto* array = vtkStringArray::SafeDownCast(
+    mesh->GetFieldData()->GetAbstractArray(("DelaunayFlip:" + name).c_str()));
+  EXPECT_NE(array, nullptr) << name;
+  return array ? array->GetValue(0) : "";
+}
+
 delaunayflip::OwnedMesh<double> ToOwnedMesh(vtkPolyData* mesh)
 {
   delaunayflip::OwnedMesh<double> owned;
@@ -160,10 +213,10 @@ WatchedFilter::WatchedFilter()
   this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, &this->ExecutiveErrors);
 }
 
-WatchedFilter::WatchedFilter(vtkPolyData* input)
+WatchedFilter::WatchedFilter(vtkDataObject* input)
   : WatchedFilter()
 {
-  this->Filter->SetInputData(input);
+  this->Filter->SetInputDataObject(input);
 }
 
 void WatchedFilter::Watch(
@@ -184,10 +237,67 @@ vtkPolyData* WatchedFilter::Run()
   return this->Filter->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> RunCleanly(WatchedFilter& filter)
+vtkPolyData* WatchedFilter::GetBlock(unsigned int number)
 {
-  vtkSmartPointer<vtkPolyData> output = filter.Run();
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->Filter->GetOutputDataObject(0));
+  return blocks ? vtkPolyData::SafeDownCast(blocks->GetBlock(number)) : nullptr;
+}
+
+double WatchedFilter::GetRow(const char* column, vtkIdType row)
+{
+  return this->Filter->GetIterations()->GetValueByName(row, column).ToDouble();
+}
+
+Mesh RunCleanly(WatchedFilter& filter)
+{
+  Mesh output = filter.Run();
   EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
   EXPECT_EQ(filter.GetWarnings(), std::vector<std::string>{});
   return output;
+}
+
+std::string RunToWarning(WatchedFilter& filter)
+{
+  filter.Run();
+  EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
+  EXPECT_EQ(filter.GetWarnings().size(), 1u);
+  return filter.GetWarnings().empty() ? "" : filter.GetWarnings()[0];
+}
+
+std::string RunToError(WatchedFilter& filter, int failure)
+{
+  const std::size_t before = filter.GetErrors().size();
+  filter.Run();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
+  EXPECT_EQ(filter->GetFailure(), failure);
+  EXPECT_EQ(filter.GetErrors().size(), before + 1);
+  return filter.GetErrors().empty() ? "" : filter.GetErrors().back();
+}
+
+Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle)
+{
+  WatchedFilter filter(mesh);
+  filter->SetFeatureAngle(featureAngle);
+  return GetCells(RunCleanly(filter)->GetPolys());
+}
+
+LiveFilter::LiveFilter(vtkPolyData* input)
+  : WatchedFilter(input)
+{
+  (*this)->LiveUpdateOn();
+}
+
+int LiveFilter::RunToTheEnd()
+{
+  constexpr int Most = 1000; // updates, after which the test fails
+  int updates = 0;
+  do
+  {
+    this->Run();
+    ++updates;
+  } while ((*this)->Advance() && updates < Most);
+  EXPECT_LT(updates, Most);
+  return updates;
 }

@@ -9,32 +9,43 @@
 #include "vtkCommand.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
 /// Meshes and helpers for the tests of vtkDelaunayFlip.
 
+using Mesh = vtkSmartPointer<vtkPolyData>;
 using Points = std::vector<std::array<double, 3>>;
 using Cell = std::vector<vtkIdType>;
 using Cells = std::vector<Cell>;
 
-/// A mesh with double points and polygons.
-vtkSmartPointer<vtkPolyData> MakeMesh(const Points& points, const Cells& polygons);
+/// A mesh with double points and polygons, and one with lines.
+Mesh MakeMesh(const Points& points, const Cells& polygons);
+Mesh MakeLines(const Points& points, const Cells& lines);
 
 /// A rhombus of points 0 (left), 1 (below), 2 (right), 3 (above), divided along its long diagonal
 /// 0-2 into triangles (0, 1, 2) and (0, 2, 3). One flip, to 1-3, makes it Delaunay.
-vtkSmartPointer<vtkPolyData> MakeRhombus();
+Mesh MakeRhombus();
 
 /// The rhombus and another part, which must not keep it from being processed. The other points are
 /// numbered from 4.
-vtkSmartPointer<vtkPolyData> MakeRhombusAnd(const Points& points, const Cells& polygons);
+Mesh MakeRhombusAnd(const Points& points, const Cells& polygons);
 
-/// Whether `part` occurs in `text`.
-bool Holds(const std::string& text, const std::string& part);
+/// The rhombus as one quad, and a triangle of points 4, 5, 6 beside it.
+Mesh MakeQuadAndTriangle();
+
+/// A random bad mesh of 400 points, and a closed surface with bad triangles.
+Mesh MakeBadPlane();
+Mesh MakeBadSphere();
+
+/// That `part` occurs in `text`.
+void ExpectHolds(const std::string& text, const std::string& part);
 
 /// The point ids of a cell.
 Cell GetCell(vtkPolyData* mesh, vtkIdType cell);
@@ -50,8 +61,47 @@ bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b);
 void AddNumbers(vtkDataSetAttributes* data, const char* name, vtkIdType count, int first);
 std::vector<int> GetNumbers(vtkDataSetAttributes* data, const char* name);
 
+/// An array whose values are not set.
+template <typename ArrayT>
+vtkSmartPointer<ArrayT> MakeArray(const char* name, vtkIdType tuples, int components = 1)
+{
+  auto array = vtkSmartPointer<ArrayT>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// Gives a mesh points of this array type. `change` may change a point's coordinates before.
+template <typename ArrayT>
+void ReplacePoints(
+  vtkPolyData* mesh, const std::function<void(double*)>& change = [](double*) {})
+{
+  const auto array = MakeArray<ArrayT>("Points", mesh->GetNumberOfPoints(), 3);
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    double x[3];
+    mesh->GetPoint(point, x);
+    change(x);
+    array->SetTuple(point, x);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(array);
+  mesh->SetPoints(points);
+}
+
+/// Changes the points in place.
+void MovePoints(vtkPolyData* mesh, const std::function<void(double*)>& change);
+
+/// Moves the points in place by a shear, which makes other edges bad.
+void Shear(vtkPolyData* mesh, double factor);
+
+/// Results in the field data, by their names without "DelaunayFlip:". 0 in rows that are missing.
+double GetTotal(vtkPolyData* mesh, const std::string& name, vtkIdType row = 0);
+std::string GetText(vtkPolyData* mesh, const std::string& name);
+
 template <typename Real>
-vtkSmartPointer<vtkPolyData> ToPolyData(const delaunayflip::OwnedMesh<Real>& mesh)
+Mesh ToPolyData(const delaunayflip::OwnedMesh<Real>& mesh)
 {
   Points points;
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
@@ -81,13 +131,22 @@ class WatchedFilter
 {
 public:
   WatchedFilter();
-  explicit WatchedFilter(vtkPolyData* input);
+  explicit WatchedFilter(vtkDataObject* input);
 
   vtkDelaunayFlip* operator->() { return this->Filter; }
   vtkDelaunayFlip* Get() { return this->Filter; }
 
-  /// Updates, and returns output port 0.
+  /// Updates, and returns output port 0; null if that is composite.
   vtkPolyData* Run();
+
+  /// A block of the output that is a mesh; null if there is none.
+  vtkPolyData* GetBlock(unsigned int number);
+
+  /// The polygons of the output.
+  Cells GetPolygons() { return GetCells(this->Filter->GetOutput()->GetPolys()); }
+
+  /// The value in a row of the table of iterations.
+  double GetRow(const char* column, vtkIdType row);
 
   const std::vector<std::string>& GetErrors() const { return this->Errors; }
   const std::vector<std::string>& GetWarnings() const { return this->Warnings; }
@@ -114,6 +173,26 @@ void OnProgress(vtkDelaunayFlip* filter, Action& action)
 }
 
 /// Runs a filter that must have neither an error nor a warning.
-vtkSmartPointer<vtkPolyData> RunCleanly(WatchedFilter& filter);
+Mesh RunCleanly(WatchedFilter& filter);
+
+/// Runs a filter that must give one warning and no error. @returns the warning.
+std::string RunToWarning(WatchedFilter& filter);
+
+/// Runs a filter that must fail with one more error, leave its output empty, and tell of this kind
+/// of failure. @returns the error.
+std::string RunToError(WatchedFilter& filter, int failure = vtkDelaunayFlip::FAILURE_MESH);
+
+/// The polygons after a single update.
+Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle = 30.0);
+
+/// A filter with LiveUpdate on.
+class LiveFilter : public WatchedFilter
+{
+public:
+  explicit LiveFilter(vtkPolyData* input);
+
+  /// Updates until nothing is left to do. @returns the number of updates.
+  int RunToTheEnd();
+};
 
 #endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A live run ends with the same bits as a single update.
 
-#include "LiveTestSupport.h"
+#include "FilterTestSupport.h"
 
 #include "CudaDevice.h"
 
@@ -10,7 +10,6 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
-#include "vtkPoints.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -25,8 +24,6 @@
 
 namespace
 {
-
-using Mesh = vtkSmartPointer<vtkPolyData>;
 
 constexpr double Size = 10.0; // at 1e7, floats are 1 apart: rounding would ruin these meshes
 
@@ -89,7 +86,7 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
   EXPECT_TRUE(once.GetErrors().empty());
   EXPECT_GT(once->GetTotalFlips(), 0);
   EXPECT_TRUE(once->GetConverged());
-  for (const vtkIdType step : { 1, 7, 1000 })
+  for (const vtkIdType step : { 0, 1, 7, 1000 }) // 0: as many as fit into a frame
   {
     LiveFilter live(mesh);
     live->GenerateFlipCountOn();
@@ -97,7 +94,8 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
     live->SetIterationsPerUpdate(step);
     set(live.Get());
     const int updates = live.RunToTheEnd();
-    EXPECT_EQ(updates, (once->GetNumberOfIterations() + step - 1) / step);
+    const vtkIdType iterations = once->GetNumberOfIterations();
+    EXPECT_TRUE(step == 0 ? updates <= iterations : updates == (iterations + step - 1) / step);
     ExpectSame(live.Get(), once.Get());
     EXPECT_EQ(live.GetWarnings().size(), once.GetWarnings().size());
   }
@@ -107,30 +105,19 @@ void ExpectLiveIsAtOnce(vtkPolyData* mesh, const Setting& set)
 template <typename ArrayT>
 void Place(vtkPolyData* mesh, double scale, double offset)
 {
-  vtkNew<ArrayT> array;
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(mesh->GetNumberOfPoints());
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    double x[3];
-    mesh->GetPoint(point, x);
-    const double placed[3] = { scale * x[0] + offset, scale * x[1] + 3.0 * offset, scale * x[2] };
-    array->SetTuple(point, placed);
-  }
-  vtkNew<vtkPoints> points;
-  points->SetData(array);
-  mesh->SetPoints(points);
+  ReplacePoints<ArrayT>(mesh,
+    [=](double* x)
+    {
+      x[0] = scale * x[0] + offset;
+      x[1] = scale * x[1] + 3.0 * offset;
+      x[2] *= scale;
+    });
 }
 
 Mesh MakeTerrain()
 {
   auto mesh = MakeBadPlane();
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    double x[3];
-    mesh->GetPoint(point, x);
-    mesh->GetPoints()->SetPoint(point, x[0], x[1], 0.2 * x[0] * x[1]);
-  }
+  MovePoints(mesh, [](double* x) { x[2] = 0.2 * x[0] * x[1]; });
   return mesh;
 }
 

@@ -1,66 +1,82 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live updates: a few iterations at a time.
+/// Live updates: a few iterations at a time, at any pace, with points that move, and with steps
+/// that leave the mesh in the session.
 
-#include "LiveTestSupport.h"
+#include "FilterTestSupport.h"
+
+#include "DelaunayFlip.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <chrono>
+#include <cmath>
+#include <thread>
 
-TEST(LiveUpdate, IsOffByDefault)
+namespace
 {
-  WatchedFilter filter(MakeBadPlane());
-  EXPECT_FALSE(filter->GetLiveUpdate());
-  EXPECT_EQ(filter->GetIterationsPerUpdate(), 1);
-  EXPECT_FALSE(filter->GetPaused());
-  RunCleanly(filter);
-  EXPECT_TRUE(filter->GetConverged());
-  EXPECT_FALSE(filter->Advance());
-  EXPECT_FALSE(filter->GetNeedsUpdate());
+
+/// The triangles of a mesh after a single update by x and y.
+Cells FlipAtOnceXY(vtkPolyData* mesh)
+{
+  WatchedFilter filter(mesh);
+  filter->SetGeometryToPlanarXY();
+  return GetCells(RunCleanly(filter)->GetPolys());
+}
+
+/// Bends the rhombus along its long diagonal, or flattens it.
+void Bend(vtkPolyData* rhombus, double height)
+{
+  MovePoints(rhombus, [height](double* x) { x[2] = x[1] == 0.0 ? 0.0 : -height; });
+}
+
+Cells StoreMesh(LiveFilter& filter)
+{
+  vtkNew<vtkPolyData> mesh;
+  EXPECT_TRUE(filter->StoreMesh(mesh));
+  return GetCells(mesh->GetPolys());
+}
+
+/// The polygons after some updates, each a step.
+Cells MakeSteps(vtkPolyData* mesh, int steps)
+{
+  LiveFilter filter(mesh);
+  for (int i = 0; i < steps; ++i)
+  {
+    filter.Run();
+    filter->Advance();
+  }
+  return filter.GetPolygons();
+}
+
 }
 
 TEST(LiveUpdate, EveryStepGivesAValidMesh)
 {
   LiveFilter filter(MakeBadPlane());
-  vtkIdType iterations = 0;
-  vtkIdType flips = 0;
+  vtkIdType iterations = 0, flips = 0;
   do
   {
     vtkPolyData* output = RunCleanly(filter);
     EXPECT_EQ(filter->GetNumberOfIterations(), ++iterations);
     EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), iterations);
-    EXPECT_EQ(
-      output->GetFieldData()->GetArray("DelaunayFlip:Flipped")->GetNumberOfTuples(), iterations);
+    EXPECT_EQ(GetTotal(output, "Iteration", iterations - 1), iterations);
     EXPECT_GT(filter->GetTotalFlips(), flips);
     flips = filter->GetTotalFlips();
     EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
     EXPECT_EQ(filter->GetConverged(), filter->GetNumberOfNonDelaunayEdges() == 0);
-    if (!filter->GetConverged())
-    {
-      EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_RUNNING);
-      EXPECT_STREQ(filter->GetStopReasonAsString(), "running");
-    }
+    EXPECT_STREQ(filter->GetStopReasonAsString(), filter->GetConverged() ? "converged" : "running");
+    filter.Run(); // nobody asks for another step
+    EXPECT_EQ(filter->GetNumberOfIterations(), iterations);
   } while (filter->Advance());
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_GT(iterations, 5);
-}
-
-TEST(LiveUpdate, NothingIsDoneWhenNobodyAsks)
-{
-  LiveFilter filter(MakeBadPlane());
-  filter.Run();
-  filter.Run();
-  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
 }
 
 TEST(LiveUpdate, PollingEndsWithConvergence)
@@ -81,23 +97,47 @@ TEST(LiveUpdate, PollingEndsWithConvergence)
   EXPECT_EQ(filter->GetMTime(), time);
 }
 
-TEST(LiveUpdate, AnotherOptionStartsAgain)
+TEST(LiveUpdate, OtherOptionsInputsAndCellsStartAgain)
 {
   auto mesh = MakeBadSphere();
-  LiveFilter filter(mesh);
-  filter.Run();
-  filter->Advance();
-  filter.Run();
-  filter->SetFeatureAngle(180.0);
-  filter.Run();
-  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  LiveFilter filter(MakeBadPlane());
+  const auto expectStart = [&filter](const Cells& expected)
+  {
+    filter.Run();
+    EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+    filter->Advance();
+    filter.RunToTheEnd();
+    EXPECT_EQ(filter.GetPolygons(), expected);
+  };
   filter.RunToTheEnd();
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh, 180.0));
+  filter->SetInputData(mesh);
+  expectStart(FlipAtOnce(mesh));
+  filter->SetFeatureAngle(180.0);
+  expectStart(FlipAtOnce(mesh, 180.0));
+  filter->Restart();
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  expectStart(FlipAtOnce(mesh, 180.0));
+  auto rhombus = MakeRhombus();
+  filter->SetInputData(rhombus);
+  filter.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+  rhombus->SetPolys(MakeCells({ { 0, 1, 2 } }));
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter.GetPolygons(), (Cells{ { 0, 1, 2 } }));
+  rhombus->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 3 } }));
+  rhombus->SetLines(MakeCells({ { 0, 2 } }));
+  filter.RunToTheEnd();
+  EXPECT_FALSE(HasEdge(filter->GetOutput(), 1, 3));
+  filter->SetInputData(vtkNew<vtkPolyData>());
+  EXPECT_EQ(filter.RunToTheEnd(), 1);
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
 }
 
-TEST(LiveUpdate, AnotherStepGoesOn)
+TEST(LiveUpdate, OtherStepsOutputsAndAttributesGoOn)
 {
-  LiveFilter filter(MakeBadPlane());
+  auto mesh = MakeBadPlane();
+  LiveFilter filter(mesh);
   filter.Run();
   filter->SetIterationsPerUpdate(2);
   filter.Run();
@@ -106,69 +146,14 @@ TEST(LiveUpdate, AnotherStepGoesOn)
   filter.Run();
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
   EXPECT_NE(filter->GetOutput()->GetCellData()->GetArray("vtkDelaunayFlipCount"), nullptr);
-}
-
-TEST(LiveUpdate, AnotherInputStartsAgain)
-{
-  LiveFilter filter(MakeBadPlane());
-  filter.RunToTheEnd();
-  auto mesh = MakeBadSphere();
-  filter->SetInputData(mesh);
-  filter.Run();
-  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
-}
-
-TEST(LiveUpdate, OtherCellsStartAgain)
-{
-  auto mesh = MakeRhombus();
-  LiveFilter filter(mesh);
-  filter.RunToTheEnd();
-  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
-  mesh->SetPolys(MakeCells({ { 0, 1, 2 } }));
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter.GetTriangles(), (Cells{ { 0, 1, 2 } }));
-  mesh->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 3 } }));
-  mesh->SetLines(MakeCells({ { 0, 2 } }));
-  filter.RunToTheEnd();
-  EXPECT_FALSE(HasEdge(filter->GetOutput(), 1, 3));
-}
-
-TEST(LiveUpdate, RestartStartsAgain)
-{
-  auto mesh = MakeBadPlane();
-  LiveFilter filter(mesh);
-  const int updates = filter.RunToTheEnd();
-  filter->Restart();
-  EXPECT_FALSE(filter->GetNeedsUpdate());
-  EXPECT_EQ(filter.RunToTheEnd(), updates);
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
-}
-
-TEST(LiveUpdate, TurnedOffFlipsAtOnce)
-{
-  auto mesh = MakeBadPlane();
-  LiveFilter filter(mesh);
-  filter.Run();
-  filter->LiveUpdateOff();
-  filter.Run();
-  EXPECT_TRUE(filter->GetConverged());
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
-}
-
-TEST(LiveUpdate, AttributesPassOnTheWay)
-{
-  auto mesh = MakeBadPlane();
-  AddNumbers(mesh->GetPointData(), "Number", mesh->GetNumberOfPoints(), 0);
-  LiveFilter filter(mesh);
-  filter.Run();
   AddNumbers(mesh->GetPointData(), "Number", mesh->GetNumberOfPoints(), 100);
   filter.Run();
-  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 7);
   EXPECT_EQ(GetNumbers(filter->GetOutput()->GetPointData(), "Number")[0], 100);
-  filter.RunToTheEnd();
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
+  filter->LiveUpdateOff(); // flips at once
+  filter.Run();
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh));
 }
 
 TEST(LiveUpdate, EndsAtTheIterationLimit)
@@ -183,73 +168,259 @@ TEST(LiveUpdate, EndsAtTheIterationLimit)
   EXPECT_TRUE(filter.GetWarnings().empty());
 }
 
-TEST(LiveUpdate, WarnsOnce)
-{
-  auto mesh = MakeBadPlane();
-  mesh->GetPoints()->SetPoint(40, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
-  LiveFilter filter(mesh);
-  EXPECT_GT(filter.RunToTheEnd(), 2);
-  EXPECT_EQ(filter.GetWarnings().size(), 1u);
-}
-
-TEST(LiveUpdate, GoesOnAfterAnAbort)
-{
-  auto mesh = MakeBadPlane();
-  LiveFilter filter(mesh);
-  filter->SetIterationsPerUpdate(4);
-  auto stop = [&filter]() { filter->SetAbortExecute(1); };
-  OnProgress(filter.Get(), stop);
-  filter.Run();
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
-  EXPECT_FALSE(filter->GetNeedsUpdate());
-  filter->RemoveAllObservers();
-  filter->SetAbortExecute(0);
-  EXPECT_TRUE(filter->Advance());
-  filter.RunToTheEnd();
-  EXPECT_TRUE(filter->GetConverged());
-  EXPECT_EQ(filter.GetTriangles(), FlipAtOnce(mesh));
-}
-
-TEST(LiveUpdate, AnErrorEndsIt)
-{
-  auto mesh = MakeBadPlane();
-  LiveFilter filter(mesh);
-  filter.Run();
-  filter->SetTolerance(1.0);
-  filter.Run();
-  EXPECT_EQ(filter.GetErrors().empty(), false);
-  EXPECT_FALSE(filter->Advance());
-  EXPECT_FALSE(filter->GetNeedsUpdate());
-}
-
-TEST(LiveUpdate, CompositeInputIsFlippedAtOnce)
+TEST(LiveUpdate, BlocksAreFlippedAtOnce)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, MakeBadPlane());
-  blocks->SetBlock(1, MakeBadPlane());
-  WatchedFilter filter;
-  filter->SetInputDataObject(blocks);
+  WatchedFilter filter(blocks);
   filter->LiveUpdateOn();
-  for (unsigned int update = 1; update <= 2; ++update)
-  {
-    filter->Modified();
-    filter->Update();
-    EXPECT_TRUE(filter->GetConverged());
-    EXPECT_FALSE(filter->GetNeedsUpdate());
-    EXPECT_FALSE(filter->Advance());
-    EXPECT_EQ(filter.GetWarnings().size(), update);
-  }
+  filter->Update();
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  EXPECT_FALSE(filter->Advance());
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  ExpectHolds(filter.GetWarnings()[0], "LiveUpdate");
 }
 
-TEST(LiveUpdate, EmptyInputHasNothingToDo)
+TEST(LivePace, AsManyIterationsAsFit)
+{
+  // 97 iterations of a few microseconds each. If the machine stalls, a second update is allowed.
+  LiveFilter fast(ToPolyData(delaunayflip::MakeWorstCaseMesh(50)));
+  fast->SetIterationsPerUpdate(0);
+  EXPECT_LT(fast.RunToTheEnd(), 48);
+  EXPECT_EQ(fast->GetNumberOfIterations(), 97);
+
+  LiveFilter filter(MakeBadPlane());
+  filter->SetIterationsPerUpdate(0);
+  auto wait = []() { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
+  OnProgress(filter.Get(), wait);
+  for (vtkIdType iterations = 1; iterations <= 3; ++iterations)
+  {
+    filter.Run();
+    EXPECT_EQ(filter->GetNumberOfIterations(), iterations);
+    filter->Advance();
+  }
+  auto stop = [&filter]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 3); };
+  OnProgress(filter.Get(), stop);
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 4);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+}
+
+TEST(LivePace, PausedIsNotPolled)
 {
   LiveFilter filter(MakeBadPlane());
   filter.Run();
-  EXPECT_TRUE(filter->GetNeedsUpdate());
-  vtkNew<vtkPolyData> empty;
-  filter->SetInputData(empty);
-  EXPECT_EQ(filter.RunToTheEnd(), 1);
+  filter->PausedOn();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1); // pausing makes no step
   EXPECT_FALSE(filter->GetNeedsUpdate());
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
+  EXPECT_TRUE(filter->Advance());
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+  EXPECT_TRUE(filter->Step());
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 3);
+  filter->PausedOff();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 3);
+  EXPECT_TRUE(filter->GetNeedsUpdate());
+  filter.RunToTheEnd();
+  EXPECT_FALSE(filter->Step());
+}
+
+TEST(MovedPoints, WarmStart)
+{
+  auto mesh = MakeBadPlane();
+  AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+  LiveFilter filter(mesh);
+  const int updates = filter.RunToTheEnd();
+  const Cells before = filter.GetPolygons();
+  Shear(mesh, 0.0);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  EXPECT_EQ(filter.GetPolygons(), before);
+  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number")[7], 7);
+  Shear(mesh, 0.05);
+  EXPECT_LT(filter.RunToTheEnd(), updates);
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  EXPECT_LT(filter->GetTotalFlips(), mesh->GetNumberOfPoints());
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), mesh->GetPoints());
+  EXPECT_EQ(CountViolations(filter->GetOutput()), 0);
+
+  auto quad = MakeQuadAndTriangle();
+  filter->SetInputData(quad);
+  filter.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+  Shear(quad, 0.01);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetTotalFlips(), 0);
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+}
+
+TEST(MovedPoints, FixedEdgesTravelAlong)
+{
+  auto mesh = MakeBadSphere();
+  LiveFilter filter(mesh);
+  filter->SetFeatureAngle(12.0);
+  filter.RunToTheEnd();
+  const double fixedBefore = GetTotal(filter->GetOutput(), "FixedEdges");
+  ASSERT_GT(fixedBefore, 0);
+  for (int i = 0; i < 2; ++i)
+  {
+    Shear(mesh, 0.3);
+    filter.RunToTheEnd();
+    EXPECT_EQ(GetTotal(filter->GetOutput(), "FixedEdges"), fixedBefore);
+  }
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+
+  // A roof that becomes flat: the ridge stays, although in a flat rhombus it would flip.
+  auto roof = MakeRhombus();
+  Bend(roof, 1.0);
+  LiveFilter flat(roof);
+  flat->SetGeometryToSurface();
+  flat.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(flat->GetOutput(), 0, 2));
+  Bend(roof, 0.0);
+  flat.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(flat->GetOutput(), 0, 2));
+  flat->Restart();
+  flat.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(flat->GetOutput(), 1, 3));
+}
+
+TEST(MovedPoints, OfAnotherGeometryStartAgain)
+{
+  auto rhombus = MakeRhombus();
+  LiveFilter filter(rhombus);
+  filter.RunToTheEnd();
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+  Bend(rhombus, 1.0);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_SURFACE);
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
+
+  // Flips in space turn triangles over in x and y. So a run that changes to x and y must start from
+  // the input, not from the flipped triangles.
+  const auto scale = [](vtkPolyData* mesh, double height)
+  {
+    int point = 0;
+    MovePoints(mesh, [&](double* x) { x[2] = height * (point++ % 7) / 7.0; });
+  };
+  auto hills = MakeBadPlane();
+  scale(hills, 0.5);
+  filter->SetInputData(hills);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_SURFACE);
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  scale(hills, 1e-5);
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR_XY);
+  EXPECT_EQ(FlipAtOnceXY(hills), filter.GetPolygons());
+}
+
+TEST(MovedPoints, KeepTheirPrecision)
+{
+  // 400 points in 10 x 10 m, at 1e7 m, where floats are 1 m apart: rounding would make most
+  // coincide.
+  auto mesh = MakeBadPlane();
+  MovePoints(mesh,
+    [](double* x)
+    {
+      x[2] = x[0] * x[1];
+      x[0] = 10.0 * x[0] + 1e7;
+      x[1] = 10.0 * x[1] + 1e7;
+    });
+  LiveFilter filter(mesh);
+  filter->SetGeometryToPlanarXY();
+  filter->SetIterationsPerUpdate(3);
+  filter.Run();
+  for (const double factor : { 0.3, -0.5 })
+  {
+    Shear(mesh, factor); // the first time in the middle of a run
+    filter.RunToTheEnd();
+    EXPECT_TRUE(filter->GetConverged());
+    EXPECT_GT(filter->GetTotalFlips(), 0);
+    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+    EXPECT_EQ(FlipAtOnceXY(filter->GetOutput()), filter.GetPolygons());
+  }
+  EXPECT_TRUE(filter.GetWarnings().empty());
+}
+
+TEST(WithheldMesh, IsPutOutByTheNextUpdate)
+{
+  auto mesh = MakeBadPlane();
+  LiveFilter filter(mesh);
+  EXPECT_EQ(filter->GetSession(), nullptr);
+  EXPECT_FALSE(filter->StoreMesh(vtkNew<vtkPolyData>()));
+  EXPECT_TRUE(filter->AdvanceSession()); // the first step is put out
+  EXPECT_FALSE(filter->GetMeshIsWithheld());
+  EXPECT_EQ(filter.GetPolygons(), MakeSteps(mesh, 1));
+  ASSERT_NE(filter->GetSession(), nullptr);
+  EXPECT_EQ(filter->GetSession()->GetReport().Iterations.size(), 1u);
+  for (int steps = 2; steps < 6; ++steps)
+  {
+    EXPECT_TRUE(filter->AdvanceSession());
+    EXPECT_TRUE(filter->GetMeshIsWithheld());
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(filter->GetNumberOfIterations(), steps);
+    EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), steps);
+    EXPECT_EQ(StoreMesh(filter), MakeSteps(mesh, steps));
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(GetCells(filter.Run()->GetPolys()), MakeSteps(mesh, 5));
+    EXPECT_FALSE(filter->GetMeshIsWithheld());
+    EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  }
+  EXPECT_TRUE(filter->AdvanceSession());
+  EXPECT_TRUE(filter->Advance()); // a step that is asked for is made
+  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), MakeSteps(mesh, 7));
+  int steps = 7;
+  while (filter->GetStopReason() == vtkDelaunayFlip::STOP_REASON_RUNNING)
+  {
+    filter->AdvanceSession();
+    ASSERT_EQ(filter->GetNumberOfIterations(), ++steps);
+  }
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), FlipAtOnce(mesh));
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_FALSE(filter->Advance());
+  EXPECT_TRUE(filter.GetErrors().empty() && filter.GetWarnings().empty());
+}
+
+TEST(WithheldMesh, NotOfOtherRunsAndFailures)
+{
+  auto mesh = MakeBadPlane();
+  LiveFilter filter(mesh);
+  const auto expectStep = [&filter](bool isWithheld)
+  {
+    filter->AdvanceSession();
+    EXPECT_EQ(filter->GetMeshIsWithheld(), isWithheld);
+  };
+  expectStep(false);
+  expectStep(true);
+  filter->SetTieRuleToCanonical();
+  expectStep(false);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  expectStep(true);
+  Shear(mesh, 0.5);
+  expectStep(false);
+  expectStep(true);
+  filter->Restart();
+  EXPECT_FALSE(filter->GetMeshIsWithheld());
+  EXPECT_EQ(filter->GetSession(), nullptr);
+  expectStep(false);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  expectStep(true);
+  filter->SetGeometryToSurface(); // where ties cannot be canonical
+  expectStep(false);
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_OPTIONS);
+  EXPECT_EQ(filter->GetSession(), nullptr);
+  filter->SetGeometryToAuto();
+  filter->LiveUpdateOff();
+  EXPECT_TRUE(filter->AdvanceSession());
+  EXPECT_FALSE(filter->GetMeshIsWithheld());
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_EQ(filter->GetSession(), nullptr);
 }

@@ -1,28 +1,55 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Live views: timer, keys and states, also in case of failures.
+/// Live views: timer, keys, states, failures; the picture, the texts and the files.
 
 #include "LiveViewTestSupport.h"
+#include "TemporaryFolder.h"
+#include "TestWindow.h"
 
+#include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkGenericRenderWindowInteractor.h"
+#include "vtkImageData.h"
+#include "vtkLookupTable.h"
+#include "vtkMeshQuality.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkPoints.h"
+#include "vtkPNGReader.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
+#include "vtkTesting.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <filesystem>
+#include <set>
+
+vtkSmartPointer<vtkRenderWindow> MakeTestWindow()
+{
+  return vtkSmartPointer<vtkRenderWindow>::New();
+}
+
+vtkSmartPointer<vtkRenderWindowInteractor> MakeTestInteractor()
+{
+  return vtkSmartPointer<vtkRenderWindowInteractor>::New();
+}
 
 namespace
 {
 
-Cells FlipAtOnce(vtkPolyData* mesh)
+namespace fs = std::filesystem;
+using delaunayflip::TemporaryFolder;
+
+Bytes ReadPicture(const std::string& file)
 {
-  WatchedFilter filter(mesh);
-  return GetCells(RunCleanly(filter)->GetPolys());
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  const auto* first = static_cast<unsigned char*>(image->GetScalarPointer());
+  return Bytes(first, first + image->GetNumberOfPoints() * image->GetNumberOfScalarComponents());
 }
 
 /// Timers that fire only when the test makes them fire.
@@ -39,17 +66,51 @@ std::string Unwrap(std::string text)
   return text;
 }
 
-Cells GetTriangles(WatchedView& view) { return GetCells(view.Filter->GetOutput()->GetPolys()); }
+/// Red where the smallest angle is 0, blue where it is 60 degrees.
+vtkSmartPointer<vtkLookupTable> MakeColors()
+{
+  auto colors = vtkSmartPointer<vtkLookupTable>::New();
+  colors->SetHueRange(0.0, 0.6);
+  colors->SetSaturationRange(0.5, 0.5);
+  colors->SetValueRange(1.0, 1.0);
+  return colors;
+}
+
+vtkSmartPointer<vtkRenderer> MakeRenderer(vtkAlgorithmOutput* mesh, double left)
+{
+  vtkNew<vtkMeshQuality> quality;
+  quality->SetInputConnection(mesh);
+  quality->SetTriangleQualityMeasureToMinAngle();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(quality->GetOutputPort());
+  mapper->SetLookupTable(MakeColors());
+  mapper->SetScalarRange(0.0, 60.0);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeColor(0.1, 0.1, 0.1);
+  auto view = vtkSmartPointer<vtkRenderer>::New();
+  view->SetViewport(left, 0.0, left + 0.5, 1.0);
+  view->SetBackground(1.0, 1.0, 1.0);
+  view->AddActor(actor);
+  view->GetActiveCamera()->ParallelProjectionOn();
+  view->ResetCamera();
+  view->GetActiveCamera()->Zoom(1.4);
+  return view;
+}
 
 }
 
-TEST(LiveView, TimerRunsItToTheEnd)
+TEST(LiveView, TimerRunsItToTheEndAndIsGoneThen)
 {
   auto mesh = MakeBadPlane();
   WatchedView view(mesh, false);
-  OnEvent(view.View, vtkCommand::EndEvent, [&view]() { view.Interactor->TerminateApp(); });
+  int timerEvents = 0;
+  OnEvent(view.Interactor, vtkCommand::TimerEvent, [&timerEvents]() { ++timerEvents; });
   view->Run();
-  view.Interactor->Start();
+  const int others = view.RunUntilItStops();
+  EXPECT_EQ(timerEvents, view->GetFrameNumber() + others);
   EXPECT_TRUE(view->GetConverged());
   EXPECT_FALSE(view->IsRunning());
   EXPECT_EQ(view.Ends, 1);
@@ -57,19 +118,8 @@ TEST(LiveView, TimerRunsItToTheEnd)
   EXPECT_GT(view->GetFrameNumber(), 5);
   EXPECT_EQ(view->GetFrameNumber(), view.Filter->GetNumberOfIterations());
   EXPECT_EQ(view.Frames, view->GetFrameNumber() + 1);
-  EXPECT_EQ(GetTriangles(view), FlipAtOnce(mesh));
+  EXPECT_EQ(view.Filter.GetPolygons(), FlipAtOnce(mesh));
   EXPECT_TRUE(view.Filter.GetErrors().empty() && view.Filter.GetWarnings().empty());
-}
-
-TEST(LiveView, NoTimerIsLeftAfterTheEnd)
-{
-  WatchedView view(MakeBadPlane(), false);
-  int timerEvents = 0;
-  OnEvent(view.Interactor, vtkCommand::TimerEvent, [&timerEvents]() { ++timerEvents; });
-  view->Run();
-  const int others = view.RunUntilItStops();
-  EXPECT_TRUE(view->GetConverged());
-  EXPECT_EQ(timerEvents, view->GetFrameNumber() + others);
 }
 
 TEST(LiveView, StepByStep)
@@ -89,19 +139,10 @@ TEST(LiveView, StepByStep)
   EXPECT_EQ(view->GetFrameNumber(), steps);
   EXPECT_EQ(view.Frames, steps + 1);
   EXPECT_EQ(view.Ends, 1);
-  EXPECT_EQ(GetTriangles(view), FlipAtOnce(mesh));
+  EXPECT_EQ(view.Filter.GetPolygons(), FlipAtOnce(mesh));
   EXPECT_FALSE(view->Step());
   EXPECT_EQ(view.Frames, steps + 1);
   EXPECT_EQ(view.Ends, 1);
-}
-
-TEST(LiveView, SeveralIterationsAStep)
-{
-  WatchedView view;
-  view.Filter->SetIterationsPerUpdate(4);
-  view->Step();
-  EXPECT_EQ(view->GetFrameNumber(), 1);
-  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 4);
 }
 
 TEST(LiveView, PauseStopsTheTimer)
@@ -126,11 +167,12 @@ TEST(LiveView, PauseStopsTheTimer)
 TEST(LiveView, DrawingDoesNotExecuteTheFilter)
 {
   WatchedView view;
+  view.Filter->SetIterationsPerUpdate(4);
   view->Step();
   view.Filter->Advance();
   view.Window->Render();
   view->Render();
-  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 1);
+  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 4);
   EXPECT_EQ(view->GetFrameNumber(), 1);
 }
 
@@ -208,9 +250,7 @@ TEST(LiveView, RestartKeepsItsPace)
   EXPECT_TRUE(view->IsRunning());
   EXPECT_FALSE(view->GetConverged());
   EXPECT_EQ(view->GetFrameNumber(), 0);
-  while (view->Step())
-  {
-  }
+  view.StepToTheEnd();
   EXPECT_EQ(view->GetFrameNumber(), steps);
 }
 
@@ -218,19 +258,10 @@ TEST(LiveView, MovedPointsContinueAfterTheEnd)
 {
   auto mesh = MakeBadPlane();
   WatchedView view(mesh);
-  while (view->Step())
-  {
-  }
+  view.StepToTheEnd();
   const int steps = view->GetFrameNumber();
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    const double* x = mesh->GetPoint(i);
-    mesh->GetPoints()->SetPoint(i, x[0] + 0.3 * x[1], x[1], x[2]);
-  }
-  mesh->GetPoints()->Modified();
-  while (view->Step())
-  {
-  }
+  Shear(mesh, 0.3);
+  view.StepToTheEnd();
   EXPECT_GT(view->GetFrameNumber(), steps);
   EXPECT_EQ(CountViolations(view.Filter->GetOutput()), 0);
 }
@@ -277,9 +308,7 @@ TEST(LiveView, AnAbortPausesIt)
   EXPECT_EQ(view->GetFrameNumber(), 2);
   EXPECT_EQ(view.GetStatus().find("iteration 2, aborted"), 0u);
   view.Filter->SetAbortExecute(0);
-  while (view->Step())
-  {
-  }
+  view.StepToTheEnd();
   EXPECT_TRUE(view->GetConverged());
 }
 
@@ -422,4 +451,193 @@ TEST(LiveView, MayBeDeletedByAnObserver)
   view.Press("n");
   EXPECT_EQ(view.View, nullptr);
   EXPECT_EQ(view.Filter->GetNumberOfIterations(), 1);
+}
+
+TEST(LiveViewPicture, Texts)
+{
+  WatchedView view(MakeRhombus(), false);
+  view->Start();
+  EXPECT_EQ(view.GetStatus(), "input, paused\n2 triangles\nsmallest angle 18.43 degrees");
+  EXPECT_EQ(view.GetKeys().find("space: run/pause"), 0u);
+  view->Run();
+  EXPECT_EQ(view.GetStatus().find("input, running"), 0u);
+  view->Step();
+  EXPECT_EQ(view.GetStatus(),
+    "iteration 1, converged\n1 flip, 0 bad edges left\nsmallest angle 36.87 degrees");
+  view->ShowKeysOff();
+  view->Render();
+  EXPECT_EQ(view.GetKeys(), "");
+}
+
+TEST(LiveViewPicture, StatisticsAreThoseOfTheFilter)
+{
+  WatchedView view;
+  view->SetColorByToSolid();
+  view->Start();
+  while (view->Step())
+  {
+    const std::string flips = std::to_string(view.Filter->GetTotalFlips());
+    const std::string edges = std::to_string(view.Filter->GetNumberOfNonDelaunayEdges());
+    std::string status = view.GetStatus();
+    status.erase(std::remove(status.begin(), status.end(), ','), status.end()); // 1,234
+    EXPECT_NE(status.find(" running\n" + flips + " flip"), std::string::npos) << status;
+    EXPECT_NE(status.find(" " + edges + " bad edge"), std::string::npos) << status;
+    EXPECT_NE(status.find(" left\nsmallest angle "), std::string::npos) << status;
+  }
+}
+
+TEST(LiveViewPicture, StatisticsCanBeTurnedOffButFailuresAreShown)
+{
+  WatchedView view;
+  view->Step();
+  const Bytes before = view.GetPicture();
+  view->ShowStatisticsOff();
+  view->Render();
+  EXPECT_EQ(view.GetStatus(), "");
+  EXPECT_EQ(view.GetKeys(), ""); // in a window off the screen
+  EXPECT_NE(view.GetPicture(), before);
+  view->ShowStatisticsOn();
+  view->Render();
+  EXPECT_EQ(view.GetPicture(), before);
+  view->ShowStatisticsOff();
+  view.Filter->SetTieRuleToCanonical();
+  view.Filter->SetGeometryToSurface();
+  view->Step();
+  EXPECT_EQ(view.GetStatus().find("failed: "), 0u);
+}
+
+TEST(LiveViewPicture, Colors)
+{
+  WatchedView view;
+  std::set<Bytes> pictures;
+  view->Step();
+  EXPECT_EQ(view.GetColorArray(), "Quality");
+  pictures.insert(view.GetPicture());
+  view->SetColorByToFlipCount();
+  view->Render();
+  EXPECT_EQ(view.GetColorArray(), "vtkDelaunayFlipCount");
+  pictures.insert(view.GetPicture());
+  view->SetColorByToSolid();
+  view->Render();
+  EXPECT_EQ(view.GetColorArray(), "");
+  pictures.insert(view.GetPicture());
+  view->SetEdgeVisibilityToOff();
+  view->Render();
+  EXPECT_FALSE(view.HasEdges());
+  pictures.insert(view.GetPicture());
+  EXPECT_EQ(pictures.size(), 4u);
+}
+
+TEST(LiveViewPicture, EdgesOfLargeMeshesAreHidden)
+{
+  WatchedView view(ToPolyData(delaunayflip::MakeRandomBadMeshDouble(10100, 3)));
+  view->Start();
+  EXPECT_EQ(view.GetStatus().find("input, running\n20,"), 0u) << view.GetStatus();
+  EXPECT_FALSE(view.HasEdges());
+  view->SetEdgeVisibilityToOn();
+  view->Render();
+  EXPECT_TRUE(view.HasEdges());
+}
+
+TEST(LiveViewPicture, FacesAreTriangles)
+{
+  auto mesh = MakeQuadAndTriangle();
+  mesh->SetLines(MakeCells({ { 0, 1 } }));
+  WatchedView view(mesh);
+  view->Start();
+  EXPECT_EQ(view.GetNumberOfTriangles(), 3);
+  view->SetColorByToFlipCount();
+  view->Step();
+  EXPECT_EQ(view.GetNumberOfTriangles(), 3);
+  EXPECT_EQ(view.Filter->GetOutput()->GetNumberOfCells(), 4);
+}
+
+TEST(LiveViewPicture, LooksAtFlatMeshesFromTheirSide)
+{
+  const int up[3] = { 2, 2, 1 };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    auto mesh = MakeRhombus();
+    MovePoints(mesh, [axis](double* x) { std::swap(x[2], x[axis]); });
+    WatchedView view(mesh);
+    view->Start();
+    vtkCamera* camera = view->GetRenderer()->GetActiveCamera();
+    EXPECT_NEAR(std::abs(camera->GetDirectionOfProjection()[axis]), 1.0, 1e-9);
+    EXPECT_NEAR(camera->GetViewUp()[up[axis]], 1.0, 1e-9);
+  }
+}
+
+TEST(LiveViewPicture, KeepsACamera)
+{
+  WatchedView view;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(0.1, 0.1, 0.2);
+  renderer->GetActiveCamera()->SetPosition(0.0, -5.0, 1.0);
+  view.Window->AddRenderer(renderer);
+  view->Step();
+  EXPECT_EQ(view->GetRenderer(), renderer.Get());
+  EXPECT_EQ(renderer->GetActiveCamera()->GetPosition()[1], -5.0);
+}
+
+TEST(LiveViewPicture, EveryFrameIsWritten)
+{
+  const TemporaryFolder folder;
+  WatchedView view;
+  view->SetFramePrefix((folder / "run_").c_str());
+  while (view->Step())
+  {
+    const std::string number = std::to_string(1000000 + view->GetFrameNumber()).substr(3);
+    EXPECT_EQ(ReadPicture(folder / ("run_" + number + ".png").c_str()), view.GetPicture());
+  }
+  EXPECT_EQ(folder.CountFiles(), view->GetFrameNumber() + 1);
+  EXPECT_TRUE(fs::exists(folder / "run_0000.png"));
+  EXPECT_TRUE(view.Errors.empty());
+  view->Restart();
+  EXPECT_EQ(folder.CountFiles(), view.Filter->GetNumberOfIterations() + 1);
+}
+
+TEST(LiveViewPicture, AFrameThatCannotBeWrittenEndsTheWriting)
+{
+  const TemporaryFolder folder;
+  const bool canBeFull = fs::exists("/dev/full");
+  if (canBeFull)
+  {
+    fs::create_symlink("/dev/full", folder / "full0001.png");
+  }
+  for (const char* prefix : { "missing/f", "full" })
+  {
+    WatchedView view;
+    view->SetFramePrefix((folder / prefix).c_str());
+    view.StepToTheEnd();
+    EXPECT_TRUE(view->GetConverged());
+    if (prefix[0] == 'm' || canBeFull)
+    {
+      ASSERT_EQ(view.Errors.size(), 1u);
+      ExpectHolds(view.Errors[0], prefix);
+    }
+    view->SetFramePrefix((folder / "f").c_str());
+    view->Restart();
+    EXPECT_TRUE(fs::exists(folder / "f0000.png"));
+  }
+  EXPECT_FALSE(canBeFull && fs::exists(folder / "full0002.png"));
+}
+
+/// A random bad mesh before (left) and after (right), coloured by the smallest angles.
+TEST(Image, BeforeAndAfter)
+{
+  vtkNew<vtkDelaunayFlip> flip;
+  flip->SetInputData(ToPolyData(delaunayflip::MakeRandomBadMesh(80, 7)));
+  vtkNew<vtkRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(360, 180);
+  window->AddRenderer(MakeRenderer(flip->GetInputConnection(0, 0), 0.0));
+  window->AddRenderer(MakeRenderer(flip->GetOutputPort(), 0.5));
+  window->Render();
+  vtkNew<vtkTesting> testing;
+  for (const char* argument : { "-V", DELAUNAYFLIP_BASELINE "/BeforeAndAfter.png", "-T", "." })
+  {
+    testing->AddArgument(argument);
+  }
+  testing->SetRenderWindow(window);
+  EXPECT_EQ(testing->RegressionTest(10.0), vtkTesting::PASSED);
 }

@@ -13,9 +13,11 @@
 #include <string>
 #include <vector>
 
+class vtkActor;
+
 /// Helpers for the tests of vtkDelaunayFlipLiveView.
 
-vtkSmartPointer<vtkPolyData> MakeBadPlane();
+using Bytes = std::vector<unsigned char>;
 
 /// Calls a function at every event of an object.
 void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action);
@@ -46,10 +48,17 @@ public:
   std::string GetStatus();
   std::string GetKeys();
 
+  /// The pixels of the window.
+  Bytes GetPicture();
+
   /// The array by which triangles are coloured, or "".
   std::string GetColorArray();
   bool HasEdges();
   vtkIdType GetNumberOfTriangles();
+  vtkActor* GetActor();
+
+  /// Makes steps until the run ends.
+  void StepToTheEnd();
 
   WatchedFilter Filter;
   vtkSmartPointer<vtkRenderWindow> Window;
@@ -60,5 +69,22 @@ public:
   int Ends = 0;
   std::vector<std::string> Errors;
 };
+
+/// The same run twice: once drawn from copies, once without as far as possible.
+struct ViewPair
+{
+  explicit ViewPair(vtkPolyData* mesh);
+
+  /// A step of both, which must give the same picture and status. @returns whether another can
+  /// follow.
+  bool Step();
+
+  void ExpectSamePicture();
+
+  WatchedView Copying, Sharing;
+};
+
+/// The share of pixels with a component that differs by more than 8 of 255.
+double Compare(const Bytes& a, const Bytes& b);
 
 #endif

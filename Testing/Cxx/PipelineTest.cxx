@@ -1,41 +1,42 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The filter in a pipeline: progress, abort, limits.
+/// The filter in a pipeline: limits, executions, many filters at a time; and that updates leave
+/// nothing behind, neither memory nor objects of VTK.
 
 #include "FilterTestSupport.h"
 
-#include "TestBackend.h"
-
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
+#include "vtkWeakPointer.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <random>
+#include <thread>
+
+#if defined(__linux__)
+#include <malloc.h>
+#include <unistd.h>
+#endif
 
 namespace
 {
 
-vtkSmartPointer<vtkPolyData> MakeLongRun()
-{
-  return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); // 37 iterations
-}
+Mesh MakeLongRun() { return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); } // 37 iterations
 
 /// A fan of 18 triangles whose points lie on one circle.
-vtkSmartPointer<vtkPolyData> MakeCircle(std::mt19937& random)
+Mesh MakeCircle(std::mt19937& random)
 {
   constexpr double Turn = 2.0 * 3.14159265358979323846;
   std::array<double, 20> angles;
-  for (double& angle : angles)
-  {
-    angle = Turn * random() / random.max();
-  }
+  std::generate(
+    angles.begin(), angles.end(), [&random]() { return Turn * random() / random.max(); });
   std::sort(angles.begin(), angles.end());
   Points points;
   for (const double angle : angles)
@@ -50,70 +51,80 @@ vtkSmartPointer<vtkPolyData> MakeCircle(std::mt19937& random)
   return MakeMesh(points, triangles);
 }
 
-}
-
-TEST(VtkDelaunayFlip, ProgressRisesWithTheIterations)
+/// Whether each of some updates of a mesh, half of them live, gives the expected triangles.
+bool HoldsInEachUpdate(vtkPolyData* mesh, const Cells& expected)
 {
-  if (delaunayflip::IsTestBackendCuda())
+  vtkNew<vtkDelaunayFlip> filter;
+  SetTestBackend(filter);
+  filter->SetInputData(mesh);
+  filter->SetNumberOfThreads(3);
+  bool holds = true;
+  for (int update = 0; update < 10; ++update)
   {
-    GTEST_SKIP() << "the GPU tells of batches of iterations: FilterProgress";
-  }
-  WatchedFilter filter(MakeLongRun());
-  std::vector<double> progress;
-  std::vector<vtkIdType> iterations;
-  auto record = [&]()
-  {
-    progress.push_back(filter->GetProgress());
-    iterations.push_back(filter->GetNumberOfIterations());
-  };
-  OnProgress(filter.Get(), record);
-  RunCleanly(filter);
-  ASSERT_GE(progress.size(), 37u);
-  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
-  EXPECT_LE(progress.back(), 1.0);
-  EXPECT_GT(progress[10], 0.0);
-  EXPECT_LT(progress[10], 1.0);
-  EXPECT_NE(std::find(iterations.begin(), iterations.end(), 10), iterations.end());
-}
-
-TEST(VtkDelaunayFlip, AbortLeavesAValidMesh)
-{
-  if (delaunayflip::IsTestBackendCuda())
-  {
-    GTEST_SKIP() << "the GPU aborts at the end of a batch of iterations: FilterProgress, BatchTest";
-  }
-  auto mesh = MakeLongRun();
-  WatchedFilter filter(mesh);
-  auto stop = [&]()
-  {
-    if (filter->GetNumberOfIterations() == 5)
+    filter->SetLiveUpdate(update % 2 == 1);
+    filter->Modified();
+    do
     {
-      filter->SetAbortExecute(1);
-    }
-  };
-  OnProgress(filter.Get(), stop);
-  vtkPolyData* output = filter.Run();
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
-  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
-  EXPECT_FALSE(filter->GetConverged());
-  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
-  EXPECT_EQ(output->GetNumberOfCells(), mesh->GetNumberOfCells());
+      filter->Update();
+    } while (filter->Advance());
+    holds = holds && GetCells(filter->GetOutput()->GetPolys()) == expected;
+  }
+  return holds;
 }
 
-TEST(VtkDelaunayFlip, RequestedLimitGivesNoWarning)
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+
+/// Bytes of memory of this process that hold something.
+double GetResidentBytes()
 {
-  auto mesh = MakeLongRun();
-  WatchedFilter filter(mesh);
-  filter->SetMaximumIterations(5);
-  vtkSmartPointer<vtkPolyData> output = RunCleanly(filter);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
-  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
-  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+  malloc_trim(0);
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-TEST(VtkDelaunayFlip, SafetyLimitWarns)
+/// 1,000 updates after some to warm up. Each of them leaking a hundredth of its mesh would show.
+void ExpectNoGrowth(const std::function<void()>& update)
+{
+  constexpr double Most = 1 << 20;
+  for (int i = 0; i < 100; ++i)
+  {
+    update();
+  }
+  const double before = GetResidentBytes();
+  for (int i = 0; i < 1000; ++i)
+  {
+    update();
+  }
+  EXPECT_LT(GetResidentBytes() - before, Most);
+}
+
+/// 2,000 triangles: 100 kB or so an update.
+Mesh MakeInput() { return ToPolyData(delaunayflip::MakeRandomBadMeshDouble(1000, 1)); }
+
+#endif
+
+}
+
+TEST(Pipeline, RequestedLimitGivesNoWarning)
+{
+  for (const int limit : { 0, 5 })
+  {
+    auto mesh = MakeLongRun();
+    WatchedFilter filter(mesh);
+    filter->SetMaximumIterations(limit);
+    auto output = RunCleanly(filter);
+    EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
+    EXPECT_EQ(filter->GetNumberOfIterations(), limit);
+    EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), limit);
+    EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
+    EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+    EXPECT_EQ(GetCells(output->GetPolys()) == GetCells(mesh->GetPolys()), limit == 0);
+  }
+}
+
+TEST(Pipeline, SafetyLimitWarns)
 {
   // Without a tolerance, rounding makes both diagonals of some quads bad, and flips never end.
   std::mt19937 random(1);
@@ -128,34 +139,25 @@ TEST(VtkDelaunayFlip, SafetyLimitWarns)
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
   EXPECT_EQ(filter->GetNumberOfIterations(), 1018);
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  EXPECT_NE(filter.GetWarnings()[0].find("stopped by the safety limit of 1018 iterations"),
-    std::string::npos)
-    << filter.GetWarnings()[0];
+  ExpectHolds(filter.GetWarnings()[0], "stopped by the safety limit of 1018 iterations");
 
   // With the automatic tolerance no edge flips because of rounding alone.
-  WatchedFilter automatic(vtkPolyData::SafeDownCast(filter->GetInput()));
+  WatchedFilter automatic(filter->GetInput());
   automatic->SetGeometryToSurface();
   RunCleanly(automatic);
   EXPECT_TRUE(automatic->GetConverged());
 }
 
-TEST(VtkDelaunayFlip, NoIterationsNoFlips)
+TEST(Pipeline, ExecutesOnlyWhenModified)
 {
-  auto mesh = MakeLongRun();
-  WatchedFilter filter(mesh);
-  filter->SetMaximumIterations(0);
-  EXPECT_EQ(GetCells(filter.Run()->GetPolys()), GetCells(mesh->GetPolys()));
-  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), 0);
-}
-
-TEST(VtkDelaunayFlip, ExecutesOnlyWhenModified)
-{
-  WatchedFilter filter(MakeLongRun());
+  vtkNew<vtkAppendPolyData> above;
+  above->AddInputData(MakeRhombus());
+  WatchedFilter filter;
+  filter->SetInputConnection(above->GetOutputPort());
   int executions = 0;
   auto count = [&]() { executions += filter->GetProgress() == 0.0 ? 1 : 0; };
   OnProgress(filter.Get(), count);
-  RunCleanly(filter);
+  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
   RunCleanly(filter);
   EXPECT_EQ(executions, 1);
   filter->SetGeometryToPlanar();
@@ -163,11 +165,108 @@ TEST(VtkDelaunayFlip, ExecutesOnlyWhenModified)
   EXPECT_EQ(executions, 2);
 }
 
-TEST(VtkDelaunayFlip, FollowsAnotherFilter)
+TEST(ManyFilters, UpdateAtTheSameTime)
 {
-  vtkNew<vtkAppendPolyData> append;
-  append->AddInputData(MakeRhombus());
-  WatchedFilter filter;
-  filter->SetInputConnection(append->GetOutputPort());
-  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
+  const auto mesh = ToPolyData(delaunayflip::MakeRandomBadMeshDouble(6000, 1));
+  const Cells expected = FlipAtOnce(mesh);
+  std::array<bool, 6> results{};
+  std::vector<Mesh> copies; // reference counts alone are safe to share
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    copies.push_back(Mesh::New());
+    copies.back()->DeepCopy(mesh);
+  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    threads.emplace_back([&, i]() { results[i] = HoldsInEachUpdate(copies[i], expected); });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(std::count(results.begin(), results.end(), true), 6);
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+
+TEST(Growth, NoneOfUpdatesAndFilters)
+{
+  const auto mesh = MakeInput();
+  WatchedFilter filter(mesh);
+  filter->GenerateQualityOn();
+  filter->GenerateFlipCountOn();
+  ExpectNoGrowth(
+    [&]()
+    {
+      filter->Modified();
+      filter.Run();
+      WatchedFilter other(mesh);
+      other.Run();
+    });
+}
+
+TEST(Growth, NoneOfLiveRuns)
+{
+  LiveFilter filter(MakeInput());
+  int updates = 0;
+  ExpectNoGrowth(
+    [&]()
+    {
+      filter.Run();
+      if (!filter->Advance() || ++updates % 7 == 0)
+      {
+        filter->Restart();
+      }
+    });
+}
+
+TEST(Growth, NoneOfBlocksAndErrors)
+{
+  auto wrong = MakeInput();
+  wrong->GetPolys()->InsertNextCell({ 0, 1, 1 << 20 });
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeInput());
+  blocks->SetBlock(2, wrong);
+  vtkNew<vtkDelaunayFlip> filter;
+  SetTestBackend(filter);
+  filter->SetInputDataObject(blocks);
+  vtkObject::GlobalWarningDisplayOff();
+  ExpectNoGrowth(
+    [&]()
+    {
+      filter->Modified();
+      filter->Update();
+    });
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+}
+
+#endif
+
+TEST(Growth, NothingOutlivesTheFilter)
+{
+  for (const bool live : { false, true })
+  {
+    std::vector<vtkWeakPointer<vtkObjectBase>> all;
+    {
+      auto mesh = MakeBadPlane();
+      auto lines = MakeLines({}, { { 0, 1 } });
+      lines->SetPoints(nullptr);
+      auto filter = vtkSmartPointer<vtkDelaunayFlip>::New();
+      filter->SetInputData(mesh);
+      filter->SetConstraintsData(lines);
+      filter->SetLiveUpdate(live);
+      filter->Update();
+      for (vtkObject* object : std::initializer_list<vtkObject*>{ filter, mesh, lines,
+             filter->GetOutput(), mesh->GetPoints(), filter->GetOutput()->GetPolys() })
+      {
+        all.emplace_back(object);
+      }
+    }
+    for (const auto& object : all)
+    {
+      EXPECT_EQ(object, nullptr);
+    }
+  }
 }

@@ -1,32 +1,29 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The table, the field data and the methods that return results.
+/// The table, the field data, the methods that return results, and the tolerance.
 
 #include "FilterTestSupport.h"
 
 #include "FlipReport.h"
 #include "TestBackend.h"
 
-#include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
+#include "vtkAlgorithm.h"
 #include "vtkFieldData.h"
-#include "vtkPointData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkSphereSource.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace
 {
 
 const char* const Columns[] = { "Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded",
   "Blocked", "MinimumAngle", "Seconds" };
-
-const char* const Totals[] = { "Converged", "StopReason", "TotalFlips", "NonDelaunayEdges",
-  "BlockedByShape", "BlockedByEdge", "FixedEdges", "NonManifoldEdges", "GeometryUsed",
-  "GeometryReason", "Tolerance", "Backend" };
 
 /// Adds field data.
 void AddText(vtkPolyData* mesh, const std::string& name)
@@ -38,114 +35,119 @@ void AddText(vtkPolyData* mesh, const std::string& name)
 }
 
 /// 6 triangles, whose iterations make 1, 2, 3, 2 and 1 flips.
-vtkSmartPointer<vtkPolyData> MakeWorstCase()
+Mesh MakeWorstCase() { return ToPolyData(delaunayflip::MakeWorstCaseMesh(4)); }
+
+/// A sphere whose quads are divided along a diagonal; both diagonals are tied.
+Mesh MakeSphere(int precision, double x, double y)
 {
-  return ToPolyData(delaunayflip::MakeWorstCaseMesh(4));
-}
-
-double GetTotal(vtkPolyData* mesh, const std::string& name)
-{
-  vtkDataArray* array = mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
-  EXPECT_NE(array, nullptr) << name;
-  EXPECT_EQ(array->GetNumberOfTuples(), 1) << name;
-  return array->GetComponent(0, 0);
-}
-
-std::string GetText(vtkPolyData* mesh, const std::string& name)
-{
-  auto* array = vtkStringArray::SafeDownCast(
-    mesh->GetFieldData()->GetAbstractArray(("DelaunayFlip:" + name).c_str()));
-  EXPECT_NE(array, nullptr) << name;
-  return array->GetValue(0);
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(300);
+  source->SetPhiResolution(100);
+  source->SetRadius(100.0);
+  source->SetCenter(x, y, 0.0);
+  source->SetOutputPointsPrecision(precision);
+  source->Update();
+  return source->GetOutput();
 }
 
 }
 
-TEST(VtkDelaunayFlip, TableHasOneRowPerIteration)
+TEST(Report, TableHasARowPerIterationWhichFieldDataRepeat)
 {
   WatchedFilter filter(MakeWorstCase());
-  RunCleanly(filter);
+  auto output = RunCleanly(filter);
   vtkTable* table = filter->GetIterations();
   ASSERT_EQ(table->GetNumberOfColumns(), 8);
-  for (int column = 0; column < 8; ++column)
+  ASSERT_EQ(table->GetNumberOfRows(), 5);
+  const double flipped[] = { 1, 2, 3, 2, 1 };
+  for (vtkIdType row = 0; row < 5; ++row)
   {
-    EXPECT_STREQ(table->GetColumnName(column), Columns[column]);
-  }
-  std::vector<int> flipped;
-  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
-  {
-    EXPECT_EQ(table->GetValueByName(row, "Iteration").ToInt(), row + 1);
-    EXPECT_EQ(table->GetValueByName(row, "NonDelaunay").ToInt(),
-      table->GetValueByName(row, "Flipped").ToInt() +
-        table->GetValueByName(row, "Excluded").ToInt() +
-        table->GetValueByName(row, "Blocked").ToInt());
-    flipped.push_back(table->GetValueByName(row, "Flipped").ToInt());
-  }
-  EXPECT_EQ(flipped, std::vector<int>({ 1, 2, 3, 2, 1 }));
-  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
-}
-
-TEST(VtkDelaunayFlip, FieldDataRepeatTheTable)
-{
-  WatchedFilter filter(MakeWorstCase());
-  auto output = RunCleanly(filter);
-  for (const std::string column : Columns)
-  {
-    vtkDataArray* array = output->GetFieldData()->GetArray(("DelaunayFlip:" + column).c_str());
-    ASSERT_NE(array, nullptr) << column;
-    ASSERT_EQ(array->GetNumberOfTuples(), 5);
-    auto* other =
-      vtkDataArray::SafeDownCast(filter->GetIterations()->GetColumnByName(column.c_str()));
-    for (vtkIdType row = 0; row < 5; ++row)
+    for (int column = 0; column < 8; ++column)
     {
-      const double value = array->GetComponent(row, 0);
-      const double expected = other->GetComponent(row, 0);
+      EXPECT_STREQ(table->GetColumnName(column), Columns[column]);
+      const double value = GetTotal(output, Columns[column], row);
+      const double expected = filter.GetRow(Columns[column], row);
       EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected)))
-        << column << " of row " << row << ": " << value << " instead of " << expected;
+        << Columns[column] << " of row " << row << ": " << value << " instead of " << expected;
     }
+    EXPECT_EQ(filter.GetRow("Iteration", row), row + 1);
+    EXPECT_EQ(filter.GetRow("Flipped", row), flipped[row]);
+    EXPECT_EQ(filter.GetRow("NonDelaunay", row),
+      filter.GetRow("Flipped", row) + filter.GetRow("Excluded", row) +
+        filter.GetRow("Blocked", row));
+    EXPECT_EQ(std::isnan(filter.GetRow("MinimumAngle", row)), 0 < row && row < 4);
   }
+  filter->TrackQualityOn();
+  RunCleanly(filter);
+  EXPECT_FALSE(std::isnan(filter.GetRow("MinimumAngle", 2)));
 }
 
-TEST(VtkDelaunayFlip, TotalsAreFieldData)
+TEST(Report, TotalsAreReadBackAndInTheFieldData)
 {
   WatchedFilter filter(MakeWorstCase());
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  EXPECT_STREQ(filter->GetStopReasonAsString(), "not started");
+  EXPECT_FALSE(filter->GetConverged());
+  EXPECT_STREQ(filter->GetErrorMessage(), "");
+  EXPECT_STREQ(filter->GetBackendUsed(), "");
+  EXPECT_STREQ(filter->GetGeometryReason(), "");
   auto output = RunCleanly(filter);
-  EXPECT_EQ(GetTotal(output, "Converged"), 1.0);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
+  EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
+  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_CONVERGED);
+  const std::pair<const char*, double> totals[] = { { "Converged", 1 }, { "TotalFlips", 9 },
+    { "NonDelaunayEdges", 0 }, { "FixedEdges", 8 }, { "NonManifoldEdges", 0 } }; // 8 of 13
+  for (const auto& [name, value] : totals)
+  {
+    EXPECT_EQ(GetTotal(output, name), value) << name;
+  }
+  EXPECT_EQ(filter->GetTotalFlips(), 9);
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_TRUE(filter->GetConverged());
+  const std::tuple<const char*, std::string, const char*> texts[] = {
+    { "StopReason", "converged", filter->GetStopReasonAsString() },
+    { "GeometryUsed", "planar", filter->GetGeometryUsedAsString() },
+    { "GeometryReason", "all points lie in one plane; the feature angle has no effect",
+      filter->GetGeometryReason() },
+    { "Backend", filter->GetReport().Backend, filter->GetBackendUsed() }
+  };
+  for (const auto& [name, text, readBack] : texts)
+  {
+    EXPECT_EQ(GetText(output, name), text) << name;
+    EXPECT_EQ(readBack, text) << name;
+  }
+  EXPECT_EQ(filter->GetReport().Backend.find(delaunayflip::GetTestBackendName()), 0u);
+}
+
+/// Even arrays with the names of the table's columns, but not results of an earlier run.
+TEST(Report, FieldDataOfTheInputPass)
+{
+  auto mesh = MakeWorstCase();
+  for (const std::string name : Columns)
+  {
+    AddText(mesh, name);
+  }
+  AddText(mesh, "DelaunayFlip:TotalFlips");
+  WatchedFilter filter(mesh);
+  auto output = RunCleanly(filter);
+  for (const char* name : Columns)
+  {
+    EXPECT_EQ(
+      output->GetFieldData()->GetAbstractArray(name), mesh->GetFieldData()->GetAbstractArray(name))
+      << name;
+  }
   EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
-  EXPECT_EQ(GetTotal(output, "NonDelaunayEdges"), 0.0);
-  EXPECT_EQ(GetTotal(output, "FixedEdges"), 8.0); // 13 edges, 5 of them inside
-  EXPECT_EQ(GetTotal(output, "NonManifoldEdges"), 0.0);
-  EXPECT_EQ(GetText(output, "StopReason"), "converged");
-  EXPECT_EQ(GetText(output, "GeometryUsed"), "planar");
-  EXPECT_EQ(GetText(output, "GeometryReason"),
-    "all points lie in one plane; the feature angle has no effect");
-  EXPECT_EQ(GetText(output, "Tolerance"), "none"); // in-circle
-  EXPECT_EQ(GetText(output, "Backend"), filter->GetReport().Backend);
+  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 9);
+  EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
 }
 
-/// A tetrahedron, of which every flip would repeat an edge, and a sheet folded on itself, whose
-/// flip would fold it over, beside each other.
-TEST(VtkDelaunayFlip, TellsWhyEdgesAreLeft)
-{
-  const delaunayflip::OwnedMesh<double> mesh = { { -2, 0, 0, 2, 0, 0, 0, -1, 0.1, 0, 1, 0.1, -4, 9,
-                                                   0, 4, 9, 0, -3, 11, 0, 3, 12, 1 },
-    { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 6, 4, 5, 7, 5, 4 } };
-  WatchedFilter filter(ToPolyData(mesh));
-  filter->SetGeometryToSurface();
-  filter->SetFeatureAngle(180.0);
-  auto output = RunCleanly(filter);
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 2);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByEdge(), 1);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByShape(), 1);
-  EXPECT_EQ(GetTotal(output, "BlockedByEdge"), 1.0);
-  EXPECT_EQ(GetTotal(output, "BlockedByShape"), 1.0);
-}
-
-TEST(VtkDelaunayFlip, FieldDataTellTheTolerance)
+TEST(Tolerance, IsInTheFieldData)
 {
   WatchedFilter filter(MakeWorstCase());
-  filter->SetCriterionToOppositeAngles();
   EXPECT_EQ(filter->GetTolerance(), -1.0);
+  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "none"); // in-circle
+  filter->SetCriterionToOppositeAngles();
   EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "automatic");
   filter->SetTolerance(1e-9);
   EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
@@ -154,67 +156,66 @@ TEST(VtkDelaunayFlip, FieldDataTellTheTolerance)
   EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
 }
 
-TEST(VtkDelaunayFlip, FieldDataOfTheInputPass)
+TEST(Tolerance, IsOfOppositeAnglesOnly)
 {
-  // Even arrays with the names of the table's columns.
-  std::vector<std::string> names(std::begin(Columns), std::end(Columns));
-  names.insert(names.end(), std::begin(Totals), std::end(Totals));
-  auto mesh = MakeWorstCase();
-  for (const std::string& name : names)
+  // Opposite angles of 95.4 degrees each: 0.19 radians above pi.
+  WatchedFilter filter(MakeMesh(
+    { { -1.1, 0, 0 }, { 0, -1, 0 }, { 1.1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } }));
+  filter->SetCriterionToOppositeAngles();
+  for (const double tolerance : { 0.1, 0.3 })
   {
-    AddText(mesh, name);
+    filter->SetTolerance(tolerance);
+    RunCleanly(filter);
+    EXPECT_EQ(filter->GetTotalFlips(), tolerance < 0.19 ? 1 : 0);
   }
-  WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  for (const std::string& name : names)
+  filter->SetCriterionToInCircle();
+  filter.Run();
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+}
+
+TEST(Tolerance, LeavesTheSpheresOfVtkAsTheyAre)
+{
+  for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION })
   {
-    EXPECT_EQ(output->GetFieldData()->GetAbstractArray(name.c_str()),
-      mesh->GetFieldData()->GetAbstractArray(name.c_str()))
-      << name;
+    for (const double distance : { 0.0, 5e6 })
+    {
+      SCOPED_TRACE(testing::Message() << "precision " << precision << ", distance " << distance);
+      auto sphere = MakeSphere(precision, 0.1 * distance, distance);
+      WatchedFilter filter(sphere);
+      filter->SetGeometryToSurface();
+      // Far away, rounding to float leaves triangles without area at the poles, which gives a
+      // warning.
+      vtkPolyData* output = filter.Run();
+      EXPECT_TRUE(filter.GetErrors().empty());
+      EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+      EXPECT_EQ(GetCells(output->GetPolys()), GetCells(sphere->GetPolys()));
+    }
   }
+  WatchedFilter filter(MakeSphere(vtkAlgorithm::SINGLE_PRECISION, 0.0, 0.0));
+  filter->SetTolerance(1e-9);
+  RunCleanly(filter);
+  EXPECT_GT(filter->GetTotalFlips(), 10000); // which rounding made
 }
 
-TEST(VtkDelaunayFlip, FieldDataOfAnEarlierRunAreReplaced)
+/// Also if it is the same for several blocks, and in every step of a live run.
+TEST(Tolerance, WithoutEffectIsWarnedOfOnce)
 {
-  auto mesh = MakeWorstCase();
-  AddText(mesh, "DelaunayFlip:TotalFlips");
-  WatchedFilter filter(mesh);
-  EXPECT_EQ(GetTotal(RunCleanly(filter), "TotalFlips"), 9.0);
-  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 1);
-  EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
-}
-
-TEST(VtkDelaunayFlip, TrackQualityGivesEveryAngle)
-{
-  WatchedFilter filter(MakeWorstCase());
-  RunCleanly(filter);
-  const auto isNan = [&filter](int row)
-  { return std::isnan(filter->GetIterations()->GetValueByName(row, "MinimumAngle").ToDouble()); };
-  EXPECT_FALSE(isNan(0));
-  EXPECT_TRUE(isNan(2));
-  EXPECT_FALSE(isNan(4));
-  filter->TrackQualityOn();
-  RunCleanly(filter);
-  EXPECT_FALSE(isNan(2));
-}
-
-TEST(VtkDelaunayFlip, ReadBack)
-{
-  WatchedFilter filter(MakeWorstCase());
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
-  EXPECT_FALSE(filter->GetConverged());
-  EXPECT_STREQ(filter->GetBackendUsed(), "");
-  EXPECT_STREQ(filter->GetGeometryReason(), "");
-  RunCleanly(filter);
-  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
-  EXPECT_EQ(filter->GetTotalFlips(), 9);
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_TRUE(filter->GetConverged());
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_CONVERGED);
-  EXPECT_STREQ(filter->GetStopReasonAsString(), "converged");
-  EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
-  EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
-  EXPECT_EQ(std::string(filter->GetGeometryReason()).rfind("all points lie in one plane", 0), 0u);
-  EXPECT_EQ(std::string(filter->GetBackendUsed()).find(delaunayflip::GetTestBackendName()), 0u);
-  EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
+  const std::string expected = "Tolerance has no effect on the in-circle criterion";
+  for (const bool isLive : { false, true })
+  {
+    WatchedFilter filter(MakeRhombus());
+    filter->SetTolerance(0.0);
+    filter->SetLiveUpdate(isLive);
+    for (int i = 0; i < 3; ++i)
+    {
+      ExpectHolds(RunToWarning(filter), expected);
+      filter->Advance();
+    }
+  }
+  vtkNew<vtkMultiBlockDataSet> two;
+  two->SetBlock(0, MakeRhombus());
+  two->SetBlock(1, MakeRhombus());
+  WatchedFilter blocks(two);
+  blocks->SetTolerance(0.5);
+  ExpectHolds(RunToWarning(blocks), "block 1, block 2: " + expected);
 }

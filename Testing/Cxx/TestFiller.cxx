@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 using namespace delaunayflip;
@@ -23,136 +22,74 @@ namespace
 
 TestFiller Plan;
 
-template <typename T>
-std::uint32_t FindColor(const ColorBands& bands, T value)
+std::uint32_t FindColor(const ColorBands& bands, double value)
 {
-  if (value != value)
+  if (std::isnan(value))
   {
     return bands.OfNaN;
   }
   const auto size = static_cast<double>(bands.Colors.size());
-  const double band =
-    (static_cast<double>(value) - bands.First) * size / (bands.Last - bands.First);
+  const double band = (value - bands.First) * size / (bands.Last - bands.First);
   return bands.Colors[static_cast<std::size_t>(std::clamp(std::floor(band), 0.0, size - 1.0))];
 }
 
-template <typename T>
-std::vector<std::uint32_t> FindColors(const ColorBands& bands, const std::vector<T>& values)
-{
-  std::vector<std::uint32_t> colors(values.size());
-  std::transform(values.begin(), values.end(), colors.begin(),
-    [&bands](T value) { return FindColor(bands, value); });
-  return colors;
-}
-
-/// The memory of a buffer, until it is unmapped. What is not written stays.
-void* MapMemory(unsigned int buffer, std::int64_t bytes)
+void Write(unsigned int buffer, const void* data, std::int64_t bytes)
 {
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
   GLint size = 0;
   glGetBufferParameteriv(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &size);
-  void* memory = glMapBuffer(GL_COPY_WRITE_BUFFER, GL_WRITE_ONLY);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  if (size != bytes || !memory)
+  if (size != bytes)
   {
     throw std::runtime_error("the buffer has " + std::to_string(size) + " bytes");
   }
-  return memory;
-}
-
-void UnmapMemory(unsigned int buffer)
-{
-  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  glUnmapBuffer(GL_COPY_WRITE_BUFFER);
+  glBufferSubData(GL_COPY_WRITE_BUFFER, 0, bytes, data);
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
 
-/// Writes through mapped memory of OpenGL.
-class HostFiller : public BufferFiller
-{
-public:
-  std::string FindObstacle(vtkDelaunayFlip*) override { return {}; }
-  void Register(const DrawnBuffers& buffers) override { this->Buffers = buffers; }
-  void Release() noexcept override { this->Unmap(); }
-  void Map() override
-  {
-    if (!this->Triangles)
-    {
-      const std::int64_t count = this->Buffers.Count;
-      this->Triangles = static_cast<std::int32_t*>(MapMemory(this->Buffers.Triangles, 12 * count));
-      this->Colors = static_cast<std::uint32_t*>(MapMemory(this->Buffers.Colors, 4 * count));
-    }
-  }
-  void Unmap() override
-  {
-    if (std::exchange(this->Triangles, nullptr))
-    {
-      UnmapMemory(this->Buffers.Triangles);
-      UnmapMemory(this->Buffers.Colors);
-    }
-  }
-  void Fill(const FilledMesh& mesh) override
-  {
-    const std::int64_t count = this->Buffers.Count;
-    std::vector<std::int32_t> ids(3 * count);
-    mesh.Session.StoreTriangles(MutableTriangleArray(ids.data(), count));
-    this->Map();
-    std::copy(ids.begin(), ids.end(), this->Triangles);
-    TriangleMesh drawn;
-    drawn.Points = mesh.Points;
-    drawn.Triangles = TriangleArray(ids.data(), count);
-    std::vector<double> degrees(count);
-    FindSmallestAngles(drawn, GeometryKind::Surface, 1, degrees.data());
-    std::vector<std::int32_t> flips(count);
-    mesh.Session.StoreFlipCounts(flips.data());
-    const ColorBands bands = mesh.Colors.Choose(
-      mesh.Colors.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
-    const std::vector<std::uint32_t> colors =
-      mesh.Colors.ByFlipCount ? FindColors(bands, flips) : FindColors(bands, degrees);
-    std::copy(colors.begin(), colors.end(), this->Colors);
-    this->Unmap();
-    this->SmallestAngle = *std::min_element(degrees.begin(), degrees.end());
-  }
-  double GetSmallestAngle() noexcept override { return this->SmallestAngle; }
-
-private:
-  double SmallestAngle = 0.0;
-  DrawnBuffers Buffers;
-  std::int32_t* Triangles = nullptr; ///< The memory of the buffers while they are mapped.
-  std::uint32_t* Colors = nullptr;
-};
-
-/// Counts the calls of another one, and lets them fail as planned.
+/// Counts its calls, and lets them fail as planned. Fills buffers by CUDA or from the host.
 class WatchedFiller : public BufferFiller
 {
 public:
   ~WatchedFiller() override { this->Release(); }
   std::string FindObstacle(vtkDelaunayFlip* filter) override
   {
-    return Plan.Obstacle.empty() ? this->Filler->FindObstacle(filter) : Plan.Obstacle;
+    return this->Cuda && Plan.Obstacle.empty() ? this->Cuda->FindObstacle(filter) : Plan.Obstacle;
   }
   void Register(const DrawnBuffers& buffers) override
   {
     Count(Plan.Registers, Plan.FailingRegister, "no registration");
-    this->Filler->Register(buffers);
+    this->Buffers = buffers;
+    if (this->Cuda)
+    {
+      this->Cuda->Register(buffers);
+    }
     Plan.IsRegistered = true;
   }
   void Release() noexcept override
   {
     Plan.Releases += Plan.IsRegistered ? 1 : 0;
     Plan.IsRegistered = Plan.AreMapped = false;
-    this->Filler->Release();
+    if (this->Cuda)
+    {
+      this->Cuda->Release();
+    }
   }
   void Map() override
   {
-    CountMap();
-    this->Filler->Map();
+    Count(Plan.Maps, Plan.FailingMap, "no mapping");
+    if (this->Cuda)
+    {
+      this->Cuda->Map();
+    }
     Plan.AreMapped = true;
   }
   void Unmap() override
   {
     Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
-    this->Filler->Unmap();
+    if (this->Cuda)
+    {
+      this->Cuda->Unmap();
+    }
     Plan.AreMapped = false;
   }
   void Fill(const FilledMesh& mesh) override
@@ -160,15 +97,17 @@ public:
     Count(Plan.Fills, Plan.FailingFill, "no filling");
     if (!Plan.AreMapped)
     {
-      CountMap();
+      Count(Plan.Maps, Plan.FailingMap, "no mapping");
     }
-    this->Filler->Fill(mesh);
+    this->Cuda ? this->Cuda->Fill(mesh) : this->FillFromHost(mesh);
     Plan.AreMapped = false;
   }
-  double GetSmallestAngle() noexcept override { return this->Filler->GetSmallestAngle(); }
+  double GetSmallestAngle() noexcept override
+  {
+    return this->Cuda ? this->Cuda->GetSmallestAngle() : this->SmallestAngle;
+  }
 
 private:
-  static void CountMap() { Count(Plan.Maps, Plan.FailingMap, "no mapping"); }
   static void Count(int& calls, int failing, const char* message)
   {
     ++calls;
@@ -178,8 +117,32 @@ private:
     }
   }
 
-  std::unique_ptr<BufferFiller> Filler =
-    IsTestBackendCuda() ? MakeCudaFiller() : std::make_unique<HostFiller>();
+  void FillFromHost(const FilledMesh& mesh)
+  {
+    const std::int64_t count = this->Buffers.Count;
+    std::vector<std::int32_t> ids(3 * count), flips(count);
+    mesh.Session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+    mesh.Session.StoreFlipCounts(flips.data());
+    TriangleMesh drawn;
+    drawn.Points = mesh.Points;
+    drawn.Triangles = TriangleArray(ids.data(), count);
+    std::vector<double> degrees(count);
+    FindSmallestAngles(drawn, GeometryKind::Surface, 1, degrees.data());
+    const ColorBands bands = mesh.Colors.Choose(
+      mesh.Colors.ByFlipCount ? *std::max_element(flips.begin(), flips.end()) : 0);
+    std::vector<std::uint32_t> colors(count);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      colors[i] = FindColor(bands, mesh.Colors.ByFlipCount ? flips[i] : degrees[i]);
+    }
+    Write(this->Buffers.Triangles, ids.data(), 12 * count);
+    Write(this->Buffers.Colors, colors.data(), 4 * count);
+    this->SmallestAngle = *std::min_element(degrees.begin(), degrees.end());
+  }
+
+  std::unique_ptr<BufferFiller> Cuda = IsTestBackendCuda() ? MakeCudaFiller() : nullptr;
+  DrawnBuffers Buffers;
+  double SmallestAngle = 0.0;
 };
 
 }

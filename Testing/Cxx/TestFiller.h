@@ -5,7 +5,7 @@
 
 #include <string>
 
-/// Fills OpenGL's buffers in the tests of drawing without copies: through memory of the host, so
+/// Fills OpenGL's buffers in the tests of drawing without copies: from memory of the host, so
 /// that all but CUDA itself is tested where there is no GPU, or, where the environment says
 /// DELAUNAYFLIP_TEST_BACKEND=cuda, by CUDA. Either can be made to fail.
 struct TestFiller

@@ -7,7 +7,7 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSmartPointer.h"
 
-/// The windows that tests of drawing use: those of X (XTestWindow.cxx) or, where there is no X, of
+/// The windows that tests of drawing use: those of X (LiveViewTest.cxx) or, where there is no X, of
 /// EGL (Testing/Gpu/EglWindow.cxx).
 vtkSmartPointer<vtkRenderWindow> MakeTestWindow();
 vtkSmartPointer<vtkRenderWindowInteractor> MakeTestInteractor();

@@ -3,9 +3,8 @@
 #include "EngineCase.h"
 
 #include "ByteSource.h"
-#include "CgalReference.h"
-#include "PointFamilies.h"
-#include "RandomMess.h"
+#include "RandomInputs.h"
+#include "References.h"
 
 #include <cmath>
 #include <limits>

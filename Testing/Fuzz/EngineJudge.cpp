@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineJudge.h"
 
-#include "ExactReference.h"
 #include "ExactRest.h"
 #include "FlipTestSupport.h"
-#include "LawsonOracle.h"
 #include "MeshAudit.h"
+#include "References.h"
 
 #include <gtest/gtest.h>
 
@@ -202,16 +201,15 @@ void ExpectLawsonsMesh(const EngineCase& drawn, const TriangleMesh& after, const
   {
     return;
   }
-  const OwnedMesh<double> mesh = { drawn.Points, drawn.Triangles };
-  std::set<LawsonOracle::Edge> constraints;
+  OwnedMesh<double> mesh = { drawn.Points, drawn.Triangles };
+  std::set<VertexPair> constraints;
   for (std::int64_t i = 0; i < after.NumberOfConstraintEdges; ++i)
   {
-    constraints.insert(std::minmax({ static_cast<std::int32_t>(after.ConstraintEdges[2 * i]),
-      static_cast<std::int32_t>(after.ConstraintEdges[2 * i + 1]) }));
+    constraints.insert(
+      std::minmax({ after.ConstraintEdges[2 * i], after.ConstraintEdges[2 * i + 1] }));
   }
-  LawsonOracle oracle(mesh, constraints, TieRuleKind::Canonical);
-  oracle.Run();
-  EXPECT_EQ(oracle.GetTriangles(), ToTriangleSet(result.Triangles));
+  FlipByLawson(mesh, constraints, TieRuleKind::Canonical);
+  EXPECT_EQ(ToTriangleSet(mesh.Triangles), ToTriangleSet(result.Triangles));
 }
 
 /// Doubling the coordinates is exact, so it must not change the triangles.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExactRest.h"
 
-#include "ExactReference.h"
+#include "References.h"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 

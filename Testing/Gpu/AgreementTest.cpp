@@ -1,56 +1,26 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CudaDevice.h"
-#include "FlipTestSupport.h"
 #include "GpuTestSupport.h"
-
-#include <gtest/gtest.h>
+#include "RandomInputs.h"
 
 #include <random>
 #include <utility>
 #include <vector>
 
 /// @file
-/// The GPU's mesh and statistics are the CPU's, bit for bit.
+/// The GPU gives the bits of the CPU: triangles, flip counts and statistics.
 
 namespace delaunayflip
 {
 namespace
 {
 
-struct AgreementCase
-{
-  const char* Name;
-  OwnedMesh<double> (*Make)();
-  GeometryKind Geometry;
-  CriterionKind Criterion = CriterionKind::InCircle;
-  TieRuleKind TieRule = TieRuleKind::Keep;
-  double FeatureAngle = 180.0;
-};
+constexpr AffineMap Tilt = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 2, -3, 0, 0 } } };
 
-void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
-
-OwnedMesh<double> MakeSmallPlane() { return MakeRandomBadMeshDouble(500, 11); }
-OwnedMesh<double> MakeMiddlePlane() { return MakeRandomBadMeshDouble(8000, 18); }
-OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(150000, 12); }
-OwnedMesh<double> MakeGrid() { return MakeGridMesh(300, 200); }
-OwnedMesh<double> MakeChain() { return MakeWorstCaseMesh(60); }
+OwnedMesh<double> MakeTiltedPlane() { return Transform(MakeRandomBadMeshDouble(50000, 15), Tilt); }
 OwnedMesh<double> MakeSphere() { return MakeBadSphere(300, 150, 13); }
-OwnedMesh<double> MakeStrip() { return MakeMoebiusStrip(1000, 8, 14); }
+OwnedMesh<double> MakeGrid() { return MakeGridMesh(300, 200); }
 
-OwnedMesh<double> MakeTiltedPlane()
-{
-  const AffineMap map = { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 2, -3, 0, 0 } } };
-  return Transform(MakeRandomBadMeshDouble(50000, 15), map);
-}
-
-/// A grid of lattice points far from the origin, with random diagonals: ties and bad edges.
-OwnedMesh<double> MakeFarPlane()
-{
-  return Transform(MakeRandomBadMeshDouble(30000, 16), ScaleAndMove(1000.0, 1e7));
-}
-
-/// A wave that folds planes over themselves, so that flips could repeat edges.
 OwnedMesh<double> MakeFoldedPlane()
 {
   OwnedMesh<double> mesh = MakeBadSphere(200, 100, 17);
@@ -61,11 +31,9 @@ OwnedMesh<double> MakeFoldedPlane()
   return mesh;
 }
 
-/// Hills that Auto judges by x and y if they are gentle, in space if they are steep, and in space
-/// with a warning if a few triangles are turned over.
 OwnedMesh<double> MakeHills(double height)
 {
-  OwnedMesh<double> mesh = MakeGridMesh(300, 200);
+  OwnedMesh<double> mesh = MakeGrid();
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
     mesh.Points[i] += 0.3 * static_cast<double>(i % 11) / 11.0;
@@ -73,8 +41,8 @@ OwnedMesh<double> MakeHills(double height)
   }
   return mesh;
 }
-OwnedMesh<double> MakeGentleHills() { return MakeHills(0.5); }
-OwnedMesh<double> MakeSteepHills() { return MakeHills(5.0); }
+
+/// A few triangles are turned over, so it is no height field.
 OwnedMesh<double> MakeNearlyHills()
 {
   OwnedMesh<double> mesh = MakeHills(0.5);
@@ -85,139 +53,109 @@ OwnedMesh<double> MakeNearlyHills()
   return mesh;
 }
 
-OwnedMesh<double> MakeDirtySphere() { return RepeatTriangles(MakeSphere()); }
-
-FlipOptions MakeOptions(BackendKind backend)
+struct AgreementCase
 {
-  FlipOptions options;
-  options.Backend = backend;
-  options.FeatureAngle = 180.0;
-  return options;
-}
+  const char* Name;
+  OwnedMesh<double> (*Make)();
+  GeometryKind Geometry = GeometryKind::Auto;
+  CriterionKind Criterion = CriterionKind::InCircle;
+  TieRuleKind TieRule = TieRuleKind::Keep;
+  double FeatureAngle = 180.0;
+};
 
-void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
-{
-  EXPECT_TRUE(expected.Triangles == actual.Triangles);
-  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
-  ExpectSameStatistics(expected.Report, actual.Report);
-}
+void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
 
-class AgreementTest : public testing::TestWithParam<AgreementCase>
+constexpr GeometryKind Auto = GeometryKind::Auto;
+constexpr CriterionKind InCircleOnly = CriterionKind::InCircle;
+constexpr CriterionKind Angles = CriterionKind::OppositeAngles;
+
+const AgreementCase Cases[] = {
+  { "SmallPlane", [] { return MakeRandomBadMeshDouble(500, 11); } },
+  { "MiddlePlane", [] { return MakeRandomBadMeshDouble(8000, 18); } },
+  { "LargePlane", [] { return MakeRandomBadMeshDouble(150000, 12); } },
+  { "PlaneByAngles", [] { return MakeRandomBadMeshDouble(500, 11); }, Auto, Angles },
+  { "TiltedPlane", MakeTiltedPlane },
+  { "Terrain", MakeTiltedPlane, GeometryKind::PlanarXY },
+  { "TerrainByAngles", MakeTiltedPlane, GeometryKind::PlanarXY, Angles },
+  { "PlaneAsSurface", MakeTiltedPlane, GeometryKind::Surface },
+  { "FarPlane",
+    [] { return Transform(MakeRandomBadMeshDouble(30000, 16), ScaleAndMove(1000.0, 1e7)); } },
+  { "FoldedPlane", MakeFoldedPlane },
+  { "Grid", MakeGrid },
+  { "CanonicalGrid", MakeGrid, Auto, InCircleOnly, TieRuleKind::Canonical },
+  { "Chain", [] { return MakeWorstCaseMesh(60); } },
+  { "Sphere", MakeSphere },
+  { "SphereWithFeatures", MakeSphere, Auto, InCircleOnly, TieRuleKind::Keep, 30.0 },
+  { "GentleHills", [] { return MakeHills(0.5); } },
+  { "SteepHills", [] { return MakeHills(5.0); } },
+  { "NearlyHills", MakeNearlyHills },
+  { "MoebiusStrip", [] { return MakeMoebiusStrip(1000, 8, 14); } },
+  { "DirtySphere", [] { return RepeatTriangles(MakeSphere()); } },
+};
+
+class AgreementTest
+  : public GpuTest
+  , public testing::WithParamInterface<AgreementCase>
 {
 protected:
-  void SetUp() override
+  static FlipOptions GetOptions()
   {
-    if (!HasCudaDevice())
-    {
-      GTEST_SKIP() << "no GPU";
-    }
-    this->Mesh = GetParam().Make();
-  }
-
-  FlipOptions GetOptions(BackendKind backend) const
-  {
-    FlipOptions options = MakeOptions(backend);
-    options.Geometry = GetParam().Geometry;
+    FlipOptions options = MakeOptions(BackendKind::CUDA, GetParam().Geometry);
     options.Criterion = GetParam().Criterion;
     options.TieRule = GetParam().TieRule;
     options.FeatureAngle = GetParam().FeatureAngle;
     return options;
   }
-
-  OwnedMesh<double> Mesh;
 };
 
-TEST_P(AgreementTest, TheGpuGivesTheCpusBits)
+TEST_P(AgreementTest, RunsAgree)
 {
-  const FlipResult expected = Flip(this->Mesh.View(), this->GetOptions(BackendKind::Threads));
-  const FlipResult actual = Flip(this->Mesh.View(), this->GetOptions(BackendKind::CUDA));
-  EXPECT_EQ(0u, actual.Report.Backend.rfind("CUDA: ", 0)) << actual.Report.Backend;
-  ExpectSameResult(expected, actual);
-  ExpectSameResult(actual, Flip(this->Mesh.View(), this->GetOptions(BackendKind::CUDA)));
+  const OwnedMesh<double> mesh = GetParam().Make();
+  const FlipResult first = ExpectGpuAgrees(mesh.View(), GetOptions());
+  ExpectSameResult(first, Flip(mesh.View(), GetOptions()));
+  FlipSession session(mesh.View(), GetOptions());
+  while (session.Advance(1))
+  {
+  }
+  FlipResult steps;
+  steps.Triangles.resize(mesh.Triangles.size());
+  steps.FlipCounts.resize(mesh.NumberOfTriangles());
+  session.StoreTriangles({ steps.Triangles.data(), mesh.NumberOfTriangles() });
+  session.StoreFlipCounts(steps.FlipCounts.data());
+  steps.Report = session.GetReport();
+  ExpectSameResult(first, steps);
 }
 
 TEST_P(AgreementTest, EveryIterationAgrees)
 {
-  FlipOptions options = this->GetOptions(BackendKind::Threads);
+  FlipOptions options = GetOptions();
   options.TrackQuality = true;
   options.MaximumIterations = 20;
-  const FlipResult expected = Flip(this->Mesh.View(), options);
-  options.Backend = BackendKind::CUDA;
-  ExpectSameResult(expected, Flip(this->Mesh.View(), options));
+  ExpectGpuAgrees(GetParam().Make().View(), options);
 }
 
-TEST_P(AgreementTest, SingleStepsGiveTheSameBits)
-{
-  FlipOptions options = this->GetOptions(BackendKind::CUDA);
-  FlipSession session(this->Mesh.View(), options);
-  while (session.Advance(1))
-  {
-  }
-  FlipResult result;
-  result.Triangles.resize(this->Mesh.Triangles.size());
-  result.FlipCounts.resize(this->Mesh.Triangles.size() / 3);
-  session.StoreTriangles(
-    MutableTriangleArray(result.Triangles.data(), this->Mesh.NumberOfTriangles()));
-  session.StoreFlipCounts(result.FlipCounts.data());
-  result.Report = session.GetReport();
-  options.Backend = BackendKind::Threads;
-  ExpectSameResult(Flip(this->Mesh.View(), options), result);
-}
-
-INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest,
-  testing::Values(AgreementCase{ "SmallPlane", MakeSmallPlane, GeometryKind::Auto },
-    AgreementCase{ "MiddlePlane", MakeMiddlePlane, GeometryKind::Auto },
-    AgreementCase{ "LargePlane", MakeLargePlane, GeometryKind::Auto },
-    AgreementCase{
-      "PlaneByAngles", MakeSmallPlane, GeometryKind::Auto, CriterionKind::OppositeAngles },
-    AgreementCase{ "TiltedPlane", MakeTiltedPlane, GeometryKind::Auto },
-    AgreementCase{ "Terrain", MakeTiltedPlane, GeometryKind::PlanarXY },
-    AgreementCase{
-      "TerrainByAngles", MakeTiltedPlane, GeometryKind::PlanarXY, CriterionKind::OppositeAngles },
-    AgreementCase{ "PlaneAsSurface", MakeTiltedPlane, GeometryKind::Surface },
-    AgreementCase{ "FarPlane", MakeFarPlane, GeometryKind::Auto },
-    AgreementCase{ "FoldedPlane", MakeFoldedPlane, GeometryKind::Auto },
-    AgreementCase{ "Grid", MakeGrid, GeometryKind::Auto },
-    AgreementCase{ "CanonicalGrid", MakeGrid, GeometryKind::Auto, CriterionKind::InCircle,
-      TieRuleKind::Canonical },
-    AgreementCase{ "Chain", MakeChain, GeometryKind::Auto },
-    AgreementCase{ "Sphere", MakeSphere, GeometryKind::Auto },
-    AgreementCase{ "SphereWithFeatures", MakeSphere, GeometryKind::Auto, CriterionKind::InCircle,
-      TieRuleKind::Keep, 30.0 },
-    AgreementCase{ "GentleHills", MakeGentleHills, GeometryKind::Auto },
-    AgreementCase{ "SteepHills", MakeSteepHills, GeometryKind::Auto },
-    AgreementCase{ "NearlyHills", MakeNearlyHills, GeometryKind::Auto },
-    AgreementCase{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
-    AgreementCase{ "DirtySphere", MakeDirtySphere, GeometryKind::Auto }),
+INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest, testing::ValuesIn(Cases),
   [](const auto& test) { return std::string(test.param.Name); });
 
-class FloatAgreementTest : public GpuTest
+class MoreAgreementTest : public GpuTest
 {
 };
 
-// Ids and flip counts are copied in parts of two million numbers, each in a separate slice.
-TEST_F(FloatAgreementTest, OutputsOfSeveralSlicesAreWhole)
+/// The larger mesh is copied back in several slices.
+TEST_F(MoreAgreementTest, Floats)
 {
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(1100000, 22);
-  ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
-    Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
+  for (const std::int64_t points : { 200000, 1100000 })
+  {
+    const OwnedMesh<float> mesh = MakeRandomBadMesh(points, 22);
+    ExpectGpuAgrees(mesh.View(), MakeOptions(BackendKind::CUDA));
+    if (points == 200000)
+    {
+      ExpectGpuAgrees(mesh.View(), MakeOptions(BackendKind::CUDA, GeometryKind::Surface));
+    }
+  }
 }
 
-TEST_F(FloatAgreementTest, TheGpuGivesTheCpusBits)
-{
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(200000, 21);
-  ExpectSameResult(Flip(mesh.View(), MakeOptions(BackendKind::Threads)),
-    Flip(mesh.View(), MakeOptions(BackendKind::CUDA)));
-  FlipOptions surface = MakeOptions(BackendKind::Threads);
-  surface.Geometry = GeometryKind::Surface;
-  const FlipResult expected = Flip(mesh.View(), surface);
-  surface.Backend = BackendKind::CUDA;
-  ExpectSameResult(expected, Flip(mesh.View(), surface));
-}
-
-// Each edge's own tolerance decides ties, near the origin and far from it. The precision is that of
-// float even if points of a plane are packed as doubles.
-TEST_F(FloatAgreementTest, TolerancesAgree)
+TEST_F(MoreAgreementTest, Tolerances)
 {
   for (double offset : { 0.0, 1000.0, 1e6 })
   {
@@ -237,11 +175,7 @@ TEST_F(FloatAgreementTest, TolerancesAgree)
   }
 }
 
-class InsertionAgreementTest : public GpuTest
-{
-};
-
-TEST_F(InsertionAgreementTest, InsertedConstraintsAgree)
+TEST_F(MoreAgreementTest, InsertedConstraints)
 {
   constexpr std::int64_t Constraints = 300;
   const OwnedMesh<double> bad = MakeRandomBadMeshDouble(50000, 24);
@@ -260,6 +194,67 @@ TEST_F(InsertionAgreementTest, InsertedConstraintsAgree)
   EXPECT_LT(0, report.InsertedConstraints);
   EXPECT_LT(0, report.ConstraintFlips);
 }
+
+void ExpectMessesAgree(std::uint32_t first, std::uint32_t last)
+{
+  for (std::uint32_t seed = first; seed <= last && !testing::Test::HasFailure(); ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomMess mess = MakeRandomMess(seed);
+    ExpectGpuAgrees(mess.View(), mess.Options);
+  }
+}
+
+/// Small meshes with every kind of defect.
+TEST_F(MoreAgreementTest, Messes) { ExpectMessesAgree(1, 2000); }
+
+/// One small mesh of each kind. run.sh runs these tests under compute-sanitizer, which makes every
+/// step take a hundred times as long.
+class SmallMeshTest : public GpuTest
+{
+};
+
+TEST_F(SmallMeshTest, Planes)
+{
+  ExpectGpuAgrees(MakeRandomBadMesh(3000, 61).View(), MakeOptions(BackendKind::CUDA));
+  FlipOptions options;
+  options.Criterion = CriterionKind::OppositeAngles;
+  options.TrackQuality = true;
+  ExpectGpuAgrees(MakeRandomBadMeshDouble(400, 62).View(), options);
+  ExpectGpuAgrees(MakeWorstCaseMesh(20).View(), {});
+  FlipOptions canonical;
+  canonical.TieRule = TieRuleKind::Canonical;
+  ExpectGpuAgrees(MakeGridMesh(20, 10).View(), canonical);
+}
+
+TEST_F(SmallMeshTest, TerrainWithConstraintsRegionsAndFrozenTriangles)
+{
+  const OwnedMesh<double> mesh = Transform(MakeRandomBadMeshDouble(800, 63), Tilt);
+  std::vector<std::int32_t> regions(static_cast<std::size_t>(mesh.NumberOfTriangles()));
+  std::vector<unsigned char> frozen(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i)
+  {
+    regions[i] = static_cast<std::int32_t>(i / 400);
+    frozen[i] = i % 97 == 0;
+  }
+  std::vector<std::int64_t> constraints(mesh.Triangles.begin(), mesh.Triangles.begin() + 60);
+  TriangleMesh view = mesh.View();
+  view.Regions = regions.data();
+  view.FrozenTriangles = frozen.data();
+  view.ConstraintEdges = constraints.data();
+  view.NumberOfConstraintEdges = 30;
+  ExpectGpuAgrees(view, MakeOptions(BackendKind::CUDA, GeometryKind::PlanarXY));
+}
+
+TEST_F(SmallMeshTest, Surfaces)
+{
+  const FlipOptions options = MakeOptions(BackendKind::CUDA);
+  ExpectGpuAgrees(MakeBadSphere(30, 15, 64).View(), options);
+  ExpectGpuAgrees(RoundToFloat(MakeBadSphere(30, 15, 66)).View(), options);
+  ExpectGpuAgrees(MakeMoebiusStrip(60, 4, 65).View(), options);
+}
+
+TEST_F(SmallMeshTest, Messes) { ExpectMessesAgree(5001, 5012); }
 
 }
 }

@@ -5,7 +5,15 @@
 #include "GeneratedMeshes.h"
 #include "MeshFile.h"
 
+#if defined(DELAUNAYFLIP_HAS_VTK)
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#endif
+
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace delaunayflip
@@ -17,21 +25,14 @@ constexpr std::uint32_t Seed = 2013;
 constexpr std::int64_t LargestTile = 250000;
 constexpr std::int64_t SmallestRealMesh = 90000; ///< Triangles.
 
-BenchmarkMesh FromFloats(const std::string& name, OwnedMesh<float> mesh)
+template <typename Real>
+BenchmarkMesh Convert(const std::string& name, const OwnedMesh<Real>& mesh)
 {
   BenchmarkMesh result;
   result.Name = name;
-  result.Floats = std::move(mesh.Points);
+  result.Floats.assign(mesh.Points.begin(), mesh.Points.end()); // doubles are small integers
   result.Ids.assign(mesh.Triangles.begin(), mesh.Triangles.end());
   return result;
-}
-
-BenchmarkMesh FromDoubles(const std::string& name, const OwnedMesh<double>& mesh)
-{
-  OwnedMesh<float> floats;
-  floats.Points.assign(mesh.Points.begin(), mesh.Points.end()); // small integers
-  floats.Triangles = mesh.Triangles;
-  return FromFloats(name, std::move(floats));
 }
 
 }
@@ -47,26 +48,37 @@ TriangleMesh BenchmarkMesh::View() const
   return view;
 }
 
+bool BenchmarkMesh::IsPlane() const
+{
+  const PointArray points = this->View().Points;
+  bool isPlane = true;
+  for (std::int64_t i = 0; isPlane && i < points.Count; ++i)
+  {
+    isPlane = this->Geometry == GeometryKind::PlanarXY || points.Get(i, 2) == points.Get(0, 2);
+  }
+  return isPlane && this->Geometry != GeometryKind::Surface;
+}
+
 BenchmarkMesh MakeRandomMesh(std::int64_t points)
 {
   if (points <= LargestUntiledMesh)
   {
-    return FromFloats("random bad", MakeRandomBadMesh(points, Seed));
+    return Convert("random bad", MakeRandomBadMesh(points, Seed));
   }
   const double tiles = static_cast<double>(points) / static_cast<double>(LargestTile);
   const auto tilesPerSide = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles)));
-  return FromFloats("random bad, tiled", MakeTiledBadMesh(points, tilesPerSide, Seed));
+  return Convert("random bad, tiled", MakeTiledBadMesh(points, tilesPerSide, Seed));
 }
 
 BenchmarkMesh MakeLatticeMesh(std::int64_t points)
 {
   const auto side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(points))) - 1;
-  return FromDoubles("grid, all ties", MakeGridMesh(side, side));
+  return Convert("grid, all ties", MakeGridMesh(side, side));
 }
 
 BenchmarkMesh MakeChainMesh(std::int32_t triangles)
 {
-  return FromDoubles("chain of Fig. 6", MakeWorstCaseMesh(triangles / 2 + 1));
+  return Convert("chain of Fig. 6", MakeWorstCaseMesh(triangles / 2 + 1));
 }
 
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder)
@@ -98,5 +110,37 @@ std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder)
   }
   return meshes;
 }
+
+#if defined(DELAUNAYFLIP_HAS_VTK)
+vtkSmartPointer<vtkPolyData> ToPolyData(const BenchmarkMesh& mesh)
+{
+  const bool isFloat = mesh.Doubles.empty();
+  const auto coordinates = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(isFloat ? VTK_FLOAT : VTK_DOUBLE));
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(mesh.CountPoints());
+  std::memcpy(coordinates->GetVoidPointer(0),
+    isFloat ? static_cast<const void*>(mesh.Floats.data()) : mesh.Doubles.data(),
+    mesh.Floats.size() * sizeof(float) + mesh.Doubles.size() * sizeof(double));
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  const auto makeCells = [](const std::vector<std::int64_t>& ids, int size)
+  {
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    cells->AllocateEstimate(static_cast<vtkIdType>(ids.size()) / size, size);
+    for (std::size_t i = 0; i < ids.size(); i += size)
+    {
+      const vtkIdType cell[3] = { ids[i], ids[i + 1], size == 3 ? ids[i + 2] : 0 };
+      cells->InsertNextCell(size, cell);
+    }
+    return cells;
+  };
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(makeCells(mesh.Ids, 3));
+  data->SetLines(makeCells(mesh.ConstraintEdges, 2));
+  return data;
+}
+#endif
 
 }

@@ -6,6 +6,11 @@
 #include "FlipOptions.h"
 #include "TriangleMesh.h"
 
+#if defined(DELAUNAYFLIP_HAS_VTK)
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#endif
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +36,9 @@ struct BenchmarkMesh
   }
   std::int64_t CountTriangles() const { return static_cast<std::int64_t>(this->Ids.size()) / 3; }
   TriangleMesh View() const;
+
+  /// Whether x and y say all: z is the same everywhere, or does not matter.
+  bool IsPlane() const;
 };
 
 /// The largest random bad mesh, in points, that is made in one piece; larger ones are tiled.
@@ -48,6 +56,11 @@ BenchmarkMesh MakeChainMesh(std::int32_t triangles);
 /// The real meshes of a folder that are large enough to time, height fields both by x and y and in
 /// space.
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder);
+
+#if defined(DELAUNAYFLIP_HAS_VTK)
+/// The same mesh for VTK, with its constraint edges as lines.
+vtkSmartPointer<vtkPolyData> ToPolyData(const BenchmarkMesh& mesh);
+#endif
 
 }
 

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_GPUTESTSUPPORT_H
 
 #include "CudaDevice.h"
+#include "CudaError.h"
 #include "FlipTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -22,20 +23,37 @@ protected:
       GTEST_SKIP() << "no GPU";
     }
   }
+  void TearDown() override { InjectCudaError(0, cudaSuccess); }
 };
 
-/// Flips the mesh on the CPU and on the GPU, reports a failure for every bit that differs, and
-/// returns the GPU's result.
+inline FlipOptions MakeOptions(BackendKind backend, GeometryKind geometry = GeometryKind::Auto)
+{
+  FlipOptions options;
+  options.Backend = backend;
+  options.Geometry = geometry;
+  options.FeatureAngle = 180.0;
+  return options;
+}
+
+inline bool IsOnGpu(const FlipReport& report) { return report.Backend.rfind("CUDA: ", 0) == 0; }
+
+/// Reports a failure for every bit that differs.
+inline void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
+{
+  EXPECT_TRUE(expected.Triangles == actual.Triangles);
+  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
+  ExpectSameStatistics(expected.Report, actual.Report);
+}
+
+/// Flips the mesh on the CPU and on the GPU, expects the same bits, and returns the GPU's result.
 inline FlipResult ExpectGpuAgrees(const TriangleMesh& mesh, FlipOptions options)
 {
   options.Backend = BackendKind::Threads;
   const FlipResult expected = Flip(mesh, options);
   options.Backend = BackendKind::CUDA;
   FlipResult actual = Flip(mesh, options);
-  EXPECT_EQ(0u, actual.Report.Backend.rfind("CUDA: ", 0)) << actual.Report.Backend;
-  EXPECT_TRUE(expected.Triangles == actual.Triangles);
-  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
-  ExpectSameStatistics(expected.Report, actual.Report);
+  EXPECT_TRUE(IsOnGpu(actual.Report)) << actual.Report.Backend;
+  ExpectSameResult(expected, actual);
   return actual;
 }
 

@@ -47,14 +47,6 @@ protected:
       GTEST_SKIP() << "no meshes: DELAUNAYFLIP_MESH_DIR is '" << GetFolder() << "'";
     }
   }
-
-  static FlipOptions WithGeometry(GeometryKind geometry)
-  {
-    FlipOptions options;
-    options.Geometry = geometry;
-    options.FeatureAngle = 180.0;
-    return options;
-  }
 };
 
 TEST_F(RealDataTest, TheGpuGivesTheCpusBits)
@@ -64,10 +56,10 @@ TEST_F(RealDataTest, TheGpuGivesTheCpusBits)
     SCOPED_TRACE(path);
     const FileMesh mesh = ReadMeshFile(path);
     ExpectGpuAgrees(mesh.View(), FlipOptions());
-    ExpectGpuAgrees(mesh.View(), WithGeometry(GeometryKind::Surface));
+    ExpectGpuAgrees(mesh.View(), MakeOptions(BackendKind::CUDA, GeometryKind::Surface));
     if (mesh.IsHeightField)
     {
-      ExpectGpuAgrees(mesh.View(), WithGeometry(GeometryKind::PlanarXY));
+      ExpectGpuAgrees(mesh.View(), MakeOptions(BackendKind::CUDA, GeometryKind::PlanarXY));
     }
   }
 }
@@ -146,8 +138,7 @@ TEST_P(KnownAnswerTest, Holds)
     GTEST_SKIP() << "no " << known.Mesh << " in " << GetFolder();
   }
   const FileMesh mesh = ReadMeshFile(path);
-  FlipOptions options = WithGeometry(known.Geometry);
-  options.Backend = BackendKind::CUDA;
+  FlipOptions options = MakeOptions(BackendKind::CUDA, known.Geometry);
   options.Tolerance = 1e-9; // takes coordinates as exact
   const FlipReport report = Flip(mesh.View(), options).Report;
   EXPECT_TRUE(report.Converged());
@@ -170,7 +161,8 @@ TEST_F(RealDataTest, ConstraintsHold)
   const FileMesh mesh = ReadMeshFile(path);
   TriangleMesh free = mesh.View();
   free.NumberOfConstraintEdges = 0;
-  const FlipReport report = ExpectGpuAgrees(free, WithGeometry(GeometryKind::PlanarXY)).Report;
+  const FlipReport report =
+    ExpectGpuAgrees(free, MakeOptions(BackendKind::CUDA, GeometryKind::PlanarXY)).Report;
   EXPECT_EQ(29, report.NonDelaunayBefore);
   EXPECT_EQ(32, report.TotalFlips);
   ASSERT_EQ(2u, report.Iterations.size());

@@ -6,7 +6,6 @@
 ///
 /// Usage: delaunay-flip-window-benchmark [--any] [--frames N] [--moving POINTS] [POINTS...]
 #include "BenchmarkMesh.h"
-#include "BenchmarkPolyData.h"
 #include "BufferFiller.h"
 #include "DelaunayFlip.h"
 #include "EglWindow.h"
@@ -20,12 +19,12 @@
 
 #include "vtk_glew.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,32 +41,6 @@ struct Arguments
   std::int64_t Moving = 0;
   std::vector<std::int64_t> Sizes;
 };
-
-Arguments ReadArguments(int argc, char* argv[])
-{
-  Arguments read;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string word = argv[i];
-    if (word == "--any")
-    {
-      read.AllowsOthers = true;
-    }
-    else if (word == "--frames" && i + 1 < argc)
-    {
-      read.Frames = std::atoi(argv[++i]);
-    }
-    else if (word == "--moving" && i + 1 < argc)
-    {
-      read.Moving = std::atoll(argv[++i]);
-    }
-    else
-    {
-      read.Sizes.push_back(std::atoll(word.c_str()));
-    }
-  }
-  return read;
-}
 
 /// A filter and a window that shows it.
 struct Scene
@@ -93,11 +66,11 @@ struct Scene
   }
 };
 
-/// Calls work() and waits for OpenGL, several times.
+/// Calls work() and waits for OpenGL, several times, and prints what it took.
 /// @param prepare called before each, and not timed.
-/// @returns milliseconds of each.
-std::vector<double> Time(
-  int frames, const std::function<bool()>& work, const std::function<void()>& prepare = []() {})
+void Measure(
+  const BenchmarkMesh& mesh, const std::string& what, int frames, const std::function<bool()>& work,
+  const std::function<void()>& prepare = []() {})
 {
   std::vector<double> times;
   bool goesOn = true;
@@ -110,17 +83,12 @@ std::vector<double> Time(
     times.push_back(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
-  return times;
-}
-
-void Print(const BenchmarkMesh& mesh, const std::string& what, std::vector<double> times)
-{
   std::sort(times.begin(), times.end());
-  const double median = times.empty() ? NAN : times[times.size() / 2];
+  const double median = times[times.size() / 2];
   std::printf("{\"points\": %lld, \"triangles\": %lld, \"what\": \"%s\", \"frames\": %zu, "
               "\"median_ms\": %.3f, \"slowest_ms\": %.3f, \"per_second\": %.1f}\n",
     static_cast<long long>(mesh.CountPoints()), static_cast<long long>(mesh.CountTriangles()),
-    what.c_str(), times.size(), median, times.empty() ? NAN : times.back(), 1000.0 / median);
+    what.c_str(), times.size(), median, times.back(), 1000.0 / median);
   std::fflush(stdout);
 }
 
@@ -133,13 +101,12 @@ void TimeFlips(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& ar
   filter->GenerateFlipCountOn();
   filter->LiveUpdateOn();
   filter->Update();
-  Print(mesh, "iteration alone",
-    Time(arguments.Frames,
-      [&]()
-      {
-        filter->AdvanceSession();
-        return true;
-      }));
+  Measure(mesh, "iteration alone", arguments.Frames,
+    [&]()
+    {
+      filter->AdvanceSession();
+      return true;
+    });
 }
 
 unsigned int MakeBuffer(std::int64_t bytes)
@@ -178,10 +145,9 @@ void TimeFilling(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& 
   };
   fill();
   const int frames = arguments.Frames;
-  Print(mesh, "filling alone", Time(frames, fill, [&]() { scene.Filter->AdvanceSession(); }));
-  Print(mesh, "filling alone, nothing new", Time(frames, fill));
-  Print(
-    mesh, "filling alone, new buffers", Time(frames, fill, [&]() { filler->Register(buffers); }));
+  Measure(mesh, "filling alone", frames, fill, [&]() { scene.Filter->AdvanceSession(); });
+  Measure(mesh, "filling alone, nothing new", frames, fill);
+  Measure(mesh, "filling alone, new buffers", frames, fill, [&]() { filler->Register(buffers); });
   filler->Release();
   for (const unsigned int buffer : { buffers.Triangles, buffers.Colors })
   {
@@ -201,19 +167,18 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
   scene.View->Step();
   scene.View->Step(); // what VTK makes for the first frames
   const std::string edges = drawsEdges ? ", edges" : "";
-  Print(mesh, what + edges, Time(frames, [&]() { return scene.View->Step(); }));
+  Measure(mesh, what + edges, frames, [&]() { return scene.View->Step(); });
   std::printf("{\"drawing\": \"%s\", \"renderer\": \"%s\"}\n", scene.View->GetDrawing().c_str(),
     GetRendererName().c_str());
   if (what == "no copies")
   {
     scene.View->Render();
-    Print(mesh, "drawing alone" + edges,
-      Time(frames,
-        [&]()
-        {
-          scene.Window->Render();
-          return true;
-        }));
+    Measure(mesh, "drawing alone" + edges, frames,
+      [&]()
+      {
+        scene.Window->Render();
+        return true;
+      });
   }
 }
 
@@ -231,46 +196,39 @@ void Swell(vtkPoints* points, double time)
 }
 
 /// Frames of an animation: in each of them the points move, and the mesh is made Delaunay again.
-/// @param show called in every frame.
-void TimeMoving(const BenchmarkMesh& mesh, vtkPolyData* data, const std::string& what, int frames,
-  Scene& scene, const std::function<void()>& show)
-{
-  scene.View->SetEdgeVisibilityToOff();
-  scene.Filter->SetGeometryToSurface();
-  scene.Filter->SetFeatureAngle(180.0);
-  scene.Filter->LiveUpdateOn();
-  scene.Filter->SetIterationsPerUpdate(1000000);
-  show();
-  int frame = 0;
-  Print(mesh, "moving points, " + what,
-    Time(frames,
-      [&]()
-      {
-        Swell(data->GetPoints(), 0.05 * ++frame);
-        show();
-        return true;
-      }));
-}
-
 void TimeMoving(const Arguments& arguments)
 {
   const BenchmarkMesh mesh = MakeRandomMesh(arguments.Moving);
-  const int frames = 3 * arguments.Frames;
   for (const std::string what : { "not flipped", "not drawn", "no copies", "copies" })
   {
     const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
     Scene scene(data, !arguments.AllowsOthers);
     scene.View->SetZeroCopy(what == "no copies");
-    std::function<void()> show = [&]() { scene.View->Step(); };
-    if (what == "not flipped")
+    scene.View->SetEdgeVisibilityToOff();
+    scene.Filter->SetGeometryToSurface();
+    scene.Filter->SetFeatureAngle(180.0);
+    scene.Filter->LiveUpdateOn();
+    scene.Filter->SetIterationsPerUpdate(1000000);
+    const auto show = [&]()
     {
-      show = []() {};
-    }
-    else if (what == "not drawn")
-    {
-      show = [&]() { scene.Filter->Update(); };
-    }
-    TimeMoving(mesh, data, what, frames, scene, show);
+      if (what == "not drawn")
+      {
+        scene.Filter->Update();
+      }
+      else if (what != "not flipped")
+      {
+        scene.View->Step();
+      }
+      return true;
+    };
+    show();
+    int frame = 0;
+    Measure(mesh, "moving points, " + what, 3 * arguments.Frames,
+      [&]()
+      {
+        Swell(data->GetPoints(), 0.05 * ++frame);
+        return show();
+      });
   }
 }
 
@@ -295,7 +253,13 @@ void TimeSize(std::int64_t points, const Arguments& arguments)
 
 int main(int argc, char* argv[])
 {
-  const Arguments arguments = ReadArguments(argc, argv);
+  Arguments arguments;
+  CLI::App app("What a frame of a live view costs");
+  app.add_flag("--any", arguments.AllowsOthers, "without CUDA, too");
+  app.add_option("--frames", arguments.Frames, "to time");
+  app.add_option("--moving", arguments.Moving, "points of the mesh whose points move");
+  app.add_option("sizes", arguments.Sizes, "points of the other meshes");
+  CLI11_PARSE(app, argc, argv);
   const std::string obstacle = OpenEgl(arguments.AllowsOthers);
   if (!obstacle.empty())
   {

@@ -2,30 +2,26 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: build.sh BUILD_FOLDER - used by run.sh and bundle.sh: builds the engine, its tests and the
-# GPU benchmark; if there is VTK, also the tests of the filter, and the benchmark times it. Writes the real meshes in
-# DELAUNAYFLIP_DATA_DIR (default: as CMake's) to BUILD_FOLDER/meshes, if they and VTK's Python
-# package exist. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES: CMake's list of them.
+# Usage: build.sh BUILD_FOLDER [TARGET...] - used by run.sh and bundle.sh: builds the engine, its
+# tests, the GPU benchmark and more targets; if there is VTK, also the tests of the filter, and the
+# benchmark times it. Writes the real meshes in DELAUNAYFLIP_DATA_DIR (default: as CMake's) to
+# BUILD_FOLDER/meshes, if they and VTK's Python package exist. JOBS: the number of compilers at a
+# time; CUDA_ARCHITECTURES: CMake's list of them.
 set -euo pipefail
 
 build=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-cuda=${CUDA_HOME:-/usr/local/cuda}
-if ! command -v nvcc >/dev/null && [ -x "$cuda/bin/nvcc" ]; then
-  export PATH=$cuda/bin:$PATH
-fi
+export PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin
 
 options=(-DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_ENABLE_CUDA=ON
-  -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_BENCHMARKS=ON)
-if [ -n "${CUDA_ARCHITECTURES:-}" ]; then
-  options+=("-DCMAKE_CUDA_ARCHITECTURES=$CUDA_ARCHITECTURES")
-fi
+  -DDELAUNAYFLIP_BUILD_TESTING=ON -DDELAUNAYFLIP_BUILD_BENCHMARKS=ON
+  ${CUDA_ARCHITECTURES:+"-DCMAKE_CUDA_ARCHITECTURES=$CUDA_ARCHITECTURES"})
 if [ ! -f "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
   options+=(-G Ninja)
 fi
 targets=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark DelaunayFlipC
-  delaunayflip-c-device-test)
+  delaunayflip-c-device-test "${@:2}")
 if cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then
   targets+=(DelaunayFlipCxxTests)
 else
@@ -34,24 +30,14 @@ else
 fi
 cmake --build "$build" --parallel "${JOBS:-2}" --target "${targets[@]}"
 
-# Usage: find_python - a Python that knows VTK and numpy; the system's may not be the first.
-find_python()
-{
-  local python
-  for python in python3 /usr/bin/python3; do
-    if "$python" -c 'import numpy, vtkmodules.vtkIOGeometry' 2>/dev/null; then
-      echo "$python"
-      return
-    fi
-  done
-}
-
 data=${DELAUNAYFLIP_DATA_DIR:-$(sed -n 's/^DELAUNAYFLIP_DATA_DIR:PATH=//p' "$build/CMakeCache.txt")}
-python=$(find_python)
 if [ ! -d "$data" ]; then
   echo "no real meshes: no folder $data (DELAUNAYFLIP_DATA_DIR)"
-elif [ -z "$python" ]; then
-  echo "no real meshes: no Python with VTK and numpy to read them (Debian: python3-vtk9)"
-else
-  "$python" "$here/export_meshes.py" "$data" "$build/meshes"
+  exit
 fi
+for python in python3 /usr/bin/python3; do # the system's may not be the first
+  if "$python" -c 'import numpy, vtkmodules.vtkIOGeometry' 2>/dev/null; then
+    exec "$python" "$here/export_meshes.py" "$data" "$build/meshes"
+  fi
+done
+echo "no real meshes: no Python with VTK and numpy to read them (Debian: python3-vtk9)"

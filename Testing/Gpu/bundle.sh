@@ -2,27 +2,27 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: bundle.sh [OUTPUT.tar.gz, OUTPUT.tar.xz or FOLDER] (default: delaunay-flip-gpu.tar.gz)
+# Usage: bundle.sh [--window] [OUTPUT.tar.gz, OUTPUT.tar.xz or FOLDER]
+# (default: delaunay-flip-gpu.tar.gz)
 # Builds in build-gpu/ and packs what run.sh needs on a machine with a GPU and without development
-# packages: programs, shared libraries that not every Linux has, and real meshes. Unpack it there
-# and run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than
-# this one's, and python3; compute-sanitizer is used if installed. CUDA_ARCHITECTURES chooses other
-# GPUs than the project's default, JOBS the number of compilers at a time.
+# packages: programs, shared libraries that not every Linux has, and real meshes. With --window also
+# what run.sh --window needs, with the neutral part of EGL. Unpack it there and run
+# delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, a C++ runtime not older than this
+# one's, and python3; compute-sanitizer is used if installed. CUDA_ARCHITECTURES chooses other GPUs
+# than the project's default, JOBS the number of compilers at a time.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=$root/build-gpu
+window=()
+if [ "${1:-}" = --window ]; then
+  window=(DelaunayFlipWindowTests delaunay-flip-window-benchmark SwellingSurface)
+  shift
+fi
 output=${1:-delaunay-flip-gpu.tar.gz}
 programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
-  delaunayflip-c-device-test)
-
-describe()
-{
-  echo "commit: $(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)"
-  echo "built: $(date -u +%Y-%m-%dT%H:%MZ) with $(c++ --version | head -n 1)"
-  echo "CUDA architectures: $architectures"
-}
+  delaunayflip-c-device-test "${window[@]}")
 
 # Usage: fill FOLDER
 fill()
@@ -32,8 +32,14 @@ fill()
   for program in "${programs[@]}"; do
     strip -o "$folder/$program" "$build/bin/$program"
   done
-  "$root/Utilities/shared_libraries.sh" "${programs[@]/#/$build/bin/}" | while read -r library; do
-    cp -L "$library" "$folder/libs/"
+  {
+    "$root/Utilities/shared_libraries.sh" "${programs[@]/#/$build/bin/}"
+    if [ ${#window[@]} -gt 0 ]; then # loaded at run time: the neutral EGL finds the driver's
+      ldconfig -p |
+        awk '$1 ~ /^lib(EGL|GLdispatch|OpenGL|GLX|GL)\.so\.[01]$/ && !seen[$1]++ { print $NF }'
+    fi
+  } | while read -r library; do
+    strip -o "$folder/libs/$(basename "$library")" "$(readlink -f "$library")"
   done
   cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" \
     "$here/../Python/lattice.py" "$root/LICENSE" "$folder/"
@@ -42,10 +48,14 @@ fill()
   if [ -d "$build/meshes" ]; then
     cp -r "$build/meshes" "$folder/"
   fi
-  describe >"$folder/BUILD.txt"
+  cat >"$folder/BUILD.txt" <<END
+commit: $(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)
+built: $(date -u +%Y-%m-%dT%H:%MZ) with $(c++ --version | head -n 1)
+CUDA architectures: $architectures
+END
 }
 
-"$here/build.sh" "$build"
+"$here/build.sh" "$build" "${window[@]}"
 # Not in the cache if it is the project's default.
 architectures=$(sed -n 's/^CMAKE_CUDA_ARCHITECTURES:[A-Z]*=//p' "$build/CMakeCache.txt")
 architectures=${architectures:-the default of the project}

@@ -44,20 +44,15 @@ def driver_version():
 
 def count_tests(report, status):
     """Tests passed, failed and skipped of one GoogleTest program, and the names of the failed."""
-    counts = {"passed": 0, "failed": 0, "skipped": 0, "failed_tests": [], "status": status}
-    for suite in (report or {}).get("testsuites", []):
-        for test in suite["testsuite"]:
-            if test.get("failures"):
-                counts["failed"] += 1
-                counts["failed_tests"].append(f"{suite['name']}.{test['name']}")
-            elif test["result"] == "COMPLETED":
-                counts["passed"] += 1
-            else:
-                counts["skipped"] += 1
-    if status != "0" and counts["failed"] == 0:
-        counts["failed"] = 1  # it ended before it could report more
-        counts["failed_tests"].append(f"the program ended with status {status}")
-    return counts
+    tests = [(f"{suite['name']}.{test['name']}", "FAILED" if test.get("failures") else
+              test["result"]) for suite in report["testsuites"] for test in suite["testsuite"]]
+    failed = [name for name, result in tests if result == "FAILED"]
+    if status != "0" and not failed:
+        failed = [f"the program ended with status {status}"]
+    passed = sum(result == "COMPLETED" for _, result in tests)
+    skipped = sum(result not in ("COMPLETED", "FAILED") for _, result in tests)
+    return {"passed": passed, "failed": len(failed), "skipped": skipped, "failed_tests": failed,
+            "status": status}
 
 
 def judge(status, reason):
@@ -71,18 +66,10 @@ def judge(status, reason):
 
 def collect(folder):
     machine = load(folder, "machine.json") or {}
-    results = {
-        "machine": {
-            "processor": machine.get("machine"),
-            "cores": machine.get("cores"),
-            "system": platform.platform(),
-        },
-        "gpu": machine.get("gpu"),
-        "tests": {},
-        "programs": {},
-        "sanitizer": {},
-        "benchmarks": None,
-    }
+    about = {"processor": machine.get("machine"), "cores": machine.get("cores"),
+             "system": platform.platform()}
+    results = {"machine": about, "gpu": machine.get("gpu"), "tests": {}, "programs": {},
+               "sanitizer": {}, "benchmarks": None}
     if results["gpu"]:
         results["gpu"]["driver"] = driver_version()
     for name, status, reason in load_steps(folder):
@@ -91,10 +78,10 @@ def collect(folder):
             results["benchmarks"] = {"status": status, "rows": rows}
         elif name.startswith("sanitizer-"):
             results["sanitizer"][name.split("-", 1)[1]] = judge(status, reason)
-        elif name.startswith("program-") or status == "skipped":
-            results["programs"][name.removeprefix("program-")] = judge(status, reason)
+        elif report := load(folder, f"{name}.json"):
+            results["tests"][name] = count_tests(report, status)
         else:
-            results["tests"][name] = count_tests(load(folder, f"{name}.json"), status)
+            results["programs"][name] = judge(status, reason)
     return results
 
 
@@ -113,10 +100,8 @@ def describe_machine(results):
 
 def describe_checks(results):
     for name, counts in results["tests"].items():
-        yield (
-            f"{name}: {counts['passed']} passed, {counts['failed']} failed, "
-            f"{counts['skipped']} skipped"
-        )
+        yield (f"{name}: {counts['passed']} passed, {counts['failed']} failed, "
+               f"{counts['skipped']} skipped")
         yield from (f"  FAILED {test}" for test in counts["failed_tests"])
     for program, verdict in results["programs"].items():
         yield f"{program}: {verdict}"
@@ -124,21 +109,11 @@ def describe_checks(results):
         yield f"compute-sanitizer {tool}: {verdict}"
 
 
-def has_failed(results):
-    benchmarks = results["benchmarks"]
-    return (
-        any(counts["failed"] for counts in results["tests"].values())
-        or any(
-            verdict.startswith("FAILED")
-            for group in ("programs", "sanitizer")
-            for verdict in results[group].values()
-        )
-        or (benchmarks is not None and benchmarks["status"] != "0")
-    )
-
-
 def verdict_of(results):
-    if has_failed(results):
+    verdicts = [*results["programs"].values(), *results["sanitizer"].values()]
+    if (any(counts["failed"] for counts in results["tests"].values())
+            or any(verdict.startswith("FAILED") for verdict in verdicts)
+            or (results["benchmarks"] or {"status": "0"})["status"] != "0"):
         return "FAILED"
     return "nothing failed" if results["gpu"] else "no GPU: skipped"
 
@@ -166,7 +141,7 @@ def main():
     with open(os.path.join(folder, "results.txt"), "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
     print("\n".join([*describe_machine(results), *summary]))
-    sys.exit(1 if has_failed(results) else 0)
+    sys.exit(1 if results["verdict"] == "FAILED" else 0)
 
 
 if __name__ == "__main__":

@@ -12,26 +12,15 @@ import unittest
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "summarize.py")
 
-GPU = {
-    "name": "A GPU",
-    "compute_capability": "9.0",
-    "multiprocessors": 132,
-    "memory_bytes": 85 * 10**9,
-    "cuda_runtime": "13.0",
-    "cuda_of_driver": "13.0",
-}
+GPU = {"name": "A GPU", "compute_capability": "9.0", "multiprocessors": 132,
+       "memory_bytes": 85 * 10**9, "cuda_runtime": "13.0", "cuda_of_driver": "13.0"}
 
 
 def report(*results):
     """A GoogleTest report; a result is "COMPLETED", "SKIPPED" or "FAILED"."""
-    tests = [
-        {
-            "name": f"test{i}",
-            "result": "COMPLETED" if result == "FAILED" else result,
-            **({"failures": [{}]} if result == "FAILED" else {}),
-        }
-        for i, result in enumerate(results)
-    ]
+    tests = [{"name": f"test{i}", "result": "COMPLETED" if result == "FAILED" else result,
+              **({"failures": [{}]} if result == "FAILED" else {})}
+             for i, result in enumerate(results)]
     return {"testsuites": [{"name": "Suite", "testsuite": tests}]}
 
 
@@ -74,18 +63,13 @@ class Summary(unittest.TestCase):
         self.assertEqual(results["sanitizer"], {"memcheck": "skipped: no GPU"})
 
     def test_programs(self):
-        steps = [
-            ("filter-tests", "skipped", "no VTK"),
-            ("program-c", "0", ""),
-            ("program-python-arrays", "skipped", "no CuPy"),
-        ]
+        steps = [("filter-tests", "skipped", "no VTK"), ("c", "0", ""),
+                 ("python-arrays", "skipped", "no CuPy")]
         status, results, last = self.summarize(GPU, steps)
         self.assertEqual((status, last), (0, "nothing failed"))
         self.assertEqual(results["tests"], {})
-        self.assertEqual(
-            results["programs"],
-            {"filter-tests": "skipped: no VTK", "c": "passed", "python-arrays": "skipped: no CuPy"},
-        )
+        self.assertEqual(results["programs"], {
+            "filter-tests": "skipped: no VTK", "c": "passed", "python-arrays": "skipped: no CuPy"})
 
     def test_failures(self):
         for steps, reports in (
@@ -93,7 +77,7 @@ class Summary(unittest.TestCase):
             ([("gpu-tests", "139", "")], {}),  # it crashed before it could write a report
             ([("sanitizer-racecheck", "86", "")], {}),
             ([("sanitizer-racecheck", "124", "")], {}),
-            ([("program-c", "1", "")], {}),
+            ([("c", "1", "")], {}),
             ([("benchmarks", "1", "")], {}),
         ):
             for gpu in (GPU, None):

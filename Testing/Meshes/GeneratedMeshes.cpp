@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GeneratedMeshes.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -22,27 +23,10 @@ struct CirclePoint
     const double t = quarters - std::floor(quarters);
     const double c = (1.0 - t * t) / (1.0 + t * t);
     const double s = 2.0 * t / (1.0 + t * t);
-    switch (static_cast<int>(quarters) % 4)
-    {
-      case 0:
-        this->Set(c, s);
-        break;
-      case 1:
-        this->Set(-s, c);
-        break;
-      case 2:
-        this->Set(-c, -s);
-        break;
-      default:
-        this->Set(s, -c);
-        break;
-    }
-  }
-
-  void Set(double cosine, double sine)
-  {
-    this->Cosine = cosine;
-    this->Sine = sine;
+    const double cosines[] = { c, -s, -c, s };
+    const double sines[] = { s, c, -s, -c };
+    this->Cosine = cosines[static_cast<int>(quarters) % 4];
+    this->Sine = sines[static_cast<int>(quarters) % 4];
   }
 
   double Cosine = 1.0;
@@ -63,22 +47,12 @@ void AddTriangle(OwnedMesh<double>& mesh, std::int32_t a, std::int32_t b, std::i
   mesh.Triangles.insert(mesh.Triangles.end(), { a, b, c });
 }
 
-struct Quad
+/// Divides a quad along its 0-2 diagonal or, with `otherDiagonal`, along 1-3.
+void AddQuad(OwnedMesh<double>& mesh, const std::array<std::int32_t, 4>& quad, bool otherDiagonal)
 {
-  std::int32_t A, B, C, D;
-};
-
-/// Divides a quad along A-C or, with `otherDiagonal`, along B-D.
-void AddQuad(OwnedMesh<double>& mesh, const Quad& quad, bool otherDiagonal)
-{
-  if (otherDiagonal)
-  {
-    AddTriangle(mesh, quad.A, quad.B, quad.D);
-    AddTriangle(mesh, quad.B, quad.C, quad.D);
-    return;
-  }
-  AddTriangle(mesh, quad.A, quad.B, quad.C);
-  AddTriangle(mesh, quad.A, quad.C, quad.D);
+  const auto [a, b, c, d] = quad;
+  AddTriangle(mesh, a, b, otherDiagonal ? d : c);
+  AddTriangle(mesh, otherDiagonal ? b : a, c, d);
 }
 
 bool DrawBit(std::mt19937& random) { return (random() >> 31) != 0; }
@@ -170,19 +144,11 @@ OwnedMesh<float> MakeJitteredGrid(std::int64_t points, std::uint32_t seed)
   const auto side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(points))) - 1;
   OwnedMesh<double> grid = MakeGridMesh(side, side);
   std::mt19937 random(seed);
-  OwnedMesh<float> mesh;
-  mesh.Points.reserve(grid.Points.size());
-  for (std::size_t i = 0; i < grid.Points.size(); i += 3)
+  for (std::size_t i = 0; i < grid.Points.size(); ++i)
   {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      const double shift = Most * (2.0 * DrawUnit(random) - 1.0);
-      mesh.Points.push_back(static_cast<float>(grid.Points[i + axis] + shift));
-    }
-    mesh.Points.push_back(0.0f);
+    grid.Points[i] += i % 3 == 2 ? 0.0 : Most * (2.0 * DrawUnit(random) - 1.0);
   }
-  mesh.Triangles = std::move(grid.Triangles);
-  return mesh;
+  return { { grid.Points.begin(), grid.Points.end() }, std::move(grid.Triangles) };
 }
 
 OwnedMesh<double> MakeBadSphere(std::int32_t columns, std::int32_t rows, std::uint32_t seed)
@@ -234,16 +200,15 @@ OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
   constexpr int Ring[8][2] = { { 2, 0 }, { 2, 2 }, { 0, 2 }, { -2, 2 }, { -2, 0 }, { -2, -2 },
     { 0, -2 }, { 2, -2 } };
   OwnedMesh<double> mesh;
-  mesh.Points = { 0, 0, 0 };
+  AddPoint(mesh, 0.0, 0.0, 0.0);
   for (int i = 0; i <= count; ++i)
   {
     const int* place = Ring[(start + i) % 8];
-    mesh.Points.insert(mesh.Points.end(), { double(place[0]), double(place[1]), 0.0 });
+    AddPoint(mesh, place[0], place[1], 0.0);
   }
   for (std::int32_t i = 1; i <= count; ++i)
   {
-    mesh.Triangles.insert(
-      mesh.Triangles.end(), { 0, clockwise ? i + 1 : i, clockwise ? i : i + 1 });
+    AddTriangle(mesh, 0, clockwise ? i + 1 : i, clockwise ? i : i + 1);
   }
   return mesh;
 }

@@ -4,137 +4,121 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace delaunayflip
 {
-
 namespace
 {
-/// Some triangles of a mesh, which may be put into another order.
-struct TriangleRange
+
+/// Three times the centre of a triangle; NaN counts as 0.
+double GetCenter(const TriangleMesh& mesh, std::int64_t triangle, int axis)
 {
-  std::int64_t* Begin;
-  std::int64_t* End;
-};
-
-class Divider
-{
-public:
-  explicit Divider(const TriangleMesh& mesh)
-    : Mesh(mesh),
-      Order(mesh.Triangles.Count),
-      Local(mesh.Points.Count)
+  double sum = 0.0;
+  for (int slot = 0; slot < 3; ++slot)
   {
-    std::iota(this->Order.begin(), this->Order.end(), 0);
+    sum += mesh.Points.Get(mesh.Triangles.Get(triangle, slot), axis);
   }
-
-  std::vector<OwnPiece> Divide(int pieces)
-  {
-    this->Cut({ this->Order.data(), this->Order.data() + this->Order.size() }, pieces);
-    return std::move(this->Pieces);
-  }
-
-private:
-  /// Three times the centre of a triangle; NaN counts as 0.
-  double GetCenter(std::int64_t triangle, int axis) const
-  {
-    double sum = 0.0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      sum += this->Mesh.Points.Get(this->Mesh.Triangles.Get(triangle, slot), axis);
-    }
-    return std::isnan(sum) ? 0.0 : sum;
-  }
-
-  int FindLongestAxis(const TriangleRange& range) const
-  {
-    double extents[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      double lower = std::numeric_limits<double>::infinity();
-      double upper = -lower;
-      for (const std::int64_t* t = range.Begin; t != range.End; ++t)
-      {
-        lower = std::min(lower, this->GetCenter(*t, axis));
-        upper = std::max(upper, this->GetCenter(*t, axis));
-      }
-      extents[axis] = upper - lower;
-    }
-    return static_cast<int>(std::max_element(extents, extents + 3) - extents);
-  }
-
-  /// Cuts a range until each part is one piece.
-  void Cut(const TriangleRange& range, int pieces)
-  {
-    if (pieces == 1)
-    {
-      std::sort(range.Begin, range.End);
-      this->AddPiece(range);
-      return;
-    }
-    const int axis = range.Begin == range.End ? 0 : this->FindLongestAxis(range);
-    std::int64_t* middle = range.Begin + (range.End - range.Begin) / pieces * (pieces / 2);
-    std::nth_element(range.Begin, middle, range.End,
-      [&](std::int64_t a, std::int64_t b)
-      {
-        const double left = this->GetCenter(a, axis);
-        const double right = this->GetCenter(b, axis);
-        return left < right || (left == right && a < b);
-      });
-    this->Cut({ range.Begin, middle }, pieces / 2);
-    this->Cut({ middle, range.End }, pieces - pieces / 2);
-  }
-
-  void AddPiece(const TriangleRange& range)
-  {
-    std::fill(this->Local.begin(), this->Local.end(), -1);
-    this->Pieces.emplace_back();
-    OwnPiece& piece = this->Pieces.back();
-    piece.SlotOf.assign(range.Begin, range.End);
-    for (const std::int64_t t : piece.SlotOf)
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        piece.Triangles.push_back(this->AddPoint(this->Mesh.Triangles.Get(t, slot), piece));
-      }
-      if (this->Mesh.Regions)
-      {
-        piece.Regions.push_back(this->Mesh.Regions[t]);
-      }
-      if (this->Mesh.FrozenTriangles)
-      {
-        piece.Frozen.push_back(this->Mesh.FrozenTriangles[t]);
-      }
-    }
-  }
-
-  std::int32_t AddPoint(std::int64_t point, OwnPiece& piece)
-  {
-    std::int32_t& local = this->Local[point];
-    if (local < 0)
-    {
-      local = static_cast<std::int32_t>(piece.PointOf.size());
-      piece.PointOf.push_back(point);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double x = this->Mesh.Points.Get(point, axis);
-        this->Mesh.Points.Floats ? piece.Floats.push_back(static_cast<float>(x))
-                                 : piece.Doubles.push_back(x);
-      }
-    }
-    return local;
-  }
-
-  const TriangleMesh& Mesh;
-  std::vector<std::int64_t> Order;
-  std::vector<std::int32_t> Local; ///< The id of every point in the current piece, or -1.
-  std::vector<OwnPiece> Pieces;
-};
+  return std::isnan(sum) ? 0.0 : sum;
 }
 
-MeshPiece OwnPiece::View() const
+using Triangles = std::vector<std::int64_t>;
+
+/// Cuts triangles until each part has one rank, from `first` on.
+void Cut(const TriangleMesh& mesh, Triangles triangles, int first, int ranks, Owners& owners)
+{
+  const auto compareAlong = [&mesh](int axis)
+  {
+    return [&mesh, axis](std::int64_t a, std::int64_t b)
+    {
+      const double left = GetCenter(mesh, a, axis), right = GetCenter(mesh, b, axis);
+      return left < right || (left == right && a < b);
+    };
+  };
+  if (ranks == 1 || triangles.empty())
+  {
+    std::for_each(triangles.begin(), triangles.end(), [&](std::int64_t t) { owners[t] = first; });
+    return;
+  }
+  double extents[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto [low, high] =
+      std::minmax_element(triangles.begin(), triangles.end(), compareAlong(axis));
+    extents[axis] = GetCenter(mesh, *high, axis) - GetCenter(mesh, *low, axis);
+  }
+  const auto longest = static_cast<int>(std::max_element(extents, extents + 3) - extents);
+  const auto middle =
+    triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size()) / ranks * (ranks / 2);
+  std::nth_element(triangles.begin(), middle, triangles.end(), compareAlong(longest));
+  Cut(mesh, { triangles.begin(), middle }, first, ranks / 2, owners);
+  Cut(mesh, { middle, triangles.end() }, first + ranks / 2, ranks - ranks / 2, owners);
+}
+
+/// @param localOf the id of every point in the piece, or -1.
+std::int32_t AddPoint(
+  const TriangleMesh& mesh, std::int64_t point, std::vector<std::int32_t>& localOf, OwnPiece& piece)
+{
+  std::int32_t& local = localOf[point];
+  if (local < 0)
+  {
+    local = static_cast<std::int32_t>(piece.PointOf.size());
+    piece.PointOf.push_back(point);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double x = mesh.Points.Get(point, axis);
+      mesh.Points.Floats ? piece.Floats.push_back(static_cast<float>(x))
+                         : piece.Doubles.push_back(x);
+    }
+  }
+  return local;
+}
+
+OwnPiece MakePiece(const TriangleMesh& mesh, Triangles triangles)
+{
+  std::vector<std::int32_t> localOf(mesh.Points.Count, -1);
+  OwnPiece piece;
+  for (const std::int64_t t : triangles)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      piece.Triangles.push_back(AddPoint(mesh, mesh.Triangles.Get(t, slot), localOf, piece));
+    }
+    if (mesh.Regions)
+    {
+      piece.Regions.push_back(mesh.Regions[t]);
+    }
+    if (mesh.FrozenTriangles)
+    {
+      piece.Frozen.push_back(mesh.FrozenTriangles[t]);
+    }
+  }
+  piece.SlotOf = std::move(triangles);
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t a = localOf[mesh.ConstraintEdges[2 * i]];
+    const std::int64_t b = localOf[mesh.ConstraintEdges[2 * i + 1]];
+    if (a >= 0 && b >= 0)
+    {
+      piece.Constraints.insert(piece.Constraints.end(), { a, b });
+      if (mesh.ConstraintsToInsert)
+      {
+        piece.ToInsert.push_back(mesh.ConstraintsToInsert[i]);
+      }
+    }
+  }
+  return piece;
+}
+
+template <typename T>
+const T* ViewOrNull(const std::vector<T>& values)
+{
+  return values.empty() ? nullptr : values.data();
+}
+
+}
+
+MeshPiece OwnPiece::View(bool withNumbers) const
 {
   MeshPiece piece;
   const auto points = static_cast<std::int64_t>(this->PointOf.size());
@@ -143,15 +127,42 @@ MeshPiece OwnPiece::View() const
                                       : PointArray(this->Doubles.data(), points);
   mesh.Triangles =
     TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->SlotOf.size()));
-  mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
-  mesh.FrozenTriangles = this->Frozen.empty() ? nullptr : this->Frozen.data();
-  piece.PointNumbers = this->PointOf.data();
+  mesh.ConstraintEdges = this->Constraints.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Constraints.size()) / 2;
+  mesh.ConstraintsToInsert = ViewOrNull(this->ToInsert);
+  mesh.Regions = ViewOrNull(this->Regions);
+  mesh.FrozenTriangles = ViewOrNull(this->Frozen);
+  piece.PointNumbers = withNumbers ? this->PointOf.data() : nullptr;
   return piece;
 }
 
-std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, int pieces)
+Owners DivideBySpace(const TriangleMesh& mesh, int ranks)
 {
-  return Divider(mesh).Divide(pieces);
+  Triangles all(mesh.Triangles.Count);
+  std::iota(all.begin(), all.end(), 0);
+  Owners owners(all.size());
+  Cut(mesh, std::move(all), 0, ranks, owners);
+  return owners;
+}
+
+std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, const Owners& owners, int ranks)
+{
+  std::vector<Triangles> triangles(ranks);
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    triangles[owners[t]].push_back(t);
+  }
+  std::vector<OwnPiece> pieces;
+  for (Triangles& own : triangles)
+  {
+    pieces.push_back(MakePiece(mesh, std::move(own)));
+  }
+  return pieces;
+}
+
+std::vector<OwnPiece> DivideMesh(const TriangleMesh& mesh, int ranks)
+{
+  return DivideMesh(mesh, DivideBySpace(mesh, ranks), ranks);
 }
 
 }

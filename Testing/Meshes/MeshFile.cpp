@@ -6,55 +6,16 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 
 namespace delaunayflip
 {
-namespace
-{
-
-struct Header
-{
-  char Magic[8];
-  std::int64_t CoordinateBytes;
-  std::int64_t Points;
-  std::int64_t Triangles;
-  std::int64_t ConstraintEdges;
-  std::int64_t IsHeightField;
-};
-
-std::int64_t GetFileSize(const Header& header)
-{
-  return static_cast<std::int64_t>(sizeof(Header)) + 3 * header.CoordinateBytes * header.Points +
-    12 * header.Triangles + 16 * header.ConstraintEdges;
-}
-
-bool IsSound(const Header& header)
-{
-  constexpr std::int64_t Most = std::numeric_limits<std::int32_t>::max();
-  const auto isCount = [](std::int64_t count) { return count >= 0 && count <= Most; };
-  return std::memcmp(header.Magic, "DFMESH01", 8) == 0 &&
-    (header.CoordinateBytes == 4 || header.CoordinateBytes == 8) && isCount(header.Points) &&
-    isCount(header.Triangles) && isCount(header.ConstraintEdges);
-}
-
-template <typename Number>
-void Read(std::ifstream& file, std::int64_t count, std::vector<Number>& numbers)
-{
-  numbers.resize(static_cast<std::size_t>(count));
-  file.read(reinterpret_cast<char*>(numbers.data()),
-    static_cast<std::streamsize>(numbers.size() * sizeof(Number)));
-}
-
-}
-
 TriangleMesh FileMesh::View() const
 {
   TriangleMesh view;
-  view.Points = this->Doubles.empty()
-    ? PointArray(this->Floats.data(), static_cast<std::int64_t>(this->Floats.size()) / 3)
-    : PointArray(this->Doubles.data(), static_cast<std::int64_t>(this->Doubles.size()) / 3);
+  const auto points = static_cast<std::int64_t>(this->Floats.size() + this->Doubles.size()) / 3;
+  view.Points = this->Doubles.empty() ? PointArray(this->Floats.data(), points)
+                                      : PointArray(this->Doubles.data(), points);
   view.Triangles =
     TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->Triangles.size()) / 3);
   view.ConstraintEdges = this->ConstraintEdges.data();
@@ -80,27 +41,30 @@ std::vector<std::string> ListMeshFiles(const std::string& folder)
 FileMesh ReadMeshFile(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  Header header = {};
-  file.read(reinterpret_cast<char*>(&header), sizeof(header));
+  char magic[8] = {};
+  std::int64_t numbers[5] = {};
+  file.read(magic, sizeof(magic));
+  file.read(reinterpret_cast<char*>(numbers), sizeof(numbers));
+  const auto [coordinateBytes, points, triangles, edges, isHeightField] = numbers;
+  const std::int64_t expected = 48 + 3 * coordinateBytes * points + 12 * triangles + 16 * edges;
   std::error_code error;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  if (!file || error || !IsSound(header) || size != GetFileSize(header))
+  if (!file || error || size != expected || std::memcmp(magic, "DFMESH01", sizeof(magic)) != 0)
   {
     throw std::runtime_error(path + " is not a complete mesh file");
   }
+  const auto read = [&file](std::int64_t count, auto& values)
+  {
+    values.resize(static_cast<std::size_t>(count));
+    file.read(reinterpret_cast<char*>(values.data()),
+      static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+  };
   FileMesh mesh;
   mesh.Name = std::filesystem::path(path).stem().string();
-  mesh.IsHeightField = header.IsHeightField != 0;
-  if (header.CoordinateBytes == 4)
-  {
-    Read(file, 3 * header.Points, mesh.Floats);
-  }
-  else
-  {
-    Read(file, 3 * header.Points, mesh.Doubles);
-  }
-  Read(file, 3 * header.Triangles, mesh.Triangles);
-  Read(file, 2 * header.ConstraintEdges, mesh.ConstraintEdges);
+  mesh.IsHeightField = isHeightField != 0;
+  coordinateBytes == 4 ? read(3 * points, mesh.Floats) : read(3 * points, mesh.Doubles);
+  read(3 * triangles, mesh.Triangles);
+  read(2 * edges, mesh.ConstraintEdges);
   if (!file)
   {
     throw std::runtime_error(path + " cannot be read");

@@ -21,12 +21,10 @@ class TemporaryFolder
 public:
   TemporaryFolder()
   {
-    std::string name = testing::TempDir() + "delaunayflip-XXXXXX";
-    if (!mkdtemp(name.data()))
+    if (!mkdtemp(this->Path.data()))
     {
       throw std::runtime_error("no folder for temporary files in " + testing::TempDir());
     }
-    this->Path = name;
   }
   ~TemporaryFolder()
   {
@@ -36,15 +34,14 @@ public:
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  std::string GetPath() const { return this->Path.string(); }
-  std::string operator/(const char* name) const { return (this->Path / name).string(); }
+  std::string operator/(const char* name) const { return this->Path + "/" + name; }
   long CountFiles() const
   {
     return std::distance(std::filesystem::directory_iterator(this->Path), {});
   }
 
 private:
-  std::filesystem::path Path;
+  std::string Path = testing::TempDir() + "delaunayflip-XXXXXX";
 };
 
 }

@@ -1,23 +1,38 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Configures, builds and runs projects that use an installed build, or this folder as a subproject.
+"""Configures, builds and runs projects that use an installed build, or this folder as a subproject; and
+packs the build.
 
 DELAUNAYFLIP_BUILD in the environment is the build, DELAUNAYFLIP_CMAKE the program cmake.
 """
+import glob
 import os
 import re
+import shutil
 import subprocess
+import sys
+import tarfile
 import tempfile
 import unittest
 from unittest import mock
 
-from readme import ROOT, read, snippets
+from pages import ROOT, read, snippets
 
 CMAKE = os.environ["DELAUNAYFLIP_CMAKE"]
 EXAMPLE = f"{ROOT}/Examples/Cxx/FlipArrays.cpp"
 C_EXAMPLE = f"{ROOT}/Examples/C/flip_arrays.c"
 HEAD = "cmake_minimum_required(VERSION 3.22)\nproject(Consumer LANGUAGES CXX)\n"
 NO_VTK = "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON"
+CPACK = os.path.join(os.path.dirname(CMAKE), "cpack")
+VERSION = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
+BUILT_PYTHON = glob.glob(f"{os.environ['DELAUNAYFLIP_BUILD']}/lib/python3/*/delaunayflip/*.so")
+PROGRAM = """
+import delaunayflip
+from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipLiveView
+assert delaunayflip.__file__.startswith({prefix!r}), delaunayflip.__file__
+result = delaunayflip.flip([[0, 0], [2, -1], [4, 0], [2, 1]], [[0, 1, 2], [0, 2, 3]])
+print(result.report.total_flips, vtkDelaunayFlip().GetClassName())
+"""
 
 
 def list_public_headers():
@@ -70,6 +85,10 @@ class Consumer(unittest.TestCase):
     def run_program(self, name):
         return subprocess.run([self.path(f"build/{name}")], cwd=self.folder, capture_output=True,
                               text=True, check=True).stdout
+
+    def write_rhombus(self):
+        self.write("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+        return self.path("rhombus.obj")
 
     def expect_flips(self):
         self.assertIn("39601 flips", self.run_program("consumer"))
@@ -124,12 +143,6 @@ target_link_libraries(consumer PRIVATE DelaunayFlip::C)
         self.build(NO_VTK, "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
         self.assertIn("1 flips", self.run_program("consumer"))
 
-    def test_a_component_that_is_not_there(self):
-        self.write("CMakeLists.txt", HEAD + "find_package(DelaunayFlip REQUIRED COMPONENTS Wings)\n")
-        run = self.configure()
-        self.assertNotEqual(run.returncode, 0)
-        self.assertIn("Wings", run.stderr)
-
 
 class Modules(Consumer):
     """Consumers of the VTK modules of an installed build."""
@@ -150,26 +163,13 @@ class Modules(Consumer):
                        stdout=subprocess.DEVNULL, check=False)
         self.assertEqual(self.run_program("my_program"), "1 flips\n")
 
-    def write_rhombus(self):
-        self.write("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
-        return self.path("rhombus.obj")
-
-    def test_all_components(self):
-        self.write("CMakeLists.txt", HEAD.replace("CXX", "C CXX") + f"""
-find_package(DelaunayFlip REQUIRED)
-add_executable(consumer "{EXAMPLE}")
-target_link_libraries(consumer PRIVATE DelaunayFlip::Engine DelaunayFlip::Filters)
-""")
-        self.build()
-        self.expect_flips()
-
     def test_examples(self):
         self.build(source=f"{ROOT}/Examples/Cxx")
         self.assertIn("39601 flips", self.run_program("FlipArrays"))
 
 
 class Subproject(Consumer):
-    """This folder in another project, which installs the engine with itself."""
+    """This folder in another project."""
 
     def test_subproject(self):
         self.write("CMakeLists.txt", HEAD + f"""
@@ -182,22 +182,6 @@ target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
         self.assertEqual(self.read_option("DELAUNAYFLIP_BUILD_TESTING"), "OFF")
         self.assertIsNone(self.read_option("BUILD_SHARED_LIBS"))
         self.assertEqual(self.read_option("CMAKE_BUILD_TYPE"), "")
-        self.install(self.path("build"))
-        self.use_what_it_installed()
-
-    def use_what_it_installed(self):
-        os.rename(self.path("build"), self.path("first"))
-        self.write("CMakeLists.txt", HEAD + f"""
-find_package(DelaunayFlip REQUIRED)
-add_executable(consumer "{EXAMPLE}")
-target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
-find_package(DelaunayFlip COMPONENTS Filters)
-if(DelaunayFlip_FOUND)
-  message(FATAL_ERROR "it has no VTK")
-endif()
-""")
-        self.build(NO_VTK)
-        self.expect_flips()
 
 
 class CudaVersion(Consumer):
@@ -223,34 +207,94 @@ echo "Cuda compilation tools, release {version}, V{version}.89"
                                  *options, source=ROOT)
         return run.returncode, " ".join((run.stdout + run.stderr).split())
 
-    def expect_no_backend(self, reason, *options, **environment):
-        code, text = self.configure_engine(*options, **environment)
-        self.assertEqual(code, 0, text)
-        self.assertIn(f"CUDA backend: not built, {reason}", text)
-
     def test_an_old_one_is_not_used(self):
+        """Found in the path and then from the cache, or named; an error where CUDA is asked for."""
         self.write_nvcc("11.8")
         reason = f"{self.nvcc} is of CUDA 11.8, and CUDA 12 or newer is needed"
-        path = f"{self.path('bin')}:{os.environ['PATH']}"
-        for options, environment in (
-                ([], {"PATH": path}), # the second time, from the cache
-                ([], {"PATH": path}),
-                ([], {"CUDACXX": f"{self.nvcc} -ccbin g++"}),
-                ([f"-DCMAKE_CUDA_COMPILER={self.nvcc}"], {})):
+        in_path = {"PATH": f"{self.path('bin')}:{os.environ['PATH']}"}
+        named = [f"-DCMAKE_CUDA_COMPILER={self.nvcc}"]
+        for options, environment in (([], in_path), ([], in_path),
+                                     ([], {"CUDACXX": f"{self.nvcc} -ccbin g++"}), (named, {})):
             with self.subTest(options=options, environment=environment):
-                self.expect_no_backend(reason, *options, **environment)
-
-    def test_an_old_one_is_an_error_where_cuda_is_asked_for(self):
-        self.write_nvcc("11.8")
-        code, text = self.configure_engine("-DDELAUNAYFLIP_ENABLE_CUDA=ON",
-                                           f"-DCMAKE_CUDA_COMPILER={self.nvcc}")
+                code, text = self.configure_engine(*options, **environment)
+                self.assertEqual(code, 0, text)
+                self.assertIn(f"CUDA backend: not built, {reason}", text)
+        code, text = self.configure_engine("-DDELAUNAYFLIP_ENABLE_CUDA=ON", *named)
         self.assertNotEqual(code, 0)
-        self.assertIn(f"{self.nvcc} is of CUDA 11.8, and CUDA 12 or newer is needed; install a "
-                      "newer CUDA Toolkit", text)
+        self.assertIn(f"{reason}; install a newer CUDA Toolkit", text)
 
     def test_the_oldest_one_is_tried(self):
         self.write_nvcc("12.0")
-        self.expect_no_backend("no CUDA compiler", CUDACXX=self.nvcc)
+        code, text = self.configure_engine(CUDACXX=self.nvcc)
+        self.assertEqual(code, 0, text)
+        self.assertIn("CUDA backend: not built, no CUDA compiler", text)
+
+
+class Packing(Consumer):
+    """What cpack makes of the build works where it is unpacked. Utilities/test-on.sh also installs the
+    Debian package on a Debian that has nothing else."""
+
+    def pack(self, generator):
+        """The path of the only package."""
+        config = os.path.join(os.environ["DELAUNAYFLIP_BUILD"], "CPackConfig.cmake")
+        run = subprocess.run([CPACK, "--config", config, "-G", generator, "-B", self.path("packed")],
+                             cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        (package,) = [entry.path for entry in os.scandir(self.path("packed")) if entry.is_file()]
+        return package
+
+    def expect_that_it_works(self, prefix):
+        """The command and the Python package below the prefix, far from the build's libraries."""
+        command = f"{prefix}/bin/delaunay-flip"
+        self.assertEqual(self.run_command([command, "--version"]), f"delaunay-flip {VERSION}\n")
+        output = self.run_command([command, self.write_rhombus(), self.path("out.obj")])
+        self.assertIn("1 in 1 iteration, converged", output)
+        if BUILT_PYTHON:
+            packages = f"{prefix}/lib/python3/dist-packages"
+            output = self.run_command([sys.executable, "-c", PROGRAM.format(prefix=prefix)],
+                                      PYTHONPATH=packages)
+            self.assertEqual(output, "1 vtkDelaunayFlip\n")
+
+    def run_command(self, command, **environment):
+        run = subprocess.run(command, cwd=self.folder, env={**os.environ, **environment},
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+
+class Archive(Packing):
+
+    def test_unpacked(self):
+        package = self.pack("TGZ")
+        name = os.path.basename(package).removesuffix(".tar.gz")
+        self.assertTrue(name.startswith(f"delaunayflip-{VERSION}-"), name)
+        with tarfile.open(package) as archive:
+            archive.extractall(self.folder)
+        self.expect_that_it_works(self.path(name))
+
+
+@unittest.skipUnless(shutil.which("dpkg-shlibdeps") and shutil.which("file"),
+                     "no dpkg-shlibdeps or file (Debian: dpkg-dev, file)")
+class DebianPackage(Packing):
+
+    def read_field(self, name):
+        return subprocess.run(["dpkg-deb", "-f", self.package, name], capture_output=True, text=True,
+                              check=True).stdout.strip()
+
+    def test_package(self):
+        self.package = self.pack("DEB")
+        self.check_fields()
+        subprocess.run(["dpkg-deb", "-x", self.package, self.folder], check=True)
+        self.expect_that_it_works(self.path("usr"))
+
+    def check_fields(self):
+        self.assertEqual(self.read_field("Package"), "delaunayflip")
+        self.assertEqual(self.read_field("Version"), VERSION)
+        names = [part.split()[0] for part in self.read_field("Depends").split(",")]
+        for library in ("libc6", "libstdc++6", "libtbb12", "libvtk9"):
+            self.assertTrue(any(name.startswith(library) for name in names), names)
+        for name in names:
+            subprocess.run(["dpkg-query", "-W", name], stdout=subprocess.DEVNULL, check=True)
 
 
 if __name__ == "__main__":

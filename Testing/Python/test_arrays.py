@@ -5,14 +5,12 @@ import copy
 import ctypes
 import doctest
 import gc
-import os
 import pathlib
 import pickle
 import re
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import types
@@ -21,7 +19,6 @@ import unittest.mock
 import weakref
 
 import numpy
-import numpy.lib.recfunctions
 
 import delaunayflip
 from delaunayflip import _arrays, _library, _options
@@ -45,43 +42,6 @@ class Flip(unittest.TestCase):
         self.assertEqual(result.report.non_delaunay_after, 0)
         self.assertEqual(result.iterations["flipped"].sum(), 1)
 
-    def test_all_types_give_the_same_triangles(self):
-        points, triangles = sheared_lattice(20)
-        expected = delaunayflip.flip(points, triangles).triangles
-        for real in (numpy.float32, numpy.float64):
-            for integer in (numpy.int32, numpy.int64, numpy.uint16, numpy.uint64):
-                with self.subTest(real=real, integer=integer):
-                    given = triangles.astype(integer)
-                    found = delaunayflip.flip(points.astype(real), given).triangles
-                    numpy.testing.assert_array_equal(found, expected)
-                    kept = integer in (numpy.int32, numpy.int64)
-                    self.assertEqual(found.dtype, integer if kept else numpy.int64)
-
-    def test_lists_and_two_columns(self):
-        result = delaunayflip.flip(POINTS[:, :2].tolist(), TRIANGLES.tolist())
-        self.assertEqual(result.report.total_flips, 1)
-
-    def test_two_columns_in_any_layout(self):
-        x, y = POINTS[:, 0].copy(), POINTS[:, 1].copy()
-        frame = numpy.zeros(4, dtype=[("x", float), ("id", "i1"), ("y", float)])
-        frame["x"], frame["y"] = x, y
-        columns = numpy.lib.recfunctions.structured_to_unstructured(frame[["x", "y"]])
-        for points in (numpy.array([x, y]).T, numpy.asfortranarray(POINTS[:, :2]), POINTS[:, :2],
-                       POINTS[::-1, :2].copy()[::-1], columns, numpy.array([x, y], ">f4").T):
-            result = delaunayflip.flip(points, TRIANGLES)
-            self.assertEqual(result.report.total_flips, 1, points.strides)
-            expected = delaunayflip.smallest_angles(POINTS, result.triangles)
-            angles = delaunayflip.smallest_angles(points, result.triangles)
-            numpy.testing.assert_array_equal(angles, expected)
-
-    def test_strides(self):
-        points, triangles = sheared_lattice(10)
-        expected = delaunayflip.flip(points, triangles).triangles
-        wide = numpy.zeros((len(points), 7))
-        wide[:, 1:6:2] = points
-        found = delaunayflip.flip(wide[:, 1:6:2], numpy.asfortranarray(triangles)).triangles
-        numpy.testing.assert_array_equal(found, expected)
-
     def test_the_input_is_not_written_and_not_copied(self):
         points, triangles = sheared_lattice(10)
         points.flags.writeable = triangles.flags.writeable = False
@@ -91,35 +51,6 @@ class Flip(unittest.TestCase):
         mesh = _arrays.Mesh(points, triangles)
         self.assertIs(mesh.points, points)
         self.assertIs(mesh.triangles, triangles)
-
-    def test_threads_agree(self):
-        points, triangles = sheared_lattice(60)
-        runs = [delaunayflip.flip(points, triangles, threads=n).triangles for n in (1, 2, 5)]
-        numpy.testing.assert_array_equal(runs[0], runs[1])
-        numpy.testing.assert_array_equal(runs[0], runs[2])
-
-    def test_pieces_agree(self):
-        points, triangles = sheared_lattice(60)
-        runs = [delaunayflip.flip(points, triangles, pieces=n, tie_rule="canonical")
-                for n in (0, 1, 7)]
-        sets = [{frozenset(ids) for ids in run.triangles.tolist()} for run in runs]
-        self.assertEqual(sets[0], sets[1])
-        self.assertEqual(sets[0], sets[2])
-        for run in runs:
-            self.assertEqual(run.flip_counts.sum(), 2 * run.report.total_flips)
-        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "pieces must be"):
-            delaunayflip.flip(points, triangles, pieces=256)
-
-    def test_what_must_stay(self):
-        for keywords in (
-            {"constraints": [[2, 0]]},
-            {"regions": [7, 8]},
-            {"frozen": [False, True]},
-            {"maximum_iterations": 0},
-        ):
-            with self.subTest(**keywords):
-                result = delaunayflip.flip(POINTS, TRIANGLES, **keywords)
-                numpy.testing.assert_array_equal(result.triangles, TRIANGLES)
 
     def test_a_constraint_is_inserted(self):
         short = [[0, 1, 3], [1, 2, 3]]
@@ -138,22 +69,6 @@ class Flip(unittest.TestCase):
             self.assertEqual(result.triangles.shape, (0, 3))
         self.assertTrue(numpy.isnan(result.report.minimum_angle_before))
 
-    def test_track_quality(self):
-        points, triangles = sheared_lattice(10)
-        plain = delaunayflip.flip(points, triangles).iterations["minimum_angle"]
-        tracked = delaunayflip.flip(points, triangles, track_quality=True).iterations
-        self.assertTrue(numpy.isnan(plain[1:-1]).all())
-        self.assertTrue(numpy.isfinite(tracked["minimum_angle"]).all())
-
-    def test_results_are_compared_by_identity(self):
-        a, b = (delaunayflip.flip(POINTS, TRIANGLES) for _ in range(2))
-        self.assertTrue(a == a and a != b)
-        self.assertEqual(len({a, b}), 2)
-
-    def test_smallest_angles(self):
-        found = delaunayflip.smallest_angles(POINTS, TRIANGLES)
-        numpy.testing.assert_allclose(found, 26.565051177077976)
-
 
 class Errors(unittest.TestCase):
     def test_invalid_mesh(self):
@@ -164,58 +79,12 @@ class Errors(unittest.TestCase):
         with self.assertRaises(delaunayflip.InvalidMesh):
             delaunayflip.smallest_angles(POINTS, [[0, 1, -1]])
 
-    def test_classes(self):
-        self.assertTrue(issubclass(delaunayflip.InvalidMesh, ValueError))
-        self.assertTrue(issubclass(delaunayflip.InvalidMesh, delaunayflip.FlipError))
-
     def test_invalid_options(self):
-        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "feature angle"):
-            delaunayflip.flip(POINTS, TRIANGLES, feature_angle=181)
-        with self.assertRaisesRegex(ValueError, "geometry must be one of auto, planar"):
-            delaunayflip.flip(POINTS, TRIANGLES, geometry="round")
         with self.assertRaises(TypeError):
             delaunayflip.flip(POINTS, TRIANGLES, colour="red")
         with self.assertRaisesRegex(TypeError, "colour"):
             _options.make_options(colour="red")
-
-    def test_shapes_and_types(self):
-        for points, triangles, error in (
-            (POINTS.ravel(), TRIANGLES, ValueError),
-            (POINTS[:, :1], TRIANGLES, ValueError),
-            (POINTS, TRIANGLES[:, :2], ValueError),
-            (POINTS, TRIANGLES + 0.5, TypeError),
-            (POINTS.astype(complex), TRIANGLES, TypeError),
-            (POINTS.astype(str), TRIANGLES, TypeError),
-        ):
-            with self.subTest(points=points.shape, triangles=triangles.dtype):
-                with self.assertRaises(error):
-                    delaunayflip.flip(points, triangles)
-        with self.assertRaisesRegex(ValueError, "regions"):
-            delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2, 3])
-        with self.assertRaisesRegex(ValueError, "int32"):
-            delaunayflip.flip(POINTS, TRIANGLES, regions=[1, 2**40])
-
-    def test_numbers(self):
-        """Each is refused before it reaches ctypes, by a message that names the argument."""
-        for name, value, error in (
-            ("maximum_iterations", 2**64, ValueError), ("maximum_iterations", -2, ValueError),
-            ("maximum_iterations", 1.5, TypeError), ("maximum_iterations", None, TypeError),
-            ("threads", 2**32 + 1, ValueError), ("threads", -1, ValueError),
-            ("threads", "2", TypeError), ("device", -2, ValueError), ("device", 2**31, ValueError),
-            ("pieces", 256, ValueError), ("pieces", numpy.float64(2), TypeError),
-            ("tolerance", "0.1", TypeError), ("tolerance", numpy.nan, ValueError),
-            ("tolerance", 10**400, ValueError), ("tolerance", [0.1], TypeError),
-            ("feature angle", numpy.inf, ValueError), ("feature angle", numpy.nan, ValueError),
-            ("track_quality", "no", TypeError), ("track_quality", 2, ValueError),
-            ("geometry", 3, ValueError), ("backend", numpy.array(["auto", "cuda"]), ValueError),
-            ("devices", 0, TypeError), ("devices", None, TypeError), ("devices", b"0", TypeError),
-            ("devices", [0.5], TypeError), ("devices", [2**40], ValueError),
-            ("devices", "0\0,1", ValueError), ("progress", 3, TypeError),
-            ("on_iteration", True, TypeError),
-        ):
-            with self.subTest(name, value=value), self.assertRaisesRegex(error, name):
-                delaunayflip.flip(POINTS, TRIANGLES, **{name.replace(" ", "_"): value})
-        with self.assertRaisesRegex(ValueError, "geometry must be one of"):
+        with self.assertRaisesRegex(ValueError, "geometry must be one of auto, planar"):
             delaunayflip.smallest_angles(POINTS, TRIANGLES, geometry="x")
         with delaunayflip.Session(POINTS, TRIANGLES) as session:
             for iterations, error in ((1.5, TypeError), (2**63, ValueError), (-2, ValueError)):
@@ -226,49 +95,54 @@ class Errors(unittest.TestCase):
                                    maximum_iterations=2**63 - 1, track_quality=numpy.bool_(True))
         self.assertEqual(result.report.total_flips, 1)
 
-    def test_arrays(self):
-        nothing = numpy.empty((0, 3))
-        masked = numpy.ma.masked_equal(POINTS, 4)
+    def test_refusals(self):
+        """Each is refused before it reaches the engine, by a message that names the argument."""
+        def mask(values, value):
+            return numpy.ma.masked_equal(values, value)
+
+        refused = {
+            "maximum_iterations": {ValueError: (2**64, -2), TypeError: (1.5, None)},
+            "threads": {ValueError: (2**32 + 1, -1), TypeError: ("2",)},
+            "device": {ValueError: (-2, 2**31)},
+            "pieces": {ValueError: (256,), TypeError: (numpy.float64(2),)},
+            "tolerance": {ValueError: (numpy.nan, 10**400), TypeError: ("0.1", [0.1])},
+            "feature_angle": {ValueError: (181, numpy.inf, numpy.nan)},
+            "track_quality": {ValueError: (2,), TypeError: ("no",)},
+            "geometry": {ValueError: (3, "round")},
+            "backend": {ValueError: (numpy.array(["auto", "cuda"]),)},
+            "devices": {ValueError: ([2**40], "0\0,1"), TypeError: (0, None, b"0", [0.5])},
+            "progress": {TypeError: (3,)},
+            "on_iteration": {TypeError: (True,)},
+            "points": {
+                ValueError: (POINTS.ravel(), POINTS[:, :1], mask(POINTS, 4), 3.0, None, [[0, 1], [2]],
+                             numpy.empty((0, 3))),
+                TypeError: (POINTS.astype(complex), POINTS.astype(str), POINTS > 0)},
+            "triangles": {
+                ValueError: (TRIANGLES[:, :2], numpy.int64(3), mask(TRIANGLES, 3)),
+                TypeError: (TRIANGLES + 0.5,),
+                delaunayflip.InvalidMesh: (TRIANGLES.astype(numpy.uint64) - numpy.uint64(1),)},
+            "constraints": {
+                ValueError: (2,), TypeError: ([[0.0, 2.0]],),
+                delaunayflip.InvalidMesh: (numpy.array([[0, 2**63]], numpy.uint64),)},
+            "regions": {ValueError: ([1, 2, 3], [1, 2**40], 1, mask([1, 2], 2)),
+                        TypeError: ([1.0, 2.0],)},
+            "frozen": {ValueError: ([numpy.nan, 0], True, mask([1, 0], 0)), TypeError: (["no", "no"],)},
+            "insert_constraints": {ValueError: (numpy.nan, [True, True]), TypeError: ("no", None)},
+        }
+        for name, errors in refused.items():
+            for error, value in ((error, value) for error in errors for value in errors[error]):
+                arguments = {"points": POINTS, "triangles": TRIANGLES, "constraints": [[0, 2]],
+                             name: value}
+                with (self.subTest(name, value=value),
+                      self.assertRaisesRegex(error, name.rstrip("s").replace("_a", "[_ ]a"))):
+                    delaunayflip.flip(**arguments)
         self.assertEqual(delaunayflip.flip(numpy.ma.array(POINTS), TRIANGLES).report.total_flips, 1)
-        for name, values, error in (
-            ("points", masked, ValueError), ("points", 3.0, ValueError), ("points", None, ValueError),
-            ("points", [[0, 1], [2]], ValueError), ("points", nothing, ValueError),
-            ("points", POINTS > 0, TypeError), ("triangles", numpy.int64(3), ValueError),
-            ("triangles", numpy.ma.masked_equal(TRIANGLES, 3), ValueError),
-            ("triangles", TRIANGLES.astype(numpy.uint64) - numpy.uint64(1), delaunayflip.InvalidMesh),
-            ("constraints", numpy.array([[0, 2**63]], numpy.uint64), delaunayflip.InvalidMesh),
-            ("constraints", [[0.0, 2.0]], TypeError), ("constraints", 2, ValueError),
-            ("regions", 1, ValueError), ("regions", [1.0, 2.0], TypeError),
-            ("regions", numpy.ma.masked_equal([1, 2], 2), ValueError),
-            ("frozen", [numpy.nan, 0], ValueError), ("frozen", ["no", "no"], TypeError),
-            ("frozen", True, ValueError), ("frozen", numpy.ma.masked_equal([1, 0], 0), ValueError),
-            ("insert_constraints", "no", TypeError), ("insert_constraints", numpy.nan, ValueError),
-            ("insert_constraints", [True, True], ValueError),
-            ("insert_constraints", None, TypeError),
-        ):
-            arguments = {"points": POINTS, "triangles": TRIANGLES, "constraints": [[0, 2]],
-                         name: values}
-            with self.subTest(name, values=values), self.assertRaisesRegex(error, name[:-1]):
-                delaunayflip.flip(**arguments)
         with self.assertRaises(delaunayflip.InvalidMesh) as caught:
             delaunayflip.flip(POINTS, numpy.array([[0, 1, 2], [0, 2, 2**64 - 1]], numpy.uint64))
         self.assertEqual((caught.exception.cell, caught.exception.point), (1, 2**64 - 1))
         for others in ({"triangles": TRIANGLES}, {"triangles": [], "constraints": [[0, 1]]}):
             with self.assertRaisesRegex(delaunayflip.InvalidMesh, "there are no points"):
                 delaunayflip.flip([], **others)
-
-    @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
-    def test_smallest_angles_of_arrays_on_a_gpu(self):
-        class Array:
-            __module__ = "cupy"
-            __cuda_array_interface__ = {}
-
-            def __init__(self, values):
-                self.get = lambda: values
-
-        numpy.testing.assert_array_equal(
-            delaunayflip.smallest_angles(Array(POINTS), Array(TRIANGLES)),
-            delaunayflip.smallest_angles(POINTS, TRIANGLES))
 
     @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")
     def test_arrays_of_other_libraries_on_a_gpu(self):
@@ -337,10 +211,6 @@ class Errors(unittest.TestCase):
         with self.assertRaises(delaunayflip.BackendUnavailable):
             delaunayflip.flip(POINTS, TRIANGLES, backend="cuda")
 
-    def test_a_name_that_is_not_there(self):
-        with self.assertRaises(AttributeError):
-            delaunayflip.flop
-
 
 class Callbacks(unittest.TestCase):
     def test_progress(self):
@@ -349,9 +219,6 @@ class Callbacks(unittest.TestCase):
         delaunayflip.flip(points, triangles, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
         self.assertEqual(shares[-1], 1.0)
-
-    def test_progress_aborts(self):
-        points, triangles = sheared_lattice(50)
         result = delaunayflip.flip(points, triangles, progress=lambda share: False)
         self.assertEqual(result.report.stop_reason, "aborted")
         self.assertEqual(result.report.non_delaunay_after, -1)
@@ -405,7 +272,7 @@ class Callbacks(unittest.TestCase):
         )
         with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True,
-                              cwd=os.path.dirname(os.path.abspath(__file__))) as process:
+                              cwd=pathlib.Path(__file__).parent) as process:
             self.assertEqual(process.stdout.readline(), "ready\n")
             process.send_signal(signal.SIGINT)
             try:
@@ -428,9 +295,16 @@ class Session(unittest.TestCase):
                 self.assertEqual(session.report.stop_reason, "running")
             stepped = session.triangles
             self.assertEqual(session.flip_counts.sum(), 2 * session.report.total_flips)
+            target = numpy.zeros_like(stepped, dtype=numpy.int32)
+            session.store_triangles(target)
+            for wrong, error in ((target.T, ValueError), (target[1:], ValueError),
+                                 (target.tolist(), TypeError), (None, TypeError)):
+                with self.assertRaisesRegex(error, "target must be"):
+                    session.store_triangles(wrong)
         self.assertGreater(steps, 2)
         whole = delaunayflip.flip(points, triangles)
         numpy.testing.assert_array_equal(stepped, whole.triangles)
+        numpy.testing.assert_array_equal(target, whole.triangles)
 
     def test_closed(self):
         session = delaunayflip.Session(POINTS, TRIANGLES)
@@ -467,28 +341,6 @@ class Session(unittest.TestCase):
                 copy_it(session)
         session.close()
 
-    def test_targets(self):
-        with delaunayflip.Session(POINTS, TRIANGLES) as session, tempfile.TemporaryFile() as file:
-            session.advance()
-            file.write(bytes(TRIANGLES))
-            for kind in (numpy.int32, numpy.int64):
-                target = numpy.zeros((2, 3), dtype=kind)
-                session.store_triangles(target)
-                numpy.testing.assert_array_equal(target, session.triangles)
-            read_only = numpy.zeros((2, 3), dtype=int)
-            read_only.flags.writeable = False
-            for target in (numpy.zeros((2, 3), dtype=">i8"), read_only, numpy.zeros((3, 2), int).T,
-                           numpy.memmap(file, dtype=int, mode="r", shape=(2, 3)),
-                           numpy.zeros((2, 3)), numpy.zeros((1, 3), int), numpy.zeros((2, 6), int)[:, ::2],
-                           numpy.frombuffer(bytearray(49), int, offset=1).reshape(2, 3)):
-                before = target.copy()
-                with self.assertRaisesRegex(ValueError, "target must be"):
-                    session.store_triangles(target)
-                numpy.testing.assert_array_equal(target, before)
-            for target in ([[0, 0, 0]] * 2, numpy.ma.zeros((2, 3), int), None):
-                with self.assertRaisesRegex(TypeError, "target must be"):
-                    session.store_triangles(target)
-
     def test_it_keeps_its_arrays_alive(self):
         points, triangles = sheared_lattice(20)
         expected = delaunayflip.flip(points, triangles).triangles
@@ -500,38 +352,34 @@ class Session(unittest.TestCase):
         session.advance()
         numpy.testing.assert_array_equal(session.triangles, expected)
 
-    def test_a_failing_one_is_freed(self):
-        with self.assertRaises(delaunayflip.InvalidMesh):
-            delaunayflip.Session(POINTS, [[0, 1, 9]])
-        gc.collect()
+
+def run_python(program):
+    return subprocess.run([sys.executable, "-c", program], check=True, capture_output=True,
+                          text=True).stdout
 
 
 class Package(unittest.TestCase):
-    def test_version(self):
-        project = (ROOT / "CMakeLists.txt").read_text()
-        self.assertIn(f"VERSION {delaunayflip.__version__} ", project)
-
     def test_arrays_need_no_vtk(self):
         program = ("import sys, delaunayflip\n"
+                   "assert 'numpy' not in sys.modules\n"
                    "delaunayflip.flip([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])\n"
                    "print([name for name in sys.modules if 'vtk' in name])")
-        output = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True,
-                                text=True).stdout
-        self.assertEqual(output, "[]\n")
+        self.assertEqual(run_python(program), "[]\n")
 
-    def test_the_package_itself_needs_no_numpy(self):
-        program = "import sys, delaunayflip; print('numpy' in sys.modules)"
-        output = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True,
-                                text=True).stdout
-        self.assertEqual(output, "False\n")
+    def test_help(self):
+        """It looks up all names, also where VTK is not installed."""
+        program = ("import sys, pydoc, delaunayflip\n"
+                   "sys.modules['vtkmodules'] = None\n"
+                   "print('vtkDelaunayFlip' in dir(delaunayflip), len(pydoc.render_doc(delaunayflip)))")
+        self.assertRegex(run_python(program), r"^False \d{5}")
+        self.assertFalse(hasattr(delaunayflip, "flop"))
 
     def test_docstrings(self):
-        import delaunayflip._flip as flip_module
-        import delaunayflip._session as session_module
-        for module in (flip_module, session_module):
-            result = doctest.testmod(module)
-            self.assertGreater(result.attempted, 2)
-            self.assertEqual(result.failed, 0)
+        import delaunayflip._session
+
+        result = doctest.testmod(delaunayflip._session)
+        self.assertGreater(result.attempted, 5)
+        self.assertEqual(result.failed, 0)
 
 
 class Header(unittest.TestCase):
@@ -570,10 +418,6 @@ class Header(unittest.TestCase):
                 self.assertEqual(words[int(value)], word)
                 plain = word.upper().replace("-", "_").replace(" ", "_")
                 self.assertIn(plain, constant)
-
-    def test_interface_version(self):
-        version = re.search(r"INTERFACE_VERSION (\d+)", self.HEADER).group(1)
-        self.assertEqual(int(version), _library.INTERFACE_VERSION)
 
 
 if __name__ == "__main__":

@@ -4,11 +4,10 @@
 import math
 import random
 import re
-import threading
 import unittest
 
-from delaunayflip import flip, vtkDelaunayFlip as CxxFilter
-from delaunayflip._vtk_filter import vtkDelaunayFlip as PythonFilter
+from delaunayflip import vtkDelaunayFlip as CxxFilter
+from delaunayflip._vtk_filter import _ANSWERS, vtkDelaunayFlip as PythonFilter
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -61,19 +60,6 @@ def add_ghosts(mesh):
     ghosts.SetName("vtkGhostType")
     for cell in range(mesh.GetNumberOfCells() // 2):
         ghosts.InsertNextValue(cell % 3)
-    mesh.GetCellData().AddArray(ghosts)
-
-
-GHOST_FAULTS = (
-    (numpy.int32, '1 ghost array that is not of type unsigned char ignored: "vtkGhostType"'),
-    (numpy.uint8, '1 ghost array with several components ignored: "vtkGhostType"'))
-
-
-def add_wrong_ghosts(mesh, kind):
-    """Of type int; or unsigned char, with two components."""
-    shape = (mesh.GetNumberOfCells(),) + (2,) * (kind == numpy.uint8)
-    ghosts = numpy_to_vtk(numpy.ones(shape, kind), deep=True)
-    ghosts.SetName("vtkGhostType")
     mesh.GetCellData().AddArray(ghosts)
 
 
@@ -154,51 +140,27 @@ def join(parts):
     return data
 
 
-class Both:
-    """The two filters on one input. `prepare` sets them up."""
-
-    def __init__(self, data, prepare=lambda flip: None):
-        self.pair = [Watched(data, kind) for kind in (CxxFilter, PythonFilter)]
-        for watched in self.pair:
-            prepare(watched.filter)
-
-    def read(self):
-        """What each has put out and told."""
-        results = []
-        for watched in self.pair:
-            watched.filter.Update()
-            output = watched.filter.GetOutputDataObject(0)
-            blocks = list_blocks(output)
-            results.append({
-                "meshes": [read_mesh(block) for block in blocks],
-                "table": [read_array(column) for column in
-                          list_arrays(watched.filter.GetIterations().GetRowData())
-                          if column.GetName() != "Seconds"],
-                "errors": get_text(watched.errors), "warnings": get_text(watched.warnings),
-                "answers": [getattr(watched.filter, name)() for name in ANSWERS]})
-        return results
+ANSWERS = sorted(_ANSWERS.keys() - {"Advance", "Step", "GetNeedsUpdate"})
 
 
-def list_answers():
-    """The methods that return what the last update did."""
-    own = [name for name in dir(CxxFilter) if name.startswith("Get") and name in dir(PythonFilter)]
-    others = dir(vtkObject) + ["Get" + name for name in list_properties()]
-    left_out = {"GetProgress", "GetIterations", "GetNeedsUpdate", "GetMTime"}
-    return [name for name in own if name not in others and name not in left_out
-            and name.startswith(("GetNumberOfIterations", "GetTotal", "GetNumberOfConstraint",
-                                 "GetNumberOfUnmatched", "GetNumberOfInserted", "GetNumberOfNon",
-                                 "GetNumberOfEdges", "GetConverged", "GetStop", "GetGeometryUsed",
-                                 "GetGeometryReason", "GetBackendUsed", "GetFailure", "GetError"))]
-
-
-ANSWERS = list_answers()
+def run(kind, data, prepare=lambda flip: None):
+    """What a filter puts out and tells for an input. `prepare` sets it up."""
+    watched = Watched(data, kind)
+    prepare(watched.filter)
+    watched.filter.Update()
+    return {
+        "meshes": [read_mesh(block) for block in list_blocks(watched.filter.GetOutputDataObject(0))],
+        "table": [read_array(column) for column in list_arrays(watched.filter.GetIterations().GetRowData())
+                  if column.GetName() != "Seconds"],
+        "errors": get_text(watched.errors), "warnings": get_text(watched.warnings),
+        "answers": {name: getattr(watched.filter, name)() for name in ANSWERS}}
 
 
 class Same(unittest.TestCase):
 
     def expect_same(self, data, prepare=lambda flip: None):
         self.maxDiff = 2000
-        cxx, python = Both(data, prepare).read()
+        cxx, python = (run(kind, data, prepare) for kind in (CxxFilter, PythonFilter))
         for key in cxx:
             self.assertEqual(cxx[key], python[key], key)
         return cxx
@@ -209,22 +171,10 @@ class Same(unittest.TestCase):
                if name[0] != "_" and not name.endswith("Type") and name != "SetOutput"}
         self.assertEqual(own - set(dir(PythonFilter)), set())
         self.assertIsNot(CxxFilter, PythonFilter)
-        self.assertGreater(len(ANSWERS), 15)
         for name in own:
             value = getattr(CxxFilter, name)
             if isinstance(value, int):
                 self.assertEqual(getattr(PythonFilter, name), value, name)
-
-    def test_snake_case(self):
-        """As VTK 9.6 gives it to C++ classes."""
-        flip = PythonFilter()
-        flip.SetInputData(make_bad_mesh())
-        flip.Update()
-        self.assertGreater(flip.total_flips, 0)
-        self.assertEqual(flip.number_of_iterations, flip.GetNumberOfIterations())
-        self.assertTrue(flip.converged)
-        with self.assertRaises(AttributeError):
-            flip.total_flips = 3
 
     def test_defaults_and_limits(self):
         cxx, python = CxxFilter(), PythonFilter()
@@ -236,10 +186,6 @@ class Same(unittest.TestCase):
                     getattr(python, "Set" + name)(value)
                     self.assertEqual(
                         getattr(cxx, "Get" + name)(), getattr(python, "Get" + name)(), name)
-
-    def test_triangles(self):
-        told = self.expect_same(make_bad_mesh())
-        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 100)
 
     def test_polygons_and_attributes(self):
         def prepare(flip):
@@ -267,12 +213,6 @@ class Same(unittest.TestCase):
                         flip.SetConstraintsData(constraints)
                         getattr(flip, "Set" + settings)(settings == "InsertLines")
                     self.expect_same(data, prepare)
-
-    def test_constraints_by_id(self):
-        lines = vtkPolyData()
-        lines.SetLines(make_cells([(0, 40), (3, 4, 5)]))
-        told = self.expect_same(make_bad_mesh(), lambda flip: flip.SetConstraintsData(lines))
-        self.assertGreater(told["answers"][ANSWERS.index("GetNumberOfInsertedConstraintEdges")], 0)
 
     def test_regions(self):
         mesh = make_polygon_mesh()
@@ -303,6 +243,9 @@ class Same(unittest.TestCase):
         for data in (mesh.GetCellData(), mesh.GetPointData()):
             data.AddArray(short)
         mesh.GetPoints().SetPoint(7, math.nan, 0, 0)
+        ghosts = numpy_to_vtk(numpy.ones(mesh.GetNumberOfCells(), numpy.int32), deep=True)
+        ghosts.SetName("vtkGhostType")
+        mesh.GetCellData().AddArray(ghosts)
         told = self.expect_same(mesh)
         self.assertIn("Short", told["warnings"][0])
 
@@ -318,42 +261,6 @@ class Same(unittest.TestCase):
         self.assertEqual(len(told["warnings"]), 1)
         self.assertEqual(len(told["errors"]), 1)
 
-    def test_cells_without_points(self):
-        """Strips, polygons, lines and verts of no, one or two points are kept as they are."""
-        for short in ([()], [(0,), (1, 2)], [(), (1, 2), (3,)]):
-            for place, name in enumerate(("SetVerts", "SetLines", "SetPolys", "SetStrips"), 1):
-                mesh = make_rhombus()
-                mesh.SetPolys(make_cells([]))
-                getattr(mesh, name)(make_cells(short))
-                told = self.expect_same(mesh)
-                self.assertEqual(told["errors"], [])
-                self.assertEqual(told["meshes"][0][place][0], short)
-
-    def test_blocks_without_angles(self):
-        nowhere = make_bad_mesh()
-        vtk_to_numpy(nowhere.GetPoints().GetData())[:] = math.nan
-        for meshes in ((nowhere, make_bad_mesh()), (make_bad_mesh(), nowhere)):
-            blocks = vtkMultiBlockDataSet()
-            for i, mesh in enumerate(meshes):
-                blocks.SetBlock(i, mesh)
-            told = Watched(blocks, PythonFilter)
-            told.filter.TrackQualityOn()
-            told.filter.Update()
-            angles = told.filter.GetIterations().GetColumnByName("MinimumAngle")
-            self.assertGreater(angles.GetNumberOfValues(), 3)
-            self.assertTrue(numpy.isfinite(vtk_to_numpy(angles)).all())
-
-    def test_wrong_ghosts(self):
-        """In a mesh and in blocks."""
-        for kind, fault in GHOST_FAULTS:
-            mesh = make_polygon_mesh()
-            add_wrong_ghosts(mesh, kind)
-            self.assertIn(fault, self.expect_same(mesh)["warnings"][0])
-            blocks = vtkMultiBlockDataSet()
-            for i, block in enumerate((make_bad_mesh(), mesh)):
-                blocks.SetBlock(i, block)
-            self.assertRegex(self.expect_same(blocks)["warnings"][0], f"^block 2: .*{fault}$")
-
     def test_aborts(self):
         def stop(flip, _event):
             flip.SetAbortExecute(flip.GetNumberOfIterations() == self.last)
@@ -364,12 +271,12 @@ class Same(unittest.TestCase):
 
         for self.last in (0, 2):
             told = self.expect_same(make_polygon_mesh(), prepare)
-            self.assertIn("aborted", told["answers"])
+            self.assertEqual(told["answers"]["GetStopReasonAsString"], "aborted")
 
     def test_pieces(self):
         told = self.expect_same(make_bad_mesh(), lambda flip: (
             flip.SetNumberOfPieces(3), flip.GenerateFlipCountOn()))
-        self.assertGreater(told["answers"][ANSWERS.index("GetTotalFlips")], 100)
+        self.assertGreater(told["answers"]["GetTotalFlips"], 100)
 
 
 class OnlyInCxx(unittest.TestCase):
@@ -423,31 +330,14 @@ class TwoEngines(unittest.TestCase):
 
     def test_one_thread_pool(self):
         """Built together, they share the oneTBB of the system."""
-        Both(make_rhombus()).read()
+        for kind in (CxxFilter, PythonFilter):
+            run(kind, make_rhombus())
         with open("/proc/self/maps", encoding="ascii") as maps:
             loaded = {line.split("/")[-1].strip() for line in maps if "/" in line}
         engines = {name.split(".")[0] for name in loaded
                    if name.startswith(("libdelaunayflip.so", "libvtkDelaunayFlipFilters.so"))}
         self.assertEqual(len(engines), 2, loaded)
         self.assertEqual(len([name for name in loaded if re.match(r"libtbb[-.]", name)]), 1)
-
-    def test_at_the_same_time(self):
-        mesh = make_bad_mesh(20000)
-        arrays = (vtk_to_numpy(mesh.GetPoints().GetData()),
-                  vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3))
-        results = []
-        thread = threading.Thread(
-            target=lambda: results.extend(flip(*arrays).triangles for _ in range(3)))
-        watched = Watched(mesh)
-        thread.start()
-        for _ in range(3):
-            watched.filter.Modified()
-            cells = watched.run().GetPolys().GetConnectivityArray()
-            results.append(vtk_to_numpy(cells).reshape(-1, 3).copy())
-        thread.join()
-        self.assertEqual(len(results), 6)
-        for triangles in results:
-            numpy.testing.assert_array_equal(triangles, results[0])
 
 
 if __name__ == "__main__":

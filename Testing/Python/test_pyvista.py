@@ -26,12 +26,19 @@ def load(name):
         raise unittest.SkipTest(f"no {name}: {error}") from None
 
 
+KITE = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]]
+LONG, SHORT = [[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]  # diagonals
+
+
+def as_set(faces):
+    return {frozenset(face) for face in numpy.asarray(faces).tolist()}
+
+
 class Docstrings(unittest.TestCase):
 
     def check(self, other):
         load(other)
-        module = importlib.import_module(f"delaunayflip.{other}")
-        results = doctest.testmod(module)
+        results = doctest.testmod(importlib.import_module(f"delaunayflip.{other}"))
         self.assertGreater(results.attempted, 0)
         self.assertEqual(results.failed, 0)
 
@@ -47,44 +54,33 @@ class Docstrings(unittest.TestCase):
 
 class MeshIO(unittest.TestCase):
 
-    def test_other_cells_stay(self):
+    def test_cells(self):
         meshio = load("meshio")
         from delaunayflip.meshio import flip
-        points = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]]
-        cells = [("triangle", [[0, 1, 2]]), ("vertex", [[3]]), ("triangle", [[0, 2, 3]])]
-        better = flip(meshio.Mesh(points, cells, cell_data={"n": [[5], [6], [7]]}))
+        cells = [("triangle", LONG[:1]), ("vertex", [[3]]), ("triangle", LONG[1:])]
+        better = flip(meshio.Mesh(KITE, cells, cell_data={"n": [[5], [6], [7]]}))
         self.assertEqual([block.type for block in better.cells], ["triangle", "vertex", "triangle"])
-        self.assertEqual(len(better.cells[2].data), 1)
-        flipped = {frozenset(row) for row in better.cells_dict["triangle"].tolist()}
-        self.assertEqual(flipped, {frozenset((0, 1, 3)), frozenset((1, 2, 3))})
+        self.assertEqual(as_set(better.cells_dict["triangle"]), as_set(SHORT))
         self.assertEqual([values.tolist() for values in better.cell_data["n"]], [[5], [6], [7]])
-        fixed = flip(meshio.Mesh(points, [*cells, ("line", [[0, 2]])]))
-        self.assertIn([0, 1, 2], fixed.cells[0].data.tolist())
+        for faces, line, constraints, expected in (
+                (LONG, [0, 2], None, LONG),  # a line stays, but is not inserted
+                (SHORT, [0, 2], None, SHORT), (SHORT, [0, 1], [[0, 2]], LONG)):
+            made = flip(meshio.Mesh(KITE, [("triangle", faces), ("line", [line])]),
+                        constraints=constraints)
+            self.assertEqual(as_set(made.cells[0].data), as_set(expected))
         with self.assertRaisesRegex(TypeError, "meshio.Mesh, not list"):
-            flip(points)
-
-    def test_lines_are_not_inserted(self):
-        meshio = load("meshio")
-        from delaunayflip.meshio import flip
-        points = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]]
-        faces = [[0, 1, 3], [1, 2, 3]]
-        lines = flip(meshio.Mesh(points, [("triangle", faces), ("line", [[0, 2]])]))
-        self.assertEqual(lines.cells[0].data.tolist(), faces)
-        both = flip(meshio.Mesh(points, [("triangle", faces), ("line", [[0, 1]])]), constraints=[[0, 2]])
-        self.assertEqual({frozenset(face) for face in both.cells[0].data.tolist()},
-                         {frozenset((0, 1, 2)), frozenset((0, 2, 3))})
+            flip(KITE)
 
     def test_sets_and_info_stay(self):
         meshio = load("meshio")
         from delaunayflip.meshio import flip
-        points = numpy.array([[0.0, 2, 4, 2], [0, -1, 0, 1]]).T  # in Fortran order
+        points = numpy.asfortranarray(KITE)
         given = meshio.Mesh(
-            points, [meshio.CellBlock("triangle", [[0, 1, 2], [0, 2, 3]], tags=["skin"])],
+            points, [meshio.CellBlock("triangle", LONG, tags=["skin"])],
             point_data={"p": [1, 2, 3, 4]}, field_data={"f": [1]}, point_sets={"a": [0, 1]},
             cell_sets={"b": [numpy.array([1])]}, gmsh_periodic=[1], info={"by": "me"})
         better = flip(given)
-        self.assertEqual({frozenset(face) for face in better.cells[0].data.tolist()},
-                         {frozenset((0, 1, 3)), frozenset((1, 2, 3))})
+        self.assertEqual(as_set(better.cells[0].data), as_set(SHORT))
         for name in ("field_data", "point_sets", "cell_sets", "gmsh_periodic", "info"):
             self.assertEqual(getattr(better, name), getattr(given, name), name)
         self.assertEqual(better.cells[0].tags, ["skin"])
@@ -97,12 +93,11 @@ class Trimesh(unittest.TestCase):
         trimesh = load("trimesh")
         from delaunayflip.trimesh import flip
         given = trimesh.Trimesh(
-            [[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], [[0, 1, 2], [0, 2, 3]], process=False,
-            metadata={"by": "me"}, face_colors=[[255, 0, 0, 255], [0, 255, 0, 255]],
+            KITE, LONG, process=False, metadata={"by": "me"},
+            face_colors=[[255, 0, 0, 255], [0, 255, 0, 255]],
             face_attributes={"f": numpy.arange(2)}, vertex_attributes={"v": numpy.arange(4)})
         better = flip(given)
-        self.assertEqual(sorted(sorted(face) for face in better.faces.tolist()),
-                         [[0, 1, 3], [1, 2, 3]])
+        self.assertEqual(as_set(better.faces), as_set(SHORT))
         self.assertEqual(better.metadata["by"], "me")
         numpy.testing.assert_array_equal(better.visual.face_colors, given.visual.face_colors)
         numpy.testing.assert_array_equal(better.face_attributes["f"], [0, 1])
@@ -138,23 +133,7 @@ class PyVista(unittest.TestCase):
         numpy.testing.assert_array_equal(better.delaunay.smallest_angles(), arrays)
         self.assertGreater(arrays.min(), self.mesh.triangulate().delaunay.smallest_angles().min())
 
-    def test_constraints(self):
-        line = self.pyvista.Line(self.mesh.points[0], self.mesh.points[-1], resolution=1)
-        better = self.mesh.delaunay.flip(constraints=line)
-        self.assertGreater(int(better.field_data["DelaunayFlip:ConstraintEdges"][0]), 0)
-
-    def test_errors(self):
-        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "tie rule"):
-            self.mesh.delaunay.flip(geometry="surface", tie_rule="canonical")
-        with self.assertRaisesRegex(ValueError, "planar-xy"):
-            self.mesh.delaunay.flip(geometry="round")
-        with self.assertRaisesRegex(TypeError, "geometri"):
-            self.mesh.delaunay.flip(geometri="planar")
-        self.mesh.points[5] = numpy.nan
-        with self.assertWarnsRegex(UserWarning, "NaN|finite"):
-            self.mesh.delaunay.flip()
-
-    def test_other_data_is_refused(self):
+    def test_what_is_refused(self):
         pyvista, flip = self.pyvista, self.mesh.delaunay.flip
         functions = [importlib.import_module("delaunayflip.pyvista").flip,
                      delaunayflip.pyvista.smallest_angles, delaunayflip.pyvista.plot_quality]
@@ -169,11 +148,14 @@ class PyVista(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no triangles"):
             self.mesh.delaunay.smallest_angles()
         for name, value, error in (
-                ("feature_angle", 181, ValueError), ("maximum_iterations", -2, ValueError),
-                ("threads", 2**32, ValueError), ("pieces", 256, ValueError),
+                ("feature_angle", 181, delaunayflip.InvalidOptions), ("threads", 2**32, ValueError),
+                ("geometri", "planar", TypeError), ("regions", [], TypeError),
                 ("triangulate", "no", TypeError), ("region_array", "no", ValueError)):
             with self.assertRaisesRegex(error, name.replace("feature_angle", "feature angle")):
                 flip(**{name: value})
+        self.mesh.points[5] = numpy.nan
+        with self.assertWarnsRegex(UserWarning, "NaN|finite"):
+            flip()
 
     def test_attributes(self):
         mesh = self.mesh

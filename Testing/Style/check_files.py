@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: check_files.py licences|sizes|words|markdown|release ROOT
+"""Usage: check_files.py CHECK ROOT
 
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
@@ -9,43 +9,86 @@ words: the libraries never print to standard output and never end the process.
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.
 release: the citation and the changelog have the version that CMakeLists.txt has.
+format: C++ files are formatted as by clang-format 14 with the project's .clang-format. Other
+versions differ in details, so without this one the check is skipped.
+functions: no function is longer than 80 lines, counted from the line of the name to the closing
+brace. Skipped without universal-ctags.
 """
 
+import glob
+import json
 import os
 import re
+import shutil
+import subprocess
 import sys
 
-from source_tree import CPP_SUFFIXES, finish, list_files, read
+SKIPPED = 125  # CTest's SKIP_RETURN_CODE in this project
+CPP_SUFFIXES = (".h", ".c", ".cpp", ".cxx", ".cuh", ".cu")
 
-LICENCE = (
+LICENCE = [
     "SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers",
     "SPDX-License-Identifier: BSD-3-Clause",
-)
+]
 LICENSED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake")
 
 LARGEST = 1_000_000  # bytes
+LONGEST = 80  # lines of a function
+WIDEST = 99  # columns of a page
+FORMAT_VERSION = "14"
 
-LIBRARY_FOLDERS = ("CInterface/", "CUDA/", "Engine/", "Filters/", "Plugin/", "Rendering/")
+LIBRARY_FOLDERS = (
+    "CInterface/", "CUDA/", "Engine/", "Filters/", "FiltersParallel/", "Plugin/", "Rendering/")
 FORBIDDEN = re.compile(
-    r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b"
-)
+    r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b")
 COMMENT_OR_STRING = re.compile(
-    r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL
-)
-
-MARKDOWN_COLUMNS = 100
+    r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 MARKDOWN_CODE = re.compile(r"^```.*?^```|(?:\A|(?<=\n\n))(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
 LINK_TARGET = re.compile(r"\]\([^)]*\)")
 
+FORMATTER = [f"clang-format-{FORMAT_VERSION}", "--style=file", "--dry-run", "--Werror"]
+CTAGS = [
+    "ctags", "--options=NONE", "--languages=C++,Python", "--langmap=C++:+.h.cuh.cu", "--kinds-C++=f",
+    "--kinds-Python=fm", "--fields=+ne", "--output-format=json", "-f", "-", "-L", "-"]
+
+
+def list_files(root, suffixes=""):
+    """Paths, relative to `root`, of the project's files: what git tracks or would track."""
+    command = ["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard", "-z"]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    paths = run.stdout.split("\0")
+    if run.returncode != 0:  # not in git, as in an unpacked archive
+        paths = [os.path.relpath(path, root) for path in glob.glob(f"{root}/**", recursive=True)]
+        paths = [path for path in paths if not re.match("build|.*-output/|.*__pycache__", path)]
+    return sorted(path for path in paths
+                  if path.endswith(suffixes) and os.path.isfile(os.path.join(root, path)))
+
+
+def read(root, path):
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def finish(what, problems):
+    """Prints the problems, one per line, and ends the process: 1 with any, 0 with none."""
+    for problem in problems:
+        print(problem)
+    print(f"{what}: {len(problems)} problems")
+    sys.exit(1 if problems else 0)
+
+
+def require(program):
+    """Skips the check without the program."""
+    if not shutil.which(program):
+        print(f"skipped: needs {program}")
+        sys.exit(SKIPPED)
+
 
 def check_licences(root):
-    for path in list_files(root):
-        if not path.endswith(LICENSED_SUFFIXES):
-            continue
+    for path in list_files(root, LICENSED_SUFFIXES):
         lines = read(root, path).splitlines()
         start = 1 if lines and lines[0].startswith("#!") else 0
-        head = [line.lstrip("/#* ") for line in lines[start : start + 2]]
-        if tuple(head) != LICENCE:
+        if [line.lstrip("/#* ") for line in lines[start : start + 2]] != LICENCE:
             yield f"{path}: does not begin with the two SPDX lines"
 
 
@@ -56,61 +99,60 @@ def check_sizes(root):
             yield f"{path}: {size} bytes"
 
 
+def list_lines(root, path, left_out):
+    """(where, line) of the file, without what matches `left_out`."""
+    text = left_out.sub(lambda match: "\n" * match.group().count("\n"), read(root, path))
+    for number, line in enumerate(text.splitlines(), 1):
+        yield f"{path}:{number}", line
+
+
 def check_words(root):
-    for path in list_files(root):
-        if not path.startswith(LIBRARY_FOLDERS) or not path.endswith(CPP_SUFFIXES):
-            continue
-        text = blank(COMMENT_OR_STRING, read(root, path))
-        for number, line in enumerate(text.splitlines(), 1):
-            for word in FORBIDDEN.findall(line):
-                yield f"{path}:{number}: {word}"
+    for path in list_files(root, CPP_SUFFIXES):
+        if path.startswith(LIBRARY_FOLDERS):
+            for where, line in list_lines(root, path, COMMENT_OR_STRING):
+                yield from (f"{where}: {word}" for word in FORBIDDEN.findall(line))
 
 
 def check_markdown(root):
-    for path in list_files(root):
-        if not path.endswith(".md"):
-            continue
-        text = blank(MARKDOWN_CODE, read(root, path))
-        for number, line in enumerate(text.splitlines(), 1):
+    for path in list_files(root, ".md"):
+        for where, line in list_lines(root, path, MARKDOWN_CODE):
             columns = len(LINK_TARGET.sub("]", line))
-            if columns >= MARKDOWN_COLUMNS and not line.startswith(("|", "![")):
-                yield f"{path}:{number}: {columns} columns"
+            if columns > WIDEST and not line.startswith(("|", "![")):
+                yield f"{where}: {columns} columns"
 
 
 def check_release(root):
-    version = find(r"^project\(\w+ VERSION ([\d.]+)", read(root, "CMakeLists.txt"))
-    cited = find(r"^version: (\S+)", read(root, "CITATION.cff"))
-    if cited != version:
-        yield f"CITATION.cff: version {cited}, but CMakeLists.txt has {version}"
-    newest = find(r"^## \[(\d[^]]*)\] - ", read(root, "CHANGELOG.md"))
-    if newest != version:
-        yield f"CHANGELOG.md: newest version {newest}, but CMakeLists.txt has {version}"
+    version, cited, newest = (
+        re.search(pattern, read(root, path), re.MULTILINE).group(1) for path, pattern in (
+            ("CMakeLists.txt", r"^project\(\w+ VERSION ([\d.]+)"), ("CITATION.cff", r"^version: (\S+)"),
+            ("CHANGELOG.md", r"^## \[(\d[^]]*)\] - ")))
+    for path, found in (("CITATION.cff", cited), ("CHANGELOG.md", newest)):
+        if found != version:
+            yield f"{path}: version {found}, but CMakeLists.txt has {version}"
 
 
-def find(pattern, text):
-    """The group of the first match; None without one."""
-    match = re.search(pattern, text, re.MULTILINE)
-    return match and match.group(1)
+def check_format(root):
+    require(FORMATTER[0])
+    run = subprocess.run([*FORMATTER, *list_files(root, CPP_SUFFIXES)], capture_output=True, text=True,
+                         cwd=root, check=False)
+    for path in sorted(set(re.findall(r"^(\S+):\d+:\d+: error:", run.stderr, re.MULTILINE))):
+        yield f"{path}: run clang-format -i on it"
+    if run.returncode != 0 and "error:" not in run.stderr:
+        yield run.stderr
 
 
-def blank(pattern, text):
-    """The text without the matches, but with all line breaks."""
-    return pattern.sub(lambda match: "\n" * match.group().count("\n"), text)
-
-
-CHECKS = {
-    "licences": check_licences,
-    "sizes": check_sizes,
-    "words": check_words,
-    "markdown": check_markdown,
-    "release": check_release,
-}
-
-
-def main():
-    name, root = sys.argv[1:3]
-    finish(name, list(CHECKS[name](root)))
+def check_functions(root):
+    require("ctags")
+    listing = subprocess.run(CTAGS, input="\n".join(list_files(root, CPP_SUFFIXES + (".py",))),
+                             capture_output=True, text=True, cwd=root, check=True).stdout
+    tags = [json.loads(line) for line in listing.splitlines()]
+    if not tags:
+        yield "ctags found no function at all"
+    for tag in tags:
+        lines = tag.get("end", 0) - tag["line"] + 1
+        if lines > LONGEST:
+            yield f"{tag['path']}:{tag['line']} {tag['name']}: {lines} lines"
 
 
 if __name__ == "__main__":
-    main()
+    finish(sys.argv[1], list(globals()[f"check_{sys.argv[1]}"](sys.argv[2])))

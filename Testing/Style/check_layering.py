@@ -13,7 +13,7 @@ import os
 import re
 import sys
 
-from source_tree import CPP_SUFFIXES, finish, list_files, read
+from check_files import CPP_SUFFIXES, finish, list_files, read
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 

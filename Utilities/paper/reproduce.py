@@ -1,42 +1,165 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the parts of a reproduction of the paper that have not run yet, then draws and writes the
-report. reproduce_paper.sh calls it with the programs that it needs; its --help has the options."""
+"""Runs the parts of a reproduction of the paper that have not run yet, then writes the report.
+reproduce_paper.sh calls it with the programs that it needs; its --help has the options. A part is a
+command that writes one JSON file, OUTPUT/parts/NAME.json, and ends within nine minutes."""
 
 import argparse
-import dataclasses
+import glob
+import json
 import os
 import platform
 import re
+import statistics
 import subprocess
 import sys
 import time
 
-import parts
-import surfaces
-from results import Results, read_json, write_json
+HERE = os.path.dirname(os.path.abspath(__file__))
+RIVALS = os.path.join(HERE, "rivals.py")
+LONGEST = 540  # seconds that a part may take
+
+EPSILONS = (1e-7, 1e-6, 1e-5, 1e-4, 5e-4, 1e-3)
+FEATURE_ANGLES = "20,30,60,180"
+SURFACE_THRESHOLD = 30  # degrees; the paper does not say which it took
+GENERATED = {"torus", "noisy-torus", "decimated-torus"}
+
+# How large a reproduction is: points of the random bad meshes, more of them for a GPU alone, the
+# largest for Fig. 8b and for other people's programs, triangles of chains, points of the tests, of
+# ruined surfaces and of the tori, and options of time.
+SCALES = {
+    "test": dict(sizes=(1000, 2000, 4000), gpu_sizes=(), largest=2000, chain=(6, 10, 50),
+                 tests=1000, ruined=1500, surface=3000, timing=(1, 1)),
+    "quick": dict(sizes=(100_000, 300_000, 1_000_000), gpu_sizes=(), largest=100_000,
+                  chain=(6, 10, 30, 100, 300, 1000), tests=20_000, ruined=20_000,
+                  surface=100_000, timing=(3, 8)),
+    "full": dict(sizes=(100_000, 250_000, 500_000, 1_000_000, 2_000_000, 5_000_000),
+                 gpu_sizes=(20_000_000, 100_000_000), largest=5_000_000,
+                 chain=(6, 10, 30, 100, 300, 1000, 3000, 10_000), tests=1_000_000,
+                 ruined=200_000, surface=1_586_302, timing=(5, 10)),
+}
+# How each is ruined, and its file.
+RUINED = (("flips", "good", "torus"), ("flips", "good", "box"), ("splits", "good", "torus"),
+          ("splits", "good", "box"), ("anisotropic", "anisotropic", "torus"))
+# Beyond these numbers of points, single runs of other people's programs take longer than a part may;
+# the time grows almost with their square.
+RIVAL_LARGEST = {"scipy": 5_000_000, "triangle": 5_000_000, "vtk": 100_000, "startinpy": 1_000_000}
 
 
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", help="folder of the report")
-    parser.add_argument("--scale", choices=parts.SCALES, default="full")
-    parser.add_argument("--program", help="delaunay-flip-paper")
-    parser.add_argument("--rivals", help="a Python that has other people's packages")
-    parser.add_argument("--meshes", help="folder of .ply, .stl and .vtk surfaces")
-    parser.add_argument("--time-limit", type=float, metavar="SECONDS",
-                        help="start no part that would end after this time; call again for the rest")
-    parser.add_argument("--parts", type=re.compile, metavar="PATTERN", default=re.compile(""),
-                        help="run only the parts whose names match this regular expression")
-    parser.add_argument("--no-times", action="store_true",
-                        help="run every program once, without times, as on a busy machine")
-    parser.add_argument("--run-only", action="store_true", help="do not draw; do that later")
-    parser.add_argument("--draw-only", action="store_true", help="run nothing; draw the results that exist")
-    return parser.parse_args()
+def plan(scale, has_gpu, rivals, meshes):
+    """(name, words of the command) of all parts, in the order in which they run."""
+    yield "chain", ["chain", "--triangles", ",".join(map(str, scale["chain"]))]
+    gpu = ["ours-gpu", "paper-gpu"] if has_gpu else []
+    threads = ["ours-1", "ours-all", "no-chunks", "paper-all", "paper-1", "lawson", "cgal"]
+    programs = [(size, name) for size in scale["sizes"] for name in gpu + threads]
+    if has_gpu:
+        programs += [(size, name) for size in scale["gpu_sizes"] for name in [*gpu, "ours-all"]]
+    for size, name in programs:
+        yield f"random-{size}-{name}", ["random", "--points", size, "--program", name]
+    for size in scale["sizes"]:
+        if size <= scale["largest"] and size in (scale["sizes"][0], 1_000_000, scale["largest"]):
+            for epsilon in EPSILONS:
+                yield (f"quality-{size}-{epsilon:g}",
+                       ["quality", "--points", size, "--epsilons", epsilon])
+    angles = ["--feature-angles", FEATURE_ANGLES]
+    for mesh in meshes:
+        path = "{folder}/meshes/" + mesh + ".dfmesh"
+        yield f"surface-{mesh}", ["surface", "--mesh", path, "--threshold", SURFACE_THRESHOLD]
+        if mesh not in GENERATED:
+            yield f"ruined-{mesh}", ["ruined", "--mesh", path, *angles]
+        if "meshlib" in rivals:
+            yield f"meshlib-{mesh}", [RIVALS, "meshlib", "--mesh", path]
+    for mesh in ("random", "offset", "grid", "circles") if meshes else ("random", "offset"):
+        path = mesh if mesh in ("random", "offset") else "{folder}/meshes/tests/" + mesh + ".dfmesh"
+        yield f"tests-{mesh}", ["tests", "--mesh", path, "--points", scale["tests"]]
+    for kind, folder, shape in RUINED if meshes else ():
+        path = "{folder}/meshes/" + folder + "/" + shape + ".dfmesh"
+        yield f"ruined-{kind}-{shape}", ["ruined", "--mesh", path, "--ruin", kind, *angles]
+    for name, largest in RIVAL_LARGEST.items():
+        for size in scale["sizes"] if name in rivals else ():
+            if size <= min(largest, scale["largest"]):
+                yield f"rival-{size}-{name}", [RIVALS, name, "--points", size]
 
 
-def ask(command):
+class Results:
+    """Rows of all parts that have run. A row is a program on a mesh."""
+
+    def __init__(self, folder, machine=None, parts=None):
+        self.folder = folder
+        self.machine = machine or read_json(os.path.join(folder, "machine.json")) or {}
+        paths = sorted(glob.glob(os.path.join(folder, "parts", "*.json")), key=natural_order)
+        self.parts = parts or {os.path.basename(path)[:-5]: read_json(path) for path in paths}
+
+    def rows(self, experiment):
+        """The rows of all parts of an experiment, e.g. "random"."""
+        return [row for name, part in self.parts.items() if name.split("-")[0] == experiment
+                for row in part.get("rows", [])]
+
+    def failures(self):
+        """(part, reason) for each part that did not run to its end."""
+        return [(name, part["failed"]) for name, part in self.parts.items() if "failed" in part]
+
+
+def natural_order(name):
+    """A key for sorting by the numbers within names: 250000 before 1000000."""
+    return [(int(word), "") if word.isdigit() else (-1, word) for word in re.split(r"(\d+)", name)]
+
+
+def read_json(path):
+    """None if there is no such file."""
+    if not os.path.isfile(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def write_json(path, value):
+    """Writes the whole file or none: a part that was stopped leaves no file."""
+    with open(path + ".new", "w", encoding="utf-8") as file:
+        json.dump(value, file, indent=1)
+    os.replace(path + ".new", path)
+
+
+def digest(row):
+    """Replaces the times of a row by their spread. For chains, says whether the flips of iterations
+    1, 2, ... are 1, 2, ... m / 2 ... 2, 1, and drops long lists, which only repeat that."""
+    for name in [name for name in row if name.endswith("_ms")]:
+        times = row[name]
+        row[name] = {"median": statistics.median(times), "smallest": min(times),
+                     "largest": max(times), "runs": len(times)}
+    m = row.get("triangles", 0)
+    if "flipped" in row and row.get("points") == m + 2:
+        row["is_ramp"] = row["flipped"] == [min(i, m - i) for i in range(1, m)]
+        if m > 100:
+            del row["flipped"], row["excluded"]
+    return row
+
+
+def run(arguments, name, command, timeout=LONGEST):
+    """Runs a part and writes its file. @returns whether it was in time."""
+    program = [arguments.rivals] if command[0] == RIVALS else [arguments.program]
+    words = [*program, *(str(word).replace("{folder}", arguments.output) for word in command)]
+    if command[0] == RIVALS:
+        words += ["--program", arguments.program]
+    result = {"command": " ".join(map(str, command))}
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, timeout=timeout, check=False)
+        if done.returncode:
+            result["failed"] = done.stderr.strip()[-300:] or f"exit status {done.returncode}"
+        else:
+            result["rows"] = [digest(row) for row in json.loads(done.stdout)["rows"]]
+    except subprocess.TimeoutExpired:
+        if timeout < LONGEST:
+            return False
+        result["failed"] = f"stopped after {LONGEST} s"
+    if "failed" in result:
+        print(f"    {result['failed']}", flush=True)
+    write_json(os.path.join(arguments.output, "parts", name + ".json"), result)
+    return True
+
+
+def ask(*command):
     """The output of a command; empty if it fails."""
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
@@ -44,133 +167,91 @@ def ask(command):
         return ""
 
 
-def describe_machine(arguments, program_path):
-    """The machine, as described in the report."""
-    machine = read_json(program_path)
-    folder = os.path.dirname(os.path.abspath(__file__))
-    machine["system"] = platform.platform()
-    machine["python"] = platform.python_version()
-    machine["gpu_name"] = ask(["nvidia-smi", "--query-gpu=name,driver_version,memory.total",
-                               "--format=csv,noheader"]).splitlines()[:1]
-    machine["commit"] = ask(["git", "-C", folder, "describe", "--always", "--dirty"])
-    machine["when"] = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime())
-    machine["scale"] = arguments.scale
-    machine["rivals"] = list_rivals(arguments)
-    return machine
+def describe_machine(arguments):
+    about = json.loads(ask(arguments.program, "machine"))
+    return {"machine": about["machine"], "gpu": about["gpu"], "system": platform.platform(),
+            "python": platform.python_version(),
+            "gpu_name": ask("nvidia-smi", "--query-gpu=name,driver_version,memory.total",
+                            "--format=csv,noheader").splitlines()[:1],
+            "commit": ask("git", "-C", HERE, "describe", "--always", "--dirty"),
+            "when": time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()),
+            "scale": arguments.scale,
+            "rivals": json.loads(ask(arguments.rivals or "", RIVALS, "list") or "{}")}
 
 
-def list_rivals(arguments):
-    """{"scipy": {"version": ..., "licence": ...} or {"absent": ...}}"""
-    if not arguments.rivals:
-        return {}
-    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rivals.py")
-    path = os.path.join(arguments.output, "rivals.json")
-    subprocess.run([arguments.rivals, script, "list", "--output", path], check=True)
-    return read_json(path)
-
-
-class Runner:
-    """Runs parts one after the other."""
-
-    def __init__(self, arguments, plan):
-        self.arguments = arguments
-        self.plan = plan
-        self.start = time.monotonic()
-        self.failed_groups = set()
-        self.places = {
-            "{program}": [arguments.program],
-            "{rivals}": [arguments.rivals or "", os.path.join(
-                os.path.dirname(os.path.abspath(__file__)), "rivals.py")],
-        }
-
-    def path_of(self, part):
-        return os.path.join(self.arguments.output, "parts", part.name + ".json")
-
-    def is_done(self, part):
-        path = self.path_of(part)
-        return os.path.isfile(path) and "failed" not in read_json(path)
-
-    def run_all(self):
-        """@returns how many parts are left for another call."""
-        left = [part for part in self.plan.parts
-                if self.arguments.parts.search(part.name) and not self.is_done(part)]
-        for number, part in enumerate(left):
-            remaining = sum(p.seconds for p in left[number:])
-            if self.is_too_late(part):
-                print(f"time limit: {len(left) - number} parts are left; call again", flush=True)
-                return len(left) - number
-            print(f"[{number + 1}/{len(left)}] {part.what} (about {part.seconds:.0f} s; "
-                  f"{remaining / 60:.1f} min left)", flush=True)
-            self.run(part)
-        return 0
-
-    def is_too_late(self, part):
-        limit = self.arguments.time_limit
-        return limit is not None and time.monotonic() - self.start + part.seconds > limit
-
-    def run(self, part):
-        if part.group in self.failed_groups:
-            self.note_failure(part, "skipped: it failed on a smaller mesh")
-            return
-        command = []
-        for word in part.command:
-            command += self.places.get(word, [word.replace("{folder}", self.arguments.output)])
-        scratch = self.path_of(part) + ".new"
-        start = time.monotonic()
-        try:
-            done = subprocess.run([*command, "--output", scratch], capture_output=True, text=True,
-                                  timeout=parts.LONGEST, check=False)
-            reason = done.stderr.strip()[-300:] if done.returncode else ""
-            if done.returncode and not reason:
-                reason = f"exit status {done.returncode}"
-        except subprocess.TimeoutExpired:
-            reason = f"stopped after {parts.LONGEST} s"
-        if reason:
-            self.note_failure(part, reason)
-            return
-        part_result = read_json(scratch)
-        part_result["command"] = " ".join(part.command)
-        part_result["seconds"] = round(time.monotonic() - start, 1)
-        os.remove(scratch)
-        write_json(self.path_of(part), part_result)
-
-    def note_failure(self, part, reason):
-        print(f"    {reason}", flush=True)
-        if part.group:
-            self.failed_groups.add(part.group)
-        write_json(self.path_of(part), {"failed": reason, "command": " ".join(part.command)})
+def prepare_meshes(arguments, scale):
+    """Makes the surfaces that do not exist. @returns the names of those of Fig. 11, the generated
+    ones first."""
+    folder = os.path.join(arguments.output, "meshes")
+    for python in filter(None, (arguments.rivals, sys.executable, "/usr/bin/python3")):
+        if ask(python, "-c", "import numpy, vtkmodules.vtkIOPLY; print('yes')"):
+            subprocess.run([python, os.path.join(HERE, "meshes.py"), folder,
+                            *(str(scale[name]) for name in ("surface", "tests", "ruined")),
+                            arguments.meshes or ""], check=True)
+            break
+    else:
+        print(f"no Python with VTK and NumPy: no surfaces but those in {folder}")
+    names = {os.path.basename(path)[:-7] for path in glob.glob(os.path.join(folder, "*.dfmesh"))}
+    return [*sorted(names & GENERATED, reverse=True), *sorted(names - GENERATED)]
 
 
 def run_parts(arguments):
-    """@returns how many parts are left."""
+    """@returns how many parts are left for another call."""
+    start = time.monotonic()
     os.makedirs(os.path.join(arguments.output, "parts"), exist_ok=True)
-    path = os.path.join(arguments.output, "machine.json")
-    subprocess.run([arguments.program, "machine", "--output", path], check=True)
-    machine = describe_machine(arguments, path)
-    write_json(path, machine)
-    scale = parts.SCALES[arguments.scale]
-    if arguments.no_times:
-        scale = dataclasses.replace(scale, timing=("--no-times",))
-    meshes = surfaces.prepare(arguments, scale.surface)
-    present = [name for name, about in machine["rivals"].items() if "absent" not in about]
-    plan = parts.Plan(scale, machine["gpu"], present, meshes)
-    return Runner(arguments, plan).run_all()
+    machine = describe_machine(arguments)
+    write_json(os.path.join(arguments.output, "machine.json"), machine)
+    scale = SCALES[arguments.scale]
+    present = [name for name, about in machine["rivals"].items() if "version" in about]
+    done = Results(arguments.output).parts
+    left = [(name, command) for name, command in plan(
+        scale, machine["gpu"], present, prepare_meshes(arguments, scale))
+        if arguments.parts.search(name) and "failed" in done.get(name, {"failed": ""})]
+    repetitions, seconds = map(str, scale["timing"])
+    for number, (name, command) in enumerate(left):
+        timing = ["--no-times"] if arguments.no_times else [
+            "--repetitions", repetitions, "--seconds", seconds]
+        gpu = ["--gpu"] if machine["gpu"] and command[0] != RIVALS and (
+            command[0] != "random" or name.endswith("-gpu")) else []
+        timeout = min(LONGEST, arguments.time_limit - (time.monotonic() - start))
+        print(f"[{number + 1}/{len(left)}] {name}", flush=True)
+        if timeout <= 0 or not run(arguments, name, [*command, *timing, *gpu], timeout):
+            print(f"time limit: {len(left) - number} parts are left; call again", flush=True)
+            return len(left) - number
+    return 0
 
 
 def main():
-    arguments = parse_arguments()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("output", help="folder of the report")
+    parser.add_argument("--scale", choices=SCALES, default="full")
+    parser.add_argument("--program", help="delaunay-flip-paper")
+    parser.add_argument("--rivals", help="a Python that has other people's packages")
+    parser.add_argument("--meshes", help="folder of .ply, .stl and .vtk surfaces")
+    parser.add_argument("--time-limit", type=float, metavar="SECONDS", default=float("inf"),
+                        help="stop after this time; call again for the rest")
+    parser.add_argument("--parts", type=re.compile, metavar="PATTERN", default=re.compile(""),
+                        help="run only the parts whose names match this regular expression")
+    parser.add_argument("--no-times", action="store_true",
+                        help="run every program once, without times, as on a busy machine")
+    parser.add_argument("--run-only", action="store_true", help="do not draw; do that later")
+    parser.add_argument("--draw-only", action="store_true", help="run nothing; draw what exists")
+    arguments = parser.parse_args()
     left = 0 if arguments.draw_only else run_parts(arguments)
     results = Results(arguments.output)
-    results.write_merged()
-    if arguments.run_only:
-        return 3 if left else 0
-    try:
-        import report
-    except ImportError as error:  # a machine with a GPU may have no matplotlib
-        print(f"no report here ({error}): draw it elsewhere from {arguments.output} by --draw-only")
-        return 3 if left else 0
-    report.write(results)
-    print(f"{arguments.output}/report.html and report.md are written")
+    write_json(os.path.join(arguments.output, "results.json"),
+               {"machine": results.machine, "parts": results.parts})
+    if not arguments.run_only:
+        try:
+            import report
+        except ImportError as error:  # a machine with a GPU may have no matplotlib
+            print(f"no report here ({error}): draw it elsewhere from {arguments.output} by "
+                  "--draw-only")
+        else:
+            path = os.path.join(arguments.output, "report.md")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("# The paper, reproduced\n\n" + report.make(results))
+            print(f"{path} is written")
     return 3 if left else 0
 
 

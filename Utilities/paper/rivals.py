@@ -19,40 +19,47 @@ import time
 
 import numpy
 
-# Package, module and licence of each.
+import meshes
+
+# Module and licence of each package.
 PACKAGES = {
-    "scipy": ("scipy", "scipy.spatial", "BSD-3-Clause; with Qhull's own licence"),
-    "triangle": ("triangle", "triangle", "LGPL-3.0 wrapper; Triangle itself: no commercial use"),
-    "startinpy": ("startinpy", "startinpy", "MIT"),
-    "delaunator": ("delaunator", "delaunator", "GPL, as its package says"),
-    "vtk": ("vtk", "vtkmodules.vtkFiltersCore", "BSD-3-Clause"),
-    "meshlib": ("meshlib", "meshlib.mrmeshpy", "MeshLib's own"),
+    "scipy": ("scipy.spatial", "BSD-3-Clause; with Qhull's own licence"),
+    "triangle": ("triangle", "LGPL-3.0 wrapper; Triangle itself: no commercial use"),
+    "startinpy": ("startinpy", "MIT"),
+    "vtk": ("vtkmodules.vtkFiltersCore", "BSD-3-Clause"),
+    "meshlib": ("meshlib.mrmeshpy", "MeshLib's own"),
 }
 
 
 def list_packages():
-    """{"scipy": {"version": ..., "licence": ...}, "delaunator": {"absent": ...}}"""
+    """{"scipy": {"version": ..., "licence": ...}, "triangle": {"absent": ..., "licence": ...}}"""
     listing = {}
-    for name, (package, module, licence) in PACKAGES.items():
+    for name, (module, licence) in PACKAGES.items():
         try:
             importlib.import_module(module)
-            version = importlib.metadata.version(package)
-            listing[name] = {"version": version, "licence": licence}
+            listing[name] = {"version": importlib.metadata.version(name), "licence": licence}
         except (ImportError, OSError) as error:
             listing[name] = {"absent": str(error), "licence": licence}
     return listing
 
 
+def time_call(call):
+    """Milliseconds, and the result."""
+    start = time.perf_counter()
+    result = call()
+    return 1e3 * (time.perf_counter() - start), result
+
+
 def run_scipy(points):
     from scipy.spatial import Delaunay
 
-    return time_call(lambda: Delaunay(points).simplices)
+    return time_call(lambda: Delaunay(points[:, :2]).simplices)
 
 
 def run_triangle(points):
     from triangle import triangulate
 
-    return time_call(lambda: triangulate({"vertices": points})["triangles"])
+    return time_call(lambda: triangulate({"vertices": points[:, :2]})["triangles"])
 
 
 def run_startinpy(points):
@@ -61,131 +68,84 @@ def run_startinpy(points):
     def build():
         triangulation = startinpy.DT()
         triangulation.snap_tolerance = 1e-12
-        triangulation.insert(in_space)
+        triangulation.insert(points)
         return triangulation
 
-    in_space = numpy.column_stack((points, numpy.zeros(len(points))))
     milliseconds, triangulation = time_call(build)
     return milliseconds, numpy.asarray(triangulation.triangles) - 1  # 0 is at infinity
 
 
 def run_vtk(points):
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkFiltersCore import vtkDelaunay2D
 
-    in_space = numpy.column_stack((points, numpy.zeros(len(points))))
-    vtk_points = vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(in_space, deep=True))
-    mesh = vtkPolyData()
-    mesh.SetPoints(vtk_points)
-
-    def build():
-        delaunay = vtkDelaunay2D()
-        delaunay.SetInputData(mesh)
-        delaunay.SetTolerance(0.0)
-        delaunay.Update()
-        return delaunay.GetOutput()
-
-    milliseconds, output = time_call(build)
-    return milliseconds, vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    delaunay = vtkDelaunay2D()
+    delaunay.SetInputData(meshes.make_poly_data(points))
+    delaunay.SetTolerance(0.0)
+    milliseconds, _ = time_call(delaunay.Update)
+    return milliseconds, meshes.read_poly_data(delaunay.GetOutput())[1]
 
 
-FROM_POINTS = {
-    "scipy": run_scipy,
-    "triangle": run_triangle,
-    "startinpy": run_startinpy,
-    "vtk": run_vtk,
-}
-
-
-def time_call(call):
-    start = time.perf_counter()
-    result = call()
-    return 1e3 * (time.perf_counter() - start), result
-
-
-def repeat(arguments, run):
-    """The spread of the times of run(), and its last result."""
+def repeat(arguments, call):
+    """A list of times of call(), and its last result."""
     times, result = [], None
     start = time.monotonic()
-    while not times or (
-        not arguments.no_times
-        and len(times) < arguments.repetitions
-        and time.monotonic() - start < arguments.seconds
-    ):
-        milliseconds, result = run()
+    while not times or (not arguments.no_times and len(times) < arguments.repetitions
+                        and time.monotonic() - start < arguments.seconds):
+        milliseconds, result = call()
         times.append(milliseconds)
-    spread = {
-        "median": float(numpy.median(times)),
-        "smallest": min(times),
-        "largest": max(times),
-        "runs": len(times),
-    }
-    return spread, result
+    return times, result
 
 
 def run_from_points(arguments):
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "points")
-        command = [arguments.program, "points", "--points", str(arguments.points), "--output"]
-        subprocess.run([*command, path], check=True)
-        points = numpy.fromfile(path, numpy.float32).reshape(-1, 2).astype(numpy.float64)
-        spread, triangles = repeat(arguments, lambda: FROM_POINTS[arguments.what](points))
-        row = {
-            "program": arguments.what,
-            "points": len(points),
-            "triangles": len(triangles),
-            "total_ms": spread,
-        }
-        numpy.ascontiguousarray(triangles, numpy.int32).tofile(path)
-        command = [arguments.program, "compare", "--points", str(arguments.points), "--file"]
-        compared = subprocess.run([*command, path], check=True, capture_output=True, text=True)
-        row.update({name: value for name, value in json.loads(compared.stdout)["rows"][0].items()
-                    if name in ("different", "percent", "bad_left")})
-        return row
+    def ask(command, *more):
+        words = [arguments.program, command, "--points", str(arguments.points), *more]
+        return subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout
+
+    flat = numpy.frombuffer(ask("points"), numpy.float32).reshape(-1, 2).astype(numpy.float64)
+    points = numpy.column_stack((flat, numpy.zeros(len(flat))))
+    program = globals()["run_" + arguments.what]
+    times, triangles = repeat(arguments, lambda: program(points))
+    with tempfile.NamedTemporaryFile() as file:
+        file.write(numpy.ascontiguousarray(triangles, numpy.int32).tobytes())
+        file.flush()
+        compared = json.loads(ask("compare", "--mesh", file.name))["rows"][0]
+    return {"program": arguments.what, "points": len(points), "total_ms": times, **compared}
 
 
 def run_meshlib(arguments):
     """MeshLib's flips of a surface, with its default limits but no limit on passes."""
-    import surfaces
     from meshlib import mrmeshnumpy, mrmeshpy
 
-    points, triangles = surfaces.read(arguments.mesh)
+    points, triangles = meshes.read(arguments.mesh)
     settings = mrmeshpy.DeloneSettings()
 
     def run():
         mesh = mrmeshnumpy.meshFromFacesVerts(triangles, points)
         return time_call(lambda: mrmeshpy.makeDeloneEdgeFlips(mesh, settings, 100))
 
-    spread, flips = repeat(arguments, run)
+    times, flips = repeat(arguments, run)
     name = os.path.splitext(os.path.basename(arguments.mesh))[0]
     return {"program": "meshlib", "mesh": name, "points": len(points),
-            "triangles": len(triangles), "flips": flips, "flips_ms": spread}
+            "triangles": len(triangles), "flips": flips, "flips_ms": times}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=["list", *FROM_POINTS, "meshlib"])
+    parser.add_argument("what", choices=["list", *PACKAGES])
     parser.add_argument("--points", type=int, default=1000)
     parser.add_argument("--mesh", help="a .dfmesh file")
     parser.add_argument("--program", help="delaunay-flip-paper")
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=20.0, help="after which none is begun")
     parser.add_argument("--no-times", action="store_true")
-    parser.add_argument("--output", required=True)
     arguments = parser.parse_args()
     if arguments.what == "list":
-        result = list_packages()
+        print(json.dumps(list_packages()))
     else:
-        run = run_meshlib if arguments.what == "meshlib" else run_from_points
-        row = run(arguments)
+        row = (run_meshlib if arguments.what == "meshlib" else run_from_points)(arguments)
         if arguments.no_times:
             row = {name: value for name, value in row.items() if not name.endswith("_ms")}
-        result = {"rows": [row]}
-    with open(arguments.output, "w", encoding="utf-8") as file:
-        json.dump(result, file, indent=1)
+        print(json.dumps({"rows": [row]}))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaBackend.cuh"
-#include "PaperLoop.h"
+#include "PaperMethod.h"
 
 #include <thread>
 
@@ -26,7 +26,7 @@ __global__ void PhaseKernel(std::int64_t size, Step step)
 
 }
 
-// Not in the unnamed namespace, because the loop's template would not find them there.
+// Not in the unnamed namespace, because the loop's template would not find it there.
 template <typename Step>
 void RunPhase(const CudaBackend& backend, std::int64_t size, const Step& step)
 {
@@ -38,26 +38,26 @@ void RunPhase(const CudaBackend& backend, std::int64_t size, const Step& step)
   }
 }
 
-static void WaitFor(const CudaBackend& backend) { backend.Synchronize(); }
-
 template <typename Point, typename Test>
-PaperResult RunPaperLoopOnGpu(const PaperMesh<Point>& mesh, const PaperPlan<Test>& plan)
+PaperResult RunPaperLoopOnGpu(
+  const PaperArrays<Point, PaperVector>& host, const Test& test, const PaperOptions& options)
 {
   const CudaBackend backend({ -1 }, static_cast<int>(std::thread::hardware_concurrency()));
   const auto scope = backend.MakeCurrent();
-  return RunPaperLoop(mesh, plan, backend);
+  return RunPaperLoop(host, test, options, backend);
 }
 
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint2<float>>&, const PaperPlan<OppositeAngleTest<float>>&);
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint2<double>>&, const PaperPlan<OppositeAngleTest<double>>&);
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint2<float>>&, const PaperPlan<InCircleTest<float>>&);
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint2<double>>&, const PaperPlan<InCircleTest<double>>&);
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint3<float>>&, const PaperPlan<OppositeAngleTest<float>>&);
-template PaperResult RunPaperLoopOnGpu(
-  const PaperMesh<PaperPoint3<double>>&, const PaperPlan<OppositeAngleTest<double>>&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 2>, PaperVector>&,
+  const OppositeAngleTest<float>&, const PaperOptions&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 2>, PaperVector>&,
+  const OppositeAngleTest<double>&, const PaperOptions&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 2>, PaperVector>&,
+  const InCircleTest<float>&, const PaperOptions&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 2>, PaperVector>&,
+  const InCircleTest<double>&, const PaperOptions&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 3>, PaperVector>&,
+  const OppositeAngleTest<float>&, const PaperOptions&);
+template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 3>, PaperVector>&,
+  const OppositeAngleTest<double>&, const PaperOptions&);
+
 }

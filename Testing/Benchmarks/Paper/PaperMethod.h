@@ -3,11 +3,18 @@
 #ifndef DELAUNAYFLIP_PAPERMETHOD_H
 #define DELAUNAYFLIP_PAPERMETHOD_H
 
+#include "Array.h"
+#include "Atomics.h"
+#include "HostDevice.h"
+#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
+#include <chrono>
+#include <cmath>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// @file
@@ -21,6 +28,8 @@
 ///   the iteration;
 /// - the loop ends after an iteration that found no bad edge, or at a limit;
 /// - cosines are clamped to -1 .. 1 before acos.
+///
+/// PaperThreads.cpp and PaperCuda.cu instantiate the loop for their backend.
 
 namespace delaunayflip
 {
@@ -28,7 +37,7 @@ namespace delaunayflip
 enum class PaperTestKind
 {
   OppositeAngles, ///< The paper's own.
-  InCircle ///< The test that the paper names as future work. Planar only.
+  InCircle ///< Named as future work. Only in the plane, and for counter-clockwise meshes.
 };
 
 struct PaperOptions
@@ -52,8 +61,8 @@ struct PaperOptions
 
 struct PaperIteration
 {
-  std::int64_t Bad = 0;
-  std::int64_t Flipped = 0;
+  std::uint32_t Bad = 0;
+  std::uint32_t Flipped = 0;
 };
 
 struct PaperResult
@@ -63,10 +72,17 @@ struct PaperResult
   bool Converged = false; ///< Whether the last iteration found no bad edge.
   std::vector<PaperIteration> Counts; ///< By iteration, if asked for.
   std::string Backend; ///< E.g. "CUDA: NVIDIA H200".
-  double CopySeconds = 0.0; ///< For copying the mesh to the backend.
-  double FlipSeconds = 0.0; ///< For the loop.
+  double FlipSeconds = 0.0; ///< For the loop, without copies.
 
-  std::int64_t CountFlips() const;
+  std::int64_t CountFlips() const
+  {
+    std::int64_t flips = 0;
+    for (const PaperIteration& iteration : this->Counts)
+    {
+      flips += iteration.Flipped;
+    }
+    return flips;
+  }
 };
 
 /// The arrays of a mesh, ready to run the loop once or several times.
@@ -76,17 +92,344 @@ public:
   /// Builds the arrays on the host.
   /// @param mesh with valid ids and fewer than 2^31 / 3 triangles; not used after the constructor.
   PaperMethod(const TriangleMesh& mesh, const PaperOptions& options);
-  ~PaperMethod();
 
   /// Runs the loop on a copy of the arrays.
   /// @throws BackendUnavailable if a GPU is requested and there is none.
-  PaperResult Run() const;
+  PaperResult Run() const { return this->Loop(this->Options); }
 
-  class Runner;
+  /// Those of the next run. Test, InDouble, Dimension, Epsilon and NumberOfThreads are fixed.
+  PaperOptions Options;
 
 private:
-  std::unique_ptr<Runner> Implementation;
+  std::function<PaperResult(const PaperOptions&)> Loop;
 };
+
+/// A position, loaded in one instruction: x, y as in the paper, or x, y, z and padding.
+template <typename Real, int Size>
+struct alignas((Size == 2 ? 2 : 4) * sizeof(Real)) PaperPoint
+{
+  using Number = Real;
+  static constexpr int Dimension = Size;
+  Real Values[Size == 2 ? 2 : 4];
+};
+
+template <typename Real, int Size>
+DELAUNAYFLIP_HOST_DEVICE PaperPoint<Real, Size> operator-(
+  const PaperPoint<Real, Size>& p, const PaperPoint<Real, Size>& q)
+{
+  PaperPoint<Real, Size> difference{};
+  for (int axis = 0; axis < Size; ++axis)
+  {
+    difference.Values[axis] = p.Values[axis] - q.Values[axis];
+  }
+  return difference;
+}
+
+template <typename Real, int Size>
+DELAUNAYFLIP_HOST_DEVICE Real Dot(const PaperPoint<Real, Size>& p, const PaperPoint<Real, Size>& q)
+{
+  Real sum = p.Values[0] * q.Values[0] + p.Values[1] * q.Values[1];
+  if constexpr (Size == 3)
+  {
+    sum += p.Values[2] * q.Values[2];
+  }
+  return sum;
+}
+
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE PaperPoint<Real, 3> Cross(
+  const PaperPoint<Real, 3>& p, const PaperPoint<Real, 3>& q)
+{
+  const Real* u = p.Values;
+  const Real* v = q.Values;
+  return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0], 0 };
+}
+
+/// The angle p, apex, q in radians. Because of rounding the cosine may lie outside -1 .. 1.
+template <typename Point>
+DELAUNAYFLIP_HOST_DEVICE typename Point::Number FindAngle(
+  const Point& apex, const Point& p, const Point& q)
+{
+  using Real = typename Point::Number;
+  const Point u = p - apex;
+  const Point v = q - apex;
+  const Real cosine = Dot(u, v) / (std::sqrt(Dot(u, u)) * std::sqrt(Dot(v, v)));
+  return std::acos(cosine < Real(-1) ? Real(-1) : (cosine > Real(1) ? Real(1) : cosine));
+}
+
+/// Eq. 5, for the edge p-q of the triangles (p, q, a) and (q, p, b): whether the opposite angles
+/// sum to more than pi + epsilon. False if a number is NaN.
+template <typename Real>
+struct OppositeAngleTest
+{
+  Real Limit; ///< pi + epsilon.
+
+  template <typename Point>
+  DELAUNAYFLIP_HOST_DEVICE bool IsBad(
+    const Point& p, const Point& q, const Point& a, const Point& b) const
+  {
+    return FindAngle(a, p, q) + FindAngle(b, p, q) > this->Limit;
+  }
+};
+
+/// Whether the in-circle determinant of a counter-clockwise mesh exceeds epsilon times the sum of
+/// the absolute values of its terms.
+template <typename Real>
+struct InCircleTest
+{
+  Real Epsilon;
+
+  using Point = PaperPoint<Real, 2>;
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsBad(
+    const Point& p, const Point& q, const Point& a, const Point& b) const
+  {
+    Real sum = 0;
+    Real magnitude = 0;
+    AddTerms(p - b, q - b, a - b, sum, magnitude);
+    AddTerms(q - b, a - b, p - b, sum, magnitude);
+    AddTerms(a - b, p - b, q - b, sum, magnitude);
+    return sum > this->Epsilon * magnitude;
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE static void AddTerms(
+    const Point& u, const Point& v, const Point& lifted, Real& sum, Real& magnitude)
+  {
+    const Real left = u.Values[0] * v.Values[1];
+    const Real right = u.Values[1] * v.Values[0];
+    const Real lift = Dot(lifted, lifted);
+    sum += lift * (left - right);
+    magnitude += lift * (std::fabs(left) + std::fabs(right));
+  }
+};
+
+/// Section 5.2: whether the normals of the two triangles are "almost parallel".
+/// @param cosine of the threshold; at most -1: no threshold.
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE bool AreAlmostParallel(const PaperPoint<Real, 3>& p,
+  const PaperPoint<Real, 3>& q, const PaperPoint<Real, 3>& a, const PaperPoint<Real, 3>& b,
+  Real cosine)
+{
+  if (cosine <= Real(-1))
+  {
+    return true;
+  }
+  const PaperPoint<Real, 3> m = Cross(q - p, a - p);
+  const PaperPoint<Real, 3> n = Cross(p - q, b - q);
+  return Dot(m, n) >= cosine * std::sqrt(Dot(m, m)) * std::sqrt(Dot(n, n));
+}
+
+/// Two indices: of an edge's ends in Vertices, or of their places in Triangles.
+struct alignas(8) IndexPair
+{
+  std::int32_t First, Second;
+};
+
+/// The arrays of section 2. `Of<T>` is a vector on the host, an array of the backend, or a pointer
+/// for the threads. Each value of an edge has an array of its own, so that neighbouring threads
+/// read neighbouring words.
+template <typename Point, template <typename> class Of>
+struct PaperArrays
+{
+  Of<Point> Vertices;
+  Of<std::int32_t> Triangles; ///< Three indices of vertices each.
+  Of<IndexPair> Ends; ///< v1, v2 of an edge.
+  Of<IndexPair> TriangleA; ///< ta: where in Triangles v1 and v2 are.
+  Of<IndexPair> TriangleB; ///< tb, the same in the other triangle; -1, -1 at a boundary.
+  Of<IndexPair> Opposites; ///< Where in Triangles the opposite vertices are, in ta and in tb.
+  Of<std::int32_t> Flags; ///< By triangle: the last iteration in which a thread claimed it.
+  Of<std::int32_t> Rotations; ///< By triangle: the one that it rotated with last.
+};
+
+template <typename T>
+using PaperVector = std::vector<T>;
+template <typename T>
+using Pointer = T*;
+
+/// Phase 1 of section 3, as the work of one thread for one edge: detection, exclusion and
+/// processing.
+///
+/// Threads read triangles that others are flipping. That is harmless: only a thread that afterwards
+/// claims both triangles of its edge changes anything, and then no other thread has flipped them in
+/// this iteration, so what it has read is consistent.
+template <typename Point, typename Test>
+struct DetectAndFlip
+{
+  PaperArrays<Point, Pointer> Mesh;
+  Test EdgeTest;
+  typename Point::Number NormalCosine;
+  std::int32_t Iteration; ///< 1, 2, ...
+  std::int32_t* LastBad; ///< The last iteration that found a bad edge.
+  PaperIteration* Counts; ///< Of this iteration, or null.
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge) const
+  {
+    if (this->Mesh.TriangleB[edge].First < 0 || !this->IsBad(edge))
+    {
+      return;
+    }
+    AtomicStore(this->LastBad, this->Iteration);
+    const bool flips =
+      this->Take(this->Mesh.TriangleA[edge]) && this->Take(this->Mesh.TriangleB[edge]);
+    if (flips)
+    {
+      this->Flip(edge);
+    }
+    if (this->Counts)
+    {
+      AtomicAdd(&this->Counts->Bad, 1u);
+      AtomicAdd(&this->Counts->Flipped, flips ? 1u : 0u);
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE bool IsBad(std::int64_t edge) const
+  {
+    const IndexPair ends = this->Mesh.Ends[edge];
+    const IndexPair opposites = this->Mesh.Opposites[edge];
+    const Point p = this->Mesh.Vertices[ends.First];
+    const Point q = this->Mesh.Vertices[ends.Second];
+    const Point a = this->Mesh.Vertices[AtomicLoad(this->Mesh.Triangles + opposites.First)];
+    const Point b = this->Mesh.Vertices[AtomicLoad(this->Mesh.Triangles + opposites.Second)];
+    bool isBad = this->EdgeTest.IsBad(p, q, a, b);
+    if constexpr (Point::Dimension == 3)
+    {
+      isBad = isBad && AreAlmostParallel(p, q, a, b, this->NormalCosine);
+    }
+    return isBad;
+  }
+
+  /// Claims a triangle. Returns whether this thread is the first to do so in this iteration.
+  DELAUNAYFLIP_HOST_DEVICE bool Take(const IndexPair& corners) const
+  {
+    std::int32_t* flag = this->Mesh.Flags + corners.First / 3;
+    return AtomicExchange(flag, this->Iteration) != this->Iteration;
+  }
+
+  /// The five steps of section 3.1.
+  DELAUNAYFLIP_HOST_DEVICE void Flip(std::int64_t edge) const
+  {
+    std::int32_t* vertices = this->Mesh.Triangles;
+    const IndexPair o = this->Mesh.Opposites[edge];
+    const IndexPair a = this->Mesh.TriangleA[edge];
+    const IndexPair b = this->Mesh.TriangleB[edge];
+    const std::int32_t c1 = a.First;
+    const std::int32_t c2 = b.Second;
+    AtomicStore(vertices + c2, vertices[o.First]);
+    AtomicStore(vertices + c1, vertices[o.Second]);
+    this->Mesh.TriangleA[edge] = { o.First, c1 };
+    this->Mesh.TriangleB[edge] = { c2, o.Second };
+    this->Mesh.Opposites[edge] = { a.Second, b.First };
+    this->Mesh.Ends[edge] = { vertices[o.First], vertices[c1] };
+    this->Mesh.Rotations[a.First / 3] = b.First / 3;
+    this->Mesh.Rotations[b.First / 3] = a.First / 3;
+  }
+};
+
+/// Phase 2: if an edge's ends are no longer where ta (tb) says (eqs. 3 and 4), finds them in the
+/// triangle with which its own was rotated.
+template <typename Point>
+struct RepairReferences
+{
+  PaperArrays<Point, Pointer> Mesh;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge) const
+  {
+    const IndexPair ends = this->Mesh.Ends[edge];
+    this->Repair(ends, this->Mesh.TriangleA[edge], this->Mesh.Opposites[edge].First);
+    if (this->Mesh.TriangleB[edge].First >= 0)
+    {
+      this->Repair(ends, this->Mesh.TriangleB[edge], this->Mesh.Opposites[edge].Second);
+    }
+  }
+
+private:
+  /// @param opposite the index of the third corner.
+  DELAUNAYFLIP_HOST_DEVICE void Repair(
+    const IndexPair& ends, IndexPair& corners, std::int32_t& opposite) const
+  {
+    const std::int32_t* vertices = this->Mesh.Triangles;
+    if (vertices[corners.First] == ends.First && vertices[corners.Second] == ends.Second)
+    {
+      return;
+    }
+    const std::int32_t begin = 3 * this->Mesh.Rotations[corners.First / 3];
+    IndexPair found = corners;
+    for (std::int32_t i = begin; i < begin + 3; ++i)
+    {
+      found.First = vertices[i] == ends.First ? i : found.First;
+      found.Second = vertices[i] == ends.Second ? i : found.Second;
+    }
+    opposite = 3 * begin + 3 - found.First - found.Second;
+    corners = found;
+  }
+};
+
+/// Copies a mesh to the backend, runs the loop there and copies the triangles back. A backend has
+/// RunPhase(backend, size, step), which calls step(i) for i = 0 .. size - 1.
+template <typename Point, typename Test, typename Backend>
+PaperResult RunPaperLoop(const PaperArrays<Point, PaperVector>& host, const Test& test,
+  const PaperOptions& options, const Backend& backend)
+{
+  const auto copy = [&](const auto& values)
+  {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    Array<T> array = backend.template MakeArray<T>(static_cast<std::int64_t>(values.size()));
+    backend.Upload(values.data(), static_cast<std::int64_t>(values.size()), array.Data());
+    return array;
+  };
+  PaperArrays<Point, Array> own{ copy(host.Vertices), copy(host.Triangles), copy(host.Ends),
+    copy(host.TriangleA), copy(host.TriangleB), copy(host.Opposites), copy(host.Flags),
+    copy(host.Rotations) };
+  const PaperArrays<Point, Pointer> mesh{ own.Vertices.Data(), own.Triangles.Data(),
+    own.Ends.Data(), own.TriangleA.Data(), own.TriangleB.Data(), own.Opposites.Data(),
+    own.Flags.Data(), own.Rotations.Data() };
+  const auto edges = static_cast<std::int64_t>(host.Ends.size());
+  PaperResult result;
+  result.Backend = backend.GetName();
+  result.Counts.resize(options.CountsIterations ? options.MaximumIterations : 0);
+  Array<PaperIteration> counts = copy(result.Counts);
+  Array<std::int32_t> lastBad = copy(std::vector<std::int32_t>(1));
+  const auto getLastBad = [&] // also waits for all work
+  {
+    std::int32_t iteration = 0;
+    backend.Download(lastBad.Data(), 1, &iteration);
+    return iteration;
+  };
+  getLastBad();
+  const auto start = std::chrono::steady_clock::now();
+  while (!result.Converged && result.Iterations < options.MaximumIterations)
+  {
+    const auto iteration = static_cast<std::int32_t>(result.Iterations + 1);
+    RunPhase(backend, edges,
+      DetectAndFlip<Point, Test>{ mesh, test,
+        static_cast<typename Point::Number>(std::cos(options.NormalThreshold * Pi / 180.0)),
+        iteration, lastBad.Data(),
+        options.CountsIterations ? counts.Data() + result.Iterations : nullptr });
+    result.Converged = getLastBad() != iteration;
+    if (!result.Converged)
+    {
+      RunPhase(backend, edges, RepairReferences<Point>{ mesh });
+      ++result.Iterations;
+    }
+  }
+  getLastBad();
+  result.FlipSeconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.Counts.resize(options.CountsIterations ? result.Iterations : 0);
+  backend.Download(
+    counts.Data(), static_cast<std::int64_t>(result.Counts.size()), result.Counts.data());
+  result.Triangles.resize(host.Triangles.size());
+  backend.Download(
+    mesh.Triangles, static_cast<std::int64_t>(result.Triangles.size()), result.Triangles.data());
+  return result;
+}
+
+/// The same on the current GPU (PaperCuda.cu). @throws BackendUnavailable.
+template <typename Point, typename Test>
+PaperResult RunPaperLoopOnGpu(
+  const PaperArrays<Point, PaperVector>& host, const Test& test, const PaperOptions& options);
 
 }
 

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Array.h"
+#include "MeshOnBackend.h"
+#include "CudaBackend.cuh"
+#include "CudaFlipLoop.cuh"
+#include "FlipError.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Stores id i of all triangles. Neighbouring threads have the ids of one triangle, so that these
+/// go to memory together.
+struct StoreIdStep
+{
+  StoreStep Triangles;
+
+  __device__ void operator()(std::int64_t i, const MutableTriangleArray& target) const
+  {
+    const auto id = static_cast<std::uint32_t>(i); // divides faster
+    this->Triangles.StoreId(id / 3, static_cast<int>(id % 3), target);
+  }
+};
+
+/// Also stores into arrays in the memory of its device.
+class CudaMesh : public MeshOnBackend<CudaBackend>
+{
+public:
+  using MeshOnBackend::MeshOnBackend;
+
+  bool StoreTrianglesOnDevice(
+    const MutableTriangleArray& triangles, const DeviceStream& stream) const override
+  {
+    if (triangles.Count > 0 && !this->IsHere(triangles.Data()))
+    {
+      return false;
+    }
+    this->GetBackend().StoreOnDevice(
+      3 * triangles.Count, triangles, stream, StoreIdStep{ this->GetStoreStep() });
+    return true;
+  }
+
+  bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) const override
+  {
+    const std::int64_t size = this->GetInputReport().Triangles;
+    if (size > 0 && !this->IsHere(counts))
+    {
+      return false;
+    }
+    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(counts), 0, size };
+    this->GetBackend().StoreOnDevice(size, all, stream, this->GetFlipCountStep());
+    return true;
+  }
+
+  DeviceTriangles ViewTriangles() const override
+  {
+    const StoreStep store = this->GetStoreStep();
+    const CudaContext& context = this->GetBackend().GetContext();
+    return { store.Triangles, store.Order, this->GetInputReport().Triangles, context.Device,
+      { context.Stream }, this->Number };
+  }
+
+private:
+  bool IsHere(const void* memory) const
+  {
+    return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
+  }
+
+  inline static std::atomic<std::uint64_t> Meshes{ 0 };
+  const std::uint64_t Number = ++Meshes;
+};
+
+/// @param view the caller's arrays, wherever they are.
+template <typename Mesh>
+std::unique_ptr<LoadedMesh> Load(const Mesh& mesh, const TriangleMesh& view,
+  const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
+{
+  try
+  {
+    CudaBackend backend(devices, options.NumberOfThreads);
+    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+    LocalDeviceMesh local = backend.Localize(mesh);
+    return std::unique_ptr<LoadedMesh>(
+      new CudaMesh(view, std::move(local), options, std::move(backend), progress));
+  }
+  catch (const BeyondDevice& error)
+  {
+    throw BackendUnavailable(error.what());
+  }
+}
+}
+
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  std::vector<int> devices = { options.Device };
+  if (!options.Devices.empty())
+  {
+    const auto most = static_cast<std::size_t>(mesh.Triangles.Count / GetSmallestShare());
+    devices = options.Devices;
+    devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
+  }
+  return Load(mesh, mesh, devices, options, progress);
+}
+
+/// A mesh that is on a GPU stays there.
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+{
+  TriangleMesh view;
+  static_cast<FixedEdges&>(view) = mesh;
+  view.Points.Floats = mesh.Points.Floats;
+  view.Points.Doubles = mesh.Points.Doubles;
+  view.Points.Count = mesh.Points.Count;
+  view.Triangles = mesh.Triangles;
+  return Load(mesh, view, { options.Device }, options, progress);
+}
+
+}

@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommandError.h"
+#include "Console.h"
+#include "Formats.h"
+#include "InputFile.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataReader.h>
+#include <vtkPolyDataWriter.h>
+#include <vtkSTLWriter.h>
+#include <vtkStringArray.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
+#include <vtkXMLFileReadTester.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <strings.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+/// @file
+/// VTK's readers and writers, with checks: on some faults of a file its readers give up a part of
+/// the mesh, or all of it, and say nothing.
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+[[noreturn]] void FailOnType(const InputFile& file, const std::string& type)
+{
+  file.Fail("holds " + type.substr(0, 40) +
+    ", not a surface mesh (PolyData); ParaView's Extract Surface (vtkDataSetSurfaceFilter) "
+    "extracts one");
+}
+
+/// Runs a reader. Any message of its means that a part of the file is missing.
+template <typename Reader>
+FileMesh Run(Reader* reader, const InputFile& file, VTKMessages& messages)
+{
+  reader->SetFileName(file.GetPath().c_str());
+  {
+    const MutedStandardError muted;
+    reader->Update();
+  }
+  const std::string problems = messages.TakeProblems();
+  FileMesh result;
+  result.Mesh = reader->GetOutput();
+  if (!problems.empty() || !result.Mesh)
+  {
+    file.Fail("cannot be read: " + (problems.empty() ? "it contains no mesh" : problems));
+  }
+  return result;
+}
+
+void RequireCount(
+  const InputFile& file, const std::string& what, vtkIdType announced, vtkIdType found)
+{
+  if (announced != found)
+  {
+    file.Fail(what + ": the file says " + std::to_string(announced) + ", but " +
+      std::to_string(found) + " can be read (truncated or corrupt)");
+  }
+}
+
+struct MeshCount
+{
+  const char* Keyword; ///< Of a .vtk.
+  const char* Attribute; ///< Of a .vtp.
+  vtkIdType Number;
+};
+
+std::array<MeshCount, 5> CountsOf(vtkPolyData* mesh)
+{
+  return { { { "POINTS", "NumberOfPoints", mesh->GetNumberOfPoints() },
+    { "VERTICES", "NumberOfVerts", mesh->GetNumberOfVerts() },
+    { "LINES", "NumberOfLines", mesh->GetNumberOfLines() },
+    { "POLYGONS", "NumberOfPolys", mesh->GetNumberOfPolys() },
+    { "TRIANGLE_STRIPS", "NumberOfStrips", mesh->GetNumberOfStrips() } } };
+}
+
+/// The sum of the counts behind a keyword in a .vtk; `found` if it is not there.
+vtkIdType CountInLegacy(
+  std::string_view bytes, const std::string& keyword, bool hasOffsets, vtkIdType found)
+{
+  vtkIdType announced = 0;
+  bool isThere = false;
+  for (std::size_t end = bytes.find('\n'); end < bytes.size(); end = bytes.find('\n', end + 1))
+  {
+    const std::string_view line = bytes.substr(end + 1, keyword.size() + 32);
+    if (line.size() > keyword.size() && line[keyword.size()] == ' ' &&
+      strncasecmp(line.data(), keyword.c_str(), keyword.size()) == 0)
+    {
+      vtkIdType count = 0;
+      std::from_chars(line.data() + keyword.size() + 1, line.data() + line.size(), count);
+      // From version 5 on, the number of offsets, which is one more.
+      announced += hasOffsets ? std::max<vtkIdType>(count - 1, 0) : count;
+      isThere = true;
+    }
+  }
+  return isThere ? announced : found;
+}
+
+/// VTK's reader, which afterwards compares what it read with what the file says.
+class CheckedXmlReader : public vtkXMLPolyDataReader
+{
+public:
+  static CheckedXmlReader* New();
+  vtkTypeMacro(CheckedXmlReader, vtkXMLPolyDataReader);
+
+  const InputFile* File = nullptr;
+  std::map<std::string, vtkIdType> Announced; ///< The counts of all pieces, by attribute.
+
+protected:
+  int ReadVTKFile(vtkXMLDataElement* root) override
+  {
+    this->Announced.clear();
+    this->Prepare(root);
+    return this->Superclass::ReadVTKFile(root);
+  }
+
+  int ReadArrayValues(vtkXMLDataElement* element, vtkIdType arrayIndex, vtkAbstractArray* array,
+    vtkIdType startIndex, vtkIdType numValues, FieldType type) override
+  {
+    const int done =
+      this->Superclass::ReadArrayValues(element, arrayIndex, array, startIndex, numValues, type);
+    if (IsText(element) && vtkDataArray::SafeDownCast(array))
+    {
+      const std::string_view bytes = this->File->GetBytes();
+      const std::size_t begin = std::min(
+        bytes.find('>', static_cast<std::size_t>(element->GetXMLByteIndex())), bytes.size());
+      if (bytes.substr(begin, bytes.find('<', begin) - begin).find_first_of("nN") != bytes.npos)
+      {
+        this->File->Fail("nan or inf as text, which VTK changes; binary data may have them");
+      }
+    }
+    // Cell data are read in parts, of verts, lines, strips and polygons, so they may have more.
+    const std::string parent = element->GetParent()->GetName();
+    if (done && numValues > 0 && parent != "CellData" && parent != "FieldData" &&
+      this->HasMore(element, startIndex + numValues))
+    {
+      this->File->Fail(
+        "an array of the element " + parent + " has more values than the file says (corrupt)");
+    }
+    return done;
+  }
+
+private:
+  /// Adds up counts, and removes ranges: VTK computes them again, and it writes infinite ones,
+  /// which it cannot read.
+  void Prepare(vtkXMLDataElement* element)
+  {
+    const bool isPiece = std::strcmp(element->GetName(), "Piece") == 0;
+    element->RemoveAttribute("RangeMin");
+    element->RemoveAttribute("RangeMax");
+    for (int i = element->GetNumberOfNestedElements() - 1; i >= 0; --i)
+    {
+      vtkXMLDataElement* const child = element->GetNestedElement(i);
+      const char* const key = child->GetAttribute("name");
+      const std::string count = std::string("NumberOf") + child->GetName();
+      if (key && std::strstr(key, "RANGE"))
+      {
+        element->RemoveNestedElement(child);
+        continue;
+      }
+      if (isPiece && child->GetNumberOfNestedElements() > 0 &&
+        !element->GetAttribute(count.c_str()) && !std::strstr(child->GetName(), "Data"))
+      {
+        this->File->Fail("Piece has no " + count + ", but an element " + child->GetName());
+      }
+      this->Prepare(child);
+    }
+    for (int i = 0; i < element->GetNumberOfAttributes(); ++i)
+    {
+      const std::string name = element->GetAttributeName(i);
+      if (name.rfind("NumberOf", 0) == 0)
+      {
+        const vtkIdType count = this->ReadCount(name, element->GetAttributeValue(i));
+        this->Announced[name] += isPiece ? count : 0;
+      }
+    }
+  }
+
+  vtkIdType ReadCount(const std::string& name, const std::string& text) const
+  {
+    // A value takes a byte at least; compressed it may take less.
+    const vtkIdType compression = name == "NumberOfComponents" ? 1 : 10000;
+    const auto bytes = static_cast<vtkIdType>(this->File->GetBytes().size());
+    const char* const end = text.data() + text.size();
+    vtkIdType count = -1;
+    const auto [last, error] = std::from_chars(text.data(), end, count);
+    if (error != std::errc() || last != end || count < 0 || count / compression > bytes)
+    {
+      this->File->Fail(name + "=\"" + text + "\" is not a valid count (corrupt)");
+    }
+    return count;
+  }
+
+  static bool IsText(vtkXMLDataElement* element)
+  {
+    const char* const format = element->GetAttribute("format");
+    return !format || std::strcmp(format, "ascii") == 0;
+  }
+
+  /// Whether an array of numbers has another value after its first `count`.
+  bool HasMore(vtkXMLDataElement* element, vtkIdType count)
+  {
+    int type = 0;
+    vtkTypeInt64 offset = 0;
+    double value = 0.0;
+    if (!element->GetWordTypeAttribute("type", type) || type == VTK_BIT || type == VTK_STRING)
+    {
+      return false;
+    }
+    const int isText = IsText(element) ? 1 : 0;
+    return element->GetScalarAttribute("offset", offset)
+      ? this->XMLParser->ReadAppendedData(offset, &value, count, 1, type) > 0
+      : this->XMLParser->ReadInlineData(element, isText, &value, count, 1, type) > 0;
+  }
+};
+
+vtkStandardNewMacro(CheckedXmlReader);
+
+template <typename Writer>
+void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  writer->SetInputData(mesh);
+  writer->SetFileName(path.c_str());
+  const bool written = writer->Write() != 0;
+  const std::string problems = messages.TakeProblems();
+  if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
+  {
+    throw CommandError(ExitCode::BadFile, "no space for the whole file");
+  }
+  if (!written || !problems.empty() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw CommandError(ExitCode::BadFile, problems.empty() ? "the writer failed" : problems);
+  }
+}
+
+/// VTK writes the range of the vectors' lengths with an array, and cannot read an infinite one. The
+/// squares of coordinates above 1e154 are infinite.
+void LimitRange(vtkDataArray* array)
+{
+  constexpr double most = 1e308; // the largest double, rounded as VTK writes it, would be infinite
+  double range[2];
+  array->GetRange(range, -1);
+  if (array->GetNumberOfComponents() > 1 && !(std::isfinite(range[0]) && std::isfinite(range[1])))
+  {
+    for (double& end : range)
+    {
+      end = std::isnan(end) ? 0.0 : std::clamp(end, -most, most);
+    }
+    array->GetInformation()->Set(vtkDataArray::L2_NORM_RANGE(), range, 2);
+  }
+}
+
+/// Throws where VTK's .vtp writer crashes or makes a file that cannot be read, and limits ranges.
+void PrepareForXml(vtkFieldData* data)
+{
+  auto* const attributes = vtkDataSetAttributes::SafeDownCast(data);
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = data->GetAbstractArray(index);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    auto* const strings = vtkStringArray::SafeDownCast(array);
+    for (vtkIdType i = 0; strings && i < strings->GetNumberOfValues(); ++i)
+    {
+      if (strings->GetValue(i).find('\0') != std::string::npos)
+      {
+        throw CommandError(ExitCode::BadFile,
+          "a string of the array '" + name +
+            "' contains a zero byte, which this file format cannot hold; a .vtk can hold it");
+      }
+    }
+    const int type = array->GetDataType();
+    const bool canBeIds =
+      type == VTK_INT || type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE;
+    if (attributes && !canBeIds &&
+      (array == attributes->GetPedigreeIds() || array == attributes->GetGlobalIds()))
+    {
+      throw CommandError(ExitCode::BadFile,
+        "the ids '" + name +
+          "' are not signed integers of 32 or 64 bits, as this file format needs; a .vtk can hold "
+          "them");
+    }
+    if (auto* const numbers = vtkDataArray::SafeDownCast(array))
+    {
+      LimitRange(numbers);
+    }
+  }
+}
+
+void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
+{
+  (*static_cast<const WriteObserver*>(tell))(vtkAlgorithm::SafeDownCast(writer)->GetProgress());
+}
+
+}
+
+FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
+{
+  const std::string mark = "# vtk DataFile Version";
+  const std::string_view bytes = file.GetBytes();
+  std::istringstream head(std::string(bytes.substr(0, 1000)));
+  std::string line, keyword, type;
+  std::getline(head, line);
+  if (line.rfind(mark, 0) != 0)
+  {
+    file.Fail("not a VTK file (it does not start with '" + mark + "')");
+  }
+  const bool hasOffsets = std::atof(line.c_str() + mark.size()) >= 5.0;
+  std::getline(head, line); // the title
+  head >> line >> keyword >> type;
+  if (strcasecmp(keyword.c_str(), "dataset") == 0 && strcasecmp(type.c_str(), "polydata") != 0)
+  {
+    FailOnType(file, type);
+  }
+  vtkNew<vtkPolyDataReader> reader;
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllNormalsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllColorScalarsOn();
+  reader->ReadAllTCoordsOn();
+  reader->ReadAllFieldsOn();
+  const FileMesh result = Run(reader.Get(), file, messages);
+  vtkPolyData* const mesh = result.Mesh;
+  if (!mesh->GetPoints())
+  {
+    file.Fail("has no POINTS (truncated or corrupt)");
+  }
+  for (const MeshCount& count : CountsOf(mesh))
+  {
+    const std::string keyword = count.Keyword;
+    RequireCount(file, keyword,
+      CountInLegacy(bytes, keyword, hasOffsets && keyword != "POINTS", count.Number), count.Number);
+  }
+  return result;
+}
+
+FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
+{
+  vtkNew<vtkXMLFileReadTester> tester;
+  tester->SetFileName(file.GetPath().c_str());
+  const char* const type = tester->TestReadFile() ? tester->GetFileDataType() : nullptr;
+  if (!type)
+  {
+    file.Fail("not a VTK XML file");
+  }
+  if (std::strcmp(type, "PolyData") != 0)
+  {
+    FailOnType(file, type);
+  }
+  vtkNew<CheckedXmlReader> reader;
+  reader->File = &file;
+  FileMesh result = Run<CheckedXmlReader>(reader, file, messages);
+  vtkPolyData* const mesh = result.Mesh;
+  for (const MeshCount& count : CountsOf(mesh))
+  {
+    RequireCount(file, count.Attribute, reader->Announced[count.Attribute], count.Number);
+  }
+  if (!mesh->GetPoints())
+  {
+    mesh->SetPoints(vtkNew<vtkPoints>());
+  }
+  return result;
+}
+
+void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkPolyDataWriter> writer;
+  writer->SetFileTypeToBinary();
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+{
+  vtkNew<vtkSTLWriter> writer;
+  writer->SetFileTypeToBinary();
+  Run(writer.Get(), mesh, path, messages);
+}
+
+void WriteXml(
+  vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell)
+{
+  PrepareForXml(mesh->GetFieldData());
+  PrepareForXml(mesh->GetPointData());
+  PrepareForXml(mesh->GetCellData());
+  LimitRange(mesh->GetPoints()->GetData());
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(TellProgress);
+  progress->SetClientData(const_cast<WriteObserver*>(&tell));
+  writer->AddObserver(vtkCommand::ProgressEvent, progress);
+  // Appended data, raw or base64, would be twice as fast. But Debian 12's ParaView 5.11 cannot read
+  // them: VTK before 9.3 with an expat that delays parsing (2.6, or 2.5 with that fix) fails.
+  writer->SetDataModeToBinary();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetCompressorTypeToLZ4(); // a fifth of zlib's time, for files half as large again
+  Run(writer.Get(), mesh, path, messages);
+
+  // Parses the whole file, to its last tag, but does not decode the numbers, which takes three
+  // times as long.
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->UpdateInformation();
+  if (!messages.TakeProblems().empty() || reader->GetNumberOfPieces() != 1)
+  {
+    throw CommandError(ExitCode::BadFile, "the file is incomplete when read back");
+  }
+}
+
+}

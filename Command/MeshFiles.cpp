@@ -1,0 +1,344 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshFiles.h"
+
+#include "CommandError.h"
+#include "Formats.h"
+#include "InputFile.h"
+#include "OutputFiles.h"
+
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// Limits the memory and the processor time of this process while it lives, depending on the size
+/// of the file that is read. A file that asks for more then ends the process, or an allocation
+/// fails.
+class ReadingLimits
+{
+public:
+  explicit ReadingLimits(double bytes)
+    : Memory(Lower(RLIMIT_DATA, UsedMemory() + LeastMemory + MemoryPerByte * bytes)),
+      Time(Lower(RLIMIT_CPU, std::ceil(UsedSeconds() + LeastSeconds + SecondsPerByte * bytes)))
+  {
+  }
+
+  ~ReadingLimits()
+  {
+    setrlimit(RLIMIT_DATA, &this->Memory);
+    setrlimit(RLIMIT_CPU, &this->Time);
+  }
+
+  ReadingLimits(const ReadingLimits&) = delete;
+  ReadingLimits& operator=(const ReadingLimits&) = delete;
+
+private:
+  // Text of one-digit numbers grows 16 times when every number becomes a few doubles. Compressed
+  // data can grow a thousand times, but only if they are nearly constant.
+  static constexpr double MemoryPerByte = 200;
+  static constexpr double LeastMemory = 1 << 30;
+  // The slowest readers take 0.2 microseconds per byte.
+  static constexpr double SecondsPerByte = 5e-6;
+  static constexpr double LeastSeconds = 30;
+
+  /// The data segments and private mappings of this process in bytes, as the system counts them.
+  static double UsedMemory()
+  {
+    std::ifstream file("/proc/self/statm");
+    double pages[6] = {};
+    for (double& count : pages)
+    {
+      file >> count;
+    }
+    return pages[5] * static_cast<double>(sysconf(_SC_PAGESIZE));
+  }
+
+  static double UsedSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+  /// Lowers a limit, returns what it was.
+  static rlimit Lower(int resource, double value)
+  {
+    rlimit before = {};
+    getrlimit(resource, &before);
+    rlimit lowered = before;
+    lowered.rlim_cur = std::min(before.rlim_cur, static_cast<rlim_t>(value));
+    setrlimit(resource, &lowered);
+    return before;
+  }
+
+  rlimit Memory;
+  rlimit Time;
+};
+
+void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what)
+{
+  vtkIdType cell = 0;
+  ForEachCell(cells,
+    [&](vtkIdType size, const vtkIdType*)
+    {
+      if (size < fewest)
+      {
+        throw CommandError(ExitCode::BadFile,
+          what + " " + std::to_string(cell) + " has " + Counted(size, "point") +
+            ", too few for this file format; a .vtk can hold it");
+      }
+      ++cell;
+    });
+}
+
+/// Whether the last line of a .vtk or an .obj is complete: if it is cut off, the file may be
+/// readable, but wrong. The other formats have an end, or a length that the reader checks.
+bool IsEnded(const std::string& path, MeshFormat format)
+{
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-1, std::ios::end);
+  return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
+}
+
+bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
+{
+  return mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
+    (format == MeshFormat::STL || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
+    (format != MeshFormat::VTK || mesh->GetNumberOfCells() == written->GetNumberOfCells());
+}
+
+using Place = std::array<double, 3>;
+
+/// What a .stl loses of the points.
+struct PointLosses
+{
+  explicit PointLosses(vtkPolyData* mesh)
+  {
+    std::vector<bool> isUsed(mesh->GetNumberOfPoints());
+    for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
+    {
+      ForEachCell(cells,
+        [&isUsed](vtkIdType size, const vtkIdType* points)
+        { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
+    }
+    this->Unused = std::count(isUsed.begin(), isUsed.end(), false);
+    std::vector<std::pair<Place, Place>> places; // as float, and as it was
+    for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+    {
+      Place place;
+      Place rounded;
+      mesh->GetPoint(point, place.data());
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        place[axis] = std::isnan(place[axis]) ? 0.0 : place[axis]; // it has no order
+        rounded[axis] = static_cast<float>(place[axis]);
+        const bool differs = isUsed[point] && rounded[axis] != place[axis];
+        const double move = differs ? std::abs(rounded[axis] - place[axis]) : 0.0;
+        this->LargestMove = std::max(this->LargestMove, move);
+      }
+      if (isUsed[point])
+      {
+        places.emplace_back(rounded, place);
+      }
+    }
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size() && this->LargestMove > 0.0; ++i)
+    {
+      this->Fallen += places[i].first == places[i - 1].first && places[i] != places[i - 1] ? 1 : 0;
+    }
+  }
+
+  std::int64_t Unused = 0; ///< Points of no polygon.
+  double LargestMove = 0.0; ///< By how much a coordinate changes at most when it becomes float.
+  std::int64_t Fallen = 0; ///< How many different places become the same as others.
+};
+
+/// On cells with fewer points than their kind needs, VTK's .vtp writer crashes, and files of other
+/// formats cannot be read; as float, large coordinates would be infinite.
+void RequireStorable(vtkPolyData* mesh, MeshFormat format)
+{
+  if (format == MeshFormat::VTP || format == MeshFormat::OBJ)
+  {
+    RequireSizes(mesh->GetStrips(), 3, "strip");
+    RequireSizes(mesh->GetVerts(), 1, "vert");
+    RequireSizes(mesh->GetLines(), 2, "line");
+  }
+  if (format != MeshFormat::VTK && format != MeshFormat::PLY)
+  {
+    RequireSizes(mesh->GetPolys(), 3, "polygon");
+  }
+  if (format == MeshFormat::STL && std::isinf(PointLosses(mesh).LargestMove))
+  {
+    throw CommandError(ExitCode::BadFile,
+      "a coordinate is larger than 3.4e38, too large for this file format; a .vtk, .vtp, .ply or "
+      ".obj can hold it");
+  }
+}
+
+/// `what` and, in parentheses, the names of the arrays of `data` that are not among `kept`.
+std::string LostArrays(
+  const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept)
+{
+  std::string names;
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = data->GetAbstractArray(index);
+    if (std::find(kept.begin(), kept.end(), array) == kept.end())
+    {
+      names += (names.empty() ? "" : ", ") + std::string(array->GetName() ? array->GetName() : "?");
+    }
+  }
+  return names.empty() ? names : what + " (" + names + ")";
+}
+
+std::string LostCount(const std::string& what, std::int64_t count)
+{
+  return count > 0 ? what + " (" + std::to_string(count) + ")" : "";
+}
+
+}
+
+MeshFormat FormatOf(const std::string& path)
+{
+  static const std::map<std::string, MeshFormat> formats = { { ".vtk", MeshFormat::VTK },
+    { ".vtp", MeshFormat::VTP }, { ".ply", MeshFormat::PLY }, { ".stl", MeshFormat::STL },
+    { ".obj", MeshFormat::OBJ } };
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const auto found = formats.find(extension);
+  if (found == formats.end())
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      path + ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj");
+  }
+  return found->second;
+}
+
+FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages)
+{
+  const InputFile file(path);
+  const ReadingLimits limits(static_cast<double>(file.GetBytes().size()));
+  try
+  {
+    return format == MeshFormat::VTK ? ReadLegacy(file, messages)
+      : format == MeshFormat::VTP    ? ReadXml(file, messages)
+      : format == MeshFormat::PLY    ? ReadPly(file)
+      : format == MeshFormat::STL    ? ReadStl(file)
+                                     : ReadObj(file);
+  }
+  catch (const CommandError&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    if (!IsLackOfMemory(error))
+    {
+      throw;
+    }
+  }
+  file.Fail(
+    "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
+    std::to_string(file.GetBytes().size()) + " bytes can hold");
+}
+
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
+  const WriteObserver& tell)
+{
+  RequireStorable(mesh, format);
+  std::string problem;
+  try
+  {
+    switch (format)
+    {
+      case MeshFormat::VTP:
+        return WriteXml(mesh, path, messages, tell); // and checks it
+      case MeshFormat::VTK:
+        WriteLegacy(mesh, path, messages);
+        break;
+      case MeshFormat::PLY:
+        WritePly(mesh, path);
+        break;
+      case MeshFormat::STL:
+        WriteStl(mesh, path, messages);
+        break;
+      case MeshFormat::OBJ:
+        WriteObj(mesh, path);
+        break;
+    }
+    const FileMesh written = ReadMesh(path, format, messages);
+    if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
+    {
+      return;
+    }
+    problem = "the file is incomplete when read back";
+  }
+  catch (const CommandError& error)
+  {
+    // The user does not know the temporary file, so the message does not name it.
+    problem = error.what();
+    problem.erase(0, problem.rfind(path + ": ", 0) == 0 ? path.size() + 2 : 0);
+  }
+  throw CommandError(ExitCode::BadFile, problem + ExplainFailedWrite(path));
+}
+
+std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
+{
+  if (format == MeshFormat::VTK || format == MeshFormat::VTP)
+  {
+    return {};
+  }
+  const bool isPly = format == MeshFormat::PLY;
+  const bool isObj = format == MeshFormat::OBJ;
+  const bool isStl = format == MeshFormat::STL;
+  using Arrays = std::vector<vtkAbstractArray*>;
+  const Arrays ofPoints = isPly ? ArraysOfPly(mesh, true) : isObj ? ArraysOfObj(mesh) : Arrays();
+  const Arrays ofCells = isPly ? ArraysOfPly(mesh, false) : Arrays();
+  std::vector<std::string> losses = { LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0),
+    LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()) };
+  if (isStl)
+  {
+    const PointLosses points(mesh);
+    losses.push_back(LostCount("unused points", points.Unused));
+    if (points.LargestMove > 0.0)
+    {
+      std::array<char, 32> move{};
+      std::snprintf(move.data(), move.size(), "%.2g", points.LargestMove);
+      losses.push_back("double precision of the points (coordinates change by up to " +
+        std::string(move.data()) +
+        (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
+    }
+  }
+  losses.push_back(LostArrays("point data", mesh->GetPointData(), ofPoints));
+  losses.push_back(LostArrays("cell data", mesh->GetCellData(), ofCells));
+  if (isPly && mesh->GetNumberOfLines() > 0 && mesh->GetCellData()->GetNumberOfArrays() > 0)
+  {
+    losses.push_back("cell data of lines");
+  }
+  losses.push_back(LostArrays("field data", mesh->GetFieldData(), {}));
+  std::string list;
+  for (const std::string& loss : losses)
+  {
+    list += (list.empty() || loss.empty() ? "" : ", ") + loss;
+  }
+  return list;
+}
+
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MESHFILES_H
+#define DELAUNAYFLIP_MESHFILES_H
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// @file
+/// Reading and writing of meshes in all formats. Call ReadMesh and WriteMesh in a child process: a
+/// corrupt file may crash VTK's readers, or the limits on reading may end the process.
+
+namespace delaunayflip
+{
+
+class VTKMessages;
+
+enum class MeshFormat
+{
+  VTK, ///< Legacy .vtk
+  VTP, ///< VTK's XML .vtp
+  PLY,
+  STL,
+  OBJ
+};
+
+/// The format of `path`, from its extension in upper or lower case.
+/// @throws CommandError (WrongUsage) that lists the known extensions.
+MeshFormat FormatOf(const std::string& path);
+
+/// A surface mesh that was read from a file.
+struct FileMesh
+{
+  vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
+  std::vector<std::string> Warnings; ///< What reading left out, one line each.
+};
+
+/// Reads a surface mesh.
+/// @throws CommandError (BadFile) that names the file and the reason.
+FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages);
+
+/// Called with the share that has been written, 0 .. 1, if writing the format takes long.
+using WriteObserver = std::function<void(double)>;
+
+/// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
+/// complete, because the writers of some formats do not notice a full disk.
+/// @throws CommandError (BadFile) with the reason.
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
+  const WriteObserver& tell);
+
+/// Lists in words which parts of `mesh` a file of this format cannot store; empty if it can store
+/// all of them.
+std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format);
+
+}
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_FLIPENGINE_H
+#define DELAUNAYFLIP_FLIPENGINE_H
+
+#include "BuildProgress.h"
+#include "DeviceMesh.h"
+#include "EdgeMesh.h"
+#include "FlipLoop.h"
+#include "FlipOptions.h"
+#include "FlipReport.h"
+#include "SpatialOrder.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace delaunayflip
+{
+
+/// Restores the state of the calling thread that a backend has changed.
+class DeviceScope
+{
+public:
+  virtual ~DeviceScope() = default;
+};
+
+/// The triangles of a loaded mesh in the memory of a GPU, to be read until the next flips.
+struct DeviceTriangles
+{
+  const TriangleRecord* Records = nullptr; ///< Null if they are in no GPU's memory.
+  SpatialOrderView Order{};
+  std::int64_t Count = 0;
+  int Device = -1; ///< CUDA's number of the GPU.
+  DeviceStream Stream; ///< The backend's. What is in it may still write the records.
+  std::uint64_t Engine = 0; ///< Another number for every loaded mesh of the process.
+};
+
+/// The same where they are in the memory of the host.
+struct HostTriangles
+{
+  const TriangleRecord* Records = nullptr; ///< Null if they are not.
+  const CornerId* CornerOfHalfEdge = nullptr;
+  SpatialOrderView Order{};
+  std::int64_t Count = 0;
+  std::int64_t NumberOfEdges = 0; ///< Of half-edges twice as many.
+  const FlipLoop* Loop = nullptr; ///< That of the mesh.
+
+  /// Calls visit(corner) for every edge of one triangle.
+  template <typename Visit>
+  void ForEachAtBoundary(const Visit& visit) const
+  {
+    for (std::int64_t edge = 0; edge < this->NumberOfEdges; ++edge)
+    {
+      if (this->CornerOfHalfEdge[2 * edge + 1] == NoCorner)
+      {
+        visit(this->CornerOfHalfEdge[2 * edge]);
+      }
+    }
+  }
+
+  /// The corner on the other side of the edge opposite to a slot, or NoCorner.
+  CornerId GetOtherCorner(std::int64_t triangle, int slot) const
+  {
+    return this->CornerOfHalfEdge[this->Records[triangle].HalfEdges[slot] ^ 1u];
+  }
+};
+
+/// A mesh that is loaded onto a backend, ready to flip: what a session needs of a backend.
+/// MeshOnBackend.h makes one.
+class LoadedMesh
+{
+public:
+  virtual ~LoadedMesh() = default;
+
+  /// Makes the backend's device current in the calling thread as long as the result is kept. Null
+  /// if there is no device. Call this before any other function.
+  virtual std::unique_ptr<DeviceScope> MakeCurrent() const = 0;
+
+  virtual FlipLoop& GetLoop() = 0;
+
+  /// What is known about the input before the first iteration.
+  virtual const FlipReport& GetInputReport() const = 0;
+
+  /// The same as FlipSession's.
+  virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
+  virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
+
+  /// The same into device memory. @returns false, and writes nothing, if the backend's device
+  /// cannot write it.
+  virtual bool StoreTrianglesOnDevice(const MutableTriangleArray&, const DeviceStream&) const
+  {
+    return false;
+  }
+  virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
+
+  /// The triangles as they are in device memory, if they are.
+  virtual DeviceTriangles ViewTriangles() const { return {}; }
+  /// The same in the host's memory.
+  virtual HostTriangles ViewHostTriangles() const = 0;
+
+  /// The triangles that flips have turned over in x and y, on a surface that was a height field or
+  /// nearly one; else none.
+  virtual Defect FindTurnedTriangles() const = 0;
+
+  /// Throws std::logic_error if the edge mesh is inconsistent, which is a bug of the engine.
+  virtual void Audit() const = 0;
+};
+
+/// @throws RunAborted.
+std::unique_ptr<LoadedMesh> LoadOnThreads(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+
+/// @throws RunAborted.
+/// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
+/// mesh needs the CPU. The message says why.
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+
+/// For arrays in the memory of FlipOptions::Device.
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
+
+}
+
+#endif

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqDelaunayFlipClient.h"
+
+#include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
+#include "pqOutputPort.h"
+#include "pqPipelineSource.h"
+#include "pqPropertyWidget.h"
+#include "pqServerManagerModel.h"
+#include "pqView.h"
+#include "vtkCommand.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyGroup.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMTrace.h"
+#include "vtkVariant.h"
+
+#if __has_include("vtkPVRepresentedArrayListSettings.h")
+#include "vtkPVRepresentedArrayListSettings.h"
+#define DELAUNAYFLIP_CAN_HIDE_ARRAYS
+#endif
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSet>
+#include <QSignalBlocker>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <QVector>
+
+#include <string>
+
+namespace
+{
+
+pqServerManagerModel* GetModel() { return pqApplicationCore::instance()->getServerManagerModel(); }
+
+QString MakeKey(vtkSMProxy* proxy, unsigned int port)
+{
+  return proxy ? QString("%1:%2").arg(proxy->GetGlobalID()).arg(port) : QString();
+}
+
+QString MakeText(pqOutputPort* port)
+{
+  pqPipelineSource* source = port->getSource();
+  const QString name = source->getSMName();
+  return source->getNumberOfOutputPorts() > 1 ? name + ":" + port->getPortName() : name;
+}
+
+/// A filter and everything downstream of it.
+QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
+{
+  QSet<pqPipelineSource*> found{ first };
+  QList<pqPipelineSource*> next{ first };
+  while (!next.isEmpty())
+  {
+    for (pqPipelineSource* consumer : next.takeFirst()->getAllConsumers())
+    {
+      if (!found.contains(consumer))
+      {
+        found.insert(consumer);
+        next.append(consumer);
+      }
+    }
+  }
+  return found;
+}
+
+bool HoldsPolygons(pqOutputPort* port)
+{
+  vtkPVDataInformation* information = port->getDataInformation();
+  return information && information->DataSetTypeIsA("vtkPolyData");
+}
+
+/// Buttons that pause a live run, make one step of it, and restart it. They act at once, without
+/// Apply.
+class LiveControls : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  LiveControls(vtkSMProxy* smproxy, QWidget* parentWidget)
+    : pqPropertyWidget(smproxy, parentWidget)
+  {
+    this->setShowLabel(false);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    this->Pause = this->addButton("Paused");
+    this->Pause->setText("Pause");
+    this->Pause->setCheckable(true);
+    QObject::connect(this->Pause, &QPushButton::toggled, this, &LiveControls::setPaused);
+    QObject::connect(this->addButton("Step"), &QPushButton::clicked, this,
+      [this]()
+      {
+        this->Pause->setChecked(true); // otherwise the next step would follow by itself
+        this->invoke("Step");
+      });
+    QObject::connect(this->addButton("Restart"), &QPushButton::clicked, this,
+      [this]() { this->invoke("Restart"); });
+    pqCoreUtilities::connect(
+      smproxy->GetProperty("Paused"), vtkCommand::ModifiedEvent, this, SLOT(showState()));
+    this->showState();
+  }
+
+private Q_SLOTS:
+  void showState()
+  {
+    const QSignalBlocker blocker(this->Pause);
+    this->Pause->setChecked(vtkSMPropertyHelper(this->proxy(), "Paused").GetAsInt() != 0);
+  }
+
+private:
+  QPushButton* addButton(const char* name)
+  {
+    auto* button = new QPushButton(name, this);
+    button->setObjectName(name);
+    button->setToolTip(pqPropertyWidget::getTooltip(this->proxy()->GetProperty(name)));
+    this->layout()->addWidget(button);
+    return button;
+  }
+
+  void setPaused(bool isPaused)
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+    vtkSMPropertyHelper(this->proxy(), "Paused").Set(isPaused ? 1 : 0);
+    this->proxy()->UpdateVTKObjects();
+  }
+
+  void invoke(const char* command)
+  {
+    SM_SCOPED_TRACE(CallMethod).arg("proxy", this->proxy()).arg("InvokeCommand").arg(command);
+    this->proxy()->InvokeCommand(command);
+    pqApplicationCore::instance()->render();
+  }
+
+  QPushButton* Pause;
+};
+
+/// A group of information properties, shown as plain text beside their names. The text can be
+/// selected and copied, but not edited. Advanced properties are not shown: they are for scripts.
+class Results : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  Results(vtkSMProxy* smproxy, vtkSMPropertyGroup* group, QWidget* parentWidget)
+    : pqPropertyWidget(smproxy, parentWidget)
+  {
+    auto* form = new QFormLayout(this);
+    form->setContentsMargins(0, 0, 0, 0);
+    for (unsigned int i = 0; i < group->GetNumberOfProperties(); ++i)
+    {
+      vtkSMProperty* smproperty = group->GetProperty(i);
+      if (QString(smproperty->GetPanelVisibility()) != "advanced")
+      {
+        auto* value = new QLabel(this);
+        value->setObjectName(smproxy->GetPropertyName(smproperty));
+        value->setToolTip(pqPropertyWidget::getTooltip(smproperty));
+        value->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        value->setWordWrap(true);
+        pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(refresh()));
+        form->addRow(smproperty->GetXMLLabel(), value);
+        form->labelForField(value)->setToolTip(value->toolTip());
+        this->Values.append(value);
+      }
+    }
+    this->refresh();
+  }
+
+private Q_SLOTS:
+  void refresh()
+  {
+    for (QLabel* value : this->Values)
+    {
+      const vtkSMPropertyHelper helper(this->proxy(), value->objectName().toUtf8().data());
+      const bool isKnown = helper.GetNumberOfElements() > 0;
+      value->setText(isKnown ? QString::fromStdString(helper.GetAsVariant(0).ToString()) : "");
+    }
+  }
+
+private:
+  QList<QLabel*> Values; ///< Labels, whose object names are those of the properties.
+};
+
+/// A list of the sources of polygonal data for an optional input, and "(none)". Unlike ParaView's
+/// own list, it leaves out sources downstream of the filter: a loop would crash ParaView.
+class SourceList : public pqPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  SourceList(vtkSMProxy* smproxy, vtkSMProperty* smproperty, QWidget* parentWidget)
+    : pqPropertyWidget(smproxy, parentWidget),
+      Choices(new QComboBox(this))
+  {
+    this->setProperty(smproperty);
+    auto* box = new QVBoxLayout(this);
+    box->setContentsMargins(0, 0, 0, 0);
+    box->addWidget(this->Choices);
+    this->Changes.setSingleShot(true);
+    this->Changes.setInterval(0);
+    QObject::connect(&this->Changes, &QTimer::timeout, this, &SourceList::refill);
+    for (const char* change :
+      { SIGNAL(sourceAdded(pqPipelineSource*)), SIGNAL(sourceRemoved(pqPipelineSource*)),
+        SIGNAL(dataUpdated(pqPipelineSource*)), SIGNAL(nameChanged(pqServerManagerModelItem*)),
+        SIGNAL(connectionAdded(pqPipelineSource*, pqPipelineSource*, int)) })
+    {
+      QObject::connect(GetModel(), change, &this->Changes, SLOT(start()));
+    }
+    pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(showInput()));
+    this->refill();
+    QObject::connect(this->Choices, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+      [this]()
+      {
+        this->IsEdited = true;
+        Q_EMIT this->changeAvailable();
+      });
+  }
+
+  void apply() override
+  {
+    if (this->IsEdited)
+    {
+      const QStringList key = this->Choices->currentData().toString().split(':');
+      auto* source =
+        GetModel()->findItem<pqPipelineSource*>(static_cast<vtkTypeUInt32>(key.first().toUInt()));
+      vtkSMPropertyHelper helper(this->property());
+      source ? helper.Set(source->getProxy(), key.last().toUInt()) : helper.SetNumberOfElements(0);
+      this->IsEdited = false;
+    }
+    pqPropertyWidget::apply();
+  }
+
+  void reset() override
+  {
+    this->showInput();
+    pqPropertyWidget::reset();
+  }
+
+private Q_SLOTS:
+  void showInput()
+  {
+    const vtkSMPropertyHelper helper(this->property());
+    const bool isSet = helper.GetNumberOfElements() > 0;
+    const QString key = isSet ? MakeKey(helper.GetAsProxy(), helper.GetOutputPort()) : QString();
+    const QSignalBlocker blocker(this->Choices);
+    this->Choices->setCurrentIndex(
+      this->Choices->findData(key)); // -1, an empty choice, if not listed
+    this->IsEdited = false;
+  }
+
+private:
+  using Source = QPair<QString, QString>; ///< The name of an output port, and its key.
+
+  QVector<Source> findSources() const
+  {
+    QVector<Source> sources{ { "(none)", "" } };
+    auto* filter = GetModel()->findItem<pqPipelineSource*>(this->proxy());
+    if (!filter)
+    {
+      return sources;
+    }
+    const QSet<pqPipelineSource*> downstream = FindDownstream(filter);
+    for (pqPipelineSource* source : GetModel()->findItems<pqPipelineSource*>(filter->getServer()))
+    {
+      for (pqOutputPort* port : source->getOutputPorts())
+      {
+        if (!downstream.contains(source) && HoldsPolygons(port))
+        {
+          sources.append({ MakeText(port), MakeKey(source->getProxy(), port->getPortNumber()) });
+        }
+      }
+    }
+    return sources;
+  }
+
+  void refill()
+  {
+    const QVector<Source> sources = this->findSources();
+    if (sources == this->Sources)
+    {
+      return;
+    }
+    this->Sources = sources;
+    const QSignalBlocker blocker(this->Choices);
+    const QVariant choice = this->Choices->currentData();
+    this->Choices->clear();
+    for (const Source& source : sources)
+    {
+      this->Choices->addItem(source.first, source.second);
+    }
+    if (this->IsEdited)
+    {
+      this->Choices->setCurrentIndex(qMax(0, this->Choices->findData(choice)));
+    }
+    else
+    {
+      this->showInput();
+    }
+  }
+
+  QComboBox* Choices;
+  QVector<Source> Sources; ///< The entries of the list.
+  bool IsEdited = false; ///< Whether edited since the last Apply or Reset.
+  QTimer Changes; ///< Fires once after one or more changes.
+};
+
+void ReadBack(pqPipelineSource* flip)
+{
+  flip->getProxy()->UpdatePropertyInformation();
+  for (pqPipelineSource* consumer : flip->getAllConsumers())
+  {
+    consumer->renderAllViews(); // later, from the event loop
+  }
+}
+
+void SetScale(pqPipelineSource* chart)
+{
+  const int isLog = vtkSMPropertyHelper(chart->getProxy(), "LogScale").GetAsInt();
+  for (pqView* view : chart->getViews())
+  {
+    vtkSMProxy* proxy = view->getProxy();
+    if (proxy->GetProperty("LeftAxisLogScale"))
+    {
+      vtkSMPropertyHelper(proxy, "LeftAxisLogScale").Set(isLog);
+      proxy->UpdateVTKObjects();
+      view->render();
+    }
+  }
+}
+
+}
+
+void pqDelaunayFlipClient::startup()
+{
+  QObject::connect(
+    GetModel(), &pqServerManagerModel::dataUpdated, this, &pqDelaunayFlipClient::refresh);
+#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
+  // ParaView replaces all expressions when the user edits or loads settings.
+  this->Observer = vtkPVRepresentedArrayListSettings::GetInstance()->AddObserver(
+    vtkCommand::ModifiedEvent, this, &pqDelaunayFlipClient::hideArrays);
+  this->hideArrays();
+#endif
+}
+
+void pqDelaunayFlipClient::shutdown()
+{
+#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
+  vtkPVRepresentedArrayListSettings::GetInstance()->RemoveObserver(this->Observer);
+#endif
+}
+
+void pqDelaunayFlipClient::hideArrays()
+{
+#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
+  const std::string expression = "^DelaunayFlip:";
+  auto* settings = vtkPVRepresentedArrayListSettings::GetInstance();
+  const int last = settings->GetNumberOfFilterExpressions();
+  bool isThere = this->IsHiding;
+  for (int i = 0; i < last; ++i)
+  {
+    isThere = isThere || settings->GetFilterExpression(i) == expression;
+  }
+  if (!isThere)
+  {
+    this->IsHiding = true; // the following calls modify the settings, twice
+    settings->SetNumberOfFilterExpressions(last + 1);
+    settings->SetFilterExpression(last, expression.c_str());
+    this->IsHiding = false;
+  }
+#endif
+}
+
+void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
+{
+  const QString name = source->getProxy()->GetXMLName();
+  if (name == "DelaunayFlip")
+  {
+    ReadBack(source);
+  }
+  else if (name == "PlotDelaunayFlips")
+  {
+    SetScale(source);
+  }
+}
+
+pqPropertyWidget* pqDelaunayFlipClient::createWidgetForProperty(
+  vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parentWidget)
+{
+  const bool isList = QString(property->GetPanelWidget()) == "DelaunayFlipSourceList";
+  return isList ? new SourceList(proxy, property, parentWidget) : nullptr;
+}
+
+pqPropertyWidget* pqDelaunayFlipClient::createWidgetForPropertyGroup(
+  vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parentWidget)
+{
+  const QString type = group->GetPanelWidget();
+  return type == "DelaunayFlipLiveControls" ? new LiveControls(proxy, parentWidget)
+    : type == "DelaunayFlipResults"
+    ? static_cast<pqPropertyWidget*>(new Results(proxy, group, parentWidget))
+    : nullptr;
+}
+
+#include "pqDelaunayFlipClient.moc"

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef pqDelaunayFlipClient_h
+#define pqDelaunayFlipClient_h
+
+#include "pqAutoStartInterface.h"
+#include "pqPropertyWidgetInterface.h"
+
+#include <QObject>
+
+class pqPipelineSource;
+
+/// What the plugin adds to the Qt client: widgets of the Properties panel, hidden arrays, and what
+/// follows every update of its filters.
+///
+/// Delaunay Flip: reads the group Last Update of the Properties panel again, because ParaView reads
+/// such properties when it applies the others, before the pipeline runs. It also renders the views
+/// of downstream filters, because ParaView renders only those of the live source itself.
+///
+/// Plot Delaunay Flips: sets the axis of the chart to the scale, linear or logarithmic, for which
+/// the filter prepared the data.
+///
+/// The filter's field data, one array per column of its table, are kept out of the menu Color By by
+/// an expression beside the user's own. It is not written to the settings file.
+class pqDelaunayFlipClient
+  : public QObject
+  , public pqAutoStartInterface
+  , public pqPropertyWidgetInterface
+{
+  Q_OBJECT
+  Q_INTERFACES(pqAutoStartInterface pqPropertyWidgetInterface)
+
+public:
+  explicit pqDelaunayFlipClient(QObject* parent)
+    : QObject(parent)
+  {
+  }
+
+  void startup() override;
+  void shutdown() override;
+
+  pqPropertyWidget* createWidgetForProperty(
+    vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent) override;
+  pqPropertyWidget* createWidgetForPropertyGroup(
+    vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent) override;
+
+private:
+  void hideArrays();
+  static void refresh(pqPipelineSource* source);
+
+  unsigned long Observer = 0;
+  bool IsHiding = false;
+};
+
+#endif

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LiveRun.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDelaunayFlip.h"
+#include "vtkExecutive.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTriangleFilter.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <sstream>
+
+namespace delaunayflip
+{
+
+const char* const KeyHelp = "space: run/pause   n: next step   b: begin again   "
+                            "k: colours   g: edges   i: statistics   d: drawing   q: quit";
+
+namespace
+{
+
+LiveState ToState(int stopReason)
+{
+  switch (stopReason)
+  {
+    case vtkDelaunayFlip::STOP_REASON_RUNNING:
+      return LiveState::UnderWay;
+    case vtkDelaunayFlip::STOP_REASON_ABORTED:
+      return LiveState::Aborted;
+    case vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT:
+      return LiveState::Limited;
+    default:
+      return LiveState::Converged;
+  }
+}
+
+/// Whether every cell is a triangle, as in outputs of the filter without lines or verts.
+bool HasOnlyTriangles(vtkPolyData* mesh)
+{
+  const vtkIdType triangles = mesh->GetNumberOfPolys();
+  return mesh->GetNumberOfCells() == triangles &&
+    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0);
+}
+
+/// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
+/// with VTK 9.6 a line stays.
+vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
+{
+  const vtkIdType before = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
+  const vtkIdType count = mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips();
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(mesh->GetPoints());
+  surface->GetPointData()->ShallowCopy(mesh->GetPointData());
+  surface->SetPolys(mesh->GetPolys());
+  surface->SetStrips(mesh->GetStrips());
+  surface->GetCellData()->CopyAllOn();
+  surface->GetCellData()->CopyAllocate(mesh->GetCellData(), count);
+  surface->GetCellData()->CopyData(mesh->GetCellData(), 0, count, before);
+  return surface;
+}
+
+vtkSmartPointer<vtkPolyData> AppendBlocks(vtkCompositeDataSet* blocks)
+{
+  vtkNew<vtkAppendPolyData> append;
+  vtkSmartPointer<vtkCompositeDataIterator> block;
+  block.TakeReference(blocks->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      append->AddInputData(mesh);
+    }
+  }
+  if (append->GetNumberOfInputConnections(0) > 0)
+  {
+    append->Update();
+  }
+  return append->GetOutput();
+}
+
+/// 1234567 -> "1,234,567"
+std::string Group(vtkIdType number)
+{
+  std::string text = std::to_string(number);
+  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
+  {
+    text.insert(static_cast<std::size_t>(i), ",");
+  }
+  return text;
+}
+
+/// 2, "flip" -> "2 flips"
+std::string Count(vtkIdType number, const std::string& things)
+{
+  return Group(number) + " " + things + (number == 1 ? "" : "s");
+}
+
+std::string DescribeCounts(vtkDelaunayFlip* filter)
+{
+  return Count(filter->GetTotalFlips(), "flip") + ", " +
+    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+}
+
+/// Breaks a text into lines that fit into a window.
+std::string Wrap(const std::string& text)
+{
+  constexpr std::size_t width = 60; // characters
+  std::istringstream words(text);
+  std::string wrapped;
+  std::string word;
+  for (std::size_t begin = 0; words >> word; wrapped += word)
+  {
+    const bool fits = wrapped.size() - begin + 1 + word.size() <= width;
+    wrapped += wrapped.empty() ? "" : fits ? " " : "\n";
+    begin = fits ? begin : wrapped.size();
+  }
+  return wrapped;
+}
+
+std::string DescribeState(const LiveStatus& status)
+{
+  switch (status.State)
+  {
+    case LiveState::Failed:
+    {
+      // If the filter's source failed, the filter itself has no message.
+      const std::string reason = status.Filter->GetErrorMessage();
+      return Wrap("failed: " + (reason.empty() ? "no input" : reason));
+    }
+    case LiveState::Converged:
+      return "converged";
+    case LiveState::Limited:
+      return "iteration limit";
+    case LiveState::Aborted:
+      return "aborted";
+    default:
+      return status.IsRunning ? "running" : "paused";
+  }
+}
+
+/// After a failure the filter has no counts, so the text says which frame is shown instead.
+std::string DescribeMesh(const LiveStatus& status)
+{
+  const std::string state = DescribeState(status);
+  const std::string triangles = Count(status.Triangles, "triangle");
+  if (status.State == LiveState::Failed)
+  {
+    return state + "\nthe mesh of frame " + Group(status.Frame);
+  }
+  if (status.Frame == 0)
+  {
+    return "input, " + state + "\n" + triangles;
+  }
+  if (IsComposite(status.Filter->GetOutputDataObject(0)))
+  {
+    return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
+  }
+  return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
+    DescribeCounts(status.Filter);
+}
+
+}
+
+/// An update caused only by a change of the input or of an option is a step too.
+LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
+{
+  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
+  bool works = true;
+  if (withholdsMesh)
+  {
+    works = filter->AdvanceSession();
+  }
+  else
+  {
+    filter->Advance();
+    works = filter->GetExecutive()->Update(0) != 0;
+  }
+  const bool isWithheld = filter->GetMeshIsWithheld();
+  if (!works || filter->GetFailure() != vtkDelaunayFlip::FAILURE_NONE)
+  {
+    return { LiveState::Failed, isWithheld };
+  }
+  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
+  const LiveState state = isNew ? ToState(filter->GetStopReason()) : LiveState::Unchanged;
+  if (isWithheld && IsEnd(state))
+  {
+    filter->GetExecutive()->Update(0); // puts the mesh out
+  }
+  return { state, isWithheld };
+}
+
+bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }
+
+bool IsComposite(vtkDataObject* data) { return vtkCompositeDataSet::SafeDownCast(data) != nullptr; }
+
+vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
+{
+  vtkSmartPointer<vtkPolyData> mesh = vtkPolyData::SafeDownCast(data);
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    mesh = AppendBlocks(blocks);
+  }
+  auto faces = vtkSmartPointer<vtkPolyData>::New();
+  if (mesh && HasOnlyTriangles(mesh))
+  {
+    faces->ShallowCopy(mesh);
+  }
+  else if (mesh)
+  {
+    vtkNew<vtkTriangleFilter> split;
+    split->SetInputData(TakeSurface(mesh));
+    split->Update();
+    faces->ShallowCopy(split->GetOutput());
+  }
+  // Else VTK would shade by them, and those of flipped triangles would be of other triangles.
+  faces->GetCellData()->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
+  return faces;
+}
+
+/// An exception leaves no mesh; the filter's next update meets the same problem and reports it.
+vtkSmartPointer<vtkPolyData> CopyRun(vtkDelaunayFlip* filter)
+{
+  try
+  {
+    vtkNew<vtkPolyData> mesh;
+    return filter && filter->StoreMesh(mesh) ? MakeFaces(mesh) : nullptr;
+  }
+  catch (const std::exception&)
+  {
+    return nullptr;
+  }
+}
+
+std::string DescribeStatus(const LiveStatus& status)
+{
+  char angle[64] = "";
+  if (!std::isnan(status.SmallestAngle))
+  {
+    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", status.SmallestAngle);
+  }
+  const std::string drawing = status.Drawing.empty() ? "" : "\n" + Wrap(status.Drawing);
+  return DescribeMesh(status) + angle + drawing;
+}
+
+}

@@ -1,0 +1,281 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""VTK's own formats: everything is kept, and what VTK's readers lose silently is refused."""
+
+import math
+import unittest
+
+import vtkmodules.vtkCommonCore as vtk
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+
+from CommandTesting import (
+    ArrayTest,
+    BadFileTest,
+    bumpy_grid,
+    cells_of,
+    make_mesh,
+    make_values,
+    points_of,
+    read_mesh,
+    same,
+    triangles_of,
+    values_of,
+    write_mesh,
+)
+
+GRID = 4
+
+
+def cells_array(cells):
+    array = vtkCellArray()
+    for cell in cells:
+        array.InsertNextCell(len(cell), cell)
+    return array
+
+
+def read_all(path):
+    """VTK reads only the first attribute of each kind of a .vtk unless told otherwise."""
+    if path.endswith(".vtp"):
+        return read_mesh(path)
+    reader = vtkPolyDataReader()
+    reader.SetFileName(path)
+    for kind in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields"):
+        getattr(reader, f"ReadAll{kind}On")()
+    reader.Update()
+    return reader.GetOutput()
+
+
+class Read(ArrayTest):
+    def written(self, mesh):
+        """Writes the mesh with VTK in every version and encoding. Yields the names of the files."""
+        for version in (42, 51):
+            for encoding in ("ASCII", "Binary"):
+                name = f"{encoding}{version}.vtk"
+                settings = {f"SetFileTypeTo{encoding}": (), "SetFileVersion": (version,)}
+                write_mesh(mesh, self.path(name), **settings)
+                yield name
+        for mode in ("Ascii", "Binary", "Appended"):
+            write_mesh(mesh, self.path(mode + ".vtp"), **{f"SetDataModeTo{mode}": ()})
+            yield mode + ".vtp"
+
+    def test_every_array(self):
+        """Several arrays of each kind, on verts, lines and triangles, which are Delaunay already."""
+        points = [(x, y + x / 16, 0) for x in range(4) for y in range(3)]
+        mesh = make_mesh(points, [(0, 3, 1), (1, 3, 4)], [(0, 1, 2), (5, 8)])
+        mesh.SetVerts(cells_array([(2,), (0,)]))
+        for data, size in ((mesh.GetPointData(), 12), (mesh.GetCellData(), 6)):
+            for kind, components in (("Scalars", 1), ("Vectors", 3), ("Normals", 3), ("TCoords", 2)):
+                for number in range(2):
+                    tuples = [tuple(i + c + number for c in range(components)) for i in range(size)]
+                    array = make_values("vtkDoubleArray", f"{kind} {number}", tuples)
+                    data.AddArray(array)
+                getattr(data, "Set" + kind)(array)
+            for kind in ("UnsignedChar", "Short", "Int", "UnsignedLongLong", "Float"):
+                data.AddArray(make_values(f"vtk{kind}Array", kind, [(i % 7,) for i in range(size)]))
+            data.AddArray(make_values("vtkStringArray", "words", [(f"w {i}",) for i in range(size)]))
+        mesh.GetFieldData().AddArray(make_values("vtkStringArray", "field", [("one",), ("",)]))
+        for name in self.written(mesh):
+            for out in ("out.vtk", "out.vtp"):
+                self.succeed(name, out)
+                found = read_all(self.path(out))
+                self.assertEqual(points_of(found), points)
+                for data in ("GetPointData", "GetCellData", "GetFieldData"):
+                    one, other = getattr(mesh, data)(), getattr(found, data)()
+                    for index in range(one.GetNumberOfArrays()):
+                        array = one.GetAbstractArray(index)
+                        self.assert_array(other.GetAbstractArray(array.GetName()),
+                                          array.GetClassName(), values_of(array))
+                for data in ("GetPointData", "GetCellData"):
+                    for kind in ("Scalars", "Vectors", "Normals", "TCoords"):
+                        active = getattr(getattr(found, data)(), "Get" + kind)()
+                        self.assertEqual(active.GetName(), kind + " 1", (name, out))
+
+    def test_pieces_of_xml(self):
+        piece = (
+            '<Piece NumberOfPoints="3" NumberOfPolys="1"><PointData><DataArray type="Int32" '
+            'Name="n" format="ascii"> {0}1 {0}2 {0}3 </DataArray></PointData><Points>'
+            '<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 {0} 1 0 {0} 0 1 {0}'
+            '</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity" '
+            'format="ascii">0 1 2</DataArray><DataArray type="Int64" Name="offsets" '
+            'format="ascii">3</DataArray></Polys></Piece>'
+        )
+        self.write(
+            "in.vtp",
+            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>'
+            + piece.format(4)
+            + piece.format(7)
+            + "</PolyData></VTKFile>",
+        )
+        self.succeed("in.vtp", "out.vtk")
+        found = read_mesh(self.path("out.vtk"))
+        flat = [(0, 0), (1, 0), (0, 1)]
+        self.assertEqual(points_of(found), [(x, y, z) for z in (4, 7) for x, y in flat])
+        self.assertEqual(triangles_of(found), [(0, 1, 2), (3, 4, 5)])
+        numbers_found = [found.GetPointData().GetArray("n").GetTuple1(i) for i in range(6)]
+        self.assertEqual(numbers_found, [41, 42, 43, 71, 72, 73])
+
+    def test_every_kind_of_cell(self):
+        mesh = make_mesh([(x, y, 0) for x in range(4) for y in range(2)], [(0, 2, 3, 1)])
+        mesh.SetStrips(cells_array([(2, 3, 4, 5), (4, 6, 5)]))
+        mesh.SetVerts(cells_array([(7,), (0, 1)]))
+        mesh.SetLines(cells_array([(0, 2, 4), (1, 3)]))
+        for name in self.written(mesh):
+            self.succeed(name, "out.vtk")
+            found = read_mesh(self.path("out.vtk"))
+            triangles = {tuple(sorted(cell)) for cell in triangles_of(found)}
+            self.assertEqual(triangles, {(0, 2, 3), (0, 1, 3), (2, 3, 4), (3, 4, 5), (4, 5, 6)})
+            self.assertEqual(cells_of(found.GetVerts()), [(7,), (0, 1)])
+            self.assertEqual(cells_of(found.GetLines()), [(0, 2, 4), (1, 3)])
+
+
+class LostByVtk(BadFileTest):
+    """VTK's readers give up a part of these, or all, and report nothing."""
+
+    def test_more_sections_than_one_of_a_vtk(self):
+        head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+        for section in ("POLYGONS", "LINES", "VERTICES", "TRIANGLE_STRIPS"):
+            self.write("a.vtk", head + 2 * f"{section} 1 4\n3 0 1 2\n")
+            self.refuse("a.vtk", section, "2", "1")
+        self.write("a.vtk", head + "POLYGONS 1 4\n3 0 1 2\nPOLYGONS 0 0\n")
+        self.refuse("a.vtk", "POLYGONS", "1", "0")
+
+    def damaged(self):
+        """Damaged files, each with the attribute of Piece that shows it."""
+        path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
+        with open(path, encoding="ascii") as file:
+            good = file.read()
+        words = '<FieldData><Array type="String" Name="w" format="ascii" {}>104 101 abc 0</Array></FieldData>'
+        field = "<PolyData>\n" + words.format('NumberOfTuples="1"')
+        yield "NumberOfPoints", good.replace("<PolyData>", field)
+        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="19"')
+        yield "NumberOfPolys", good.replace('NumberOfPolys="18"', 'NumberOfPolys="17"')
+        yield "NumberOfPoints", good.replace('NumberOfPoints="16"', 'NumberOfPoints="17"')
+        polys = good.index("<Polys>")
+        for array in ("connectivity", "offsets"):
+            begin = good.index(f'Name="{array}"', polys)
+            begin = good.rindex("<DataArray", 0, begin)
+            end = good.index("</DataArray>", begin) + len("</DataArray>")
+            yield "NumberOfPolys", good[:begin] + good[end:]
+            yield "NumberOfPolys", good.replace(good[begin:end], good[begin:end].replace(array, "x"))
+        for kind, count in (("Points", 16), ("Polys", 18)):
+            yield f"NumberOf{kind}", good.replace(f' NumberOf{kind}="{count}"', "")
+        for kind in ("Lines", "Verts", "Strips"):
+            yield f"NumberOf{kind}", good.replace(f'NumberOf{kind}="0"', f'NumberOf{kind}="2"')
+        for mode in ("Binary", "Appended"):
+            for compressor in ("None", "LZ4"):
+                settings = {f"SetDataModeTo{mode}": (), f"SetCompressorTypeTo{compressor}": ()}
+                write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), **settings)
+                with open(path, encoding="latin-1") as file:
+                    binary = file.read()
+                for kind, count in (("Polys", 18), ("Points", 16)):
+                    for wrong in (count - 1, count + 1):
+                        old, new = (f'NumberOf{kind}="{n}"' for n in (count, wrong))
+                        self.assertIn(old, binary)
+                        yield f"NumberOf{kind}", binary.replace(old, new)
+
+    def test_is_refused(self):
+        for attribute, content in self.damaged():
+            with self.subTest(attribute):
+                before = content.encode("latin-1")
+                self.write("mesh.vtp", before)
+                self.refuse("mesh.vtp")
+                self.fail_with(3, "mesh.vtp", "mesh.vtp", naming=["mesh.vtp"])
+                with open(self.path("mesh.vtp"), "rb") as file:
+                    self.assertEqual(file.read(), before)
+                good = write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk"))
+                self.fail_with(3, good, "out.vtk", "--constraints", "mesh.vtp", naming=["mesh.vtp"])
+
+    def test_other_legacy_type(self):
+        self.write(
+            "grid.vtk",
+            "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+            "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
+        )
+        self.refuse("grid.vtk", "UNSTRUCTURED_GRID", "Extract Surface")
+
+    def test_other_xml_type(self):
+        self.write(
+            "grid.vtp",
+            '<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1">\n'
+            "<UnstructuredGrid/>\n</VTKFile>\n",
+        )
+        self.refuse("grid.vtp", "UnstructuredGrid", "Extract Surface")
+
+    def test_newer_version(self):
+        """Only a warning, since the file may be readable."""
+        write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
+        with open(self.path("a.vtk"), encoding="ascii") as file:
+            text = file.read()
+        self.assertIn("Version 5.1", text)
+        self.write("a.vtk", text.replace("Version 5.1", "Version 6.7"))
+        self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
+
+
+class Written(ArrayTest):
+    def test_strings_with_zero_bytes_are_refused(self):
+        """VTK's reader crashes on what its writer makes of them."""
+        for add, size in (("GetFieldData", 5), ("GetPointData", 9), ("GetCellData", 8)):
+            mesh = bumpy_grid(3, 0)
+            words = make_values("vtkStringArray", "words", [("a",)] * size)
+            getattr(mesh, add)().AddArray(words)
+            source = write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=())
+            self.succeed(source, "out.vtp")
+            with open(source, encoding="ascii") as file:
+                text = file.read()
+            self.write("in.vtk", text.replace("\na\n", "\na%00b\n", 1))
+            self.fail_with(3, "in.vtk", "new.vtp", naming=["new.vtp", "words", "zero byte", ".vtk"])
+            self.succeed("in.vtk", "out.vtk")
+
+    def test_ids_that_vtk_cannot_write_or_read_are_refused(self):
+        """VTK's writer crashes on ids that are strings; its reader fails on other types."""
+        for kind in ("vtkStringArray", "vtkDoubleArray", "vtkUnsignedCharArray", "vtkIntArray"):
+            make = str if kind == "vtkStringArray" else int
+            for add, size in (("GetPointData", 9), ("GetCellData", 8)):
+                mesh = bumpy_grid(3, 0)
+                getattr(mesh, add)().SetPedigreeIds(
+                    make_values(kind, "ids", [(make(i),) for i in range(size)]))
+                source = write_mesh(mesh, self.path("in.vtk"))
+                if kind == "vtkIntArray":
+                    self.succeed(source, "out.vtp")
+                    ids = getattr(self.read_plainly("out.vtp"), add)().GetAbstractAttribute(
+                        vtkDataSetAttributes.PEDIGREEIDS)
+                    self.assert_array(ids, kind, list(range(size)))
+                else:
+                    self.fail_with(3, source, "new.vtp", naming=["new.vtp", "'ids'", ".vtk"])
+
+    def test_points_without_a_finite_range(self):
+        for value in (1e155, 1.7e308, math.inf, math.nan):
+            points = [(0, 0, 0), (value, 0, 0), (0, value, 0)]
+            self.keep(make_mesh(points, [(0, 1, 2)]))
+        self.keep(make_mesh([(math.nan,) * 3] * 3, [(0, 1, 2)]))
+
+    def test_arrays_without_a_finite_range(self):
+        for value in (1e155, -1e308, math.inf, -math.inf, math.nan):
+            for components in (1, 3):
+                mesh = bumpy_grid(3, 0)
+                for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8),
+                                   (mesh.GetFieldData(), 3)):
+                    for name, first in (("all", value), ("some", 1.0)):
+                        tuples = [(first,) * components] + [(value,) * components] * (size - 1)
+                        data.AddArray(make_values("vtkDoubleArray", name, tuples))
+                self.keep(mesh)
+
+    def keep(self, mesh):
+        """VTK reads all values of the .vtp that the command writes, without warnings."""
+        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtp")
+        out = self.read_plainly("out.vtp")
+        self.assertTrue(same(values_of(mesh.GetPoints().GetData()),
+                             values_of(out.GetPoints().GetData())))
+        self.assertEqual(mesh.GetNumberOfPolys(), out.GetNumberOfPolys())
+        for kind in ("GetPointData", "GetCellData", "GetFieldData"):
+            data = getattr(mesh, kind)()
+            for index in range(data.GetNumberOfArrays()):
+                array = data.GetArray(index)
+                other = getattr(out, kind)().GetArray(array.GetName())
+                self.assert_array(other, array.GetClassName(), values_of(array))
+                self.assertTrue(same(array.GetRange(-1), other.GetRange(-1)))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,563 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "References.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace delaunayflip
+{
+
+OppositeMap FindOpposites(const TriangleArray& triangles)
+{
+  OppositeMap opposites;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      opposites[{ triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3) }] =
+        triangles.Get(t, (slot + 2) % 3);
+    }
+  }
+  return opposites;
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using Structure = CGAL::Triangulation_data_structure_2<Vertex>;
+using Plain = CGAL::Triangulation_2<Kernel, Structure>;
+using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
+using ConstrainedStructure =
+  CGAL::Triangulation_data_structure_2<Vertex, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using ConstrainedDelaunay =
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, ConstrainedStructure>;
+using IndexedPoint = std::pair<Kernel::Point_2, std::int32_t>;
+
+Kernel::Point_2 GetPoint(const PointArray& points, std::int64_t id)
+{
+  return { points.Get(id, 0), points.Get(id, 1) };
+}
+
+std::vector<IndexedPoint> IndexPoints(const PointArray& points)
+{
+  std::vector<IndexedPoint> indexed;
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    indexed.emplace_back(GetPoint(points, i), static_cast<std::int32_t>(i));
+  }
+  return indexed;
+}
+
+template <typename Triangulation>
+std::vector<std::int32_t> GetTriangles(const Triangulation& triangulation)
+{
+  std::vector<std::int32_t> triangles;
+  for (auto face : triangulation.finite_face_handles())
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      triangles.push_back(face->vertex(i)->info());
+    }
+  }
+  return triangles;
+}
+
+}
+
+TriangleSet MakeCgalDelaunay(const PointArray& points)
+{
+  const std::vector<IndexedPoint> indexed = IndexPoints(points);
+  return ToTriangleSet(GetTriangles(Delaunay(indexed.begin(), indexed.end())));
+}
+
+TriangleSet MakeCgalConstrainedDelaunay(const TriangleMesh& mesh)
+{
+  ConstrainedDelaunay triangulation;
+  std::vector<ConstrainedDelaunay::Vertex_handle> handles;
+  for (const IndexedPoint& point : IndexPoints(mesh.Points))
+  {
+    handles.push_back(triangulation.insert(point.first));
+    handles.back()->info() = point.second;
+  }
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    triangulation.insert_constraint(
+      handles[mesh.ConstraintEdges[2 * i]], handles[mesh.ConstraintEdges[2 * i + 1]]);
+  }
+  return ToTriangleSet(GetTriangles(triangulation));
+}
+
+std::int64_t CountCgalViolations(const TriangleMesh& mesh)
+{
+  const auto sideOfCircle = Kernel().side_of_oriented_circle_2_object();
+  const auto get = [&](std::int64_t id) { return GetPoint(mesh.Points, id); };
+  return CountEdges(FindOpposites(mesh.Triangles),
+    [&](std::int64_t a, std::int64_t p, std::int64_t q, std::int64_t b)
+    { return sideOfCircle(get(p), get(q), get(a), get(b)) == CGAL::ON_POSITIVE_SIDE; });
+}
+
+OwnedMesh<double> MakeSweptMesh(const std::vector<std::array<double, 2>>& points)
+{
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [&](std::int32_t a, std::int32_t b) { return points[a] < points[b]; });
+  Plain triangulation;
+  Plain::Face_handle hint;
+  for (std::int32_t i : order)
+  {
+    const auto vertex = triangulation.insert({ points[i][0], points[i][1] }, hint);
+    vertex->info() = i;
+    hint = vertex->face();
+  }
+  OwnedMesh<double> mesh;
+  for (const std::array<double, 2>& point : points)
+  {
+    mesh.Points.insert(mesh.Points.end(), { point[0], point[1], 0.0 });
+  }
+  mesh.Triangles = GetTriangles(triangulation);
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+using Rational = CGAL::Gmpq;
+using RationalVector = std::array<Rational, 3>;
+
+RationalVector Subtract(const Point3& p, const Point3& origin)
+{
+  return { Rational(p[0]) - Rational(origin[0]), Rational(p[1]) - Rational(origin[1]),
+    Rational(p[2]) - Rational(origin[2]) };
+}
+
+Rational Dot(const RationalVector& a, const RationalVector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+RationalVector Cross(const RationalVector& a, const RationalVector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+Rational Determinant(const RationalVector& a, const RationalVector& b, const RationalVector& c)
+{
+  return Dot(a, Cross(b, c));
+}
+
+int Sign(const Rational& value) { return static_cast<int>(CGAL::sign(value)); }
+
+/// (x, y, lift) of p relative to d. Both lifts are computed first, then subtracted.
+RationalVector LiftedDifference(const Point3& p, const Point3& d, bool tilted)
+{
+  RationalVector result = Subtract(p, d);
+  result[2] = Rational(0);
+  for (int axis = 0; axis < (tilted ? 3 : 2); ++axis)
+  {
+    result[2] += Rational(p[axis]) * Rational(p[axis]) - Rational(d[axis]) * Rational(d[axis]);
+  }
+  return result;
+}
+
+Point3 GetPoint(const TriangleMesh& mesh, std::int64_t id)
+{
+  return { mesh.Points.Get(id, 0), mesh.Points.Get(id, 1), mesh.Points.Get(id, 2) };
+}
+
+/// Quad a, p, q, b has the triangles (a, p, q) and (b, q, p). The angles at a and b sum to more
+/// than pi if sin(A + B) < 0. Sines are positive multiples of the lengths of cross products, which
+/// in one plane can be compared along any vector parallel to the normal.
+bool IsViolated(const std::array<Point3, 4>& quad)
+{
+  const RationalVector ap = Subtract(quad[1], quad[0]);
+  const RationalVector aq = Subtract(quad[2], quad[0]);
+  const RationalVector bp = Subtract(quad[1], quad[3]);
+  const RationalVector bq = Subtract(quad[2], quad[3]);
+  const RationalVector normalA = Cross(ap, aq);
+  const RationalVector normalB = Cross(bq, bp);
+  const RationalVector normal = { normalA[0] + normalB[0], normalA[1] + normalB[1],
+    normalA[2] + normalB[2] };
+  return Dot(normalA, normal) * Dot(bp, bq) + Dot(ap, aq) * Dot(normalB, normal) < Rational(0);
+}
+
+}
+
+int RationalTurn(const Point3& a, const Point3& b, const Point3& c)
+{
+  const RationalVector p = Subtract(a, c);
+  const RationalVector q = Subtract(b, c);
+  return Sign(p[0] * q[1] - p[1] * q[0]);
+}
+
+int RationalInCircle(
+  const Point3& a, const Point3& b, const Point3& c, const Point3& d, bool tilted)
+{
+  return Sign(Determinant(LiftedDifference(a, d, tilted), LiftedDifference(b, d, tilted),
+    LiftedDifference(c, d, tilted)));
+}
+
+std::int64_t CountRationalViolations(const TriangleMesh& mesh)
+{
+  return CountEdges(FindOpposites(mesh.Triangles),
+    [&](std::int64_t a, std::int64_t p, std::int64_t q, std::int64_t b)
+    {
+      return IsViolated(
+        { GetPoint(mesh, a), GetPoint(mesh, p), GetPoint(mesh, q), GetPoint(mesh, b) });
+    });
+}
+
+TriangleTurns CountTurns(const TriangleMesh& mesh)
+{
+  TriangleTurns counts;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const int turn = RationalTurn(GetPoint(mesh, mesh.Triangles.Get(t, 0)),
+      GetPoint(mesh, mesh.Triangles.Get(t, 1)), GetPoint(mesh, mesh.Triangles.Get(t, 2)));
+    ++(turn > 0 ? counts.Left : turn < 0 ? counts.Right : counts.Straight);
+  }
+  return counts;
+}
+
+std::int64_t FlipByLawson(
+  OwnedMesh<double>& mesh, const std::set<VertexPair>& constraints, TieRuleKind rule)
+{
+  const auto isBad = [&](std::int64_t a, std::int64_t p, std::int64_t q, std::int64_t b)
+  {
+    const TriangleMesh view = mesh.View();
+    const Point3 points[4] = { GetPoint(view, a), GetPoint(view, p), GetPoint(view, q),
+      GetPoint(view, b) };
+    const int sign = RationalInCircle(points[0], points[1], points[2], points[3]);
+    // Of two tied diagonals, the one away from the lexicographically largest point stays.
+    const Point3* largest = std::max_element(points, points + 4);
+    const bool isWrongTie = rule == TieRuleKind::Canonical && sign == 0 &&
+      (largest == &points[1] || largest == &points[2]);
+    return constraints.count({ p, q }) == 0 && (sign > 0 || isWrongTie);
+  };
+  OppositeMap opposites = FindOpposites(mesh.View().Triangles);
+  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c)
+  {
+    opposites[{ a, b }] = c;
+    opposites[{ b, c }] = a;
+    opposites[{ c, a }] = b;
+  };
+  std::int64_t flips = 0;
+  const auto flip = [&](std::int64_t a, std::int64_t p, std::int64_t q, std::int64_t b)
+  {
+    if (!isBad(a, p, q, b))
+    {
+      return false;
+    }
+    opposites.erase({ p, q });
+    opposites.erase({ q, p });
+    add(a, p, b);
+    add(b, q, a);
+    return ++flips > 0;
+  };
+  while (FindEdge(opposites, flip))
+  {
+  }
+  mesh.Triangles.clear();
+  for (const auto& [edge, opposite] : opposites)
+  {
+    // Each triangle once: at the edge that starts at its smallest vertex.
+    if (edge.first < edge.second && edge.first < opposite)
+    {
+      for (const std::int64_t id : { edge.first, edge.second, opposite })
+      {
+        mesh.Triangles.push_back(static_cast<std::int32_t>(id));
+      }
+    }
+  }
+  return flips;
+}
+
+//------------------------------------------------------------------------------
+std::int64_t FindWholeArea(const WholePoint& a, const WholePoint& b, const WholePoint& c)
+{
+  return (a[0] - c[0]) * (b[1] - c[1]) - (a[1] - c[1]) * (b[0] - c[0]);
+}
+
+bool IsInWholeCircle(
+  const WholePoint& a, const WholePoint& b, const WholePoint& c, const WholePoint& d)
+{
+  const auto lift = [&](const WholePoint& p)
+  { return (p[0] - d[0]) * (p[0] - d[0]) + (p[1] - d[1]) * (p[1] - d[1]); };
+  return lift(a) * FindWholeArea(b, c, d) + lift(b) * FindWholeArea(c, a, d) +
+    lift(c) * FindWholeArea(a, b, d) >
+    0;
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/// Without z.
+Point3 GetPlace(const TriangleMesh& mesh, std::int64_t id)
+{
+  return { mesh.Points.Get(id, 0), mesh.Points.Get(id, 1), 0.0 };
+}
+
+/// Whether c and d lie on opposite sides of a-b, and a and b on opposite sides of c-d.
+template <typename Point, typename Turn>
+bool AreCrossing(
+  const Point& a, const Point& b, const std::pair<Point, Point>& other, const Turn& turn)
+{
+  const auto& [c, d] = other;
+  const auto areApart = [](std::int64_t x, std::int64_t y)
+  { return (x < 0 && y > 0) || (x > 0 && y < 0); };
+  return areApart(turn(a, b, c), turn(a, b, d)) && areApart(turn(c, d, a), turn(c, d, b));
+}
+
+std::set<VertexPair> CollectEdges(const TriangleArray& triangles)
+{
+  std::set<VertexPair> edges;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      edges.insert(std::minmax({ triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3) }));
+    }
+  }
+  return edges;
+}
+
+bool CrossAny(
+  const TriangleMesh& mesh, const std::vector<VertexPair>& some, const std::vector<VertexPair>& all)
+{
+  return std::any_of(some.begin(), some.end(),
+    [&](const VertexPair& a)
+    {
+      return std::any_of(
+        all.begin(), all.end(), [&](const VertexPair& b) { return Cross(mesh, a, b); });
+    });
+}
+
+/// Distinct points with whole coordinates from 0 to `size`, among them the corners.
+std::vector<std::array<double, 2>> DrawLattice(
+  std::size_t count, std::int32_t size, std::mt19937& random)
+{
+  const double last = size;
+  std::set<std::array<double, 2>> points = { { 0, 0 }, { last, 0 }, { 0, last }, { last, last } };
+  while (points.size() < count)
+  {
+    const double x = DrawIndex(random, size + 1);
+    const double y = DrawIndex(random, size + 1);
+    points.insert({ x, y });
+  }
+  std::vector<std::array<double, 2>> drawn(points.begin(), points.end());
+  std::shuffle(drawn.begin(), drawn.end(), random);
+  return drawn;
+}
+
+}
+
+void ConstrainedMesh::Add(std::int64_t from, std::int64_t to, bool insert)
+{
+  this->Ends.insert(this->Ends.end(), { from, to });
+  this->ToInsert.push_back(insert ? 1 : 0);
+}
+
+TriangleMesh ConstrainedMesh::View() const
+{
+  TriangleMesh mesh = this->Mesh.View();
+  mesh.ConstraintEdges = this->Ends.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->ToInsert.size());
+  mesh.ConstraintsToInsert = this->ToInsert.data();
+  return mesh;
+}
+
+ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  ConstrainedMesh drawn;
+  drawn.Mesh = MakeSweptMesh(DrawLattice(points, size, random));
+  for (int i = 0; i < constraints; ++i)
+  {
+    const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+    drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
+  }
+  return drawn;
+}
+
+ConstrainedMesh DrawOverlapping(int constraints, std::uint32_t seed)
+{
+  ConstrainedMesh drawn = DrawCase(40, 10, constraints, seed);
+  std::mt19937 random(seed);
+  for (int i = 0; i < 6; ++i)
+  {
+    const std::size_t point = DrawIndex(random, drawn.Mesh.NumberOfPoints());
+    drawn.Mesh.Points[3 * point] = DrawIndex(random, 11);
+    drawn.Mesh.Points[3 * point + 1] = DrawIndex(random, 11);
+  }
+  drawn.Mesh = seed % 2 == 0 ? drawn.Mesh : RepeatTriangles(drawn.Mesh);
+  return drawn;
+}
+
+ConstrainedMesh DropCrossing(const ConstrainedMesh& mesh)
+{
+  ConstrainedMesh kept;
+  kept.Mesh = mesh.Mesh;
+  std::vector<VertexPair> pieces;
+  for (std::size_t i = 0; i < mesh.ToInsert.size(); ++i)
+  {
+    const std::int64_t* ends = mesh.Ends.data() + 2 * i;
+    const std::vector<VertexPair> own = SplitAtVertices(mesh.View(), ends[0], ends[1]);
+    if (ends[0] != ends[1] && !CrossAny(mesh.View(), own, pieces))
+    {
+      kept.Add(ends[0], ends[1], mesh.ToInsert[i] != 0);
+      pieces.insert(pieces.end(), own.begin(), own.end());
+    }
+  }
+  return kept;
+}
+
+std::vector<VertexPair> SplitAtVertices(
+  const TriangleMesh& mesh, std::int64_t from, std::int64_t to)
+{
+  const Point3 a = GetPlace(mesh, from);
+  const Point3 b = GetPlace(mesh, to);
+  std::vector<std::int64_t> on;
+  for (std::int64_t id = 0; id < mesh.Points.Count; ++id)
+  {
+    const Point3 p = GetPlace(mesh, id);
+    if (RationalTurn(a, b, p) == 0 && std::min(a, b) <= p && p <= std::max(a, b))
+    {
+      on.push_back(id);
+    }
+  }
+  std::sort(on.begin(), on.end(),
+    [&](std::int64_t i, std::int64_t j) { return GetPlace(mesh, i) < GetPlace(mesh, j); });
+  std::vector<VertexPair> pieces;
+  for (std::size_t i = 1; i < on.size(); ++i)
+  {
+    pieces.emplace_back(on[i - 1], on[i]);
+  }
+  return pieces;
+}
+
+bool Cross(const TriangleMesh& mesh, const VertexPair& a, const VertexPair& b)
+{
+  const auto get = [&](std::int64_t id) { return GetPlace(mesh, id); };
+  return AreCrossing(
+    get(a.first), get(a.second), std::make_pair(get(b.first), get(b.second)), RationalTurn);
+}
+
+std::vector<VertexPair> FindHeldPieces(
+  const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles)
+{
+  const std::set<VertexPair> edges = CollectEdges(ViewTriangles(triangles));
+  std::set<VertexPair> held;
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const std::vector<VertexPair> pieces =
+      SplitAtVertices(mesh, mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
+    if (std::all_of(pieces.begin(), pieces.end(),
+          [&](const VertexPair& piece) {
+            return edges.count(std::minmax({ piece.first, piece.second })) == 1;
+          }))
+    {
+      held.insert(pieces.begin(), pieces.end());
+    }
+  }
+  return { held.begin(), held.end() };
+}
+
+ExpectedInsertion PredictInsertion(const TriangleMesh& mesh)
+{
+  ExpectedInsertion expected;
+  const std::set<VertexPair> edges = CollectEdges(mesh.Triangles);
+  std::vector<VertexPair> missing;
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const VertexPair ends =
+      std::minmax({ mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1] });
+    const bool isKnown = std::find(missing.begin(), missing.end(), ends) != missing.end();
+    if (edges.count(ends) > 0)
+    {
+      expected.Pieces.push_back(ends);
+    }
+    else if (!isKnown && ends.first != ends.second)
+    {
+      missing.push_back(ends);
+    }
+  }
+  for (const VertexPair& ends : missing)
+  {
+    const std::vector<VertexPair> pieces = SplitAtVertices(mesh, ends.first, ends.second);
+    const bool isRefused = CrossAny(mesh, pieces, expected.Pieces);
+    ++(isRefused ? expected.Refused : expected.Inserted);
+    if (!isRefused)
+    {
+      expected.Pieces.insert(expected.Pieces.end(), pieces.begin(), pieces.end());
+    }
+  }
+  return expected;
+}
+
+void ExpectEdges(const std::vector<std::int32_t>& triangles, const std::vector<VertexPair>& edges)
+{
+  const std::set<VertexPair> all = CollectEdges(ViewTriangles(triangles));
+  for (const VertexPair& edge : edges)
+  {
+    EXPECT_EQ(1u, all.count(std::minmax({ edge.first, edge.second })))
+      << edge.first << "-" << edge.second;
+  }
+}
+
+void ExpectConstrainedDelaunay(const TriangleMesh& mesh, const std::vector<VertexPair>& pieces)
+{
+  // Three times as large, so that the middle of a triangle has whole coordinates.
+  const auto getThrice = [&](std::int64_t id) -> WholePoint
+  {
+    return { 3 * static_cast<std::int64_t>(mesh.Points.Get(id, 0)),
+      3 * static_cast<std::int64_t>(mesh.Points.Get(id, 1)) };
+  };
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const WholePoint a = getThrice(mesh.Triangles.Get(t, 0));
+    const WholePoint b = getThrice(mesh.Triangles.Get(t, 1));
+    const WholePoint c = getThrice(mesh.Triangles.Get(t, 2));
+    const WholePoint middle = { (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3 };
+    for (std::int64_t id = 0; id < mesh.Points.Count; ++id)
+    {
+      const WholePoint point = getThrice(id);
+      const auto hides = [&](const VertexPair& piece)
+      {
+        return AreCrossing(middle, point,
+          std::make_pair(getThrice(piece.first), getThrice(piece.second)), FindWholeArea);
+      };
+      EXPECT_TRUE(
+        !IsInWholeCircle(a, b, c, point) || std::any_of(pieces.begin(), pieces.end(), hides))
+        << "triangle " << t << " and point " << id;
+    }
+  }
+}
+
+double SumAreas(const TriangleMesh& mesh)
+{
+  double sum = 0.0;
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
+  {
+    const Point3 a = GetPlace(mesh, mesh.Triangles.Get(t, 0));
+    const Point3 b = GetPlace(mesh, mesh.Triangles.Get(t, 1));
+    const Point3 c = GetPlace(mesh, mesh.Triangles.Get(t, 2));
+    sum += (a[0] - c[0]) * (b[1] - c[1]) - (a[1] - c[1]) * (b[0] - c[0]);
+  }
+  return sum;
+}
+
+}

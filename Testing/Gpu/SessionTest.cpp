@@ -1,0 +1,337 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaError.h"
+#include "FlipError.h"
+#include "GpuTestSupport.h"
+#include "TestDevice.h"
+
+#include <cuda_runtime_api.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+/// @file
+/// Sessions on a GPU: device arrays and the caller's streams, iterations in batches, and calls of
+/// CUDA that fail.
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Arrays = DeviceArrays<double, std::int32_t>;
+
+/// A stream whose work takes long to begin.
+class SlowStream
+{
+public:
+  SlowStream()
+  {
+    CallCuda("make a stream of a test",
+      [&] { return cudaStreamCreateWithFlags(&this->Handle, cudaStreamNonBlocking); });
+  }
+  ~SlowStream() { cudaStreamDestroy(this->Handle); }
+  SlowStream(const SlowStream&) = delete;
+  SlowStream& operator=(const SlowStream&) = delete;
+
+  DeviceStream Get() const { return { this->Handle }; }
+
+  /// What follows in the stream waits.
+  void Delay() const
+  {
+    const auto sleep = [](void*) { std::this_thread::sleep_for(std::chrono::milliseconds(200)); };
+    CallCuda("delay a stream", [&] { return cudaLaunchHostFunc(this->Handle, sleep, nullptr); });
+  }
+  template <typename T>
+  void Copy(const DeviceValues<T>& from, const DeviceValues<T>& to) const
+  {
+    CallCuda("copy for a test",
+      [&]
+      {
+        return cudaMemcpyAsync(
+          to.Data(), from.Data(), from.Size() * sizeof(T), cudaMemcpyDeviceToDevice, this->Handle);
+      });
+  }
+
+private:
+  cudaStream_t Handle = nullptr;
+};
+
+/// Calls of the engine come after what is in the caller's stream, and what they give is there when
+/// they return.
+class DeviceStreamTest : public GpuTest
+{
+protected:
+  /// The first use of the GPU would wait for all streams.
+  void SetUp() override
+  {
+    GpuTest::SetUp();
+    if (!this->IsSkipped())
+    {
+      const Arrays device(this->Mesh.View(), 3);
+      FlipToDelaunay(device.View(), {}, device.ViewResult());
+    }
+  }
+
+  OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(2000, 81);
+  std::vector<std::int32_t> Expected = Flip(this->Mesh.View()).Triangles;
+};
+
+TEST_F(DeviceStreamTest, TheMeshIsReadAfterTheCallersWork)
+{
+  for (const BackendKind backend : { BackendKind::Auto, BackendKind::Threads })
+  {
+    const Arrays device(this->Mesh.View(), 3);
+    const DeviceValues<std::int32_t> triangles(device.Triangles.Get());
+    device.Triangles.Set(std::vector<std::int32_t>(this->Mesh.Triangles.size(), -1));
+    const SlowStream stream;
+    stream.Delay();
+    stream.Copy(triangles, device.Triangles);
+    DeviceMesh mesh = device.View();
+    mesh.Stream = stream.Get();
+    FlipOptions options;
+    options.Backend = backend;
+    FlipToDelaunay(mesh, options, device.ViewResult());
+    EXPECT_TRUE(this->Expected == device.Result.Get());
+  }
+}
+
+TEST_F(DeviceStreamTest, ResultsAreWrittenAfterTheCallersWork)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  FlipSession session(device.View(), {});
+  session.Advance();
+  const DeviceValues<std::int32_t> seen(device.Triangles.Get());
+  const SlowStream stream;
+  stream.Delay();
+  stream.Copy(device.Result, seen);
+  session.StoreTriangles(device.ViewResult(), stream.Get());
+  EXPECT_TRUE(this->Expected == device.Result.Get());
+  EXPECT_EQ(std::vector<std::int32_t>(this->Mesh.Triangles.size(), 77), seen.Get());
+}
+
+TEST_F(DeviceStreamTest, TheCurrentDeviceAndItsErrorsStay)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  FlipToDelaunay(device.View(), {}, device.ViewResult());
+  int current = -1;
+  EXPECT_EQ(cudaSuccess, cudaGetDevice(&current));
+  EXPECT_EQ(0, current);
+  EXPECT_EQ(cudaSuccess, cudaPeekAtLastError());
+}
+
+TEST_F(DeviceStreamTest, ManagedMemoryIsDeviceMemory)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  void* managed = nullptr;
+  const std::size_t bytes = this->Mesh.Points.size() * sizeof(double);
+  ASSERT_EQ(cudaSuccess, cudaMallocManaged(&managed, bytes));
+  ASSERT_EQ(cudaSuccess, cudaMemcpy(managed, this->Mesh.Points.data(), bytes, cudaMemcpyDefault));
+  DeviceMesh mesh = device.View();
+  mesh.Points = DevicePointArray(static_cast<double*>(managed), this->Mesh.NumberOfPoints());
+  FlipToDelaunay(mesh, {}, device.ViewResult());
+  EXPECT_TRUE(this->Expected == device.Result.Get());
+  cudaFree(managed);
+}
+
+/// Each call fails once: the CPU takes over, or an error says why.
+TEST_F(DeviceStreamTest, AnyCallMayFail)
+{
+  const Arrays device(this->Mesh.View(), 2);
+  std::int64_t fallbacks = 0;
+  std::int64_t errors = 0;
+  for (std::int64_t call = 1;; ++call)
+  {
+    InjectCudaError(call, cudaErrorMemoryAllocation);
+    try
+    {
+      const FlipReport report = FlipToDelaunay(device.View(), {}, device.ViewResult());
+      InjectCudaError(0, cudaSuccess);
+      ASSERT_TRUE(this->Expected == device.Result.Get()) << "call " << call;
+      if (report.Fallback.empty())
+      {
+        break;
+      }
+      ++fallbacks;
+    }
+    catch (const BackendUnavailable&)
+    {
+      InjectCudaError(0, cudaSuccess);
+      ++errors;
+    }
+    ReleaseCudaMemory();
+  }
+  EXPECT_LT(30, fallbacks);
+  EXPECT_LT(0, errors); // where the arrays are must be known, whoever flips
+  EXPECT_GT(5, errors);
+}
+
+/// Iterations are made in batches; an abort acts at the end of one.
+class BatchTest : public GpuTest
+{
+protected:
+  static constexpr std::int64_t LargestBatch = 128;
+
+  FlipSession Start() const
+  {
+    FlipOptions options;
+    options.Backend = BackendKind::CUDA;
+    return FlipSession(this->Mesh.View(), options);
+  }
+
+  std::vector<std::int32_t> Store(const FlipSession& session) const
+  {
+    std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
+    session.StoreTriangles(MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()));
+    return triangles;
+  }
+
+  /// Takes 797 iterations, several batches.
+  OwnedMesh<double> Mesh = MakeWorstCaseMesh(400);
+};
+
+TEST_F(BatchTest, AnAbortActsAtItsEnd)
+{
+  FlipSession session = this->Start();
+  std::int64_t calls = 0;
+  EXPECT_FALSE(session.Advance(-1,
+    [&](const IterationRecord& record)
+    {
+      EXPECT_EQ(++calls, record.Iteration);
+      return record.Iteration < 3;
+    }));
+  const auto done = static_cast<std::int64_t>(session.GetReport().Iterations.size());
+  EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
+  EXPECT_EQ(calls, done);
+  EXPECT_LE(3, done);
+  EXPECT_GE(3 + LargestBatch, done);
+  EXPECT_LT(0, session.GetReport().NonDelaunayAfter);
+
+  // The mesh and the statistics are those after `done` iterations, and the run can continue.
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  options.MaximumIterations = done;
+  EXPECT_TRUE(Flip(this->Mesh.View(), options).Triangles == this->Store(session));
+  EXPECT_FALSE(session.Advance());
+  options.MaximumIterations = -1;
+  const FlipResult complete = Flip(this->Mesh.View(), options);
+  EXPECT_TRUE(complete.Triangles == this->Store(session));
+  EXPECT_EQ(complete.Report.TotalFlips, session.GetReport().TotalFlips);
+  EXPECT_EQ(complete.Report.Iterations.size(), session.GetReport().Iterations.size());
+  ExpectConsistentStatistics(session.GetReport());
+}
+
+TEST_F(BatchTest, AnExceptionLeavesTheSessionUsable)
+{
+  FlipSession session = this->Start();
+  const auto throwing = [](const IterationRecord& record) -> bool
+  {
+    if (record.Iteration == 2)
+    {
+      throw std::logic_error("from the observer");
+    }
+    return true;
+  };
+  EXPECT_THROW(session.Advance(-1, throwing), std::logic_error);
+  session.Advance();
+  EXPECT_TRUE(session.GetReport().Converged());
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  EXPECT_TRUE(Flip(this->Mesh.View(), options).Triangles == this->Store(session));
+}
+
+/// Every call of the CUDA runtime fails once. The result is the right mesh from the CPU, or an
+/// error that says why, and no memory leaks.
+class FailureTest
+  : public GpuTest
+  , public testing::WithParamInterface<cudaError_t>
+{
+};
+
+std::size_t GetFreeMemory()
+{
+  ReleaseCudaMemory();
+  std::size_t free = 0;
+  std::size_t total = 0;
+  cudaMemGetInfo(&free, &total);
+  return free;
+}
+
+TEST_P(FailureTest, AnyCallMayFail)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(40000, 31);
+  FlipOptions options;
+  options.Backend = BackendKind::Threads;
+  const FlipResult expected = Flip(mesh.View(), options);
+  options.Backend = BackendKind::Auto;
+  Flip(mesh.View(), options); // what the runtime loads at first is not a leak
+  const std::size_t freeBefore = GetFreeMemory();
+  std::int64_t failures = 0;
+  for (std::int64_t call = 1;; ++call)
+  {
+    InjectCudaError(call, GetParam());
+    const FlipResult result = Flip(mesh.View(), options);
+    InjectCudaError(0, cudaSuccess);
+    ASSERT_TRUE(expected.Triangles == result.Triangles) << "call " << call;
+    ReleaseCudaMemory();
+    if (result.Report.Fallback.empty())
+    {
+      EXPECT_TRUE(IsOnGpu(result.Report));
+      break;
+    }
+    EXPECT_EQ(0u, result.Report.Backend.rfind("Threads: ", 0));
+    EXPECT_NE(std::string::npos, result.Report.Fallback.find(cudaGetErrorString(GetParam())));
+    ++failures;
+  }
+  EXPECT_LT(50, failures);
+  EXPECT_LE(freeBefore, GetFreeMemory() + (std::size_t(4) << 20));
+}
+
+/// Memory that other runs have left is freed before the CPU takes over.
+TEST_P(FailureTest, IdleMemoryIsFreedForARunThatLacksMemory)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(40000, 33);
+  FlipOptions options;
+  const FlipResult expected = Flip(mesh.View(), options);
+  int successes = 0;
+  for (std::int64_t call = 10; call < 50; ++call)
+  {
+    {
+      const FlipSession one(mesh.View(), options);
+      const FlipSession other(mesh.View(), options); // at the same time, so with memory of its own
+    }
+    InjectCudaError(call, GetParam());
+    const FlipResult result = Flip(mesh.View(), options);
+    InjectCudaError(0, cudaSuccess);
+    ASSERT_TRUE(expected.Triangles == result.Triangles) << "call " << call;
+    successes += result.Report.Fallback.empty() ? 1 : 0;
+    ReleaseCudaMemory();
+  }
+  EXPECT_LT(5, successes);
+  EXPECT_GT(40, successes); // a failure of another call has no remedy
+}
+
+TEST_P(FailureTest, ForcedCudaSaysWhy)
+{
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 32);
+  FlipOptions options;
+  options.Backend = BackendKind::CUDA;
+  InjectCudaError(5, GetParam());
+  try
+  {
+    Flip(mesh.View(), options);
+    FAIL() << "no error";
+  }
+  catch (const BackendUnavailable& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find(cudaGetErrorString(GetParam())))
+      << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Errors, FailureTest, testing::Values(cudaErrorMemoryAllocation, cudaErrorLaunchFailure));
+
+}
+}
