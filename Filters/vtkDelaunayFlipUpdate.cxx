@@ -118,8 +118,12 @@ int vtkDelaunayFlip::RequestData(
   {
     const auto structure = Hold(input);
     const auto constraints = Hold(vtkDataObject::GetData(inputVector[1]));
-    const std::vector<MeshBlock> edges =
-      constraints ? ListMeshBlocks(constraints) : std::vector<MeshBlock>();
+    std::vector<MeshBlock> edges;
+    if (constraints)
+    {
+      edges = ListMeshBlocks(constraints);
+      edges.resize(std::max<std::size_t>(1, edges.size()), { { 0 }, "", 0.0, false, {} });
+    }
     std::vector<MeshBlock> blocks = this->ListBlocks(input);
     bool isLive = false;
     double cells = 0.0;

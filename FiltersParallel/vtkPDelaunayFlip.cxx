@@ -34,7 +34,7 @@ vtkPDelaunayFlip::~vtkPDelaunayFlip() { this->SetController(nullptr); }
 std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
 {
   const bool isShared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-  return isShared ? ControllerGroup::Make(this->Controller) : nullptr;
+  return isShared ? MakeControllerGroup(this->Controller) : nullptr;
 }
 
 //------------------------------------------------------------------------------
