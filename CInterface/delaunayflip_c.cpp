@@ -15,7 +15,6 @@
 #include <new>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace delaunayflip;
@@ -137,26 +136,6 @@ FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
     : FlipToDelaunay(ToMesh(&c), options, triangles, observers.Iteration, observers.Progress);
 }
 
-/// Polygon `number` has the corners that begin at the first, and end before the second.
-std::pair<const std::int64_t*, const std::int64_t*> GetCorners(
-  const delaunayflip_polygons& polygons, std::int64_t points, std::int64_t number)
-{
-  const std::int64_t begin = polygons.offsets[number];
-  const std::int64_t end = polygons.offsets[number + 1];
-  Require(begin >= 0 && begin <= end, "offsets decrease, or are negative");
-  const std::int64_t* last = polygons.corners + end;
-  const std::int64_t* wrong = std::find_if(
-    polygons.corners + begin, last, [points](std::int64_t id) { return id < 0 || id >= points; });
-  if (wrong != last)
-  {
-    throw InvalidMesh("polygon " + std::to_string(number) + " names point " +
-        std::to_string(*wrong) + ", but there are " + std::to_string(points) +
-        " points, numbered from 0",
-      number, *wrong);
-  }
-  return { polygons.corners + begin, last };
-}
-
 /// Appends the triangles of all polygons.
 std::vector<std::int64_t> Split(
   const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
@@ -166,12 +145,24 @@ std::vector<std::int64_t> Split(
   const auto all = static_cast<double>(polygons.number_of_polygons);
   for (std::int64_t i = 0; i < polygons.number_of_polygons; ++i)
   {
-    const auto [first, last] = GetCorners(polygons, points.Count, i);
+    const std::int64_t begin = polygons.offsets[i];
+    const std::int64_t end = polygons.offsets[i + 1];
+    Require(begin >= 0 && begin <= end, "offsets decrease, or are negative");
+    for (std::int64_t corner = begin; corner < end; ++corner)
+    {
+      const std::int64_t id = polygons.corners[corner];
+      if (id < 0 || id >= points.Count)
+      {
+        throw InvalidMesh("polygon " + std::to_string(i) + " names point " + std::to_string(id) +
+            ", but there are " + std::to_string(points.Count) + " points, numbered from 0",
+          i, id);
+      }
+    }
     const auto part = [&](double share)
     { return !progress || progress((static_cast<double>(i) + share) / all); };
-    const bool continues = (i % PolygonsBetweenCalls != 0 || part(0.0)) &&
-      (last - first < 3 || SplitPolygon(points, first, last - first, triangles, part));
-    if (!continues)
+    if ((i % PolygonsBetweenCalls == 0 && !part(0.0)) ||
+      (end - begin >= 3 &&
+        !SplitPolygon(points, polygons.corners + begin, end - begin, triangles, part)))
     {
       throw RunAborted();
     }

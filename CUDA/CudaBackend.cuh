@@ -28,46 +28,18 @@ namespace delaunayflip
 {
 
 /// The order in which the parts of an array are copied. Every GPU in turn copies a part of its
-/// share, so that all of them copy at the same time.
-class PartOrder
+/// share of a slice, so that all of them copy at the same time.
+/// @returns the part of a turn, or -1 if there is none.
+inline std::int64_t FindPart(
+  std::int64_t turn, std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
 {
-public:
-  /// @param partsPerSlice the number of parts in each slice; the last slice may have fewer.
-  PartOrder(std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
-    : Parts(parts),
-      PartsPerSlice(std::max<std::int64_t>(1, partsPerSlice)),
-      Share((this->PartsPerSlice + devices - 1) / devices),
-      Devices(devices)
-  {
-  }
-
-  std::int64_t CountTurns() const
-  {
-    const std::int64_t slices = (this->Parts + this->PartsPerSlice - 1) / this->PartsPerSlice;
-    return slices * this->CountTurnsPerSlice();
-  }
-  /// @returns the slice that begins with a turn, or -1.
-  std::int64_t FindSlice(std::int64_t turn) const
-  {
-    return turn % this->CountTurnsPerSlice() == 0 ? turn / this->CountTurnsPerSlice() : -1;
-  }
-  /// @returns the part of a turn, or -1 if there is none.
-  std::int64_t FindPart(std::int64_t turn) const
-  {
-    const std::int64_t slice = turn / this->CountTurnsPerSlice();
-    const std::int64_t inSlice = turn % this->CountTurnsPerSlice();
-    const std::int64_t place = inSlice % this->Devices * this->Share + inSlice / this->Devices;
-    const std::int64_t part = slice * this->PartsPerSlice + place;
-    return place < this->PartsPerSlice && part < this->Parts ? part : -1;
-  }
-
-private:
-  std::int64_t CountTurnsPerSlice() const { return this->Share * this->Devices; }
-
-  std::int64_t Parts, PartsPerSlice;
-  std::int64_t Share; ///< Of a GPU, in a slice.
-  std::int64_t Devices;
-};
+  const std::int64_t share = (partsPerSlice + devices - 1) / devices;
+  const std::int64_t slice = turn / (share * devices);
+  const std::int64_t inSlice = turn % (share * devices);
+  const std::int64_t place = inSlice % devices * share + inSlice / devices;
+  const std::int64_t part = slice * partsPerSlice + place;
+  return place < partsPerSlice && part < parts ? part : -1;
+}
 
 constexpr int ThreadsPerBlock = 256;
 
@@ -131,15 +103,6 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
     partials[blockIdx.x] = total;
   }
 }
-
-/// The sum of partial sums.
-template <typename Result>
-struct AddPartial
-{
-  const Result* Partials;
-
-  __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
-};
 
 /// One block counts one tile, one item per thread, because counting may wait for memory.
 template <typename CountOf>
@@ -276,12 +239,12 @@ public:
         SumKernel<<<own, ThreadsPerBlock, 0, stream>>>(items, work, partials.Data() + blocks);
         blocks += own;
       });
+    const Result* own = partials.Data();
     Result* all = partials.Data() + blocks;
+    const auto add = [=] __device__(std::int64_t i, Result & sum) { sum += own[i]; };
     this->Launch(
-      [&](cudaStream_t stream)
-      {
-        SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(
-          ItemRange{ 0, blocks }, AddPartial<Result>{ partials.Data() }, all);
+      [&](cudaStream_t stream) {
+        SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(ItemRange{ 0, blocks }, add, all);
       });
     Result total;
     this->Download(all, 1, &total);
@@ -383,10 +346,8 @@ public:
   /// Lets the work that follows wait for what is in a stream of the caller.
   void WaitFor(const DeviceStream& stream) const
   {
-    CudaContext& context = *this->Context;
-    CallCuda("record an event", cudaEventRecord, context.CallerDone,
-      static_cast<cudaStream_t>(stream.Handle));
-    CallCuda("wait for an event", cudaStreamWaitEvent, context.Stream, context.CallerDone, 0);
+    CudaContext::LetWait(
+      this->GetStream(), static_cast<cudaStream_t>(stream.Handle), this->Context->CallerDone);
   }
 
   /// Copies the caller's arrays to the device.
@@ -603,11 +564,12 @@ private:
   {
     constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
     const std::int64_t parts = (size + Step - 1) / Step;
-    const PartOrder order(parts, parts, this->CountDevices());
+    const std::int64_t devices = this->CountDevices();
+    const std::int64_t turns = (parts + devices - 1) / devices * devices;
     this->Context->Fork();
-    for (std::int64_t turn = 0; turn < order.CountTurns(); ++turn)
+    for (std::int64_t turn = 0; turn < turns; ++turn)
     {
-      const std::int64_t begin = order.FindPart(turn) * Step;
+      const std::int64_t begin = FindPart(turn, parts, parts, devices) * Step;
       if (begin >= 0)
       {
         const StagingBuffer& buffer = this->GetBuffer(turn);
@@ -636,13 +598,18 @@ private:
     Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
     const auto ahead = // copied while one is converted
       static_cast<std::int64_t>(this->Context->Staging.size()) - 1;
-    const PartOrder order(parts, partsPerSlice, this->CountDevices());
-    for (std::int64_t turn = 0; turn < order.CountTurns() + ahead; ++turn)
+    const std::int64_t devices = this->CountDevices();
+    const std::int64_t turnsPerSlice = (partsPerSlice + devices - 1) / devices * devices;
+    const std::int64_t turns = (parts + partsPerSlice - 1) / partsPerSlice * turnsPerSlice;
+    const auto find = [&](std::int64_t turn)
+    { return turn >= 0 && turn < turns ? FindPart(turn, parts, partsPerSlice, devices) : -1; };
+    for (std::int64_t turn = 0; turn < turns + ahead; ++turn)
     {
-      const std::int64_t fetched = turn < order.CountTurns() ? order.FindPart(turn) : -1;
-      if (turn < order.CountTurns() && order.FindSlice(turn) >= 0)
+      const std::int64_t fetched = find(turn);
+      const std::int64_t drained = find(turn - ahead);
+      if (turn < turns && turn % turnsPerSlice == 0)
       {
-        const std::int64_t first = order.FindSlice(turn) * sliceSize;
+        const std::int64_t first = turn / turnsPerSlice * sliceSize;
         this->Context->Join();
         fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
         this->Context->Fork();
@@ -654,7 +621,6 @@ private:
         StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
           std::min(Step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
       }
-      const std::int64_t drained = turn >= ahead ? order.FindPart(turn - ahead) : -1;
       if (drained >= 0)
       {
         const StagingBuffer& buffer = this->GetBuffer(turn - ahead);

@@ -159,6 +159,12 @@ std::size_t CudaContext::TakePeak()
   return this->Pool->TakePeak() + (this->Shared ? this->Shared->TakePeak() : 0);
 }
 
+void CudaContext::LetWait(cudaStream_t stream, cudaStream_t other, cudaEvent_t event)
+{
+  CallCuda("record an event", cudaEventRecord, event, other);
+  CallCuda("wait for an event", cudaStreamWaitEvent, stream, event, 0);
+}
+
 void CudaContext::Fork() const
 {
   if (this->Others.empty())
@@ -176,8 +182,7 @@ void CudaContext::Join() const
 {
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda("record an event", cudaEventRecord, other.Done, other.Stream);
-    CallCuda("wait for an event", cudaStreamWaitEvent, this->Stream, other.Done, 0);
+    LetWait(this->Stream, other.Stream, other.Done);
   }
 }
 

@@ -90,6 +90,10 @@ public:
   /// The most bytes that were in use on the devices at any time since the last call.
   std::size_t TakePeak();
 
+  /// Lets the work that follows in a stream wait for what is in another one so far.
+  /// @param event of the other one's GPU.
+  static void LetWait(cudaStream_t stream, cudaStream_t other, cudaEvent_t event);
+
   /// Lets the other GPUs wait for the stream.
   void Fork() const;
   /// Lets the stream wait for the other GPUs.

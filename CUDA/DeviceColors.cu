@@ -443,9 +443,8 @@ private:
   void LetWait(const DeviceStream& stream) const
   {
     const CudaContext& context = this->Backend.GetContext();
-    CallCuda("record an event", cudaEventRecord, context.CallerDone, context.Stream);
-    CallCuda("wait for an event", cudaStreamWaitEvent, static_cast<cudaStream_t>(stream.Handle),
-      context.CallerDone, 0);
+    CudaContext::LetWait(
+      static_cast<cudaStream_t>(stream.Handle), context.Stream, context.CallerDone);
   }
 
   DrawnExtremes WaitForExtremes() const

@@ -183,7 +183,8 @@ public:
     // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
-    this->WriteOutput(mesh);
+    WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
+      [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
     const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
@@ -215,8 +216,8 @@ public:
 
   ExitCode GetExitCode() const
   {
-    return this->Run.Flip.StopReason == StopReasonKind::IterationLimit ? ExitCode::IterationLimit
-                                                                       : ExitCode::Done;
+    const bool isLimited = this->Run.Flip.StopReason == StopReasonKind::IterationLimit;
+    return isLimited ? ExitCode::IterationLimit : ExitCode::Done;
   }
 
 private:
@@ -268,20 +269,6 @@ private:
       report.Points = this->Input->GetNumberOfPoints();
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
-    }
-  }
-
-  void WriteOutput(vtkPolyData* mesh)
-  {
-    try
-    {
-      WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
-        [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
-    }
-    catch (const CommandError& error)
-    {
-      throw CommandError(
-        error.Code, this->Settings.Output + ": cannot be written: " + error.what());
     }
   }
 

@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace delaunayflip
@@ -99,9 +100,8 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
     {
       if (size < fewest)
       {
-        throw CommandError(ExitCode::BadFile,
-          what + " " + std::to_string(cell) + " has " + Counted(size, "point") +
-            ", too few for this file format; a .vtk can hold it");
+        throw std::runtime_error(what + " " + std::to_string(cell) + " has " +
+          Counted(size, "point") + ", too few for this file format; a .vtk can hold it");
       }
       ++cell;
     });
@@ -185,7 +185,7 @@ void RequireStorable(vtkPolyData* mesh, MeshFormat format)
   }
   if (format == MeshFormat::STL && std::isinf(PointLosses(mesh).LargestMove))
   {
-    throw CommandError(ExitCode::BadFile,
+    throw std::runtime_error(
       "a coordinate is larger than 3.4e38, too large for this file format; a .vtk, .vtp, .ply or "
       ".obj can hold it");
   }
@@ -296,7 +296,7 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
     problem = error.what();
     problem.erase(0, problem.rfind(path + ": ", 0) == 0 ? path.size() + 2 : 0);
   }
-  throw CommandError(ExitCode::BadFile, problem + ExplainFailedWrite(path));
+  throw std::runtime_error(problem + ExplainFailedWrite(path));
 }
 
 std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)

@@ -48,7 +48,7 @@ using WriteObserver = std::function<void(double)>;
 
 /// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
 /// complete, because the writers of some formats do not notice a full disk.
-/// @throws CommandError (BadFile) with the reason.
+/// @throws std::runtime_error with the reason; it does not name the file.
 void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
   const WriteObserver& tell);
 

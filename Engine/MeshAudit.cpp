@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,34 +57,6 @@ bool IsSumAbovePi(const Angle& a, const Angle& b, double tolerance)
   return isAboveThreeHalvesPi || sine * std::cos(tolerance) - cosine * std::sin(tolerance) < 0.0;
 }
 
-/// The automatic tolerance of a quad in radians: how much its angle sum may change when every
-/// coordinate moves by a unit in the last place. Infinite if the change has no bound.
-/// @param apqb the points of the quad.
-/// @param epsilon that of the coordinates' type.
-double FindTolerance(const std::array<Vector3, 4>& apqb, double epsilon)
-{
-  // Differences and lengths of a quarter of the coordinates are finite.
-  std::array<Vector3, 4> quarters = apqb;
-  double farthest = 0.0;
-  for (Vector3& point : quarters)
-  {
-    point = 0.25 * point;
-    farthest = std::max(farthest, Hypot(point));
-  }
-  double turns = 0.0;
-  for (int apex : { 0, 3 })
-  {
-    for (int end : { 1, 2 })
-    {
-      const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
-      turns += moved / Hypot(quarters[end] - quarters[apex]);
-    }
-  }
-  // The rounding of the engine's test is less than this.
-  turns += 32.0 * std::numeric_limits<double>::epsilon();
-  return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
-}
-
 /// One side of a triangle.
 struct Side
 {
@@ -95,8 +68,7 @@ struct Side
 
 bool operator<(const Side& a, const Side& b)
 {
-  return a.Ends != b.Ends ? a.Ends < b.Ends
-                          : std::make_pair(a.Triangle, a.Slot) < std::make_pair(b.Triangle, b.Slot);
+  return std::tie(a.Ends, a.Triangle, a.Slot) < std::tie(b.Ends, b.Triangle, b.Slot);
 }
 
 /// All sides between distinct vertices, those of one edge in a row.
@@ -137,18 +109,6 @@ void ForEachEdge(const std::vector<Side>& sides, const Visitor& visit)
   }
 }
 
-std::int64_t CountUsedPoints(const TriangleArray& triangles)
-{
-  std::vector<std::int64_t> ids;
-  ids.reserve(static_cast<std::size_t>(3 * triangles.Count));
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    ids.insert(ids.end(), { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) });
-  }
-  std::sort(ids.begin(), ids.end());
-  return std::unique(ids.begin(), ids.end()) - ids.begin();
-}
-
 /// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
 template <std::size_t Count>
 std::array<Vector3, Count> GetScaledPoints(
@@ -162,14 +122,6 @@ std::array<Vector3, Count> GetScaledPoints(
     scaled[i] = { offsets[i][0], offsets[i][1], offsets[i][2] };
   }
   return scaled;
-}
-
-template <std::size_t Count>
-bool AreFinite(
-  const PointArray& points, const std::array<std::int64_t, Count>& ids, GeometryKind geometry)
-{
-  return std::all_of(
-    ids.begin(), ids.end(), [&](std::int64_t id) { return IsFinitePoint(points, id, geometry); });
 }
 
 /// Decides whether single edges violate the criterion.
@@ -202,7 +154,9 @@ public:
     const std::array<std::int64_t, 4> quad = this->GetQuad(sides);
     const bool isDegenerate = quad[0] == quad[3] || quad[0] == quad[1] || quad[0] == quad[2] ||
       quad[3] == quad[1] || quad[3] == quad[2];
-    if (isDegenerate || !AreFinite(this->Mesh.Points, quad, this->Geometry))
+    const auto isFinite = [this](std::int64_t point)
+    { return IsFinitePoint(this->Mesh.Points, point, this->Geometry); };
+    if (isDegenerate || !std::all_of(quad.begin(), quad.end(), isFinite))
     {
       return false;
     }
@@ -270,16 +224,13 @@ private:
   /// that a flip would make.
   bool SpansOpposite(const std::array<std::int64_t, 4>& quad) const
   {
-    using Place = std::pair<double, double>;
-    std::array<Place, 4> apqb;
-    std::transform(quad.begin(), quad.end(), apqb.begin(),
-      [this](std::int64_t point)
-      {
-        const auto projected = this->Project(point);
-        return Place(projected[0], projected[1]);
-      });
-    const std::pair<Place, Place> edge = std::minmax({ apqb[1], apqb[2] });
-    const std::pair<Place, Place> made = std::minmax({ apqb[0], apqb[3] });
+    const auto place = [&](int i)
+    {
+      const auto projected = this->Project(quad[i]);
+      return std::make_pair(projected[0], projected[1]);
+    };
+    const auto edge = std::minmax({ place(1), place(2) });
+    const auto made = std::minmax({ place(0), place(3) });
     return edge.first <= made.first && made.second <= edge.second && edge != made;
   }
 
@@ -299,21 +250,37 @@ private:
     return Angle(x[0], x[1], x[2]);
   }
 
+  /// In radians. The automatic one: how much the angle sum may change when every coordinate moves
+  /// by a unit in the last place. Infinite if the change has no bound.
   double GetTolerance(const std::array<std::int64_t, 4>& quad) const
   {
     if (this->Options.Tolerance >= 0.0)
     {
       return this->Options.Tolerance;
     }
-    std::array<Vector3, 4> apqb;
+    // Differences and lengths of a quarter of the coordinates are finite.
+    std::array<Vector3, 4> quarters;
+    double farthest = 0.0;
     for (int i = 0; i < 4; ++i)
     {
-      apqb[i] = LoadPoint(this->Mesh.Points, quad[i]);
-      apqb[i].Z = this->Geometry == GeometryKind::PlanarXY ? 0.0 : apqb[i].Z;
+      quarters[i] = 0.25 * LoadPoint(this->Mesh.Points, quad[i]);
+      quarters[i].Z = this->Geometry == GeometryKind::PlanarXY ? 0.0 : quarters[i].Z;
+      farthest = std::max(farthest, Hypot(quarters[i]));
     }
-    return FindTolerance(apqb,
-      this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
-                               : std::numeric_limits<double>::epsilon());
+    const double epsilon = this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
+                                                    : std::numeric_limits<double>::epsilon();
+    double turns = 0.0;
+    for (int apex : { 0, 3 })
+    {
+      for (int end : { 1, 2 })
+      {
+        const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
+        turns += moved / Hypot(quarters[end] - quarters[apex]);
+      }
+    }
+    // The rounding of the engine's test is less than this.
+    turns += 32.0 * std::numeric_limits<double>::epsilon();
+    return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
   }
 
   /// Whether the normals differ by more than the feature angle; never next to an empty triangle.
@@ -354,7 +321,15 @@ EdgeCounts CountEdges(const TriangleArray& triangles)
 
 std::int64_t EulerCharacteristic(const TriangleArray& triangles)
 {
-  return CountUsedPoints(triangles) - CountEdges(triangles).Edges + triangles.Count;
+  std::vector<std::int64_t> ids;
+  ids.reserve(static_cast<std::size_t>(3 * triangles.Count));
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    ids.insert(ids.end(), { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) });
+  }
+  std::sort(ids.begin(), ids.end());
+  const std::int64_t used = std::unique(ids.begin(), ids.end()) - ids.begin();
+  return used - CountEdges(triangles).Edges + triangles.Count;
 }
 
 std::int64_t CountDuplicateEdgesGained(const TriangleArray& before, const TriangleArray& after)

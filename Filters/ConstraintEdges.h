@@ -3,13 +3,17 @@
 #ifndef ConstraintEdges_h
 #define ConstraintEdges_h
 
+#include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
+
+#include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 class vtkPolyData;
@@ -17,9 +21,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-/// Numbers the distinct places of points. Coordinates are compared bit by bit, except that -0
-/// equals 0.
-class PointPlaces
+/// Numbers the distinct places of points. Coordinates must be equal; -0 equals 0.
+class DELAUNAYFLIP_EXPORT PointPlaces
 {
 public:
   static constexpr std::int64_t None = -1;
@@ -40,18 +43,18 @@ public:
   std::int64_t GetNumberOfPlaces() const { return this->NumberOfPlaces; }
 
 private:
-  using Bits = std::array<std::uint64_t, 3>;
+  using Place = std::array<double, 3>;
   struct Hash
   {
-    std::size_t operator()(const Bits& bits) const;
+    std::size_t operator()(const Place& place) const;
   };
 
   /// @returns whether all coordinates are finite.
-  bool Read(const PointArray& points, std::int64_t point, Bits& bits) const;
+  bool Read(const PointArray& points, std::int64_t point, Place& place) const;
 
   bool AsFloats;
   std::int64_t NumberOfPlaces = 0;
-  std::unordered_map<Bits, std::int64_t, Hash> Numbers; ///< Never iterated over: its order varies.
+  std::unordered_map<Place, std::int64_t, Hash> Numbers; ///< Never iterated over: its order varies.
 };
 
 using PointPair = std::array<std::int64_t, 2>;
@@ -79,15 +82,14 @@ struct ConstraintSource
 /// mesh; otherwise edges are matched by the coordinates of their points.
 /// @throws InvalidMesh when a cell names a point that does not exist; RunAborted.
 ConstraintEdges FindConstraintEdges(
-  const ConstraintSource& source, const ProgressObserver& progress = {});
+  const ConstraintSource& source, const ProgressObserver& progress);
 
-/// Adds the pair of `a` and `b`, unless they are equal.
-void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs);
-
-/// Finds, for each pair, the index of the first pair that equals it.
-/// @throws RunAborted.
-std::vector<std::size_t> FindFirst(
-  const std::vector<PointPair>& pairs, const ProgressObserver& progress = {});
+/// The edges along the lines and polygons of several second inputs, as lines with points of their
+/// own; null if there are none.
+/// @param sources each with the mesh whose points it names if it has none; or null.
+/// @throws InvalidMesh.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> JoinConstraints(
+  const std::vector<std::pair<vtkPolyData*, vtkPolyData*>>& sources);
 
 }
 

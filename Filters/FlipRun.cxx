@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipRun.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
-#include "vtkNew.h"
+#include "DataArrays.h"
+
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 
 #include <utility>
 
@@ -31,36 +27,23 @@ void StampPlace(vtkDataArray* array, std::vector<vtkMTimeType>& stamps)
   stamps.push_back(static_cast<vtkMTimeType>(reinterpret_cast<std::uintptr_t>(place)));
 }
 
-void Stamp(vtkCellArray* cells, std::vector<vtkMTimeType>& stamps)
+std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
 {
-  Stamp(static_cast<vtkObject*>(cells), stamps);
-  StampPlace(cells->GetOffsetsArray(), stamps);
-  StampPlace(cells->GetConnectivityArray(), stamps);
-}
-
-void StampCoordinates(vtkPolyData* mesh, std::vector<vtkMTimeType>& stamps)
-{
+  std::vector<vtkMTimeType> stamps;
   Stamp(mesh->GetPoints(), stamps);
   if (mesh->GetPoints())
   {
     StampPlace(mesh->GetPoints()->GetData(), stamps);
   }
+  return stamps;
 }
 
-bool IsSame(const PolyDataBridge::Settings& a, const PolyDataBridge::Settings& b)
+vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
 {
-  return a.Triangulate == b.Triangulate && a.LinesAsConstraints == b.LinesAsConstraints &&
-    a.InsertLines == b.InsertLines && a.InsertConstraints == b.InsertConstraints &&
-    a.RegionArray == b.RegionArray;
-}
-
-/// The input, with a copy of its points on request.
-vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
-{
-  const vtkSmartPointer<vtkPolyData> mesh = ShareMesh(input);
-  if (copyPoints && input->GetPoints())
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->ShallowCopy(input);
+  if (vtkPoints* points = input->GetPoints())
   {
-    vtkPoints* points = input->GetPoints();
     // Not vtkPoints::DeepCopy, which rounds to the precision of the copy.
     auto data =
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(points->GetDataType()));
@@ -72,75 +55,66 @@ vtkSmartPointer<vtkPolyData> TakeMesh(vtkPolyData* input, bool copyPoints)
   return mesh;
 }
 
+UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
+{
+  vtkPolyData* mesh = request.Input;
+  const bool hasPolygons = mesh->GetNumberOfStrips() > 0 ||
+    mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
+  const bool hasConstraints =
+    request.Constraints || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
+  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
+             request.WantsAngles },
+    request.Progress };
+}
+
 }
 
 //------------------------------------------------------------------------------
-FlipRun::Snapshot::Snapshot(const Request& request, bool copyPoints, const UpdatePlan& plan)
-  : Mesh(TakeMesh(request.Input, copyPoints)),
-    Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
-    Edges(StampEdges(request)),
+FlipRun::Source::Source(const FlipRequest& request, const UpdatePlan& plan)
+  : Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
     Time(request.Input->GetMTime()),
-    Bridge(Mesh, Constraints, request.Settings, plan)
+    Current(ShareMesh(request.Input)),
+    Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
+    Origin(request.IsLive ? CopyPoints(Current) : Current),
+    Bridge(Origin, Constraints, request.Settings, plan)
 {
-}
-
-FlipRun::Snapshots::Snapshots(const Request& request, const UpdatePlan& plan)
-  : Current(std::make_shared<Snapshot>(request, false, plan)),
-    Origin(
-      request.IsLive ? std::make_shared<Snapshot>(Current->Repeat(request), true, plan) : Current)
-{
-}
-
-/// For a second snapshot: observers may have emptied the inputs since this one.
-FlipRun::Request FlipRun::Snapshot::Repeat(const Request& request) const
-{
-  Request same = request;
-  same.Input = this->Mesh;
-  same.Constraints = this->Constraints;
-  return same;
 }
 
 /// Of the attributes only region labels and ghosts matter.
-FlipRun::Stamps FlipRun::StampEdges(const Request& request)
+FlipRun::Stamps FlipRun::StampEdges(const FlipRequest& request)
 {
   Stamps stamps{ static_cast<vtkMTimeType>(request.Input->GetNumberOfPoints()) };
-  Stamp(request.Input->GetPolys(), stamps);
-  Stamp(request.Input->GetStrips(), stamps);
-  Stamp(request.Input->GetLines(), stamps);
+  const auto stampCells = [&stamps](vtkCellArray* cells)
+  {
+    Stamp(cells, stamps);
+    StampPlace(cells->GetOffsetsArray(), stamps);
+    StampPlace(cells->GetConnectivityArray(), stamps);
+  };
+  stampCells(request.Input->GetPolys());
+  stampCells(request.Input->GetStrips());
+  stampCells(request.Input->GetLines());
   vtkCellData* data = request.Input->GetCellData();
   Stamp(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()), stamps);
   Stamp(data->GetAbstractArray(request.Settings.RegionArray.c_str()), stamps);
   if (request.Constraints)
   {
-    Stamp(request.Constraints->GetPolys(), stamps);
-    Stamp(request.Constraints->GetLines(), stamps);
+    stampCells(request.Constraints->GetPolys());
+    stampCells(request.Constraints->GetLines());
     if (request.Constraints->GetPoints() != request.Input->GetPoints())
     {
-      StampCoordinates(request.Constraints, stamps);
+      const Stamps points = StampPoints(request.Constraints);
+      stamps.insert(stamps.end(), points.begin(), points.end());
     }
   }
   return stamps;
 }
 
-FlipRun::Stamps FlipRun::StampPoints(vtkPolyData* mesh)
-{
-  Stamps stamps;
-  StampCoordinates(mesh, stamps);
-  return stamps;
-}
-
 //------------------------------------------------------------------------------
-FlipRun::FlipRun(const Request& request)
-  : FlipRun(request, Snapshots(request, MakePlan(request, false)), Start())
-{
-}
-
-FlipRun::FlipRun(const Request& request, Snapshots input, Start start)
-  : Settings(request.Settings),
-    Options(request.Options),
-    Wanted(request.Wanted),
-    Plan(MakePlan(request, !start.Triangles.empty())),
+FlipRun::FlipRun(
+  const FlipRequest& request, UpdatePlan plan, std::unique_ptr<Source> input, Start start)
+  : Asked(request),
+    Plan(std::move(plan)),
     Input(std::move(input)),
     Begin(std::move(start)),
     Session(this->MakeSession()),
@@ -148,30 +122,25 @@ FlipRun::FlipRun(const Request& request, Snapshots input, Start start)
 {
 }
 
-UpdatePlan FlipRun::MakePlan(const Request& request, bool isWarm)
-{
-  return { { request.Input, request.Constraints, request.Settings.LinesAsConstraints,
-             !request.Settings.RegionArray.empty(), isWarm, request.Wanted.Angles },
-    request.Progress };
-}
-
 FlipSession FlipRun::MakeSession() const
 {
+  FlipOptions options = this->Asked.Options;
+  // A warm start finds no feature edges of its own: its fixed edges include them.
+  options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
   try
   {
-    return FlipSession(
-      GetMesh(this->Input, this->Begin), this->GetStartOptions(), this->GetProgress());
+    return FlipSession(GetMesh(*this->Input, this->Begin), options, this->GetProgress());
   }
   catch (const InvalidMesh&)
   {
-    this->Input.Origin->Bridge.RequireValidIds(); // its error names the cell, not the triangle
+    this->Input->Bridge.RequireValidIds(); // its error names the cell, not the triangle
     throw;
   }
 }
 
-TriangleMesh FlipRun::GetMesh(const Snapshots& input, const Start& start)
+TriangleMesh FlipRun::GetMesh(const Source& input, const Start& start)
 {
-  TriangleMesh mesh = input.Origin->Bridge.GetMesh();
+  TriangleMesh mesh = input.Bridge.GetMesh();
   if (!start.Triangles.empty())
   {
     mesh.Triangles = TriangleArray(start.Triangles.data(), mesh.Triangles.Count);
@@ -182,75 +151,57 @@ TriangleMesh FlipRun::GetMesh(const Snapshots& input, const Start& start)
   return mesh;
 }
 
-/// A warm start finds no feature edges of its own: its fixed edges include them.
-FlipOptions FlipRun::GetStartOptions() const
+bool FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const FlipRequest& request)
 {
-  FlipOptions options = this->Options;
-  options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
-  return options;
-}
-
-//------------------------------------------------------------------------------
-bool FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request)
-{
-  if (!run || !run->Fits(request))
+  const bool fits = run && run->Asked.Options == request.Options &&
+    run->Asked.Settings == request.Settings && run->Input->Edges == StampEdges(request);
+  if (fits && run->Input->Points == StampPoints(request.Input))
+  {
+    if (run->Input->Time != request.Input->GetMTime())
+    {
+      run->Input->Time = request.Input->GetMTime();
+      run->Input->Current = ShareMesh(request.Input);
+    }
+    run->Asked.WantsFlipCounts = request.WantsFlipCounts;
+    run->Asked.WantsAngles = request.WantsAngles;
+    run->Stopped = false;
+    return true;
+  }
+  const UpdatePlan plan = MakePlan(request, fits);
+  Start start;
+  if (fits)
+  {
+    start = run->GetEnd(plan.For(UpdatePlan::FixedEdges));
+  }
+  else
   {
     run.reset(); // its memory may be needed
-    run.reset(new FlipRun(request));
-    return false;
   }
-  if (run->Input.Current->Points != StampPoints(request.Input))
-  {
-    WarmStart(run, request);
-    return false;
-  }
-  if (run->Input.Current->Time != request.Input->GetMTime())
-  {
-    run->Input.Current = std::make_shared<Snapshot>(request, false, MakePlan(request, false));
-  }
-  run->Wanted = request.Wanted;
-  run->Stopped = false;
-  return true;
-}
-
-bool FlipRun::Fits(const Request& request) const
-{
-  return this->Options == request.Options && IsSame(this->Settings, request.Settings) &&
-    this->Input.Current->Edges == StampEdges(request);
-}
-
-/// A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
-/// So Auto must choose this geometry both for the triangles that flips have made and, as it does
-/// without LiveUpdate, for those of the input.
-void FlipRun::WarmStart(std::unique_ptr<FlipRun>& run, const Request& request)
-{
-  const UpdatePlan plan = MakePlan(request, true);
-  Start start = run->GetEnd(plan.ForFixedEdges());
-  Snapshots input(request, plan);
+  auto input = std::make_unique<Source>(request, plan);
+  // A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
+  // So Auto must choose this geometry both for the triangles that flips have made and, as it does
+  // without LiveUpdate, for those of the input.
   const auto keepsGeometry = [&](const Start& begin)
-  { return FindGeometry(GetMesh(input, begin), request.Options) == start.Geometry; };
-  if (!keepsGeometry(Start()) || !keepsGeometry(start))
+  { return FindGeometry(GetMesh(*input, begin), request.Options) == start.Geometry; };
+  if (fits && (!keepsGeometry(Start()) || !keepsGeometry(start)))
   {
     start = Start();
   }
   run.reset(); // its memory may be needed
-  run.reset(new FlipRun(request, std::move(input), std::move(start)));
+  run.reset(new FlipRun(request, plan, std::move(input), std::move(start)));
+  return false;
 }
 
 FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
 {
-  const TriangleMesh mesh = this->Input.Origin->Bridge.GetMesh();
-  const FlipReport report = this->GetReport();
+  const TriangleMesh mesh = this->Input->Bridge.GetMesh();
   Start start;
-  start.Geometry = this->IsWarm() ? this->Begin.Geometry : report.GeometryUsed;
+  start.Report = this->GetReport();
+  start.Geometry = this->IsWarm() ? this->Begin.Geometry : start.Report.GeometryUsed;
   start.Triangles.resize(3 * mesh.Triangles.Count);
   this->Session.StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
   start.FixedEdges =
-    this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Options, progress);
-  start.Constraints = report.Edges.Constraint;
-  start.UnmatchedConstraints = report.UnmatchedConstraints;
-  start.InsertedConstraints = report.InsertedConstraints;
-  start.ConstraintFlips = report.ConstraintFlips;
+    this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Asked.Options, progress);
   return start;
 }
 
@@ -258,47 +209,41 @@ FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
 FlipReport FlipRun::GetReport() const
 {
   FlipReport report = this->Session.GetReport();
+  const PolyDataBridge& bridge = this->Input->Bridge;
   if (this->IsWarm())
   {
-    report.Edges.Constraint = this->Begin.Constraints;
-    report.UnmatchedConstraints = this->Begin.UnmatchedConstraints;
-    report.InsertedConstraints = this->Begin.InsertedConstraints;
-    report.ConstraintFlips = this->Begin.ConstraintFlips;
+    const FlipReport& first = this->Begin.Report;
+    report.Edges.Constraint = first.Edges.Constraint;
+    report.UnmatchedConstraints = first.UnmatchedConstraints;
+    report.InsertedConstraints = first.InsertedConstraints;
+    report.ConstraintFlips = first.ConstraintFlips;
   }
-  else
+  else if (const std::int64_t count = bridge.GetNumberOfUnmatchedConstraints())
   {
-    this->AddUnmatchedConstraints(report);
-  }
-  this->Input.Current->Bridge.NumberCells(report.Defects);
-  this->Input.Current->Bridge.AddDefects(report.Defects);
-  return report;
-}
-
-void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
-{
-  const std::int64_t count = this->Input.Origin->Bridge.GetNumberOfUnmatchedConstraints();
-  report.UnmatchedConstraints += count;
-  if (count > 0)
-  {
+    report.UnmatchedConstraints += count;
     report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
       count, {}, DefectIds::Points });
   }
+  bridge.NumberCells(report.Defects);
+  const auto malformed = ListMalformedArrays(this->Input->Current, true, bridge.GetSlots().InPlace);
+  report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
+  return report;
 }
 
 bool FlipRun::Store(vtkPolyData* output) const
 {
-  const PolyDataBridge& bridge = this->Input.Current->Bridge;
-  bridge.Store(this->Session, output);
-  if (this->Wanted.FlipCounts)
+  const PolyDataBridge& bridge = this->Input->Bridge;
+  bridge.Store(this->Session, this->Input->Current, output);
+  if (this->Asked.WantsFlipCounts)
   {
     bridge.StoreFlipCounts(this->Session, output);
   }
   try
   {
-    if (this->Wanted.Angles)
+    if (this->Asked.WantsAngles)
     {
-      bridge.StoreAngles(
-        this->Session, this->Options.NumberOfThreads, this->Plan.ForOutput(), output);
+      bridge.StoreAngles(this->Session, this->Asked.Options.NumberOfThreads,
+        this->Plan.For(UpdatePlan::Angles), output);
     }
     return true;
   }

@@ -7,65 +7,50 @@
 #include "PolyDataBridge.h"
 #include "UpdateProgress.h"
 
-#include "vtkSmartPointer.h"
-#include "vtkType.h"
-
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-class vtkPolyData;
-
 namespace delaunayflip
 {
+
+/// What an update asks for.
+struct FlipRequest
+{
+  vtkPolyData* Input;
+  vtkPolyData* Constraints; ///< Or null.
+  BridgeSettings Settings;
+  FlipOptions Options;
+  bool IsLive; ///< More updates will follow, and points may be moved in place between them.
+  bool WantsFlipCounts, WantsAngles; ///< Optional cell arrays of the output.
+  ProgressObserver Progress; ///< Kept by the run.
+};
 
 /// Flips the mesh of an input: all at once or, in a live update, a few iterations at a time, with
 /// an output after each step.
 class FlipRun
 {
 public:
-  /// Optional cell arrays of the output.
-  struct Extras
-  {
-    bool FlipCounts;
-    bool Angles;
-  };
-
-  /// What an update asks for.
-  struct Request
-  {
-    vtkPolyData* Input;
-    vtkPolyData* Constraints; ///< Or null.
-    PolyDataBridge::Settings Settings;
-    FlipOptions Options;
-    bool IsLive; ///< More updates will follow, and points may be moved in place between them.
-    Extras Wanted;
-    ProgressObserver Progress; ///< Kept by the run.
-  };
-
-  /// Begins at the triangles of the input.
-  /// @throws as PolyDataBridge's and FlipSession's constructors.
-  explicit FlipRun(const Request& request);
   FlipRun(const FlipRun&) = delete;
   FlipRun& operator=(const FlipRun&) = delete;
 
   /// Makes `run` the run for this request. It stays itself if the request is the same, apart from
   /// attributes. If only points have been moved since, it becomes a warm start: a run that begins
   /// with the triangles of the last one and the edges that were fixed in it. Otherwise, or if it is
-  /// null, it becomes a new run.
+  /// null, it becomes a new run, which begins at the triangles of the input.
   /// @returns whether it stayed itself.
-  /// @throws as the constructor. After RunAborted, `run` is what it was, or null.
-  static bool ContinueOrStart(std::unique_ptr<FlipRun>& run, const Request& request);
+  /// @throws as PolyDataBridge's and FlipSession's constructors. After RunAborted, `run` is what it
+  /// was, or null.
+  static bool ContinueOrStart(std::unique_ptr<FlipRun>& run, const FlipRequest& request);
 
   FlipSession& GetSession() { return this->Session; }
-  const FlipSession& GetSession() const { return this->Session; }
 
   /// Whether the observer of this update stopped the run before its first iteration.
   bool IsStopped() const { return this->Stopped; }
 
   /// What to tell of the session's progress to.
-  ProgressObserver GetProgress() const { return this->Plan.ForSession(); }
+  ProgressObserver GetProgress() const { return this->Plan.For(UpdatePlan::Session); }
 
   /// What has happened so far. Its defects name cells of the input.
   FlipReport GetReport() const;
@@ -81,28 +66,18 @@ private:
   /// Modification times, of which no two objects ever have the same one, and places of arrays.
   using Stamps = std::vector<vtkMTimeType>;
 
-  /// An input as it was at some update, and the bridge to it.
-  struct Snapshot
+  /// The mesh that the session reads, and the attributes for the output.
+  struct Source
   {
-    Snapshot(const Request& request, bool copyPoints, const UpdatePlan& plan);
+    Source(const FlipRequest& request, const UpdatePlan& plan);
 
-    Request Repeat(const Request& request) const;
-
-    vtkSmartPointer<vtkPolyData> Mesh;
-    vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
     Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
     Stamps Points;
     vtkMTimeType Time;
-    PolyDataBridge Bridge;
-  };
-
-  /// The two snapshots of a new run; one for both where no update will follow.
-  struct Snapshots
-  {
-    Snapshots(const Request& request, const UpdatePlan& plan);
-
-    std::shared_ptr<const Snapshot> Current; ///< The attributes for the output are taken from it.
-    std::shared_ptr<const Snapshot> Origin; ///< The session has views of its arrays.
+    vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
+    vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
+    vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
+    PolyDataBridge Bridge; ///< To the origin.
   };
 
   /// Where a warm start begins; empty for other runs.
@@ -111,31 +86,20 @@ private:
     GeometryKind Geometry = GeometryKind::Auto;
     std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
-    std::int64_t Constraints = 0; ///< How many edges of the first mesh were constraints.
-    std::int64_t UnmatchedConstraints = 0;
-    std::int64_t InsertedConstraints = 0;
-    std::int64_t ConstraintFlips = 0;
+    FlipReport Report; ///< Of the last run.
   };
 
-  FlipRun(const Request& request, Snapshots input, Start start);
+  FlipRun(const FlipRequest& request, UpdatePlan plan, std::unique_ptr<Source> input, Start start);
 
-  static UpdatePlan MakePlan(const Request& request, bool isWarm);
-  static Stamps StampEdges(const Request& request);
-  static Stamps StampPoints(vtkPolyData* mesh);
-  static void WarmStart(std::unique_ptr<FlipRun>& run, const Request& request);
-  static TriangleMesh GetMesh(const Snapshots& input, const Start& start);
-  bool Fits(const Request& request) const;
+  static Stamps StampEdges(const FlipRequest& request);
+  static TriangleMesh GetMesh(const Source& input, const Start& start);
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
-  FlipOptions GetStartOptions() const;
   FlipSession MakeSession() const;
   Start GetEnd(const ProgressObserver& progress) const;
-  void AddUnmatchedConstraints(FlipReport& report) const;
 
-  PolyDataBridge::Settings Settings;
-  FlipOptions Options;
-  Extras Wanted;
+  FlipRequest Asked; ///< Its meshes may be gone.
   UpdatePlan Plan;
-  Snapshots Input;
+  std::unique_ptr<Source> Input; ///< The session has views of its arrays.
   Start Begin; ///< The session has views of its arrays, too.
   FlipSession Session;
   bool Stopped;

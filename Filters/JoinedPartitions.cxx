@@ -2,25 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "JoinedPartitions.h"
 
+#include "DataArrays.h"
 #include "FlipError.h"
-#include "MalformedArrays.h"
-#include "OutputCells.h"
-#include "PieceInput.h"
-#include "PointViews.h"
 #include "PolyDataBridge.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
-#include "vtkIntArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -28,7 +24,6 @@ namespace delaunayflip
 namespace
 {
 
-constexpr const char* MarkName = "vtkDelaunayFlipPartition"; ///< Rank + 1 and partition of a cell.
 constexpr vtkIdType None = -1;
 
 /// Verts, lines, polygons and strips: the order of cell ids.
@@ -37,20 +32,33 @@ std::array<vtkCellArray*, 4> ListCells(vtkPolyData* mesh)
   return { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() };
 }
 
-void RequireValidIds(vtkPolyData* mesh)
+/// The cells with the ids `chosen`, ascending, of `from`.
+/// @param areWide whether ids are stored in 64 bits. @param localize turns a point id into that of
+/// the new mesh.
+template <typename Localize>
+void TakeCells(vtkPolyData* from, const std::vector<vtkIdType>& chosen, bool areWide,
+  const Localize& localize, vtkPolyData* to)
 {
-  PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+  std::array<vtkNew<vtkCellArray>, 4> taken;
+  vtkIdType first = 0;
+  auto cell = chosen.begin();
   vtkNew<vtkIdList> ids;
-  for (vtkCellArray* cells : ListCells(mesh))
+  for (std::size_t kind = 0; kind < taken.size(); ++kind)
   {
-    check.RequireValid(cells);
-    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    vtkCellArray* cells = ListCells(from)[kind];
+    areWide ? taken[kind]->Use64BitStorage() : taken[kind]->Use32BitStorage();
+    for (; cell != chosen.end() && *cell < first + cells->GetNumberOfCells(); ++cell)
     {
-      cells->GetCellAtId(cell, ids);
-      check.RequireInRange(cell, ids);
+      cells->GetCellAtId(*cell - first, ids);
+      std::transform(ids->begin(), ids->end(), ids->begin(), localize);
+      taken[kind]->InsertNextCell(ids);
     }
-    check.FirstCell += cells->GetNumberOfCells();
+    first += cells->GetNumberOfCells();
   }
+  to->SetVerts(taken[0]);
+  to->SetLines(taken[1]);
+  to->SetPolys(taken[2]);
+  to->SetStrips(taken[3]);
 }
 
 vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
@@ -61,34 +69,290 @@ vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
   return list;
 }
 
+bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
+{
+  return ghosts && cell < ghosts->GetNumberOfValues() &&
+    (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
 }
 
+/// The mesh without cells that are copies of others.
+vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
+{
+  auto kept = ShareMesh(mesh);
+  if (HasDuplicateCells(mesh))
+  {
+    const auto ghosts = FindGhosts(mesh);
+    std::vector<vtkIdType> chosen;
+    for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+    {
+      if (!IsDuplicate(ghosts, cell))
+      {
+        chosen.push_back(cell);
+      }
+    }
+    TakeCells(
+      mesh, chosen, UsesWideIds(mesh), [](vtkIdType id) { return id; }, kept);
+    const auto whole = TakeWholeArrays(mesh->GetCellData(), mesh->GetNumberOfCells());
+    kept->GetCellData()->Initialize();
+    JoinTuples(whole, nullptr, MakeList(chosen), kept->GetCellData());
+  }
+  return kept;
+}
+
+/// How cells use a point.
+enum Use : unsigned char
+{
+  Unused,
+  OfLines,
+  AtBorder, ///< Of polygons that do not close around it.
+  Inside
+};
+
+std::vector<Use> FindUses(vtkPolyData* mesh)
+{
+  std::vector<Use> uses(mesh->GetNumberOfPoints(), Unused);
+  // Around a closed fan every neighbour is the next one once, and once the previous one.
+  std::vector<std::uint64_t> fans(uses.size(), 0);
+  const auto scatter = [](vtkIdType id)
+  {
+    std::uint64_t bits = static_cast<std::uint64_t>(id) * 0x9e3779b97f4a7c15u;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    return bits ^ (bits >> 27);
+  };
+  const auto addCorner = [&](vtkIdType point, vtkIdType next, vtkIdType previous)
+  {
+    uses[point] = Inside;
+    fans[point] += scatter(next) - scatter(previous);
+  };
+  const PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+  VisitCells(mesh->GetLines(), check,
+    [&](vtkIdType, vtkIdList* ids)
+    {
+      for (const vtkIdType id : *ids)
+      {
+        uses[id] = OfLines;
+      }
+    });
+  VisitCells(mesh->GetPolys(), check,
+    [&](vtkIdType, vtkIdList* ids)
+    {
+      const vtkIdType count = ids->GetNumberOfIds();
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        addCorner(ids->GetId(i), ids->GetId((i + 1) % count), ids->GetId((i + count - 1) % count));
+      }
+    });
+  VisitCells(mesh->GetStrips(), check,
+    [&](vtkIdType, vtkIdList* ids)
+    {
+      for (vtkIdType i = 0; i + 2 < ids->GetNumberOfIds(); ++i)
+      {
+        const vtkIdType a = ids->GetId(i), b = ids->GetId(i + 1 + i % 2),
+                        c = ids->GetId(i + 2 - i % 2);
+        addCorner(a, b, c);
+        addCorner(b, c, a);
+        addCorner(c, a, b);
+      }
+    });
+  for (std::size_t i = 0; i < uses.size(); ++i)
+  {
+    uses[i] = uses[i] == Inside && fans[i] != 0 ? AtBorder : uses[i];
+  }
+  return uses;
+}
+
+/// A point that other partitions may have, too.
+struct Candidate
+{
+  std::array<double, 3> Place; ///< Coordinates, or a global id.
+  bool IsOfLines;
+  vtkIdType Number; ///< Among the points of all partitions.
+  std::size_t Partition;
+  bool IsInside;
+};
+
+std::vector<Candidate> ListCandidates(const std::vector<vtkSmartPointer<vtkPolyData>>& partitions)
+{
+  std::vector<std::vector<std::int64_t>> ids;
+  bool haveIds = true;
+  for (const auto& mesh : partitions)
+  {
+    ids.push_back(ReadPointNumbers(mesh));
+    haveIds = haveIds && (!ids.back().empty() || mesh->GetNumberOfPoints() == 0);
+  }
+  std::vector<Candidate> all;
+  vtkIdType number = 0;
+  for (std::size_t k = 0; k < partitions.size(); ++k)
+  {
+    const std::vector<Use> uses = FindUses(partitions[k]);
+    for (std::size_t i = 0; i < uses.size(); ++i, ++number)
+    {
+      std::array<double, 3> place{};
+      if (haveIds) // all bits of the id, which a double may not have
+      {
+        place = { static_cast<double>(ids[k][i] >> 32), static_cast<double>(ids[k][i] & 0xffffffff),
+          0.0 };
+      }
+      else
+      {
+        partitions[k]->GetPoint(static_cast<vtkIdType>(i), place.data());
+      }
+      if (uses[i] != Unused && place == place) // no NaN
+      {
+        all.push_back({ place, uses[i] == OfLines, number, k, !haveIds && uses[i] == Inside });
+      }
+    }
+  }
+  return all;
+}
+
+/// The name in the joined data of an array of a partition.
+std::string FindName(vtkDataSetAttributes* own, int index, vtkDataSetAttributes* joined)
+{
+  vtkAbstractArray* array = own->GetAbstractArray(index);
+  std::string name = array->GetName() ? array->GetName() : "\n" + std::to_string(index);
+  if (IsWrongGhostArray(array)) // the joined mesh has the ghost types of the other partitions
+  {
+    name += '\n';
+  }
+  vtkAbstractArray* known = joined->GetAbstractArray(name.c_str());
+  while (known && !IsSameKind(known, array))
+  {
+    name += '\n'; // no name that anybody gives
+    known = joined->GetAbstractArray(name.c_str());
+  }
+  return name;
+}
+
+}
+
+std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
+{
+  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
+  std::vector<std::int64_t> numbers;
+  if (ids && ids->GetNumberOfComponents() == 1 &&
+    ids->GetNumberOfTuples() == mesh->GetNumberOfPoints())
+  {
+    auto* known = vtkArrayDownCast<vtkIdTypeArray>(ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i) // a double has not all bits of an id
+    {
+      numbers.push_back(known ? known->GetValue(i) : ids->GetVariantValue(i).ToTypeInt64());
+    }
+  }
+  return numbers;
+}
+
+bool HasDuplicateCells(vtkPolyData* mesh)
+{
+  const auto ghosts = FindGhosts(mesh);
+  const vtkIdType count = ghosts ? ghosts->GetNumberOfValues() : 0;
+  vtkIdType cell = 0;
+  while (cell < count && !IsDuplicate(ghosts, cell))
+  {
+    ++cell;
+  }
+  return cell < count;
+}
+
+//------------------------------------------------------------------------------
 JoinedPartitions::JoinedPartitions(
-  std::vector<vtkSmartPointer<vtkPolyData>> partitions, const std::string& regions, int rank)
-  : Partitions(std::move(partitions)),
-    Rank(rank)
+  std::vector<vtkSmartPointer<vtkPolyData>> partitions, const std::string& regions)
+  : Partitions(std::move(partitions))
 {
   for (vtkSmartPointer<vtkPolyData>& mesh : this->Partitions)
   {
-    RequireValidIds(mesh);
-    mesh = DropDuplicateCells(ShareMesh(mesh));
+    PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+    for (vtkCellArray* cells : ListCells(mesh))
+    {
+      VisitCells(cells, check, [](vtkIdType, vtkIdList*) {});
+      check.FirstCell += cells->GetNumberOfCells();
+    }
+    mesh = DropDuplicateCells(mesh);
   }
-  this->Points = JoinPoints(this->Partitions);
-  this->Mesh->SetPoints(this->Points.Points);
-  this->AddCells();
-  this->AddData();
+  this->JoinPoints();
+  this->JoinCells();
   if (!regions.empty())
   {
     this->RequireRegions(regions);
   }
 }
 
-void JoinedPartitions::AddCells()
+/// Points are the same if they have the same global id or, if a partition has no global ids, equal
+/// coordinates, if at least one of them is at the border of its partition. Points without cells are
+/// not compared.
+void JoinedPartitions::JoinPoints()
 {
-  this->Cells.resize(this->Partitions.size());
+  std::vector<Candidate> all = ListCandidates(this->Partitions);
+  const auto order = [](const Candidate& one)
+  { return std::tie(one.Place, one.IsOfLines, one.Number); };
+  std::sort(all.begin(), all.end(),
+    [&](const Candidate& a, const Candidate& b) { return order(a) < order(b); });
+  vtkIdType count = 0;
+  bool areDoubles = false;
+  for (const auto& mesh : this->Partitions)
+  {
+    count += mesh->GetNumberOfPoints();
+    areDoubles =
+      areDoubles || (mesh->GetPoints() && mesh->GetPoints()->GetDataType() == VTK_DOUBLE);
+  }
+  std::vector<vtkIdType> same(count); // of every point, the first one that is the same
+  std::iota(same.begin(), same.end(), 0);
+  for (auto begin = all.begin(), end = begin; begin != all.end(); begin = end)
+  {
+    std::vector<Candidate> here;
+    bool isRepeated = false;
+    for (; end != all.end() && end->Place == begin->Place; ++end)
+    {
+      const bool isKnown = std::any_of(here.begin(), here.end(),
+        [&](const Candidate& one) { return one.Partition == end->Partition; });
+      if (!isKnown || !end->IsOfLines) // the partition has a point of polygons there
+      {
+        here.push_back(*end);
+        isRepeated = isRepeated || isKnown;
+      }
+    }
+    const bool isShared = here.front().Partition != here.back().Partition;
+    if (!isShared ||
+      std::all_of(here.begin(), here.end(), [](const Candidate& one) { return one.IsInside; }))
+    {
+      continue;
+    }
+    if (isRepeated)
+    {
+      this->Ambiguous += static_cast<vtkIdType>(here.size());
+      continue;
+    }
+    const auto first = std::min_element(here.begin(), here.end(),
+      [](const Candidate& a, const Candidate& b) { return a.Number < b.Number; });
+    for (const Candidate& one : here)
+    {
+      same[one.Number] = first->Number;
+    }
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(areDoubles ? VTK_DOUBLE : VTK_FLOAT);
+  vtkIdType number = 0;
+  for (const auto& mesh : this->Partitions)
+  {
+    this->PointIds.emplace_back();
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i, ++number)
+    {
+      // From here on the point's id in the joined mesh.
+      same[number] =
+        same[number] < number ? same[same[number]] : points->InsertNextPoint(mesh->GetPoint(i));
+      this->PointIds.back().push_back(same[number]);
+    }
+  }
+  this->Mesh->SetPoints(points);
+}
+
+void JoinedPartitions::JoinCells()
+{
+  std::vector<std::vector<vtkIdType>> places(this->Partitions.size());
   std::array<vtkNew<vtkCellArray>, 4> joined;
+  vtkNew<vtkIntArray> marks;
+  marks->SetName(MarkName);
   vtkNew<vtkIdList> ids;
-  vtkIdType next = 0;
   for (std::size_t kind = 0; kind < joined.size(); ++kind)
   {
     for (std::size_t k = 0; k < this->Partitions.size(); ++k)
@@ -98,9 +362,9 @@ void JoinedPartitions::AddCells()
       {
         cells->GetCellAtId(cell, ids);
         std::transform(ids->begin(), ids->end(), ids->begin(),
-          [&](vtkIdType id) { return this->Points.Ids[k][id]; });
+          [&](vtkIdType id) { return this->PointIds[k][id]; });
         joined[kind]->InsertNextCell(ids);
-        this->Cells[k].push_back(next++);
+        places[k].push_back(marks->InsertNextValue(static_cast<int>(k)));
       }
     }
   }
@@ -108,30 +372,45 @@ void JoinedPartitions::AddCells()
   this->Mesh->SetLines(joined[1]);
   this->Mesh->SetPolys(joined[2]);
   this->Mesh->SetStrips(joined[3]);
-}
-
-void JoinedPartitions::AddData()
-{
-  this->PointData.reset(
-    new PartitionData(this->Mesh->GetPointData(), this->Mesh->GetNumberOfPoints()));
-  this->CellData.reset(
-    new PartitionData(this->Mesh->GetCellData(), this->Mesh->GetNumberOfCells()));
-  vtkNew<vtkIntArray> marks;
-  marks->SetName(MarkName);
-  marks->SetNumberOfComponents(2);
-  marks->SetNumberOfTuples(this->Mesh->GetNumberOfCells());
   for (std::size_t k = this->Partitions.size(); k-- > 0;) // the first one's points count
   {
     vtkPolyData* mesh = this->Partitions[k];
-    this->PointData->Add(mesh->GetPointData(), MakeList(this->Points.Ids[k]));
-    this->CellData->Add(mesh->GetCellData(), MakeList(this->Cells[k]));
-    for (const vtkIdType cell : this->Cells[k])
-    {
-      marks->SetTypedComponent(cell, 0, this->Rank + 1);
-      marks->SetTypedComponent(cell, 1, static_cast<int>(k));
-    }
+    this->JoinData(mesh->GetPointData(), MakeList(this->PointIds[k]), this->Mesh->GetPointData(),
+      this->Mesh->GetNumberOfPoints());
+    this->JoinData(mesh->GetCellData(), MakeList(places[k]), this->Mesh->GetCellData(),
+      this->Mesh->GetNumberOfCells());
   }
   this->Mesh->GetCellData()->AddArray(marks);
+}
+
+/// @param places of the partition's tuples among all. Arrays with too few tuples are left out.
+void JoinedPartitions::JoinData(
+  vtkDataSetAttributes* own, vtkIdList* places, vtkDataSetAttributes* joined, vtkIdType size) const
+{
+  const auto sources = MakeRange(0, places->GetNumberOfIds());
+  for (int i = 0; i < own->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = own->GetAbstractArray(i);
+    const std::string name = FindName(own, i, joined);
+    vtkSmartPointer<vtkAbstractArray> target = joined->GetAbstractArray(name.c_str());
+    const bool isKnown = target != nullptr;
+    target = isKnown ? target : MakeZeros(array, size);
+    if (!target || array->GetNumberOfTuples() < places->GetNumberOfIds())
+    {
+      continue;
+    }
+    if (!isKnown)
+    {
+      target->SetName(name.c_str());
+      const int index = joined->AddArray(target);
+      const int attribute = own->IsArrayAnAttribute(i);
+      if (attribute >= 0 && !joined->GetAbstractAttribute(attribute))
+      {
+        joined->SetActiveAttribute(index, attribute);
+      }
+    }
+    target->InsertTuples(places, sources, array);
+  }
 }
 
 void JoinedPartitions::RequireRegions(const std::string& name) const
@@ -140,8 +419,7 @@ void JoinedPartitions::RequireRegions(const std::string& name) const
   for (const auto& mesh : this->Partitions)
   {
     vtkAbstractArray* own = mesh->GetCellData()->GetAbstractArray(name.c_str());
-    if (!own || !joined || own->GetDataType() != joined->GetDataType() ||
-      own->GetNumberOfComponents() != joined->GetNumberOfComponents() ||
+    if (!own || !joined || !IsSameKind(own, joined) ||
       own->GetNumberOfTuples() < mesh->GetNumberOfCells())
     {
       throw InvalidOptions("not all partitions have a cell array named \"" + name +
@@ -150,202 +428,151 @@ void JoinedPartitions::RequireRegions(const std::string& name) const
   }
 }
 
-void JoinedPartitions::RemoveMarks(vtkPolyData* flipped)
+//------------------------------------------------------------------------------
+/// By partition, its cells after the run.
+std::vector<std::vector<vtkIdType>> JoinedPartitions::ListCellsOfPartitions(
+  vtkPolyData* flipped) const
 {
-  flipped->GetCellData()->RemoveArray(MarkName);
-}
-
-/// Divides a result.
-class JoinedPartitions::Divider
-{
-public:
-  Divider(const JoinedPartitions& joined, vtkPolyData* flipped)
-    : Joined(joined),
-      Flipped(flipped),
-      Cells(joined.Partitions.size()),
-      Local(flipped->GetNumberOfPoints(), None)
+  std::vector<std::vector<vtkIdType>> cells(this->Partitions.size());
+  std::vector<std::size_t> owners(flipped->GetNumberOfPoints(), cells.size()); // first partitions
+  for (std::size_t k = cells.size(); k-- > 0;)
   {
-    this->ListCellsOfPartitions();
-    JoinedPartitions::RemoveMarks(flipped);
-  }
-
-  vtkSmartPointer<vtkPolyData> MakePartition(std::size_t k)
-  {
-    vtkPolyData* own = this->Joined.Partitions[k];
-    auto made = vtkSmartPointer<vtkPolyData>::New();
-    const std::vector<vtkIdType>& points = this->Joined.Points.Ids[k];
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (const vtkIdType point : this->PointIds[k])
     {
-      this->Local[points[i]] = static_cast<vtkIdType>(i);
+      owners[point] = k;
     }
-    made->SetVerts(own->GetVerts());
-    made->SetLines(own->GetLines());
-    const vtkIdType first = this->Flipped->GetNumberOfVerts() + this->Flipped->GetNumberOfLines();
-    made->SetPolys(this->TakeCells(k, this->Flipped->GetPolys(), first));
-    made->SetStrips(
-      this->TakeCells(k, this->Flipped->GetStrips(), first + this->Flipped->GetNumberOfPolys()));
-    this->StorePoints(k, made);
-    this->StoreCellData(k, made);
-    this->StoreFieldData(k, made);
-    this->ForgetPoints(points);
-    return made;
   }
-
-private:
-  void ListCellsOfPartitions()
+  auto* marks = vtkIntArray::SafeDownCast(flipped->GetCellData()->GetAbstractArray(MarkName));
+  vtkNew<vtkIdList> ids;
+  vtkIdType next = 0;
+  for (vtkCellArray* array : ListCells(flipped))
   {
-    auto* marks =
-      vtkIntArray::SafeDownCast(this->Flipped->GetCellData()->GetAbstractArray(MarkName));
-    const std::vector<int> owners = this->FindOwners();
-    vtkNew<vtkIdList> ids;
-    vtkIdType next = 0;
-    for (vtkCellArray* cells : ListCells(this->Flipped))
+    for (vtkIdType cell = 0; cell < array->GetNumberOfCells(); ++cell, ++next)
     {
-      for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell, ++next)
+      std::size_t partition = static_cast<std::size_t>(marks->GetValue(next));
+      if (marks->GetValue(next) < 0)
       {
-        int partition = marks->GetTypedComponent(next, 1);
-        if (marks->GetTypedComponent(next, 0) != this->Joined.Rank + 1)
+        array->GetCellAtId(cell, ids);
+        partition = cells.size();
+        for (const vtkIdType id : *ids)
         {
-          cells->GetCellAtId(cell, ids);
-          partition = ids->GetNumberOfIds() > 0 ? FindOwner(ids, owners) : 0;
+          partition = std::min(partition, owners[id]);
         }
-        this->Cells[partition].push_back(next);
+        partition = partition < cells.size() ? partition : 0;
       }
+      cells[partition].push_back(next);
     }
   }
-
-  /// The first partition that has each point; for points of other ranks, the number of partitions.
-  std::vector<int> FindOwners() const
-  {
-    const auto count = static_cast<int>(this->Joined.Partitions.size());
-    std::vector<int> owners(this->Flipped->GetNumberOfPoints(), count);
-    for (int k = count; k-- > 0;)
-    {
-      for (const vtkIdType point : this->Joined.Points.Ids[k])
-      {
-        owners[point] = k;
-      }
-    }
-    return owners;
-  }
-
-  int FindOwner(vtkIdList* ids, const std::vector<int>& owners) const
-  {
-    auto partition = static_cast<int>(this->Joined.Partitions.size());
-    for (const vtkIdType id : *ids)
-    {
-      partition = std::min(partition, owners[id]);
-    }
-    return partition < static_cast<int>(this->Joined.Partitions.size()) ? partition : 0;
-  }
-
-  /// The cells of an array that are in the partition, with its own point ids.
-  vtkSmartPointer<vtkCellArray> TakeCells(std::size_t k, vtkCellArray* cells, vtkIdType first)
-  {
-    auto taken = vtkSmartPointer<vtkCellArray>::New();
-    UsesWideIds(this->Joined.Partitions[k]) ? taken->Use64BitStorage() : taken->Use32BitStorage();
-    const std::vector<vtkIdType>& all = this->Cells[k];
-    vtkNew<vtkIdList> ids;
-    for (auto cell = std::lower_bound(all.begin(), all.end(), first);
-         cell != all.end() && *cell < first + cells->GetNumberOfCells(); ++cell)
-    {
-      cells->GetCellAtId(*cell - first, ids);
-      std::transform(ids->begin(), ids->end(), ids->begin(),
-        [&](vtkIdType id) { return this->Localize(k, id); });
-      taken->InsertNextCell(ids);
-    }
-    return taken;
-  }
-
-  vtkIdType Localize(std::size_t k, vtkIdType point)
-  {
-    vtkIdType& local = this->Local[point];
-    if (local == None)
-    {
-      local = this->Joined.Partitions[k]->GetNumberOfPoints() +
-        static_cast<vtkIdType>(this->Added.size());
-      this->Added.push_back(point);
-    }
-    return local;
-  }
-
-  void StorePoints(std::size_t k, vtkPolyData* made) const
-  {
-    vtkPolyData* own = this->Joined.Partitions[k];
-    if (this->Added.empty())
-    {
-      made->SetPoints(own->GetPoints());
-      made->GetPointData()->ShallowCopy(TakeWholePointArrays(own));
-      return;
-    }
-    const vtkIdType given = own->GetNumberOfPoints();
-    const auto added = MakeList(this->Added);
-    vtkNew<vtkPoints> points;
-    points->SetDataType(own->GetPoints()->GetDataType());
-    points->SetNumberOfPoints(given + added->GetNumberOfIds());
-    points->InsertPoints(0, given, 0, own->GetPoints());
-    for (vtkIdType i = 0; i < added->GetNumberOfIds(); ++i)
-    {
-      points->SetPoint(given + i, this->Flipped->GetPoint(added->GetId(i)));
-    }
-    made->SetPoints(points);
-    this->Joined.PointData->Store(
-      own->GetPointData(), given, this->Flipped->GetPointData(), added, made->GetPointData());
-  }
-
-  void StoreCellData(std::size_t k, vtkPolyData* made) const
-  {
-    this->Joined.CellData->Store(this->Joined.Partitions[k]->GetCellData(), 0,
-      this->Flipped->GetCellData(), MakeList(this->Cells[k]), made->GetCellData());
-    if (!this->Flipped->GetCellData()->GetGlobalIds() &&
-      this->Joined.Mesh->GetCellData()->GetGlobalIds())
-    {
-      DemoteGlobalIds(made->GetCellData());
-    }
-  }
-
-  void StoreFieldData(std::size_t k, vtkPolyData* made) const
-  {
-    vtkFieldData* result = made->GetFieldData();
-    result->ShallowCopy(this->Joined.Partitions[k]->GetFieldData());
-    for (int i = 0; i < this->Flipped->GetFieldData()->GetNumberOfArrays(); ++i)
-    {
-      result->AddArray(this->Flipped->GetFieldData()->GetAbstractArray(i));
-    }
-  }
-
-  void ForgetPoints(const std::vector<vtkIdType>& points)
-  {
-    this->Added.insert(this->Added.end(), points.begin(), points.end());
-    for (const vtkIdType point : this->Added)
-    {
-      this->Local[point] = None;
-    }
-    this->Added.clear();
-  }
-
-  const JoinedPartitions& Joined;
-  vtkPolyData* Flipped;
-  std::vector<std::vector<vtkIdType>> Cells; ///< Of each partition.
-  std::vector<vtkIdType> Local; ///< The id of each point in the partition at hand, or None.
-  std::vector<vtkIdType> Added; ///< The points of the mesh that it lacks.
-};
+  return cells;
+}
 
 std::vector<vtkSmartPointer<vtkPolyData>> JoinedPartitions::Divide(vtkPolyData* flipped) const
 {
+  const std::vector<std::vector<vtkIdType>> cells = this->ListCellsOfPartitions(flipped);
+  flipped->GetCellData()->RemoveArray(MarkName);
   std::vector<vtkSmartPointer<vtkPolyData>> partitions;
-  if (!flipped->GetCellData()->HasArray(MarkName))
+  std::vector<vtkIdType> local(flipped->GetNumberOfPoints(), None); // ids in the partition at hand
+  for (std::size_t k = 0; k < cells.size(); ++k)
   {
-    std::generate_n(std::back_inserter(partitions), this->Partitions.size(),
-      []() { return vtkSmartPointer<vtkPolyData>::New(); });
-    return partitions;
-  }
-  Divider divider(*this, flipped);
-  for (std::size_t k = 0; k < this->Partitions.size(); ++k)
-  {
-    partitions.push_back(divider.MakePartition(k));
+    vtkPolyData* own = this->Partitions[k];
+    const vtkIdType given = own->GetNumberOfPoints();
+    for (vtkIdType i = 0; i < given; ++i)
+    {
+      local[this->PointIds[k][i]] = i;
+    }
+    std::vector<vtkIdType> added; // points that the partition lacks
+    auto made = vtkSmartPointer<vtkPolyData>::New();
+    const auto localize = [&](vtkIdType point)
+    {
+      if (local[point] == None)
+      {
+        local[point] = given + static_cast<vtkIdType>(added.size());
+        added.push_back(point);
+      }
+      return local[point];
+    };
+    TakeCells(flipped, cells[k], UsesWideIds(own), localize, made);
+    if (added.empty())
+    {
+      made->SetPoints(own->GetPoints());
+      made->GetPointData()->ShallowCopy(TakeWholeArrays(own->GetPointData(), given));
+    }
+    else
+    {
+      vtkNew<vtkPoints> points;
+      points->SetDataType(own->GetPoints()->GetDataType());
+      points->InsertPoints(0, given, 0, own->GetPoints());
+      for (const vtkIdType point : added)
+      {
+        points->InsertNextPoint(flipped->GetPoint(point));
+      }
+      made->SetPoints(points);
+      this->DivideData(
+        own->GetPointData(), given, flipped->GetPointData(), MakeList(added), made->GetPointData());
+    }
+    this->DivideData(
+      own->GetCellData(), 0, flipped->GetCellData(), MakeList(cells[k]), made->GetCellData());
+    if (!flipped->GetCellData()->GetGlobalIds() && this->Mesh->GetCellData()->GetGlobalIds())
+    {
+      DemoteGlobalIds(made->GetCellData());
+    }
+    made->GetFieldData()->ShallowCopy(own->GetFieldData());
+    for (int i = 0; i < flipped->GetFieldData()->GetNumberOfArrays(); ++i)
+    {
+      made->GetFieldData()->AddArray(flipped->GetFieldData()->GetAbstractArray(i));
+    }
+    added.insert(added.end(), this->PointIds[k].begin(), this->PointIds[k].end());
+    for (const vtkIdType point : added)
+    {
+      local[point] = None;
+    }
+    partitions.push_back(made);
   }
   return partitions;
+}
+
+/// Writes the data of a partition after the run: first `count` tuples of its own, then those
+/// `places` of the mesh's. Cells get also the arrays that the run has added.
+void JoinedPartitions::DivideData(vtkDataSetAttributes* own, vtkIdType count,
+  vtkDataSetAttributes* flipped, vtkIdList* places, vtkDataSetAttributes* result) const
+{
+  const bool areCells = count == 0;
+  vtkDataSetAttributes* joined = areCells
+    ? static_cast<vtkDataSetAttributes*>(this->Mesh->GetCellData())
+    : this->Mesh->GetPointData();
+  const auto targets = MakeRange(count, places->GetNumberOfIds());
+  for (int i = 0; i < own->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = own->GetAbstractArray(i);
+    vtkAbstractArray* source = flipped->GetAbstractArray(FindName(own, i, joined).c_str());
+    const auto made = source ? MakeZeros(array, count + places->GetNumberOfIds()) : nullptr;
+    if (!made || array->GetNumberOfTuples() < count)
+    {
+      continue;
+    }
+    made->CopyInformation(array->GetInformation());
+    if (!areCells)
+    {
+      made->InsertTuples(0, count, 0, array);
+    }
+    made->InsertTuples(targets, places, source);
+    const int index = result->AddArray(made);
+    const int attribute = own->IsArrayAnAttribute(i);
+    if (attribute >= 0)
+    {
+      result->SetActiveAttribute(index, attribute);
+    }
+  }
+  for (int i = 0; areCells && i < flipped->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = flipped->GetAbstractArray(i);
+    if (array->GetName() && !joined->HasArray(array->GetName()))
+    {
+      const auto made = MakeZeros(array, places->GetNumberOfIds());
+      made->InsertTuples(targets, places, array);
+      result->AddArray(made);
+    }
+  }
 }
 
 }

@@ -4,17 +4,23 @@
 #define PolyDataBridge_h
 
 #include "ConstraintEdges.h"
+#include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
 #include "TriangleSlots.h"
 
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
-
-class vtkPolyData;
 
 namespace delaunayflip
 {
@@ -22,28 +28,41 @@ namespace delaunayflip
 class FlipSession;
 class UpdatePlan;
 
+/// How a mesh is read.
+struct BridgeSettings
+{
+  bool Triangulate = true;
+  bool LinesAsConstraints = true;
+  bool InsertLines = false;
+  bool InsertConstraints = true;
+  std::string RegionArray; ///< Empty: no regions.
+};
+
+inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
+{
+  const auto tie = [](const BridgeSettings& s)
+  {
+    return std::tie(
+      s.Triangulate, s.LinesAsConstraints, s.InsertLines, s.InsertConstraints, s.RegionArray);
+  };
+  return tie(a) == tie(b);
+}
+
 /// A shallow copy that keeps as many cells as there are now, whatever observers of the filter
 /// append to the input's cell arrays.
-vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
 
 /// Translates between vtkPolyData and the engine, in both directions; computes nothing. The mesh
 /// must outlive the bridge.
-class PolyDataBridge
+class DELAUNAYFLIP_EXPORT PolyDataBridge
 {
 public:
-  struct Settings
-  {
-    bool Triangulate = true;
-    bool LinesAsConstraints = true;
-    bool InsertLines = false;
-    bool InsertConstraints = true;
-    std::string RegionArray; ///< Empty: no regions.
-  };
-
   /// @param constraints may be null.
   /// @throws InvalidMesh, InvalidOptions, RunAborted.
-  PolyDataBridge(
-    vtkPolyData* mesh, vtkPolyData* constraints, const Settings& settings, const UpdatePlan& plan);
+  PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints, const BridgeSettings& settings,
+    const UpdatePlan& plan);
+  PolyDataBridge(const PolyDataBridge&) = delete;
+  PolyDataBridge& operator=(const PolyDataBridge&) = delete;
 
   /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
@@ -57,11 +76,9 @@ public:
 
   const TriangleSlots& GetSlots() const { return this->Slots; }
 
-  /// One label per triangle, which may be changed; empty without regions.
-  std::vector<std::int32_t>& GetRegions() { return this->Regions; }
-
   /// Writes the session's triangles, and whatever passes from the mesh.
-  void Store(const FlipSession& session, vtkPolyData* output) const;
+  /// @param mesh the one that this bridge reads, perhaps with other attributes by now.
+  void Store(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const;
 
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
@@ -74,21 +91,61 @@ public:
   /// Replaces triangle ids by cell ids of the mesh, for warnings.
   void NumberCells(std::vector<Defect>& defects) const;
 
-  /// Adds what is wrong with the arrays of the mesh.
-  void AddDefects(std::vector<Defect>& defects) const;
+  // Without regions both are empty.
+  std::vector<std::int32_t> Regions; ///< A label per triangle. May be changed.
+  std::vector<std::string> RegionKeys; ///< By label: equal for equal values, also in other meshes.
 
 private:
-  void FreezeGhosts();
-  void LabelTriangles(const std::string& array, const ProgressObserver& progress);
+  void LabelRegions(const std::string& name, const ProgressObserver& progress);
 
   vtkPolyData* Mesh;
   std::vector<double> Coordinates; ///< A copy of points that cannot be viewed in place.
   PointArray Points;
   TriangleSlots Slots;
   ConstraintEdges Constraints;
-  std::vector<std::int32_t> Regions; ///< Empty, or one per triangle.
-  std::vector<unsigned char> Frozen; ///< Empty, or one per triangle.
 };
+
+//------------------------------------------------------------------------------
+// What outputs have in common.
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
+DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);
+
+/// The strips of the output: those of the mesh that were not split.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildStrips(
+  const TriangleSlots& slots, vtkPolyData* mesh);
+
+/// Turns global ids into pedigree ids: when cells are divided, several share an id. If there are
+/// pedigree ids already, the array is no attribute any more.
+DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkCellData* data);
+
+/// A copy of the active cell normals, to be changed; null if there are none, or too few.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output);
+
+/// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray.
+/// @param values one per triangle. @param elsewhere the value for cells that are not triangles.
+/// @param triangleOf the triangle of a polygon of the output, or a negative number.
+template <typename Value, typename TriangleOf>
+void AddTriangleArray(const char* name, const std::vector<Value>& values, Value elsewhere,
+  const TriangleOf& triangleOf, vtkPolyData* output)
+{
+  vtkNew<std::conditional_t<std::is_integral<Value>::value, vtkIntArray, vtkDoubleArray>> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(output->GetNumberOfCells());
+  array->FillValue(elsewhere);
+  const vtkIdType first = output->GetNumberOfVerts() + output->GetNumberOfLines();
+  for (vtkIdType polygon = 0; polygon < output->GetNumberOfPolys(); ++polygon)
+  {
+    const vtkIdType triangle = triangleOf(polygon);
+    if (triangle >= 0)
+    {
+      array->SetValue(first + polygon, values[triangle]);
+    }
+  }
+  output->GetCellData()->AddArray(array);
+}
 
 }
 

@@ -5,13 +5,11 @@
 
 #include "FlipReport.h"
 
-#include "vtkSMPTools.h"
 #include "vtkType.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
-
-class vtkPolyData;
 
 namespace delaunayflip
 {
@@ -26,15 +24,6 @@ inline ProgressObserver MakePart(const ProgressObserver& whole, double begin, do
   return [=](double share) { return whole(begin + (end - begin) * share); };
 }
 
-/// @throws RunAborted.
-inline void ReportOrThrow(const ProgressObserver& observer, double share)
-{
-  if (observer && !observer(share))
-  {
-    throw RunAborted();
-  }
-}
-
 /// Tells an observer, every few milliseconds, how many items of some work are done.
 class WorkProgress
 {
@@ -42,13 +31,9 @@ public:
   /// @param observer may be empty. @param items of the whole work.
   WorkProgress(ProgressObserver observer, vtkIdType items)
     : Observer(std::move(observer)),
-      Items(static_cast<double>(std::max<vtkIdType>(items, 1))),
-      InGroup([this](double share)
-        { return this->Tell(static_cast<double>(this->Done) + share * this->GroupSize); })
+      Items(static_cast<double>(std::max<vtkIdType>(items, 1)))
   {
   }
-  WorkProgress(const WorkProgress&) = delete;
-  WorkProgress& operator=(const WorkProgress&) = delete;
 
   /// More items are done.
   /// @throws RunAborted.
@@ -57,85 +42,66 @@ public:
     constexpr vtkIdType ItemsBetweenCalls = 16384;
     const vtkIdType before = this->Done / ItemsBetweenCalls;
     this->Done += items;
-    if (this->Done / ItemsBetweenCalls != before && !this->Tell(static_cast<double>(this->Done)))
+    if (this->Done / ItemsBetweenCalls != before && this->Observer &&
+      !this->Observer(std::min(static_cast<double>(this->Done) / this->Items, 1.0)))
     {
       throw RunAborted();
     }
   }
 
-  /// An observer of the next items, which are to be added together.
-  const ProgressObserver& BeginGroup(vtkIdType size)
+  /// An observer of the next `size` items, which are to be added together.
+  ProgressObserver ForNext(vtkIdType size) const
   {
-    this->GroupSize = static_cast<double>(size);
-    return this->InGroup;
+    const double done = static_cast<double>(this->Done);
+    return MakePart(
+      this->Observer, done / this->Items, (done + static_cast<double>(size)) / this->Items);
   }
 
 private:
-  bool Tell(double items)
-  {
-    return !this->Observer || this->Observer(std::min(items / this->Items, 1.0));
-  }
-
   ProgressObserver Observer;
   double Items;
-  ProgressObserver InGroup;
   vtkIdType Done = 0;
-  double GroupSize = 0.0;
-};
-
-/// Calls work(begin, end) on pieces of [0, count), by all threads, and asks between some of them.
-/// @throws RunAborted.
-template <typename Work>
-void ForPieces(vtkIdType count, const ProgressObserver& progress, const Work& work)
-{
-  constexpr vtkIdType ItemsBetweenCalls = 32768; // some milliseconds
-  for (vtkIdType begin = 0; begin < count; begin += ItemsBetweenCalls)
-  {
-    ReportOrThrow(progress, static_cast<double>(begin) / static_cast<double>(count));
-    vtkSMPTools::For(begin, std::min(begin + ItemsBetweenCalls, count), work);
-  }
-}
-
-/// What an update has to do, as far as it takes time.
-struct UpdateWork
-{
-  vtkPolyData* Mesh;
-  vtkPolyData* Constraints; ///< Or null.
-  bool LinesAreConstraints;
-  bool HasRegions;
-  bool IsWarm; ///< Fixed edges of the first mesh have to be found, too.
-  bool WantsAngles;
 };
 
 /// Turns the progress of each part of an update into that of the whole. The parts follow each other
-/// in the order below; each gets the share of the time that it is expected to take.
+/// in this order.
 class UpdatePlan
 {
 public:
-  /// @param observer may be empty.
-  UpdatePlan(const UpdateWork& work, ProgressObserver observer);
-
-  ProgressObserver ForFixedEdges() const { return this->MakePartUpTo(FixedEdges); }
-  ProgressObserver ForPolygons() const { return this->MakePartUpTo(Polygons); }
-  ProgressObserver ForConstraints() const { return this->MakePartUpTo(Constraints); }
-  ProgressObserver ForRegions() const { return this->MakePartUpTo(Regions); }
-  ProgressObserver ForSession() const { return this->MakePartUpTo(Session); }
-  ProgressObserver ForOutput() const { return this->MakePartUpTo(Output); }
-
-private:
   enum Part
   {
-    FixedEdges,
-    Polygons,
-    Constraints,
-    Regions,
-    Session,
+    FixedEdges, ///< Those of the first mesh, for a warm start.
+    Polygons, ///< Are split.
+    Constraints, ///< Are matched.
+    Regions, ///< Are labelled.
+    Session, ///< The engine.
     Output,
+    Angles, ///< Of GenerateQuality.
     NumberOfParts
   };
 
-  ProgressObserver MakePartUpTo(Part part) const;
+  /// @param has which parts this update has. @param observer may be empty.
+  UpdatePlan(const std::array<bool, NumberOfParts>& has, ProgressObserver observer)
+    : Observer(std::move(observer))
+  {
+    // Each part's time in units of the engine's, measured once on one thread.
+    constexpr double Durations[] = { 0.4, 0.2, 0.3, 0.3, 1.0, 0.05, 0.4 };
+    double sum = 0.0;
+    for (int part = 0; part < NumberOfParts; ++part)
+    {
+      sum += has[part] ? Durations[part] : 0.0;
+      this->Ends[part] = sum;
+    }
+  }
 
+  ProgressObserver For(Part part) const
+  {
+    const double all = this->Ends[NumberOfParts - 1];
+    return MakePart(
+      this->Observer, part == 0 ? 0.0 : this->Ends[part - 1] / all, this->Ends[part] / all);
+  }
+
+private:
   ProgressObserver Observer;
   double Ends[NumberOfParts];
 };

@@ -2,37 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UpdateReport.h"
 
+#include "FlipError.h"
+
+#include "vtkDelaunayFlip.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <new>
 
 namespace delaunayflip
 {
 namespace
 {
 
-double JoinSeconds(double a, double b, UpdateReport::Timing timing)
+template <typename Record, typename Value>
+void AddMembers(Record& sum, const Record& more, std::initializer_list<Value Record::*> members)
 {
-  return timing == UpdateReport::Timing::InTurn ? a + b : std::max(a, b);
-}
-
-/// From best to worst.
-int GetSeverity(StopReasonKind reason)
-{
-  switch (reason)
+  for (const auto member : members)
   {
-    case StopReasonKind::NotStarted:
-      return 0;
-    case StopReasonKind::Converged:
-      return 1;
-    case StopReasonKind::Running:
-      return 2;
-    case StopReasonKind::IterationLimit:
-      return 3;
-    case StopReasonKind::Aborted:
-      return 4;
+    sum.*member += more.*member;
   }
-  return 0;
 }
 
 /// Whether a mesh has a smallest angle: some triangle has no coordinate that is NaN.
@@ -41,81 +38,35 @@ bool HasAngles(const FlipReport& report)
   return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
 }
 
-/// The smallest angle of a mesh after iteration `row`. A mesh that made fewer iterations keeps its
-/// last angle.
-double GetMinimumAngle(const FlipReport& report, std::size_t row)
+std::vector<IterationRecord> JoinIterations(const FlipReport& a, const FlipReport& b)
 {
-  if (!HasAngles(report))
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  return row < report.Iterations.size() ? report.Iterations[row].MinimumAngle
-                                        : report.MinimumAngleAfter;
-}
-
-/// The smaller of two numbers; NaN, which stands for unknown, if either is.
-double GetSmaller(double a, double b)
-{
-  return std::isnan(a) || std::isnan(b) ? a + b : std::min(a, b);
-}
-
-std::vector<IterationRecord> JoinIterations(
-  const FlipReport& a, const FlipReport& b, UpdateReport::Timing timing)
-{
-  std::vector<IterationRecord> rows(std::max(a.Iterations.size(), b.Iterations.size()));
+  using Row = IterationRecord;
+  std::vector<Row> rows(std::max(a.Iterations.size(), b.Iterations.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
+    rows[i].Iteration = static_cast<std::int64_t>(i) + 1;
+    rows[i].MinimumAngle = std::numeric_limits<double>::infinity();
     for (const FlipReport* report : { &a, &b })
     {
-      const IterationRecord from =
-        i < report->Iterations.size() ? report->Iterations[i] : IterationRecord();
-      rows[i].Tested += from.Tested;
-      rows[i].NonDelaunay += from.NonDelaunay;
-      rows[i].Flipped += from.Flipped;
-      rows[i].Excluded += from.Excluded;
-      rows[i].Blocked += from.Blocked;
-      rows[i].Seconds = JoinSeconds(rows[i].Seconds, from.Seconds, timing);
+      const bool isMade = i < report->Iterations.size();
+      if (isMade)
+      {
+        AddMembers(rows[i], report->Iterations[i],
+          { &Row::Tested, &Row::NonDelaunay, &Row::Flipped, &Row::Excluded, &Row::Blocked });
+        rows[i].Seconds += report->Iterations[i].Seconds;
+      }
+      if (HasAngles(*report))
+      {
+        // A mesh that made fewer iterations keeps its last angle. NaN stands for unknown.
+        const double angle =
+          isMade ? report->Iterations[i].MinimumAngle : report->MinimumAngleAfter;
+        const double least = rows[i].MinimumAngle;
+        rows[i].MinimumAngle =
+          std::isnan(angle) || std::isnan(least) ? angle + least : std::min(angle, least);
+      }
     }
-    rows[i].Iteration = static_cast<std::int64_t>(i) + 1;
-    rows[i].MinimumAngle = GetSmaller(GetMinimumAngle(a, i), GetMinimumAngle(b, i));
   }
   return rows;
-}
-
-void AddEdges(EdgeCounts& sum, const EdgeCounts& more)
-{
-  sum.Edges += more.Edges;
-  sum.Boundary += more.Boundary;
-  sum.NonManifold += more.NonManifold;
-  sum.WronglyWound += more.WronglyWound;
-  sum.Feature += more.Feature;
-  sum.Constraint += more.Constraint;
-  sum.Region += more.Region;
-  sum.Fixed += more.Fixed;
-}
-
-void AddAngles(FlipReport& sum, const FlipReport& more)
-{
-  if (!HasAngles(sum) && more.Triangles > 0)
-  {
-    sum.MinimumAngleBefore = more.MinimumAngleBefore;
-    sum.MinimumAngleAfter = more.MinimumAngleAfter;
-  }
-  else if (HasAngles(more))
-  {
-    sum.MinimumAngleBefore = std::min(sum.MinimumAngleBefore, more.MinimumAngleBefore);
-    sum.MinimumAngleAfter = std::min(sum.MinimumAngleAfter, more.MinimumAngleAfter);
-  }
-}
-
-void AddGeometry(UpdateReport& sum, const UpdateReport& more)
-{
-  if (sum.GeometryUsed == GeometryKind::Auto)
-  {
-    sum.GeometryUsed = more.GeometryUsed;
-  }
-  sum.HasMixedGeometry = sum.HasMixedGeometry || more.HasMixedGeometry ||
-    (more.GeometryUsed != GeometryKind::Auto && more.GeometryUsed != sum.GeometryUsed);
 }
 
 /// Appends a text to a comma-separated list, unless the list contains it already.
@@ -127,50 +78,58 @@ void AddText(std::string& list, const std::string& text)
   }
 }
 
-void AddDefects(std::vector<Defect>& sum, const std::vector<Defect>& more)
+}
+
+void UpdateReport::Add(const UpdateReport& other)
 {
-  for (const Defect& defect : more)
+  this->Iterations = JoinIterations(*this, other);
+  if (!HasAngles(*this) && other.Triangles > 0)
   {
-    const auto same = std::find_if(
-      sum.begin(), sum.end(), [&defect](const Defect& one) { return one.What == defect.What; });
-    Defect& target = same != sum.end() ? *same : sum.emplace_back(Defect{ defect.What, 0, {} });
-    target.Count += defect.Count;
+    this->MinimumAngleBefore = other.MinimumAngleBefore;
+    this->MinimumAngleAfter = other.MinimumAngleAfter;
   }
-}
-
-}
-
-void UpdateReport::Add(const UpdateReport& other, Timing timing)
-{
-  this->Iterations = JoinIterations(*this, other, timing);
-  AddAngles(*this, other);
-  AddGeometry(*this, other);
-  AddEdges(this->Edges, other.Edges);
+  else if (HasAngles(other))
+  {
+    this->MinimumAngleBefore = std::min(this->MinimumAngleBefore, other.MinimumAngleBefore);
+    this->MinimumAngleAfter = std::min(this->MinimumAngleAfter, other.MinimumAngleAfter);
+  }
+  if (this->GeometryUsed == GeometryKind::Auto)
+  {
+    this->GeometryUsed = other.GeometryUsed;
+  }
+  this->HasMixedGeometry = this->HasMixedGeometry || other.HasMixedGeometry ||
+    (other.GeometryUsed != GeometryKind::Auto && other.GeometryUsed != this->GeometryUsed);
   AddText(this->GeometryReason, other.GeometryReason);
   AddText(this->Tolerance, other.Tolerance);
   AddText(this->Backend, other.Backend);
   AddText(this->Fallback, other.Fallback);
-  AddDefects(this->Defects, other.Defects);
-  this->Points += other.Points;
-  this->Triangles += other.Triangles;
-  this->Rounds = std::max(this->Rounds, other.Rounds);
-  this->MovedTriangles += other.MovedTriangles;
-  this->UnmatchedConstraints += other.UnmatchedConstraints;
-  this->InsertedConstraints += other.InsertedConstraints;
-  this->ConstraintFlips += other.ConstraintFlips;
-  this->EulerCharacteristic += other.EulerCharacteristic;
-  this->TotalFlips += other.TotalFlips;
-  this->TotalExcluded += other.TotalExcluded;
-  this->TotalBlocked += other.TotalBlocked;
-  this->NonDelaunayBefore += other.NonDelaunayBefore;
-  this->NonDelaunayAfter += other.NonDelaunayAfter;
-  this->BlockedByShape += other.BlockedByShape;
-  this->BlockedByEdge += other.BlockedByEdge;
-  this->BuildSeconds = JoinSeconds(this->BuildSeconds, other.BuildSeconds, timing);
-  this->FlipSeconds = JoinSeconds(this->FlipSeconds, other.FlipSeconds, timing);
-  if (GetSeverity(other.StopReason) > GetSeverity(this->StopReason))
+  for (const Defect& defect : other.Defects)
   {
-    this->StopReason = other.StopReason;
+    const auto same = std::find_if(this->Defects.begin(), this->Defects.end(),
+      [&defect](const Defect& one) { return one.What == defect.What; });
+    (same != this->Defects.end() ? *same : this->Defects.emplace_back(Defect{ defect.What, 0, {} }))
+      .Count += defect.Count;
+  }
+  using Kind = EdgeCounts;
+  AddMembers(this->Edges, other.Edges,
+    { &Kind::Edges, &Kind::Boundary, &Kind::NonManifold, &Kind::WronglyWound, &Kind::Feature,
+      &Kind::Constraint, &Kind::Region, &Kind::Fixed });
+  using Sum = FlipReport;
+  AddMembers<Sum, std::int64_t>(*this, other,
+    { &Sum::Points, &Sum::Triangles, &Sum::UnmatchedConstraints, &Sum::InsertedConstraints,
+      &Sum::ConstraintFlips, &Sum::EulerCharacteristic, &Sum::TotalFlips, &Sum::TotalExcluded,
+      &Sum::TotalBlocked, &Sum::NonDelaunayBefore, &Sum::NonDelaunayAfter, &Sum::BlockedByShape,
+      &Sum::BlockedByEdge });
+  AddMembers<Sum, double>(*this, other, { &Sum::BuildSeconds, &Sum::FlipSeconds });
+  using Reason = StopReasonKind;
+  for (const Reason worse :
+    { Reason::Aborted, Reason::IterationLimit, Reason::Running, Reason::Converged })
+  {
+    if (this->StopReason == worse || other.StopReason == worse)
+    {
+      this->StopReason = worse;
+      break;
+    }
   }
 }
 
@@ -179,51 +138,162 @@ const char* UpdateReport::GetGeometryName() const
   return this->HasMixedGeometry ? "mixed" : ToString(this->GeometryUsed);
 }
 
+//------------------------------------------------------------------------------
+FlipFailure ExplainException()
+{
+  try
+  {
+    throw;
+  }
+  catch (const InvalidOptions& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_OPTIONS, error.what() };
+  }
+  catch (const BackendUnavailable& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_BACKEND, error.what() };
+  }
+  catch (const FlipError& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, "not enough memory" };
+  }
+  catch (const std::exception& error)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, error.what() };
+  }
+  catch (...)
+  {
+    return { vtkDelaunayFlip::FAILURE_OTHER, "an exception of unknown type" };
+  }
+}
+
 namespace
 {
 
-void AddNotes(std::vector<Note>& notes, const std::vector<Note>& more, const std::string& place)
+std::string Join(const std::vector<std::string>& items, const char* separator)
 {
-  for (const Note& note : more)
+  constexpr std::size_t Most = 3; // places named per text, and texts
+  std::string text;
+  for (std::size_t i = 0; i < std::min(items.size(), Most); ++i)
   {
-    notes.push_back({ note.Where.empty() ? place : place + ", " + note.Where, note.Text });
+    text += (i == 0 ? "" : separator) + items[i];
   }
+  return items.size() > Most
+    ? text + separator + "and " + std::to_string(items.size() - Most) + " more"
+    : text;
 }
 
 }
 
-void UpdateSummary::AddMesh(const MeshOutcome& mesh, std::int64_t block, const std::string& where)
+std::string Describe(const std::vector<Note>& notes)
 {
-  this->Report.Add(mesh.Report, UpdateReport::Timing::InTurn);
-  if (mesh.Failure)
+  std::vector<std::string> texts;
+  std::vector<std::vector<std::string>> places;
+  for (const Note& note : notes)
   {
-    this->Failure = this->Failure == 0 ? mesh.Failure.Kind : this->Failure;
-    this->Errors.push_back({ where, mesh.Failure.Message });
+    const std::size_t known = std::find(texts.begin(), texts.end(), note.Text) - texts.begin();
+    if (known == texts.size())
+    {
+      texts.push_back(note.Text);
+      places.emplace_back();
+    }
+    places[known].push_back(note.Where);
   }
-  if (!mesh.Trouble.empty())
+  for (std::size_t i = 0; i < texts.size(); ++i)
   {
-    this->Warnings.push_back({ where, mesh.Trouble });
+    const std::string where = Join(places[i], ", ");
+    texts[i] = where.empty() ? texts[i] : where + ": " + texts[i];
   }
-  if (mesh.Report.Triangles > 0)
-  {
-    this->Blocks.push_back(block);
-  }
+  return Join(texts, "; ");
 }
 
-void UpdateSummary::AddRank(const UpdateSummary& other, int rank)
+void UpdateSummary::AddFailure(const FlipFailure& failure, const std::string& where)
 {
-  const std::string place = "rank " + std::to_string(rank);
-  this->Report.Add(other.Report, UpdateReport::Timing::AtOnce);
-  this->Failure = this->Failure == 0 ? other.Failure : this->Failure;
-  AddNotes(this->Errors, other.Errors, place);
-  AddNotes(this->Warnings, other.Warnings, place);
-  const std::size_t known = this->Blocks.size();
-  this->Blocks.insert(this->Blocks.end(), other.Blocks.begin(), other.Blocks.end());
-  std::sort(this->Blocks.begin() + known, this->Blocks.end());
-  std::inplace_merge(this->Blocks.begin(), this->Blocks.begin() + known, this->Blocks.end());
-  const auto end = std::unique(this->Blocks.begin(), this->Blocks.end());
-  this->HasSeams = this->HasSeams || other.HasSeams || end != this->Blocks.end();
-  this->Blocks.erase(end, this->Blocks.end());
+  this->Failure = this->Failure == 0 ? failure.Kind : this->Failure;
+  this->Errors.push_back({ where, failure.Message });
+}
+
+std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance)
+{
+  std::string text = DescribeDefects(report.Defects);
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (report.StopReason == StopReasonKind::IterationLimit && !hasAskedForLimit)
+  {
+    add("stopped by the safety limit of " + std::to_string(report.Iterations.size()) +
+      " iterations with " + std::to_string(report.NonDelaunayAfter) +
+      " edges left that are not Delaunay");
+  }
+  if (hasTolerance && report.Tolerance == "none")
+  {
+    add("Tolerance has no effect on the in-circle criterion, which is exact; it is for opposite "
+        "angles");
+  }
+  if (!report.Fallback.empty())
+  {
+    add("the GPU could not be used, the CPU did the work: " + report.Fallback);
+  }
+  return text;
+}
+
+//------------------------------------------------------------------------------
+void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data)
+{
+  const auto add = [&](auto* array, const char* name, auto member)
+  {
+    array->SetName((prefix + name).c_str());
+    for (const IterationRecord& record : report.Iterations)
+    {
+      array->InsertNextValue(record.*member);
+    }
+    data->AddArray(array);
+  };
+  const auto addCount = [&](const char* name, std::int64_t IterationRecord::*member)
+  { add(vtkNew<vtkIdTypeArray>().Get(), name, member); };
+  addCount("Iteration", &IterationRecord::Iteration);
+  addCount("Tested", &IterationRecord::Tested);
+  addCount("NonDelaunay", &IterationRecord::NonDelaunay);
+  addCount("Flipped", &IterationRecord::Flipped);
+  addCount("Excluded", &IterationRecord::Excluded);
+  addCount("Blocked", &IterationRecord::Blocked);
+  add(vtkNew<vtkDoubleArray>().Get(), "MinimumAngle", &IterationRecord::MinimumAngle);
+  add(vtkNew<vtkDoubleArray>().Get(), "Seconds", &IterationRecord::Seconds);
+}
+
+void AddFieldData(const UpdateReport& report, vtkFieldData* data)
+{
+  const std::string prefix = "DelaunayFlip:";
+  const auto add = [&](auto* array, const char* name, const auto& value)
+  {
+    array->SetName((prefix + name).c_str());
+    array->InsertNextValue(value);
+    data->AddArray(array);
+  };
+  const auto addText = [&](const char* name, const std::string& text)
+  { add(vtkNew<vtkStringArray>().Get(), name, text); };
+  const auto addCount = [&](const char* name, std::int64_t count)
+  { add(vtkNew<vtkIdTypeArray>().Get(), name, count); };
+  // The totals first: ParaView lists no field data when the first array is empty.
+  add(vtkNew<vtkIntArray>().Get(), "Converged", report.Converged() ? 1 : 0);
+  addText("StopReason", ToString(report.StopReason));
+  addCount("TotalFlips", report.TotalFlips);
+  addCount("NonDelaunayEdges", report.NonDelaunayAfter);
+  addCount("BlockedByShape", report.BlockedByShape);
+  addCount("BlockedByEdge", report.BlockedByEdge);
+  addCount("FixedEdges", report.Edges.Fixed);
+  addCount("NonManifoldEdges", report.Edges.NonManifold);
+  addCount("ConstraintEdges", report.Edges.Constraint);
+  addCount("UnmatchedConstraintEdges", report.UnmatchedConstraints);
+  addCount("InsertedConstraintEdges", report.InsertedConstraints);
+  addCount("ConstraintFlips", report.ConstraintFlips);
+  addText("GeometryUsed", report.GetGeometryName());
+  addText("GeometryReason", report.GeometryReason);
+  addText("Tolerance", report.Tolerance);
+  addText("Backend", report.Backend);
+  AddIterationColumns(report, prefix, data);
 }
 
 }

@@ -3,19 +3,23 @@
 #ifndef UpdateReport_h
 #define UpdateReport_h
 
+#include "EngineExport.h"
 #include "FlipReport.h"
-#include "Notes.h"
 
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+class vtkFieldData;
+
+/// @file
+/// What an update tells of itself: reports and their sums, messages and arrays.
+
 namespace delaunayflip
 {
 
-/// What an update did to a mesh, or the sum over several meshes: the blocks of a composite dataset
-/// or the pieces of several processes.
+/// What an update did to a mesh, or the sum over several meshes, flipped one after the other.
 struct UpdateReport : FlipReport
 {
   UpdateReport() = default;
@@ -24,33 +28,36 @@ struct UpdateReport : FlipReport
   {
   }
 
-  /// Whether two meshes were flipped one after the other or at the same time.
-  enum class Timing
-  {
-    InTurn,
-    AtOnce
-  };
-
   /// Adds the report of another mesh. Counts are summed, those of iterations row by row; the stop
   /// reason is the worse of the two, and angles are the smaller ones. Ids of defects are dropped:
   /// they mean nothing outside their mesh.
-  void Add(const UpdateReport& other, Timing timing);
+  DELAUNAYFLIP_EXPORT void Add(const UpdateReport& other);
 
   /// GeometryUsed in words, or "mixed".
   const char* GetGeometryName() const;
 
   bool HasMixedGeometry = false; ///< GeometryUsed is then that of the first mesh.
-  std::int64_t Rounds = 0; ///< PiecesReport's; 0 if the mesh was not flipped in pieces.
-  std::int64_t MovedTriangles = 0;
 };
 
-/// The outcome of an update for one mesh.
-struct MeshOutcome
+/// Why a mesh could not be flipped.
+struct FlipFailure
 {
-  UpdateReport Report;
-  FlipFailure Failure;
-  std::string Trouble; ///< The text of a warning, or empty.
+  int Kind = 0; ///< One of vtkDelaunayFlip::FailureType; 0 is none.
+  std::string Message;
 };
+
+/// What the exception that is being handled means.
+DELAUNAYFLIP_EXPORT FlipFailure ExplainException();
+
+/// A message about a mesh.
+struct Note
+{
+  std::string Where; ///< E.g. "block 3 (wing)"; empty if there is only one mesh.
+  std::string Text;
+};
+
+/// Joins notes to one text. Each text appears once, with the first places to which it applies.
+std::string Describe(const std::vector<Note>& notes);
 
 /// What one update did to all of its meshes, and the messages about it.
 struct UpdateSummary
@@ -59,16 +66,24 @@ struct UpdateSummary
   int Failure = 0; ///< The kind of the first one; 0: none.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
-  std::vector<std::int64_t> Blocks; ///< Numbers of the meshes that have triangles.
-  bool HasSeams = false; ///< Whether some mesh is divided into pieces, whose seams never flip.
 
-  /// Adds a mesh: the block with this number, which notes call `where`; or 0 and "" if it is the
-  /// only mesh.
-  void AddMesh(const MeshOutcome& mesh, std::int64_t block, const std::string& where);
-
-  /// Adds what another process did at the same time. A block that both have is divided into pieces.
-  void AddRank(const UpdateSummary& other, int rank);
+  /// @param where what notes call the mesh; "" if it is the only one.
+  DELAUNAYFLIP_EXPORT void AddFailure(const FlipFailure& failure, const std::string& where);
 };
+
+/// What to warn the user of, or empty. Reaching a requested iteration limit is not worth a warning.
+/// @param hasTolerance whether the user has set one.
+DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
+  const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
+
+/// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
+/// the same names.
+/// @param prefix of their names.
+void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data);
+
+/// Adds these columns, and one-tuple arrays that sum up the run, to the field data of a mesh, with
+/// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
+DELAUNAYFLIP_EXPORT void AddFieldData(const UpdateReport& report, vtkFieldData* data);
 
 }
 

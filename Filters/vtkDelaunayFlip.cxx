@@ -19,7 +19,6 @@
 
 #include <cstring>
 #include <string>
-#include <utility>
 
 using namespace delaunayflip;
 
@@ -158,7 +157,7 @@ bool vtkDelaunayFlip::AdvanceSession()
 
 const FlipSession* vtkDelaunayFlip::GetSession() const
 {
-  return this->Run ? &std::as_const(*this->Run).GetSession() : nullptr;
+  return this->Run ? &this->Run->GetSession() : nullptr;
 }
 
 bool vtkDelaunayFlip::StoreMesh(vtkPolyData* mesh) const
@@ -187,13 +186,6 @@ vtkIdType vtkDelaunayFlip::GetNumberOfIterations() const
 }
 
 vtkIdType vtkDelaunayFlip::GetTotalFlips() const { return this->Report->TotalFlips; }
-
-vtkIdType vtkDelaunayFlip::GetNumberOfRounds() const { return this->Report->Rounds; }
-
-vtkIdType vtkDelaunayFlip::GetNumberOfMovedTriangles() const
-{
-  return this->Report->MovedTriangles;
-}
 
 vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
 {

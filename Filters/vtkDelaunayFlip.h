@@ -60,9 +60,7 @@
  * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
  * and the other blocks are flipped. The methods that return results, and the only table, have the
  * sums over all blocks; the field data of a block are its own. Composite constraints with the same
- * structure apply block by block. In a parallel run, where each rank of the global
- * vtkMultiProcessController updates one piece, the sums are over all pieces. All
- * ranks must update together. Rank 0 has the table and gives the messages.
+ * structure apply block by block.
  *
  * The partitions of a dataset (vtkPartitionedDataSet, vtkMultiPieceDataSet) are one mesh: edges
  * between them flip, too. Points of several partitions are the same if they have the same global id
@@ -73,10 +71,6 @@
  * partition, with its cell data. Points that a partition then lacks are added behind its own, with
  * their point data; arrays that they do not have are 0 or empty there. The field data of each
  * partition, and all results, are those of the whole mesh.
- *
- * @warning
- * Edges between the pieces of a parallel run stay and are not counted. An update that leaves such
- * edges gives a warning. vtkPDelaunayFlip flips them, too.
  *
  * @par References
  * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
@@ -96,27 +90,21 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For meshes of inputs
 
-#include <map> // For std::map
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
+#include <vector> // For std::vector
 
-class vtkCompositeDataSet;
 class vtkTable;
 
 namespace delaunayflip
 {
 class FlipRun;
 class FlipSession;
-class PieceGroup;
-struct BlockConstraints;
-struct FlipOptions;
 struct FlipReport;
-struct IterationRecord;
-struct MeshOutcome;
-struct SharedBlock;
+struct FlipRequest;
+struct MeshBlock;
 struct UpdateReport;
 struct UpdateSummary;
-enum class StopReasonKind;
 }
 
 class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkPolyDataAlgorithm
@@ -359,7 +347,7 @@ public:
   /**
    * Compute the smallest angle of the mesh after every iteration, instead of only after the first
    * and the last one. Costs one pass over the mesh per iteration. Default off. No effect with
-   * several processes (vtkPDelaunayFlip), which know only the one after the last iteration.
+   * several pieces.
    */
   vtkSetMacro(TrackQuality, bool);
   vtkGetMacro(TrackQuality, bool);
@@ -402,9 +390,8 @@ public:
    *
    * A change of the input or of an option starts a new run. But if only points were moved, under
    * the same cells, the next update continues from the flipped triangles, with the edges that were
-   * fixed at the beginning (a warm start); its statistics start again. Composite input, and input
-   * in several pieces (a parallel run), is flipped at once, with a warning. So is any input in
-   * ParaView's pvbatch, without a warning.
+   * fixed at the beginning (a warm start); its statistics start again. Composite input is flipped
+   * at once, with a warning. So is any input in ParaView's pvbatch, without a warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);
@@ -484,7 +471,7 @@ public:
 
   ///@{
   /**
-   * What the last update did. With several blocks or pieces, NumberOfIterations is the largest of
+   * What the last update did. With several blocks, NumberOfIterations is the largest of
    * theirs and TotalFlips the sum. In an observer of ProgressEvent they are those of the current
    * block so far. Progress is the estimated share of the update's time that has passed, from the
    * splitting of polygons and the matching of constraints to the output. AbortExecute is checked
@@ -503,8 +490,8 @@ public:
    * input, including the edges of inserted constraints; how many edges of these lines and of the
    * second input match no edge of the mesh and were not inserted; how many were inserted; and how
    * many flips that took, which are not part of TotalFlips and the iterations. After a warm start,
-   * as at the beginning. All are sums over blocks and pieces: if all blocks share the constraints,
-   * an edge counts as unmatched once for each block that does not have it.
+   * as at the beginning. All are sums over blocks: if all blocks share the constraints, an edge
+   * counts as unmatched once for each block that does not have it.
    */
   vtkIdType GetNumberOfConstraintEdges() const;
   vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
@@ -512,19 +499,9 @@ public:
   vtkIdType GetNumberOfConstraintFlips() const;
   ///@}
 
-  ///@{
-  /**
-   * If the mesh was flipped in pieces on several ranks (vtkPDelaunayFlip): how often the pieces
-   * were flipped and the edges between them tested, and how many times a triangle changed owner.
-   * Else 0.
-   */
-  vtkIdType GetNumberOfRounds() const;
-  vtkIdType GetNumberOfMovedTriangles() const;
-  ///@}
-
   /**
    * How many bad edges, neither locally Delaunay nor fixed, are left after the last update; the sum
-   * over blocks and pieces.
+   * over blocks.
    */
   vtkIdType GetNumberOfNonDelaunayEdges() const;
 
@@ -547,7 +524,7 @@ public:
    * Why the last update ended. NOT_STARTED before the first update; RUNNING if a live update has
    * made its iterations and there is more to do; FAILED after an error, with empty outputs and the
    * text "failed: " and the reason. Once the cause is removed, the next update works. With several
-   * blocks or pieces, the worst of their reasons.
+   * blocks, the worst of their reasons.
    */
   enum StopReasonType
   {
@@ -565,8 +542,8 @@ public:
   ///@{
   /**
    * The geometry that the last update used, one of GeometryType. GEOMETRY_AUTO before the first
-   * update, after an error and for a mesh without triangles; GEOMETRY_MIXED, "mixed", if blocks or
-   * pieces differ.
+   * update, after an error and for a mesh without triangles; GEOMETRY_MIXED, "mixed", if blocks
+   * differ.
    */
   int GetGeometryUsed() const;
   const char* GetGeometryUsedAsString() const;
@@ -662,13 +639,34 @@ protected:
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
 #ifndef __VTK_WRAP__
+  // Subclasses that flip meshes in another way override these; their headers are private.
+
   /**
-   * The ranks that have the pieces of the input and update together, or null (default) if this
-   * process flips what it has alone.
+   * The meshes of the input. May throw; the update then fails.
    */
-  virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
+  virtual std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input);
+
+  /**
+   * Flips a block, stores its results, and adds what is to be told. Must not throw.
+   * @param constraints the blocks of the second input.
+   */
+  virtual void FlipBlock(delaunayflip::MeshBlock& block,
+    const std::vector<delaunayflip::MeshBlock>& constraints, delaunayflip::UpdateSummary& summary);
+
+  /**
+   * What is asked of the flips of a mesh.
+   * @param constraints may be null.
+   */
+  delaunayflip::FlipRequest MakeRequest(
+    vtkPolyData* mesh, vtkPolyData* constraints, bool isLive = false);
+
+  /**
+   * GetMesh, with an error of the engine.
+   */
+  vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
 #endif
 
+  bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Geometry = GEOMETRY_AUTO;
   int Criterion = CRITERION_IN_CIRCLE;
   double Tolerance = -1.0;
@@ -693,44 +691,11 @@ protected:
   bool Paused = false;
 
 private:
-  struct Connection
-  {
-    vtkPolyData* Input;
-    vtkPolyData* Constraints; ///< Or null.
-    vtkPolyData* Output;
-    bool IsLive;
-  };
-  struct Resumption;
-  struct SharedMesh;
-
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  delaunayflip::UpdateSummary FlipMesh(
-    vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece);
-  delaunayflip::UpdateSummary FlipBlocks(vtkCompositeDataSet* input, vtkDataObject* constraints,
-    vtkDataObject* output, delaunayflip::PieceGroup& group);
-  delaunayflip::UpdateSummary FlipTogether(vtkDataObject* input, vtkDataObject* constraints,
-    vtkDataObject* output, delaunayflip::PieceGroup& group);
-  delaunayflip::UpdateSummary FlipPieces(vtkDataObject* input, vtkDataObject* constraints,
-    vtkDataObject* output, delaunayflip::PieceGroup& group);
-  void FlipBlock(const delaunayflip::SharedBlock& block,
-    const delaunayflip::BlockConstraints& constraints, delaunayflip::PieceGroup& group,
-    delaunayflip::UpdateSummary& summary,
-    std::map<unsigned int, vtkSmartPointer<vtkDataObject>>& leaves);
-  void FlipShared(
-    const SharedMesh& mesh, delaunayflip::PieceGroup& group, delaunayflip::UpdateSummary& summary);
-  vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
-  delaunayflip::MeshOutcome TryToFlip(const Connection& data);
-  void Flip(const Connection& data);
-  void DiscardRun(vtkDataObject* output);
-  void Publish(const delaunayflip::UpdateSummary& summary, bool withMessages);
-  delaunayflip::FlipOptions GetOptions() const;
-  void PassInput(const Connection& data, delaunayflip::StopReasonKind reason);
-  void Flip(
-    const Connection& data, std::unique_ptr<delaunayflip::FlipRun>& run, const Resumption& from);
-  bool Advance(delaunayflip::FlipRun& run, bool isLive);
-  bool Observe(const delaunayflip::IterationRecord& record);
-  bool ObserveProgress(double fraction);
+  void FlipMesh(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive, vtkPolyData* output);
+  void DiscardRun();
+  void Publish(const delaunayflip::UpdateSummary& summary);
 
   int Failure = FAILURE_NONE;
   std::string ErrorMessage;

@@ -8,21 +8,15 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipRun.h"
-#include "PieceGroup.h"
-#include "RankSum.h"
-#include "ReportTables.h"
+#include "MeshBlocks.h"
 #include "UpdateReport.h"
 
-#include "vtkAlgorithm.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkErrorCode.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkVersionMacros.h"
 #if defined(DELAUNAYFLIP_PARAVIEW)
@@ -31,19 +25,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 using namespace delaunayflip;
-
-//------------------------------------------------------------------------------
-/// How the run of an update may go on from that of the last one.
-struct vtkDelaunayFlip::Resumption
-{
-  bool StoresOnly; ///< No step: the last update withheld its mesh.
-  bool CouldContinue; ///< What CanContinue was after it.
-};
 
 namespace
 {
@@ -66,10 +52,6 @@ bool IsAbortRequested(vtkAlgorithm* filter)
 #endif
 }
 
-/// Ends a request to abort with the update that obeyed it. From VTK 9.3 on the executive does not,
-/// and all later updates would be aborted too.
-void ForgetAbortRequest(vtkAlgorithm* filter) { filter->SetAbortExecute(0); }
-
 /// Whether the filter runs in ParaView's pvbatch, where nobody watches the mesh improve, and
 /// scripts and state files expect the final mesh.
 bool IsBatchProgram()
@@ -87,8 +69,6 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  const auto getElapsed = [start]()
-  { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double elapsed = 0.0;
   double iterations = 1.0;
   bool isRunning = false;
@@ -96,7 +76,7 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   {
     const double before = elapsed;
     isRunning = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
-    elapsed = getElapsed();
+    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
     // take longer than those before, so batches grow slowly.
     const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
@@ -105,30 +85,16 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   return isRunning;
 }
 
-/// Sets a flag while it lives.
-class FlagScope
+/// A shallow copy, whose leaves and arrays observers cannot take away; null for null.
+vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 {
-public:
-  explicit FlagScope(bool& flag)
-    : Flag(flag)
+  vtkSmartPointer<vtkDataObject> held;
+  if (data)
   {
-    this->Flag = true;
+    held.TakeReference(data->NewInstance());
+    held->ShallowCopy(data);
   }
-  ~FlagScope() { this->Flag = false; }
-  FlagScope(const FlagScope&) = delete;
-  FlagScope& operator=(const FlagScope&) = delete;
-
-private:
-  bool& Flag;
-};
-
-void WarnOfLiveUpdate(bool isIgnored, UpdateSummary& summary)
-{
-  if (isIgnored)
-  {
-    summary.Warnings.push_back(
-      { "", "LiveUpdate is for one mesh in one piece; blocks and pieces are flipped at once" });
-  }
+  return held;
 }
 
 }
@@ -137,75 +103,78 @@ void WarnOfLiveUpdate(bool isIgnored, UpdateSummary& summary)
 int vtkDelaunayFlip::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  const Piece piece{ vtkStreamingDemandDrivenPipeline::GetUpdatePiece(outInfo),
-    vtkStreamingDemandDrivenPipeline::GetUpdateNumberOfPieces(outInfo) };
   // Observers may take them from the filter while it works.
   const vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-  const vtkSmartPointer<vtkDataObject> constraints = vtkDataObject::GetData(inputVector[1]);
   const vtkSmartPointer<vtkDataObject> output = vtkDataObject::GetData(outputVector);
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(outputVector, 1);
-  auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
-  auto* mesh = vtkPolyData::SafeDownCast(output);
-  const FlagScope atWork(this->IsAtWork);
+  const struct Work
+  {
+    bool& IsUnderWay;
+    ~Work() { this->IsUnderWay = false; }
+  } work{ this->IsAtWork = true };
   this->HasExecuted = true;
-  std::unique_ptr<PieceGroup> group;
   UpdateSummary summary;
-  const FlipFailure failure = Attempt(
-    [&]()
-    {
-      group = this->MakeGroup();
-      summary = group ? this->FlipTogether(input, constraints, output, *group)
-        : blocks      ? this->FlipBlocks(blocks, constraints, output, *MakeSingleGroup())
-                      : this->FlipMesh(input, constraints, mesh, piece.Count > 1);
-      WarnOfLiveUpdate(this->LiveUpdate && (blocks || group || piece.Count > 1), summary);
-    });
-  if (failure)
+  try
   {
-    summary = UpdateSummary();
-    this->DiscardRun(output);
-    summary.AddMesh({ *this->Report, failure, "" }, 0, "");
-  }
-  const bool isFirst = group ? group->GetRank() == 0 : JoinRanks(summary, piece); // on every rank
-  const auto report = [&]()
-  {
-    // The rows are sums over all ranks, and ParaView would concatenate the tables of the ranks.
-    AddIterationColumns(isFirst ? summary.Report : UpdateReport(), "", table->GetRowData());
-    if (mesh && piece.Count > 1)
+    const auto structure = Hold(input);
+    const auto constraints = Hold(vtkDataObject::GetData(inputVector[1]));
+    std::vector<MeshBlock> edges;
+    if (constraints)
     {
-      RenewFieldData(summary.Report, mesh->GetFieldData());
+      edges = ListMeshBlocks(constraints);
+      edges.resize(std::max<std::size_t>(1, edges.size()), { { 0 }, "", 0.0, false, {} });
     }
-    this->Publish(summary, isFirst);
-  };
-  const FlipFailure unreported =
-    Attempt([&]() { group ? DoTogether(*group, std::ref(report)) : report(); });
-  if (unreported)
-  {
-    this->DiscardRun(output);
-    table->Initialize();
-    UpdateSummary nothing;
-    nothing.AddMesh({ *this->Report, unreported, "" }, 0, "");
-    this->Publish(nothing, isFirst);
+    std::vector<MeshBlock> blocks = this->ListBlocks(input);
+    bool isLive = false;
+    double cells = 0.0;
+    for (const MeshBlock& block : blocks)
+    {
+      isLive = isLive || block.IsLive;
+      cells += block.Cells;
+    }
+    if (this->LiveUpdate && !isLive && !IsBatchProgram())
+    {
+      summary.Warnings.push_back(
+        { "", "LiveUpdate is for one mesh in one piece; others are flipped at once" });
+    }
+    summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
+    double before = 0.0;
+    for (MeshBlock& block : blocks)
+    {
+      this->SetProgressShiftScale(
+        before / std::max(1.0, cells), block.Cells / std::max(1.0, cells));
+      this->FlipBlock(block, edges, summary);
+      before += block.Cells;
+    }
+    StoreResults(blocks, structure, output);
   }
-  ForgetAbortRequest(this);
+  catch (...)
+  {
+    this->DiscardRun();
+    output->Initialize();
+    summary = UpdateSummary();
+    summary.AddFailure(ExplainException(), "");
+  }
+  this->SetProgressShiftScale(0.0, 1.0);
+  AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
+  this->Publish(summary);
+  // From VTK 9.3 on the executive does not end a request to abort with the update that obeyed it.
+  this->SetAbortExecute(0);
   // Even after an error: 0 would keep filters downstream from executing, and a representation of
   // ParaView that did not execute ignores all later changes.
   return 1;
 }
 
-//------------------------------------------------------------------------------
 /// Leaves nothing half done.
-void vtkDelaunayFlip::DiscardRun(vtkDataObject* output)
+void vtkDelaunayFlip::DiscardRun()
 {
   this->Run.reset();
   this->CanContinue = false;
   this->MeshIsWithheld = false;
   *this->Report = UpdateReport();
-  output->Initialize();
 }
 
-//------------------------------------------------------------------------------
-void vtkDelaunayFlip::Publish(const UpdateSummary& summary, bool withMessages)
+void vtkDelaunayFlip::Publish(const UpdateSummary& summary)
 {
   *this->Report = summary.Report;
   this->Failure = summary.Failure;
@@ -213,145 +182,88 @@ void vtkDelaunayFlip::Publish(const UpdateSummary& summary, bool withMessages)
   this->StopReasonText = "failed: " + this->ErrorMessage;
   this->SetErrorCode(
     this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
-  std::vector<Note> warnings = summary.Warnings;
-  if (summary.HasSeams)
-  {
-    warnings.push_back({ "", "edges between pieces of the mesh stayed as they were" });
-  }
-  if (withMessages && this->Failure)
+  if (this->Failure && !this->IsSilent)
   {
     vtkErrorMacro(<< this->ErrorMessage);
   }
-  if (withMessages && !warnings.empty())
+  if (!summary.Warnings.empty() && !this->IsSilent)
   {
-    vtkWarningMacro(<< Describe(warnings));
+    vtkWarningMacro(<< Describe(summary.Warnings));
   }
 }
 
 //------------------------------------------------------------------------------
+std::vector<MeshBlock> vtkDelaunayFlip::ListBlocks(vtkDataObject* input)
+{
+  std::vector<MeshBlock> blocks = ListMeshBlocks(input);
+  if (blocks.size() == 1 && blocks.front().Place.empty())
+  {
+    blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram();
+  }
+  return blocks;
+}
+
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)
 {
   return vtkPolyData::SafeDownCast(input);
 }
 
-//------------------------------------------------------------------------------
-UpdateSummary vtkDelaunayFlip::FlipMesh(
-  vtkDataObject* input, vtkDataObject* constraints, vtkPolyData* output, bool isPiece)
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::ReadMesh(vtkDataObject* input)
 {
-  UpdateSummary summary;
-  MeshOutcome outcome;
-  vtkSmartPointer<vtkPolyData> mesh;
-  outcome.Failure = Attempt([&]() { mesh = this->GetMesh(input); });
-  auto* edges = vtkPolyData::SafeDownCast(constraints);
-  if (!mesh && !outcome.Failure)
-  {
-    outcome.Failure = { FAILURE_MESH, "the input is not a surface; apply Extract Surface first" };
-  }
-  else if (mesh && constraints && !edges)
-  {
-    outcome.Failure = { FAILURE_OPTIONS,
-      "the constraints of a single mesh cannot be a composite dataset" };
-  }
-  else if (mesh)
-  {
-    const bool isLive = this->LiveUpdate && !isPiece && !IsBatchProgram();
-    outcome = this->TryToFlip({ mesh, edges, output, isLive });
-  }
-  summary.AddMesh(outcome, 0, "");
-  return summary;
-}
-
-//------------------------------------------------------------------------------
-MeshOutcome vtkDelaunayFlip::TryToFlip(const Connection& data)
-{
-  MeshOutcome outcome;
-  outcome.Failure = Attempt([&]() { this->Flip(data); });
-  if (outcome.Failure)
-  {
-    this->DiscardRun(data.Output);
-  }
-  outcome.Report = *this->Report;
-  outcome.Trouble =
-    DescribeTrouble(outcome.Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
-  if (this->Run && outcome.Trouble == std::exchange(this->Run->Warning, outcome.Trouble))
-  {
-    outcome.Trouble.clear(); // live updates give each warning once
-  }
-  return outcome;
-}
-
-//------------------------------------------------------------------------------
-void vtkDelaunayFlip::Flip(const Connection& data)
-{
-  std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
-  *this->Report = UpdateReport();
-  const bool isAsked = std::exchange(this->IsStepAsked, false);
-  const bool isWithheld = std::exchange(this->MeshIsWithheld, false);
-  const Resumption from{ isWithheld && !isAsked, std::exchange(this->CanContinue, false) };
-  if (data.Input->GetNumberOfPolys() == 0 && data.Input->GetNumberOfStrips() == 0)
-  {
-    this->PassInput(data, StopReasonKind::Converged);
-    return;
-  }
-  if (!data.IsLive)
-  {
-    run.reset(); // before another takes as much memory
-  }
   try
   {
-    this->Flip(data, run, from);
+    return this->GetMesh(input);
   }
-  catch (const RunAborted&)
+  catch (const std::invalid_argument& error)
   {
-    this->PassInput(data, StopReasonKind::Aborted);
-    this->CanContinue = data.IsLive;
-  }
-  if (data.IsLive)
-  {
-    this->Run = std::move(run);
+    throw InvalidMesh(error.what(), -1, -1);
   }
 }
 
-/// @param run the last one, or null; it becomes the one of this update.
-/// @throws RunAborted when it is stopped before there are triangles to put out.
-void vtkDelaunayFlip::Flip(
-  const Connection& data, std::unique_ptr<FlipRun>& run, const Resumption& from)
+void vtkDelaunayFlip::FlipBlock(
+  MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
-  if (IsAbortRequested(this))
+  try
   {
-    throw RunAborted(); // in another block
+    BlockMesh mesh(
+      block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray);
+    const auto edges = mesh.FindConstraints(constraints);
+    const std::vector<Note> notes = mesh.ListNotes();
+    summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
+    if (!mesh.GetMesh())
+    {
+      mesh.Store(nullptr);
+      return;
+    }
+    vtkNew<vtkPolyData> flipped;
+    this->FlipMesh(mesh.GetMesh(), edges, block.IsLive, flipped);
+    mesh.Store(flipped);
   }
-  const bool isSame = FlipRun::ContinueOrStart(run,
-    { data.Input, data.Constraints,
-      { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
-        this->RegionArray },
-      this->GetOptions(), data.IsLive, { this->GenerateFlipCount, this->GenerateQuality },
-      [this](double fraction) { return this->ObserveProgress(fraction); } });
-  *this->Report = UpdateReport(run->GetReport());
-  const bool storesOnly = isSame && from.StoresOnly;
-  const bool isRunning =
-    storesOnly ? from.CouldContinue : !run->IsStopped() && this->Advance(*run, data.IsLive);
-  this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
-  vtkNew<vtkPolyData> result; // which no observer can change
-  const bool isWhole = this->MeshIsWithheld || run->Store(result);
-  // Not before: a GPU may fail while its result is fetched.
-  *this->Report = UpdateReport(run->GetReport());
-  this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
-  AddFieldData(*this->Report, result->GetFieldData());
-  data.Output->ShallowCopy(result);
-  this->CanContinue =
-    data.IsLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
-}
-
-/// Passes the input to the output unchanged.
-void vtkDelaunayFlip::PassInput(const Connection& data, StopReasonKind reason)
-{
-  this->Report->StopReason = reason;
-  data.Output->ShallowCopy(data.Input);
+  catch (...)
+  {
+    this->DiscardRun();
+    summary.AddFailure(ExplainException(), block.Name);
+    for (BlockLeaf& leaf : block.Leaves)
+    {
+      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+    }
+  }
+  const std::string trouble =
+    DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
+  // Live updates give each warning once.
+  if (!trouble.empty() && !(this->Run && this->Run->Warning == trouble))
+  {
+    summary.Warnings.push_back({ block.Name, trouble });
+  }
+  if (this->Run)
+  {
+    this->Run->Warning = trouble;
+  }
+  summary.Report.Add(*this->Report);
 }
 
 //------------------------------------------------------------------------------
-FlipOptions vtkDelaunayFlip::GetOptions() const
+FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
 {
   FlipOptions options;
   options.Geometry = static_cast<GeometryKind>(this->Geometry);
@@ -363,43 +275,85 @@ FlipOptions vtkDelaunayFlip::GetOptions() const
   options.MaximumIterations = this->MaximumIterations;
   options.NumberOfThreads = this->NumberOfThreads;
   options.Device = this->DeviceId;
-  options.Devices = delaunayflip::ParseDevices(this->Devices);
+  options.Devices = ParseDevices(this->Devices);
   options.NumberOfPieces = this->NumberOfPieces;
   options.TrackQuality = this->TrackQuality;
-  return options;
-}
-
-//------------------------------------------------------------------------------
-/// The iterations of one update.
-/// @returns whether another update could still change the mesh.
-bool vtkDelaunayFlip::Advance(FlipRun& run, bool isLive)
-{
-  FlipSession& session = run.GetSession();
-  const FlipObserver observer = [this](const IterationRecord& record)
-  { return this->Observe(record); };
-  const delaunayflip::ProgressObserver progress = run.GetProgress();
-  if (isLive && this->IterationsPerUpdate == 0)
+  const auto observe = [this](double fraction)
   {
-    constexpr double Seconds = 0.05; // as documented in the header
-    return AdvanceFor(session, Seconds, observer, progress);
+    // The share of the whole update, of which this mesh may be a part. It must not go back where a
+    // session is advanced again and again.
+    const double scale = this->GetProgressScale();
+    const double share = this->GetProgressShift() + scale * fraction;
+    this->UpdateProgress(share < this->GetProgress() && scale > 0.0
+        ? (this->GetProgress() - this->GetProgressShift()) / scale
+        : fraction);
+    return !IsAbortRequested(this);
+  };
+  return { mesh, constraints,
+    { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
+      this->RegionArray },
+    options, isLive, this->GenerateFlipCount, this->GenerateQuality, observe };
+}
+
+void vtkDelaunayFlip::FlipMesh(
+  vtkPolyData* mesh, vtkPolyData* constraints, bool isLive, vtkPolyData* output)
+{
+  std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
+  *this->Report = UpdateReport();
+  const bool isAsked = std::exchange(this->IsStepAsked, false);
+  const bool wasWithheld = std::exchange(this->MeshIsWithheld, false);
+  const bool couldContinue = std::exchange(this->CanContinue, false);
+  if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0)
+  {
+    this->Report->StopReason = StopReasonKind::Converged;
+    output->ShallowCopy(mesh);
+    return;
   }
-  return session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, progress);
-}
-
-bool vtkDelaunayFlip::Observe(const IterationRecord& record)
-{
-  this->Report->Iterations.push_back(record);
-  this->Report->TotalFlips += record.Flipped;
-  return true;
-}
-
-bool vtkDelaunayFlip::ObserveProgress(double fraction)
-{
-  // The share of the whole update, of which this block may be a part.
-  const double share = this->GetProgressShift() + this->GetProgressScale() * fraction;
-  const bool goesBack = share < this->GetProgress() && this->GetProgressScale() > 0.0;
-  this->UpdateProgress(goesBack
-      ? (this->GetProgress() - this->GetProgressShift()) / this->GetProgressScale()
-      : fraction);
-  return !IsAbortRequested(this);
+  if (!isLive)
+  {
+    run.reset(); // before another takes as much memory
+  }
+  try
+  {
+    if (IsAbortRequested(this))
+    {
+      throw RunAborted(); // in another block
+    }
+    const bool isSame = FlipRun::ContinueOrStart(run, this->MakeRequest(mesh, constraints, isLive));
+    *this->Report = UpdateReport(run->GetReport());
+    const bool storesOnly = isSame && wasWithheld && !isAsked;
+    bool isRunning = storesOnly && couldContinue;
+    if (!storesOnly && !run->IsStopped())
+    {
+      const FlipObserver observer = [this](const IterationRecord& record)
+      {
+        this->Report->Iterations.push_back(record);
+        this->Report->TotalFlips += record.Flipped;
+        return true;
+      };
+      constexpr double Seconds = 0.05; // as documented in the header
+      FlipSession& session = run->GetSession();
+      isRunning = isLive && this->IterationsPerUpdate == 0
+        ? AdvanceFor(session, Seconds, observer, run->GetProgress())
+        : session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
+    }
+    this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
+    const bool isWhole = this->MeshIsWithheld || run->Store(output);
+    // Not before: a GPU may fail while its result is fetched.
+    *this->Report = UpdateReport(run->GetReport());
+    this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
+    AddFieldData(*this->Report, output->GetFieldData());
+    this->CanContinue =
+      isLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
+  }
+  catch (const RunAborted&) // before there are triangles to put out
+  {
+    this->Report->StopReason = StopReasonKind::Aborted;
+    output->ShallowCopy(mesh);
+    this->CanContinue = isLive;
+  }
+  if (isLive)
+  {
+    this->Run = std::move(run);
+  }
 }

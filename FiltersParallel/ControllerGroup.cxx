@@ -6,6 +6,7 @@
 #include "vtkMultiProcessController.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -19,13 +20,6 @@ namespace
 constexpr int Tag = 5707; // of no other message of VTK or ParaView
 constexpr std::size_t LargestPart = std::size_t(1) << 30; // MPI counts with 32 bits
 
-constexpr std::int64_t NoMemory = -1;
-
-[[noreturn]] void ThrowNoMemory(int rank)
-{
-  throw std::runtime_error("rank " + std::to_string(rank) + ": not enough memory");
-}
-
 void Require(int isDone)
 {
   if (!isDone)
@@ -34,198 +28,149 @@ void Require(int isDone)
   }
 }
 
-/// Calls allocate() on this rank, and waits for the others.
-/// @throws on every rank if one lacks memory.
-template <typename Allocate>
-void AllocateTogether(vtkMultiProcessController* controller, const Allocate& allocate)
+class ControllerGroup : public PieceGroup
 {
-  const int ranks = controller->GetNumberOfProcesses();
-  int failed = ranks;
-  try
+public:
+  explicit ControllerGroup(vtkMultiProcessController* controller)
+    : Controller(controller)
   {
-    allocate();
   }
-  catch (const std::bad_alloc&)
-  {
-    failed = controller->GetLocalProcessId();
-  }
-  int first = ranks;
-  Require(controller->AllReduce(&failed, &first, 1, vtkCommunicator::MIN_OP));
-  if (first < ranks)
-  {
-    ThrowNoMemory(first);
-  }
-}
 
-}
+  int GetRank() const override { return this->Controller->GetLocalProcessId(); }
+  int GetSize() const override { return this->Controller->GetNumberOfProcesses(); }
 
-std::unique_ptr<PieceGroup> ControllerGroup::Make(vtkMultiProcessController* controller)
-{
-  std::unique_ptr<ControllerGroup> group(new (std::nothrow) ControllerGroup(controller));
-  AllocateTogether(controller,
-    [&]()
-    {
-      if (!group)
+  /// Sends only messages that are not empty, from each rank to one other at a time.
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    const int ranks = this->GetSize();
+    const int own = this->GetRank();
+    std::vector<Message> received(ranks);
+    std::vector<std::int64_t> sizes(ranks);
+    std::vector<std::int64_t> all(sizes.size() * sizes.size()); // from each rank to each rank
+    std::transform(messages.begin(), messages.end(), sizes.begin(),
+      [](const Message& message) { return static_cast<std::int64_t>(message.size()); });
+    Require(this->Controller->AllGather(sizes.data(), all.data(), ranks));
+    this->AllocateTogether(
+      [&]()
       {
-        throw std::bad_alloc();
-      }
-      group->ReserveMemory();
-    });
-  return group;
-}
-
-void ControllerGroup::ReserveMemory()
-{
-  const auto ranks = static_cast<std::size_t>(this->GetSize());
-  this->Slots.resize(ranks);
-  this->Sizes.resize(ranks);
-  this->AllSizes.resize(ranks * ranks);
-}
-
-int ControllerGroup::GetRank() const { return this->Controller->GetLocalProcessId(); }
-int ControllerGroup::GetSize() const { return this->Controller->GetNumberOfProcesses(); }
-
-void ControllerGroup::Send(const Message& message, int rank)
-{
-  for (std::size_t at = 0; at < message.size(); at += LargestPart)
-  {
-    const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
-    Require(this->Controller->Send(message.data() + at, size, rank, Tag));
-  }
-}
-
-void ControllerGroup::Receive(Message& message, int rank)
-{
-  for (std::size_t at = 0; at < message.size(); at += LargestPart)
-  {
-    const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
-    Require(this->Controller->Receive(message.data() + at, size, rank, Tag));
-  }
-}
-
-std::vector<Message> ControllerGroup::Exchange(std::vector<Message> messages)
-{
-  const int ranks = this->GetSize();
-  const int own = this->GetRank();
-  std::transform(messages.begin(), messages.end(), this->Sizes.begin(),
-    [](const Message& message) { return static_cast<std::int64_t>(message.size()); });
-  Require(this->Controller->AllGather(this->Sizes.data(), this->AllSizes.data(), ranks));
-  std::vector<Message> received;
-  AllocateTogether(this->Controller,
-    [&]()
+        for (int rank = 0; rank < ranks; ++rank)
+        {
+          received[rank].resize(
+            rank == own ? 0 : all[static_cast<std::size_t>(rank) * ranks + own]);
+        }
+      });
+    received[own] = std::move(messages[own]);
+    int steps = 1;
+    while (steps < ranks)
     {
-      received.resize(ranks);
-      for (int rank = 0; rank < ranks; ++rank)
+      steps *= 2;
+    }
+    // In every step the ranks are paired. The lower one of a pair sends first, so none waits in
+    // vain.
+    for (int step = 1; step < steps; ++step)
+    {
+      const int other = own ^ step;
+      for (const bool sends : { own<other, own> other })
       {
-        received[rank].resize(
-          rank == own ? 0 : this->AllSizes[static_cast<std::size_t>(rank) * ranks + own]);
+        if (other < ranks)
+        {
+          this->Pass(sends ? messages[other] : received[other], sends, other);
+        }
       }
-    });
-  received[own] = std::move(messages[own]);
-  int steps = 1;
-  while (steps < ranks)
-  {
-    steps *= 2;
+    }
+    return received;
   }
-  // In every step the ranks are paired. The lower one of a pair sends first, so none waits in vain.
-  for (int step = 1; step < steps; ++step)
-  {
-    const int other = own ^ step;
-    if (other >= ranks)
-    {
-      continue;
-    }
-    if (own < other)
-    {
-      this->Send(messages[other], other);
-      this->Receive(received[other], other);
-    }
-    else
-    {
-      this->Receive(received[other], other);
-      this->Send(messages[other], other);
-    }
-  }
-  return received;
-}
 
-std::vector<Message> ControllerGroup::Gather(const Message& message)
-{
-  std::vector<Message> received;
-  bool hasMemory = true;
-  try
+  /// Short messages take one collective operation, longer ones three.
+  std::vector<Message> Gather(const Message& message) override
   {
-    received.resize(this->Slots.size());
-    for (Message& one : received)
+    struct Slot
     {
-      one.reserve(sizeof(Slot::Bytes));
+      std::int64_t Size;
+      char Bytes[56]; ///< Of a message that is short.
+    };
+    const std::size_t ranks = static_cast<std::size_t>(this->GetSize());
+    std::vector<Slot> slots(ranks);
+    std::vector<Message> received(ranks);
+    Slot own{ static_cast<std::int64_t>(message.size()), {} };
+    std::copy_n(message.begin(), std::min(message.size(), sizeof(own.Bytes)), own.Bytes);
+    Require(this->Controller->AllGather(reinterpret_cast<const char*>(&own),
+      reinterpret_cast<char*>(slots.data()), static_cast<vtkIdType>(sizeof(own))));
+    std::vector<vtkIdType> sizes, offsets;
+    vtkIdType total = 0, longest = 0;
+    for (const Slot& slot : slots)
+    {
+      sizes.push_back(slot.Size);
+      offsets.push_back(total);
+      total += slot.Size;
+      longest = std::max<vtkIdType>(longest, slot.Size);
     }
-  }
-  catch (const std::bad_alloc&)
-  {
-    hasMemory = false; // as the others learn at once
-  }
-  if (!this->GatherSlots(message, hasMemory))
-  {
-    return this->GatherLong(message);
-  }
-  for (std::size_t rank = 0; rank < received.size(); ++rank)
-  {
-    const Slot& slot = this->Slots[rank];
-    received[rank].assign(slot.Bytes, slot.Bytes + slot.Size);
-  }
-  return received;
-}
-
-/// Fills the slots of all ranks. @returns whether all messages are short.
-bool ControllerGroup::GatherSlots(const Message& message, bool hasMemory)
-{
-  Slot own{ hasMemory ? static_cast<std::int64_t>(message.size()) : NoMemory, {} };
-  std::copy_n(message.begin(), std::min(message.size(), sizeof(own.Bytes)), own.Bytes);
-  Require(this->Controller->AllGather(reinterpret_cast<const char*>(&own),
-    reinterpret_cast<char*>(this->Slots.data()), static_cast<vtkIdType>(sizeof(own))));
-  const auto failed = std::find_if(
-    this->Slots.begin(), this->Slots.end(), [](const Slot& one) { return one.Size == NoMemory; });
-  if (failed != this->Slots.end())
-  {
-    ThrowNoMemory(static_cast<int>(failed - this->Slots.begin()));
-  }
-  return std::all_of(this->Slots.begin(), this->Slots.end(),
-    [](const Slot& one) { return one.Size <= static_cast<std::int64_t>(sizeof(one.Bytes)); });
-}
-
-/// Gathers messages whose sizes are in the slots.
-std::vector<Message> ControllerGroup::GatherLong(const Message& message)
-{
-  const std::size_t ranks = this->Slots.size();
-  std::vector<vtkIdType> sizes, offsets;
-  std::vector<Message> received, copies;
-  Message all;
-  AllocateTogether(this->Controller,
-    [&]()
+    if (static_cast<std::size_t>(longest) <= sizeof(own.Bytes))
     {
-      offsets.push_back(0);
-      for (const Slot& slot : this->Slots)
+      for (std::size_t rank = 0; rank < ranks; ++rank)
       {
-        sizes.push_back(slot.Size);
-        offsets.push_back(offsets.back() + slot.Size);
-        received.emplace_back(slot.Size);
+        received[rank].assign(slots[rank].Bytes, slots[rank].Bytes + slots[rank].Size);
       }
-      const bool areTooLong = static_cast<std::size_t>(offsets.back()) > LargestPart;
-      copies.assign(areTooLong ? ranks : 0, message);
-      all.resize(areTooLong ? 0 : offsets.back());
-    });
-  if (!copies.empty())
-  {
-    return this->Exchange(std::move(copies));
+      return received;
+    }
+    if (static_cast<std::size_t>(total) > LargestPart)
+    {
+      return this->Exchange(std::vector<Message>(ranks, message));
+    }
+    Message all;
+    this->AllocateTogether([&]() { all.resize(total); });
+    Require(this->Controller->AllGatherV(message.empty() ? all.data() : message.data(), all.data(),
+      static_cast<vtkIdType>(message.size()), sizes.data(), offsets.data()));
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      received[rank].assign(all.begin() + offsets[rank], all.begin() + offsets[rank] + sizes[rank]);
+    }
+    return received;
   }
-  Require(this->Controller->AllGatherV(message.empty() ? all.data() : message.data(), all.data(),
-    static_cast<vtkIdType>(message.size()), sizes.data(), offsets.data()));
-  for (std::size_t rank = 0; rank < ranks; ++rank)
+
+private:
+  /// Sends a message to a rank, or receives one of known size from it.
+  void Pass(Message& message, bool sends, int rank)
   {
-    std::copy_n(all.begin() + offsets[rank], sizes[rank], received[rank].begin());
+    for (std::size_t at = 0; at < message.size(); at += LargestPart)
+    {
+      char* bytes = message.data() + at;
+      const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
+      Require(sends ? this->Controller->Send(bytes, size, rank, Tag)
+                    : this->Controller->Receive(bytes, size, rank, Tag));
+    }
   }
-  return received;
+
+  /// Calls allocate() on this rank, and waits for the others.
+  /// @throws on every rank if one lacks memory.
+  template <typename Allocate>
+  void AllocateTogether(const Allocate& allocate)
+  {
+    const int ranks = this->GetSize();
+    int failed = ranks, first = ranks;
+    try
+    {
+      allocate();
+    }
+    catch (const std::bad_alloc&)
+    {
+      failed = this->GetRank();
+    }
+    Require(this->Controller->AllReduce(&failed, &first, 1, vtkCommunicator::MIN_OP));
+    if (first < ranks)
+    {
+      throw std::runtime_error("rank " + std::to_string(first) + ": not enough memory");
+    }
+  }
+
+  vtkMultiProcessController* Controller;
+};
+
+}
+
+std::unique_ptr<PieceGroup> MakeControllerGroup(vtkMultiProcessController* controller)
+{
+  return std::unique_ptr<PieceGroup>(new ControllerGroup(controller));
 }
 
 }

@@ -3,9 +3,20 @@
 #include "vtkPDelaunayFlip.h"
 
 #include "ControllerGroup.h"
+#include "FlipError.h"
+#include "MeshBlocks.h"
+#include "PieceUpdate.h"
+#include "RankMessages.h"
+#include "UpdateReport.h"
 
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+
+#include <functional>
+#include <map>
+#include <string>
 
 using namespace delaunayflip;
 
@@ -23,7 +34,178 @@ vtkPDelaunayFlip::~vtkPDelaunayFlip() { this->SetController(nullptr); }
 std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
 {
   const bool isShared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-  return isShared ? ControllerGroup::Make(this->Controller) : nullptr;
+  return isShared ? MakeControllerGroup(this->Controller) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/// The blocks that any rank has, in the same order on all ranks, each with the leaves of this rank.
+std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup& group)
+{
+  Packet message;
+  for (const MeshBlock& block : own)
+  {
+    message.Put(static_cast<std::int64_t>(block.Place.size()));
+    for (const std::int64_t number : block.Place)
+    {
+      message.Put(number);
+    }
+    message.Put(block.Name);
+    message.Put(block.Cells);
+  }
+  std::map<std::vector<std::int64_t>, MeshBlock> shared;
+  for (Message& one : group.Gather(message.Bytes))
+  {
+    for (Packet packet(std::move(one)); !packet.IsAtEnd();)
+    {
+      std::vector<std::int64_t> place(packet.Get<std::int64_t>());
+      for (std::int64_t& number : place)
+      {
+        number = packet.Get<std::int64_t>();
+      }
+      const std::string name = packet.GetText();
+      MeshBlock& block =
+        shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
+      block.Cells += packet.Get<double>();
+    }
+  }
+  for (const MeshBlock& block : own)
+  {
+    if (block.Place.empty() && shared.size() > 1)
+    {
+      throw InvalidOptions("this rank has a single mesh, but others have composite datasets");
+    }
+    shared[block.Place].Leaves = block.Leaves;
+  }
+  std::vector<MeshBlock> blocks;
+  for (auto& entry : shared)
+  {
+    blocks.push_back(std::move(entry.second));
+  }
+  return blocks;
+}
+
+/// The notes of all ranks, in their order, with the rank's number.
+std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
+{
+  Packet message;
+  for (const Note& note : own)
+  {
+    message.Put(
+      "rank " + std::to_string(group.GetRank()) + (note.Where.empty() ? "" : ", " + note.Where));
+    message.Put(note.Text);
+  }
+  std::vector<Note> notes;
+  for (Message& one : group.Gather(message.Bytes))
+  {
+    for (Packet packet(std::move(one)); !packet.IsAtEnd();)
+    {
+      const std::string where = packet.GetText();
+      notes.push_back({ where, packet.GetText() });
+    }
+  }
+  return notes;
+}
+
+}
+
+std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
+{
+  this->NumberOfRounds = 0;
+  this->NumberOfMovedTriangles = 0;
+  this->IsSilent = false;
+  this->Group = this->MakeGroup();
+  if (!this->Group)
+  {
+    return this->Superclass::ListBlocks(input);
+  }
+  this->IsSilent = this->Group->GetRank() > 0;
+  std::vector<MeshBlock> blocks;
+  const auto share = [&](PieceGroup& told)
+  {
+    const FlipRequest request = this->MakeRequest(nullptr, nullptr);
+    const auto write = [](bool value) { return value ? "on" : "off"; };
+    RequireSameOptions(request.Options, told,
+      { { "RegionArray", request.Settings.RegionArray },
+        { "Triangulate", write(request.Settings.Triangulate) },
+        { "LinesAsConstraints", write(request.Settings.LinesAsConstraints) },
+        { "InsertLines", write(request.Settings.InsertLines) },
+        { "InsertConstraints", write(request.Settings.InsertConstraints) },
+        { "GenerateFlipCount", write(request.WantsFlipCounts) },
+        { "GenerateQuality", write(request.WantsAngles) } });
+    blocks = ShareBlocks(ListMeshBlocks(input), told);
+  };
+  RunTogether(*this->Group, std::ref(share));
+  return blocks;
+}
+
+/// Whatever fails on a rank, all ranks fail.
+void vtkPDelaunayFlip::FlipBlock(
+  MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
+{
+  if (!this->Group)
+  {
+    this->Superclass::FlipBlock(block, constraints, summary);
+    return;
+  }
+  const auto flip = [&](PieceGroup& told)
+  {
+    BlockMesh mesh(
+      block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray, true);
+    const auto edges = mesh.FindConstraints(constraints);
+    const std::vector<Note> notes = ShareNotes(mesh.ListNotes(true), told);
+    summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
+    if (summary.Report.StopReason == StopReasonKind::Aborted ||
+      !IsOnAnyRank(mesh.GetMesh() != nullptr, told))
+    {
+      mesh.Store(nullptr);
+      return;
+    }
+    vtkNew<vtkPolyData> empty, flipped;
+    const PiecesReport report = FlipPieces(
+      this->MakeRequest(mesh.GetMesh() ? mesh.GetMesh() : empty.Get(), edges), told, flipped);
+    AddFieldData(UpdateReport(report), flipped->GetFieldData());
+    const auto addCount = [&](const char* name, std::int64_t count)
+    {
+      vtkNew<vtkIdTypeArray> array;
+      array->SetName(name);
+      array->InsertNextValue(count);
+      flipped->GetFieldData()->AddArray(array);
+    };
+    addCount("DelaunayFlip:Rounds", report.Rounds);
+    addCount("DelaunayFlip:MovedTriangles", report.MovedTriangles);
+    mesh.Store(flipped);
+    this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);
+    this->NumberOfMovedTriangles += report.MovedTriangles;
+    summary.Report.Add(UpdateReport(report));
+    const std::string trouble =
+      DescribeTrouble(report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
+    if (!trouble.empty())
+    {
+      summary.Warnings.push_back({ block.Name, trouble });
+    }
+    if (report.AmbiguousPoints > 0)
+    {
+      summary.Warnings.push_back({ block.Name,
+        std::to_string(report.AmbiguousPoints) +
+          " points at the borders of pieces coincide with others of the same piece, and edges "
+          "there stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds" });
+    }
+  };
+  try
+  {
+    RunTogether(*this->Group, std::ref(flip));
+  }
+  catch (...)
+  {
+    summary.AddFailure(ExplainException(), block.Name);
+    for (BlockLeaf& leaf : block.Leaves)
+    {
+      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -31,5 +213,5 @@ void vtkPDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Controller: " << this->Controller << "\n";
-  os << indent << "NumberOfRounds: " << this->GetNumberOfRounds() << "\n";
+  os << indent << "NumberOfRounds: " << this->NumberOfRounds << "\n";
 }

@@ -42,8 +42,9 @@
  * all rounds together, where what processes do at the same time is one iteration.
  *
  * @warning
- * With several processes LiveUpdate is off, with a warning, and TrackQuality has no effect. Every
- * process must have an input, of the same kind.
+ * With several processes LiveUpdate is off, with a warning, and TrackQuality has no effect: only
+ * the smallest angle after the last iteration is known. Every process must have an input, of the
+ * same kind.
  *
  * @sa
  * vtkDelaunayFlip
@@ -55,8 +56,14 @@
 #include "vtkDelaunayFlipFiltersParallelModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
 class vtkMultiProcessController;
+
+namespace delaunayflip
+{
+class PieceGroup;
+}
 
 class VTKDELAUNAYFLIPFILTERSPARALLEL_EXPORT vtkPDelaunayFlip : public vtkDelaunayFlip
 {
@@ -74,17 +81,39 @@ public:
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
+  ///@{
+  /**
+   * If the last update flipped a mesh on several processes: how often the pieces were flipped and
+   * the edges between them tested, and how many times a triangle changed owner. Else 0.
+   */
+  vtkGetMacro(NumberOfRounds, vtkIdType);
+  vtkGetMacro(NumberOfMovedTriangles, vtkIdType);
+  ///@}
+
 protected:
   vtkPDelaunayFlip();
   ~vtkPDelaunayFlip() override;
 
 #ifndef __VTK_WRAP__
-  std::unique_ptr<delaunayflip::PieceGroup> MakeGroup() override;
+  /**
+   * The ranks that have the pieces of the input and update together, or null if this process flips
+   * what it has alone.
+   */
+  virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
+
+  std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input) override;
+  void FlipBlock(delaunayflip::MeshBlock& block,
+    const std::vector<delaunayflip::MeshBlock>& constraints,
+    delaunayflip::UpdateSummary& summary) override;
 #endif
 
   vtkMultiProcessController* Controller = nullptr;
+  vtkIdType NumberOfRounds = 0;
+  vtkIdType NumberOfMovedTriangles = 0;
 
 private:
+  std::unique_ptr<delaunayflip::PieceGroup> Group; ///< Of the last update; null for one process.
+
   vtkPDelaunayFlip(const vtkPDelaunayFlip&) = delete;
   void operator=(const vtkPDelaunayFlip&) = delete;
 };

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -157,14 +156,6 @@ void TextLines::Split(std::string_view line)
     this->Words.emplace_back(&*begin, static_cast<std::size_t>(end - begin));
     begin = std::find_if_not(end, line.end(), IsBlank);
   }
-}
-
-std::string TextLines::LowerWord(std::size_t place) const
-{
-  std::string word(place < this->Words.size() ? this->Words[place] : std::string_view());
-  std::transform(word.begin(), word.end(), word.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return word;
 }
 
 void TextLines::Fail(const std::string& reason) const

@@ -64,9 +64,6 @@ public:
   /// The words of the line.
   std::vector<std::string_view> Words;
 
-  /// A word of the line, in lower case; empty where there is none.
-  std::string LowerWord(std::size_t place) const;
-
   /// A word of the line as a number, read as by std::from_chars and rounded correctly; NaN and
   /// infinity are numbers.
   /// @throws CommandError (BadFile) where it is missing, no number, or too large for the type.

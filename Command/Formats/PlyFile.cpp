@@ -74,13 +74,13 @@ void JoinGroups(vtkDataSetAttributes* data)
     {
       continue;
     }
-    int type = data->GetArray(group.Properties[0].c_str())->GetDataType();
-    for (const std::string& name : group.Properties)
-    {
-      type = data->GetArray(name.c_str())->GetDataType() == type ? type : VTK_DOUBLE;
-    }
-    type = group.Array == PointsName && type != VTK_FLOAT ? VTK_DOUBLE : type;
-    const auto joined = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
+    const int first = data->GetArray(group.Properties[0].c_str())->GetDataType();
+    const bool isUniform = std::all_of(group.Properties.begin(), group.Properties.end(),
+      [&](const std::string& name)
+      { return data->GetArray(name.c_str())->GetDataType() == first; });
+    const bool keepsType = isUniform && (group.Array != PointsName || first == VTK_FLOAT);
+    const auto joined =
+      vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? first : VTK_DOUBLE));
     joined->SetName(group.Array);
     joined->SetNumberOfComponents(static_cast<int>(group.Properties.size()));
     joined->SetNumberOfTuples(data->GetNumberOfTuples());
@@ -192,6 +192,7 @@ private:
       this->File.Fail("unknown format '" + format + "' in its header");
     }
     this->Rest = this->Lines.GetRest();
+    this->Vertices = this->CountOf("vertex");
   }
 
   std::string Word(std::size_t place) const
@@ -395,11 +396,10 @@ private:
 
   vtkIdType RequireVertex(double number) const
   {
-    const std::int64_t vertices = this->CountOf("vertex");
-    if (!(number >= 0 && number < static_cast<double>(vertices)))
+    if (!(number >= 0 && number < static_cast<double>(this->Vertices)))
     {
       this->Fail("vertex " + std::to_string(static_cast<std::int64_t>(number)) +
-        " is out of range; the number of vertices is " + std::to_string(vertices));
+        " is out of range; the number of vertices is " + std::to_string(this->Vertices));
     }
     return static_cast<vtkIdType>(number);
   }
@@ -457,6 +457,7 @@ private:
   bool IsText = false;
   bool IsSwapped = false;
   std::vector<PlyElement> Elements;
+  std::int64_t Vertices = 0;
   std::string Element; ///< The kind being read.
   std::int64_t Row = 0; ///< Its number.
   std::size_t Place = 0; ///< Of the next word in this row.

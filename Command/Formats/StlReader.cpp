@@ -8,7 +8,9 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <unordered_map>
@@ -101,7 +103,8 @@ int ReadText(const InputFile& file, CornerMesh& mesh)
   bool isOpen = false;
   while (lines.Next())
   {
-    const std::string keyword = lines.LowerWord(0);
+    std::string keyword(lines.Words[0]);
+    std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::tolower);
     const bool isWhole = mesh.Corners == 3 * facets;
     if (keyword == "vertex")
     {

@@ -349,9 +349,9 @@ FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
   }
   for (const MeshCount& count : CountsOf(mesh))
   {
-    const std::string keyword = count.Keyword;
-    RequireCount(file, keyword,
-      CountInLegacy(bytes, keyword, hasOffsets && keyword != "POINTS", count.Number), count.Number);
+    const std::string section = count.Keyword;
+    RequireCount(file, section,
+      CountInLegacy(bytes, section, hasOffsets && section != "POINTS", count.Number), count.Number);
   }
   return result;
 }

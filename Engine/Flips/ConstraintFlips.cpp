@@ -29,7 +29,15 @@ ConstraintFlips::ConstraintFlips(
 
 PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
 {
-  ConstraintPath path = this->FindFreePath(from, to);
+  ConstraintPath path = FindPath(this->Mesh, this->Fans, from, to);
+  while (path.Result == PathResult::IsBarred) // by a triangle without area
+  {
+    if (!this->RemoveBar(path.Bar))
+    {
+      return PathResult::Overlaps;
+    }
+    path = FindPath(this->Mesh, this->Fans, from, to);
+  }
   if (path.Result != PathResult::Found)
   {
     return path.Result;
@@ -47,22 +55,6 @@ PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
     this->Segments.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
   }
   return PathResult::Found;
-}
-
-/// The path when triangles without area are flipped out of its way.
-ConstraintPath ConstraintFlips::FindFreePath(VertexId from, VertexId to)
-{
-  ConstraintPath path = FindPath(this->Mesh, this->Fans, from, to);
-  while (path.Result == PathResult::IsBarred)
-  {
-    if (!this->RemoveBar(path.Bar))
-    {
-      path.Result = PathResult::Overlaps;
-      break;
-    }
-    path = FindPath(this->Mesh, this->Fans, from, to);
-  }
-  return path;
 }
 
 /// Cuts ears off the triangles that a segment of a constraint crosses until their rim is that
@@ -103,12 +95,22 @@ bool ConstraintFlips::IsEar(HalfEdgeId first, HalfEdgeId second) const
 /// there that has both.
 bool ConstraintFlips::CutEar(HalfEdgeId first, HalfEdgeId second)
 {
-  if (!this->ListFan(first, second))
+  std::vector<EdgeId> fan; // the edges between the two, around the vertex
+  const CornerId start = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[first]);
+  CornerId corner = start;
+  HalfEdgeId side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+  while (side != second)
   {
-    return false;
+    fan.push_back(EdgeOf(side));
+    corner = this->Mesh.FindNextAround(corner);
+    if (corner == NoCorner || corner == start)
+    {
+      return false;
+    }
+    side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
   }
   std::vector<EdgeId> left;
-  for (const EdgeId edge : this->Fan)
+  for (const EdgeId edge : fan)
   {
     left.push_back(edge);
     while (!left.empty() && this->TryFlip(left.back()))
@@ -119,32 +121,12 @@ bool ConstraintFlips::CutEar(HalfEdgeId first, HalfEdgeId second)
   return left.empty();
 }
 
-/// Lists the edges between two half-edges of a rim, around the vertex that these share.
-bool ConstraintFlips::ListFan(HalfEdgeId first, HalfEdgeId second)
-{
-  this->Fan.clear();
-  const CornerId start = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[first]);
-  CornerId corner = start;
-  HalfEdgeId side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
-  while (side != second)
-  {
-    this->Fan.push_back(EdgeOf(side));
-    corner = this->Mesh.FindNextAround(corner);
-    if (corner == NoCorner || corner == start)
-    {
-      return false;
-    }
-    side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
-  }
-  return true;
-}
-
 /// Flips a triangle without area away, and before it others on which it leans with its long side:
 /// the next one's is longer, so that there is a last one.
 bool ConstraintFlips::RemoveBar(TriangleId bar)
 {
   std::vector<EdgeId> sides;
-  for (TriangleId flat = bar; this->IsFlat(flat);)
+  for (TriangleId flat = bar; this->Mesh.FindTurnAt(MakeCorner(flat, 0)) == 0;)
   {
     const HalfEdgeId side = this->GetLongSide(flat);
     if (side == NoHalfEdge || this->Mesh.IsFixed(side) ||
@@ -161,11 +143,6 @@ bool ConstraintFlips::RemoveBar(TriangleId bar)
     flipped = this->TryFlip(*side);
   }
   return flipped;
-}
-
-bool ConstraintFlips::IsFlat(TriangleId triangle) const
-{
-  return this->Mesh.FindTurnAt(MakeCorner(triangle, 0)) == 0;
 }
 
 /// Of a triangle without area, the side that holds all three points; NoHalfEdge where two coincide.

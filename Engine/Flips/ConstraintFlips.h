@@ -36,21 +36,17 @@ public:
 private:
   using Rim = ConstraintPath::Rim;
 
-  ConstraintPath FindFreePath(VertexId from, VertexId to);
   bool Straighten(Rim& rim);
   bool IsEar(HalfEdgeId first, HalfEdgeId second) const;
   bool CutEar(HalfEdgeId first, HalfEdgeId second);
-  bool ListFan(HalfEdgeId first, HalfEdgeId second);
   bool RemoveBar(TriangleId bar);
   HalfEdgeId GetLongSide(TriangleId flat) const;
-  bool IsFlat(TriangleId triangle) const;
   bool TryFlip(EdgeId edge);
   bool IsConvex(const Quad& quad) const;
 
   const PlaneMesh& Mesh;
   EdgeTableView Table;
   VertexFans Fans;
-  std::vector<EdgeId> Fan; ///< Of the ear that is cut.
   std::vector<std::pair<VertexId, VertexId>> Segments;
   std::int64_t Flips = 0;
 };

@@ -130,11 +130,14 @@ class EdgeGuard
 public:
   EdgeGuard() = default;
 
-  /// Takes a table that holds the vertex pairs of all `edges` edges.
+  /// @param table holds the vertex pairs of all `edges` edges, or is empty.
+  /// @param shared the flags of WholeMesh::SharedPoints, in the order of vertices; or empty.
   template <typename Backend>
-  EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices, const Backend& backend)
+  EdgeGuard(EdgeTable table, Array<unsigned char> shared, std::int64_t edges, std::int64_t vertices,
+    const Backend& backend)
     : Table(std::move(table)),
       Claims(backend.template MakeArray<std::uint64_t>(EdgeClaims::GetSize(edges))),
+      SharedVertices(std::move(shared)),
       UsedSlots(edges),
       NumberOfVertices(vertices)
   {
@@ -142,9 +145,6 @@ public:
   }
 
   bool IsActive() const { return !this->Table.IsEmpty(); }
-
-  /// Takes the flags of WholeMesh::SharedPoints, in the order of vertices.
-  void TakeSharedVertices(Array<unsigned char> flags) { this->SharedVertices = std::move(flags); }
 
   EdgeGuardView View()
   {

@@ -136,12 +136,12 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   if (needsGuard)
   {
     const bool isMissing = table.IsEmpty();
-    guard = EdgeGuard(std::move(table), input.Counts.Edges.Edges, input.Counts.Points, backend);
+    guard = EdgeGuard(std::move(table), std::move(input.SharedVertices), input.Counts.Edges.Edges,
+      input.Counts.Points, backend);
     if (isMissing)
     {
       guard.Rebuild(input.Mesh, backend);
     }
-    guard.TakeSharedVertices(std::move(input.SharedVertices));
   }
   table = EdgeTable(); // frees its memory
   const auto make = [&](const auto& rule)

@@ -103,7 +103,19 @@ public:
       this->PackPoints(local, survey, options.Criterion);
     }
     const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
-    EdgeMesh loaded = this->LoadTriangles(edges, local);
+    // This is the peak of memory use, with the caller's triangles and the engine's. So a device
+    // first frees what can be recomputed.
+    if (BackendT::MemoryIsScarce)
+    {
+      this->Order.DropVertices();
+    }
+    EdgeMesh loaded = LoadTriangles(edges, this->Backend);
+    local.DropTriangles();
+    this->Order.TriangleOfRank = Array<TriangleId>();
+    if (BackendT::MemoryIsScarce)
+    {
+      this->Order.RestoreVertices(this->Backend);
+    }
     survey.Uses = Array<PointUse>();
     progress.Reach(survey.Geometry, BuildStep::Loaded);
     EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend, progress);
@@ -304,24 +316,6 @@ private:
     this->Points = delaunayflip::PackPoints(points, this->Order.View(),
       PlanPacking(survey, criterion, points.Floats != nullptr), this->Backend);
     local.DropPoints();
-  }
-
-  /// This is the peak of memory use, with the caller's triangles and the engine's. So a device
-  /// first frees what can be recomputed.
-  EdgeMesh LoadTriangles(const EdgeMeshInput& edges, LocalMesh& local)
-  {
-    if (BackendT::MemoryIsScarce)
-    {
-      this->Order.DropVertices();
-    }
-    EdgeMesh loaded = delaunayflip::LoadTriangles(edges, this->Backend);
-    local.DropTriangles();
-    this->Order.TriangleOfRank = Array<TriangleId>();
-    if (BackendT::MemoryIsScarce)
-    {
-      this->Order.RestoreVertices(this->Backend);
-    }
-    return loaded;
   }
 
   BackendT Backend;

@@ -604,50 +604,36 @@ struct TurnedSums
   }
 };
 
-/// Counts a triangle that turns to the less common side in x and y.
-struct TurnedStep
-{
-  const TriangleRecord* Triangles;
-  PackedPointsView Points;
-  int Side; ///< The side to which most triangles turned at first.
-
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
-  {
-    for (const VertexId vertex : this->Triangles[t].Vertices)
-    {
-      delaunayflip::Prefetch(this->Points.Address(vertex));
-    }
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnedSums& sums) const
-  {
-    const TriangleRecord& triangle = this->Triangles[t];
-    Vector3 a = this->Points.GetPosition(triangle.Vertices[0]);
-    Vector3 b = this->Points.GetPosition(triangle.Vertices[1]);
-    Vector3 c = this->Points.GetPosition(triangle.Vertices[2]);
-    if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
-    {
-      return;
-    }
-    BringNearOne(a, b, c);
-    if (FindTurn(a, b, c) == -this->Side)
-    {
-      ++sums.All;
-      if (triangle.Flips >= OneFlip)
-      {
-        sums.Flipped.Note(triangle.InputTriangle);
-      }
-    }
-  }
-};
-
-/// How many more triangles turn to the less common side than at first.
+/// How many more triangles turn to the less common side in x and y than at first.
 /// @param points the points in space.
 template <typename Backend>
 Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
   const TurnCounts& before, const Backend& backend)
 {
-  const TurnedSums sums = backend.template Sum<TurnedSums>(
-    mesh.NumberOfTriangles, TurnedStep{ mesh.Triangles.Data(), points.View(), before.Side });
+  const TriangleRecord* triangles = mesh.Triangles.Data();
+  const PackedPointsView packed = points.View();
+  const int side = before.Side; // to which most triangles turned at first
+  const TurnedSums sums = backend.template Sum<TurnedSums>(mesh.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, TurnedSums & sum)
+    {
+      const TriangleRecord& triangle = triangles[t];
+      Vector3 a = packed.GetPosition(triangle.Vertices[0]);
+      Vector3 b = packed.GetPosition(triangle.Vertices[1]);
+      Vector3 c = packed.GetPosition(triangle.Vertices[2]);
+      if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+      {
+        return;
+      }
+      BringNearOne(a, b, c);
+      if (FindTurn(a, b, c) == -side)
+      {
+        ++sum.All;
+        if (triangle.Flips >= OneFlip)
+        {
+          sum.Flipped.Note(triangle.InputTriangle);
+        }
+      }
+    });
   Defect defect = MakeDefect("triangles that flips in space have turned over in x and y, although "
                              "the input was a height field or nearly one; if it is terrain, use "
                              "planar-xy",

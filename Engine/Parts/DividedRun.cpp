@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "JoinReports.h"
 #include "MeshInParts.h"
 #include "PartMesh.h"
 #include "PieceFlip.h"
+#include "Records.h"
 #include "SeamSurvey.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
@@ -375,7 +375,17 @@ private:
     }
     if (report.Rounds > 1)
     {
-      report.MinimumAngleAfter = this->FindSmallestAngle([](std::int64_t) { return true; });
+      const TriangleMesh& mesh = this->Mesh.View();
+      report.MinimumAngleAfter = ToDegrees(
+        FindLargestCotangent(mesh.Triangles.Count, this->Mesh.GetSurvey(), this->Mesh.GetThreads(),
+          [&](std::int64_t t, double(&x)[3][3])
+          {
+            for (int i = 0; i < 9; ++i)
+            {
+              x[i / 3][i % 3] = mesh.Points.Get(mesh.Triangles.Get(t, i / 3), i % 3);
+            }
+            return true;
+          }));
     }
     if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
     {
@@ -432,26 +442,6 @@ private:
       }
     }
     this->Report.Defects = defects;
-  }
-
-  /// The smallest angle in degrees of the triangles for which counts(slot); NaN without any.
-  template <typename Counts>
-  double FindSmallestAngle(const Counts& counts) const
-  {
-    const TriangleArray& triangles = this->Mesh.View().Triangles;
-    const LargestValue largest = this->Mesh.GetThreads().Sum<LargestValue>(triangles.Count,
-      [&](std::int64_t t, LargestValue& sum)
-      {
-        double x[3][3];
-        for (int i = 0; i < 9; ++i)
-        {
-          x[i / 3][i % 3] = this->Mesh.View().Points.Get(triangles.Get(t, i / 3), i % 3);
-        }
-        LargestValue one;
-        one.Value = counts(t) ? MeasureCotangent(x, this->Mesh.GetSurvey()) : -INFINITY;
-        sum += one;
-      });
-    return ToDegrees(largest.Value);
   }
 
   MeshInParts& Mesh;

@@ -218,23 +218,6 @@ private:
     return center;
   }
 
-  int FindLongestAxis(const Center* begin, const Center* end) const
-  {
-    int longest = this->Axes.front();
-    double length = -1.0;
-    for (const int axis : this->Axes)
-    {
-      const auto [lower, upper] = std::minmax_element(
-        begin, end, [=](const Center& a, const Center& b) { return a[axis] < b[axis]; });
-      if ((*upper)[axis] - (*lower)[axis] > length)
-      {
-        length = (*upper)[axis] - (*lower)[axis];
-        longest = axis;
-      }
-    }
-    return longest;
-  }
-
   /// @returns the side that a range of the sample belongs to.
   int Divide(Center* begin, Center* end, int firstPart, int parts)
   {
@@ -242,7 +225,8 @@ private:
     {
       return ~firstPart;
     }
-    const int axis = this->FindLongestAxis(begin, end);
+    const int axis = FindLongestAxis(
+      begin, end, this->Axes, [](const Center& center, int a) { return center[a]; });
     Center* middle = begin + (end - begin) / parts * (parts / 2);
     std::nth_element(
       begin, middle, end, [=](const Center& a, const Center& b) { return a[axis] < b[axis]; });

@@ -164,27 +164,23 @@ void PartMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
 double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
 {
   const std::vector<std::int64_t> listed = this->FindListed();
-  LargestValue largest =
-    ThreadBackend(threads).Sum<LargestValue>(static_cast<std::int64_t>(listed.size()),
-      [&](std::int64_t i, LargestValue& sum)
+  double largest =
+    FindLargestCotangent(static_cast<std::int64_t>(listed.size()), survey, ThreadBackend(threads),
+      [&](std::int64_t i, double(&x)[3][3])
       {
         const PartTriangle& triangle = this->Triangles[listed[i]];
-        double x[3][3];
         for (int slot = 0; slot < 3; ++slot)
         {
           this->GetPosition(triangle.Points[slot], x[slot]);
         }
-        LargestValue one;
-        one.Value = triangle.HasLeft ? -INFINITY : MeasureCotangent(x, survey);
-        sum += one;
+        return !triangle.HasLeft;
       });
   if (!this->AreAllListed())
   {
-    LargestValue rest;
-    rest.Value = this->Made.Loop->FindLargestSquaredCotangentWithout(this->Listed.data());
-    largest += rest;
+    largest =
+      std::max(largest, this->Made.Loop->FindLargestSquaredCotangentWithout(this->Listed.data()));
   }
-  return ToDegrees(largest.Value);
+  return ToDegrees(largest);
 }
 
 void PartMesh::MakeTriangle(std::int64_t t)
@@ -192,37 +188,27 @@ void PartMesh::MakeTriangle(std::int64_t t)
   PartTriangle& triangle = this->Triangles[t];
   triangle = PartTriangle{};
   this->GetPoints(t, triangle.Points);
+  triangle.Origin = this->FirstOrigin + t;
   if (this->Made.Records)
   {
-    this->TakeRecord(t);
+    const TriangleRecord& record = this->Made.Records[t];
+    triangle.Origin = this->FirstOrigin + record.InputTriangle;
+    triangle.Flips = static_cast<std::int32_t>(record.Flips / OneFlip) +
+      (this->PastFlips.empty() ? 0 : this->PastFlips[record.InputTriangle]);
   }
-  else
-  {
-    triangle.Origin = this->FirstOrigin + t;
-  }
-  this->Listed[t] = 1;
-  ++this->NumberListed;
-  for (int slot = 0; slot < 3 && this->HasStars; ++slot)
-  {
-    this->Stars.Add({ t, slot }, triangle.Points[slot]);
-  }
-}
-
-/// What a triangle that is being listed has besides its points.
-void PartMesh::TakeRecord(std::int64_t t)
-{
-  const TriangleRecord& record = this->Made.Records[t];
-  PartTriangle& triangle = this->Triangles[t];
-  triangle.Origin = this->FirstOrigin + record.InputTriangle;
-  triangle.Flips = static_cast<std::int32_t>(record.Flips / OneFlip) +
-    (this->PastFlips.empty() ? 0 : this->PastFlips[record.InputTriangle]);
-  for (int slot = 0; slot < 3; ++slot)
+  for (int slot = 0; slot < 3 && this->Made.Records; ++slot)
   {
     triangle.SetMarks(slot, this->Marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
     const CornerId other = this->Made.GetOtherCorner(t, slot);
     this->Mates[GetNumber({ t, slot })] = other == NoCorner
       ? NoMate
       : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
+  }
+  this->Listed[t] = 1;
+  ++this->NumberListed;
+  for (int slot = 0; slot < 3 && this->HasStars; ++slot)
+  {
+    this->Stars.Add({ t, slot }, triangle.Points[slot]);
   }
 }
 
@@ -305,25 +291,21 @@ void PartMesh::NoteSeams(std::int64_t t)
   }
 }
 
-/// Lists the triangles that are known to share an edge with another one.
-void PartMesh::ListBeside(std::int64_t t)
-{
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    const std::uint32_t mate = this->Mates[3 * t + slot];
-    if (mate < NoMate)
-    {
-      this->List(mate / 3);
-    }
-  }
-}
-
 /// The 2-2 flip, as in EdgeFlip.h: t = (a, p, q) becomes (a, p, b), s = (b, q, p) becomes
 /// (b, q, a).
 void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
 {
-  this->ListBeside(one.Triangle);
-  this->ListBeside(other.Triangle);
+  for (const std::int64_t changing : { one.Triangle, other.Triangle })
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::uint32_t mate = this->Mates[3 * changing + slot];
+      if (mate < NoMate)
+      {
+        this->List(mate / 3); // before its mate changes
+      }
+    }
+  }
   PartTriangle& t = this->Triangles[one.Triangle];
   PartTriangle& s = this->Triangles[other.Triangle];
   const int a = one.Slot;
@@ -357,7 +339,9 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
 
 void PartMesh::SetSeam(const PartCorner& corner)
 {
-  this->Triangles[corner.Triangle].Set(SeamMark, corner.Slot);
+  PartTriangle& triangle = this->Triangles[corner.Triangle];
+  triangle.SetMarks(
+    corner.Slot, static_cast<unsigned char>(triangle.GetMarks(corner.Slot) | SeamMark));
   this->Mates[GetNumber(corner)] = Unknown;
   this->NoteSeams(corner.Triangle);
 }
@@ -365,7 +349,7 @@ void PartMesh::SetSeam(const PartCorner& corner)
 void PartMesh::ClearSeam(const PartCorner& corner)
 {
   PartTriangle& triangle = this->Triangles[corner.Triangle];
-  triangle.Clear(SeamMark, corner.Slot);
+  triangle.SetMarks(corner.Slot, triangle.Has(FixedMark, corner.Slot) ? FixedMark : 0);
   this->Mates[GetNumber(corner)] = Unknown;
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }

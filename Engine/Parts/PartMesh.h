@@ -7,8 +7,8 @@
 #include "FlipReport.h"
 #include "HostMemory.h"
 #include "LoadedMesh.h"
+#include "PartSurvey.h"
 #include "PieceFlip.h"
-#include "PointMatch.h"
 #include "Records.h"
 #include "TriangleMesh.h"
 
@@ -70,12 +70,6 @@ struct PartTriangle
   bool IsNoted; ///< In the list of triangles that may have new seam edges.
   TriangleStep Step;
 
-  bool Has(EdgeMark mark, int slot) const { return (this->Marks & (mark << slot)) != 0; }
-  void Set(EdgeMark mark, int slot) { this->Marks |= static_cast<unsigned char>(mark << slot); }
-  void Clear(EdgeMark mark, int slot)
-  {
-    this->Marks &= static_cast<unsigned char>(~(mark << slot));
-  }
   /// The marks of one edge, shifted to slot 0; SetMarks takes them in the same form.
   unsigned char GetMarks(int slot) const
   {
@@ -83,10 +77,10 @@ struct PartTriangle
   }
   void SetMarks(int slot, unsigned char marks)
   {
-    this->Clear(FixedMark, slot);
-    this->Clear(SeamMark, slot);
-    this->Marks |= static_cast<unsigned char>(marks << slot);
+    const int others = this->Marks & ~((FixedMark | SeamMark) << slot);
+    this->Marks = static_cast<unsigned char>(others | (marks << slot));
   }
+  bool Has(EdgeMark mark, int slot) const { return (this->GetMarks(slot) & mark) != 0; }
   bool HasSeam() const { return this->Marks >= SeamMark; }
 
   /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
@@ -208,8 +202,6 @@ private:
   RawVector<Link> Links; ///< By that number.
 };
 
-struct PartSurvey;
-
 /// A triangle as it is sent to another rank.
 struct TravellingTriangle
 {
@@ -304,8 +296,6 @@ public:
   bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
   /// One flag per point: whether other ranks may have triangles at it.
   const std::vector<unsigned char>& GetShared() const { return this->Shared; }
-  /// The shared points, in no particular order.
-  const std::vector<std::int32_t>& GetSharedPoints() const { return this->SharedPoints; }
   /// What is known of the points of all ranks, without the arrays with one value per point.
   const PointKeys& GetWholeKeys() const { return this->WholeKeys; }
 
@@ -340,16 +330,9 @@ public:
 
   /// Points with this id or a larger one came from other ranks.
   std::int64_t GetFirstReceived() const { return this->Given.Count; }
-  /// The rank that a point comes from, and its id there.
-  PieceOrigin FindOrigin(std::int64_t point) const
-  {
-    return this->WholeKeys.Owners.Find(this->Keys[point]);
-  }
 
 private:
   void MakeTriangle(std::int64_t t);
-  void TakeRecord(std::int64_t t);
-  void ListBeside(std::int64_t t);
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   void SharePoint(std::int32_t point);
   void NoteChanges(std::int32_t point);

@@ -3,12 +3,11 @@
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "HostMemory.h"
-#include "JoinReports.h"
 #include "MeshAudit.h"
-#include "PartConstraints.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
 #include "PieceFlip.h"
+#include "Records.h"
 #include "SeamRounds.h"
 #include "SeamSurvey.h"
 #include "StopWatch.h"
@@ -114,7 +113,8 @@ public:
         id = firstReceived + static_cast<std::int32_t>(flipped.ReceivedPoints.size());
         double x[3];
         this->Mesh.GetPosition(point, x);
-        flipped.ReceivedPoints.push_back(this->Mesh.FindOrigin(point));
+        flipped.ReceivedPoints.push_back(
+          this->Mesh.GetWholeKeys().Owners.Find(this->Mesh.GetKey(point)));
         flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
       }
       return id;
@@ -215,11 +215,6 @@ private:
   /// Flips the part by itself, with the constraints that other ranks know of.
   void FlipFirst()
   {
-    for (const PointPair& edge : this->Seams.EdgesToFix)
-    {
-      this->Seams.Constraints.insert(this->Seams.Constraints.end(), { edge[0], edge[1] });
-      this->Seams.ToInsert.push_back(0);
-    }
     TriangleMesh mesh = this->Constraints.Piece.Mesh;
     mesh.ConstraintEdges = this->Seams.Constraints.data();
     mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
@@ -456,6 +451,10 @@ private:
   void CountBad()
   {
     this->Mesh.ListAll();
+    if (this->Job.Group.GetSize() == 1)
+    {
+      this->Mesh.BeginRounds(); // which finds the mates of corners
+    }
     const RoundFlips flips(this->Mesh, this->Judge, this->Job.Survey.NeedsGuard());
     const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
     for (std::int64_t t = 0; t < count; ++t)
@@ -516,7 +515,7 @@ private:
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
-  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (FlipWaiting).
+  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (AskForFlips).
   PartConstraints Constraints;
   SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 

@@ -7,7 +7,6 @@
 #include "ExactPredicates.h"
 #include "FlipError.h"
 #include "InputChecks.h"
-#include "JoinReports.h"
 #include "MeshInParts.h"
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"

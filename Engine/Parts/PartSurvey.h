@@ -3,17 +3,46 @@
 #ifndef DELAUNAYFLIP_PARTSURVEY_H
 #define DELAUNAYFLIP_PARTSURVEY_H
 
+#include "HostMemory.h"
 #include "MeshSurvey.h"
 #include "PieceFlip.h"
 #include "PieceGroup.h"
-#include "PointMatch.h"
+#include "Records.h"
+#include "SmallestAngle.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace delaunayflip
 {
+
+/// The keys of points. A key is a number that stands for one point of the whole mesh: all ranks
+/// that have the point use the same key.
+struct PointKeys
+{
+  RankNumbers Owners; ///< Of keys: a rank that has the point from the start.
+  HostVector<std::int64_t> Keys; ///< One per point of this rank.
+  std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
+  std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
+  /// One flag per point: whether it is not shared and its triangles form a closed fan.
+  std::vector<unsigned char> Closed;
+
+  // Of the whole mesh:
+  std::int64_t Repeated = 0; ///< Points of all ranks that a lower rank has, too.
+  std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
+  /// Points that coincide with others of their rank and with a point of another rank.
+  std::int64_t Ambiguous = 0;
+};
+
+/// Finds the points that several ranks have: points with the same global number or, without such
+/// numbers, with the same coordinates if at least one of them is at the border of a part. A point
+/// without triangles that is the end of a constraint counts as a border point. Two points with the
+/// same number that are inside their parts are found if each of them lies in the bounding box of
+/// the other one's rank.
+PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
 /// What is known of the whole mesh; the same on all ranks.
 struct PartSurvey : MeshSurvey
@@ -35,6 +64,44 @@ struct PartSurvey : MeshSurvey
 /// The squared cotangent of the smallest angle of a triangle, as defined in SmallestAngle.h.
 /// @param x the coordinates of its corners.
 double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey);
+
+/// The largest MeasureCotangent of `count` triangles; -INFINITY if there is none.
+/// @param get get(i, x) sets the coordinates of triangle i; it does not count if that returns
+/// false.
+template <typename Get>
+double FindLargestCotangent(
+  std::int64_t count, const PartSurvey& survey, const ThreadBackend& threads, const Get& get)
+{
+  const LargestValue largest = threads.Sum<LargestValue>(count,
+    [&](std::int64_t i, LargestValue& sum)
+    {
+      double x[3][3];
+      LargestValue one;
+      one.Value = get(i, x) ? MeasureCotangent(x, survey) : one.Value;
+      sum += one;
+    });
+  return largest.Value;
+}
+
+/// Of some axes, the one along which items extend most.
+/// @param get get(item, axis) is a coordinate.
+template <typename Iterator, typename Get>
+int FindLongestAxis(Iterator begin, Iterator end, const std::vector<int>& axes, const Get& get)
+{
+  int longest = axes.front();
+  double most = -1.0;
+  for (const int axis : axes)
+  {
+    const auto [least, greatest] = std::minmax_element(
+      begin, end, [&](const auto& a, const auto& b) { return get(a, axis) < get(b, axis); });
+    if (get(*greatest, axis) - get(*least, axis) > most)
+    {
+      most = get(*greatest, axis) - get(*least, axis);
+      longest = axis;
+    }
+  }
+  return longest;
+}
 
 /// @throws on every rank: InvalidMesh for an id that is not a point of its rank; InvalidOptions.
 PartSurvey SurveyParts(

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PointMatch.h"
-
+#include "PartSurvey.h"
 #include "Records.h"
 
 #include <algorithm>

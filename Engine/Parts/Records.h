@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_RECORDS_H
 #define DELAUNAYFLIP_RECORDS_H
 
+#include "FlipReport.h"
 #include "PieceFlip.h"
 #include "PieceGroup.h"
 
@@ -15,7 +16,8 @@
 #include <vector>
 
 /// @file
-/// Messages made of records: plain structs with the same memory layout on all ranks.
+/// What ranks tell each other: messages made of records, which are plain structs with the same
+/// memory layout on all ranks, and reports of the whole mesh.
 
 namespace delaunayflip
 {
@@ -145,6 +147,23 @@ inline int GetHome(std::uint64_t hash, const PieceGroup& group)
 {
   return static_cast<int>(hash % static_cast<std::uint64_t>(group.GetSize()));
 }
+
+//------------------------------------------------------------------------------
+/// Adds up the reports of all ranks. All ranks get the same result. Texts that differ are listed.
+/// Iterations with the same number are joined, without their smallest angles.
+FlipReport JoinReports(const FlipReport& report, PieceGroup& group);
+
+/// The same for the parts of a mesh of one process. Each time is the largest of all parts.
+FlipReport JoinReports(const std::vector<FlipReport>& reports);
+
+/// Sums the iterations of a report.
+void CountIterations(FlipReport& report);
+
+/// @param factor 1 to add, -1 to subtract.
+void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor);
+
+/// Adds a defect, or to the count of the same one. Ids mean nothing outside their rank or part.
+void AddDefect(const Defect& defect, std::vector<Defect>& defects);
 
 }
 

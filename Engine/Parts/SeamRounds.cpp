@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -102,88 +101,58 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
 //------------------------------------------------------------------------------
 namespace
 {
-/// The bad seam edges between every two ranks, divided into two halves by their places. In each
-/// round either rank gets the triangles of one half, so that usually both have edges to flip.
-///
-/// Both ranks find the same halves, because they have got the same edges and places.
-class SeamHalves
+/// Divides the bad seam edges between two ranks into two halves by their places.
+struct SeamCut
 {
-public:
-  /// @param bad the bad seam edges of this rank.
-  explicit SeamHalves(const std::vector<BadSeam>& bad)
-  {
-    std::unordered_map<int, std::vector<const BadSeam*>> seamsTo;
-    for (const BadSeam& seam : bad)
-    {
-      seamsTo[seam.OtherRank].push_back(&seam);
-    }
-    for (auto& [rank, seams] : seamsTo)
-    {
-      this->Cuts.emplace(rank, FindCut(std::move(seams)));
-    }
-  }
-
-  bool IsInSecond(const BadSeam& seam) const
-  {
-    const Cut& cut = this->Cuts.at(seam.OtherRank);
-    return GetPlace(seam, cut.Axis) >= cut.Median;
-  }
-
-private:
-  struct Cut
-  {
-    int Axis; ///< Along which the edges extend most.
-    double Median;
-  };
-
-  /// A coordinate of the place of an edge; NaN counts as 0, because it has no order.
-  static double GetPlace(const BadSeam& seam, int axis)
-  {
-    return std::isnan(seam.Place[axis]) ? 0.0 : seam.Place[axis];
-  }
-
-  /// @param seams the edges to one other rank.
-  static Cut FindCut(std::vector<const BadSeam*> seams)
-  {
-    const auto compare = [](int axis)
-    {
-      return [axis](const BadSeam* a, const BadSeam* b)
-      { return GetPlace(*a, axis) < GetPlace(*b, axis); };
-    };
-    int longest = 0;
-    double most = -1.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto [least, greatest] = std::minmax_element(seams.begin(), seams.end(), compare(axis));
-      const double extent = GetPlace(**greatest, axis) - GetPlace(**least, axis);
-      if (extent > most)
-      {
-        most = extent;
-        longest = axis;
-      }
-    }
-    const auto middle = seams.begin() + static_cast<std::ptrdiff_t>(seams.size() / 2);
-    std::nth_element(seams.begin(), middle, seams.end(), compare(longest));
-    return { longest, GetPlace(**middle, longest) };
-  }
-
-  std::unordered_map<int, Cut> Cuts; ///< By the other rank.
+  int Axis; ///< Along which the edges extend most.
+  double Median;
 };
+
+/// A coordinate of the place of an edge; NaN counts as 0, because it has no order.
+double GetPlace(const BadSeam* seam, int axis)
+{
+  return std::isnan(seam->Place[axis]) ? 0.0 : seam->Place[axis];
+}
+
+/// By the other rank. Both ranks find the same halves, because they have got the same edges and
+/// places.
+/// @param bad the bad seam edges of this rank.
+std::unordered_map<int, SeamCut> CutSeams(const std::vector<BadSeam>& bad)
+{
+  std::unordered_map<int, std::vector<const BadSeam*>> seamsTo;
+  for (const BadSeam& seam : bad)
+  {
+    seamsTo[seam.OtherRank].push_back(&seam);
+  }
+  std::unordered_map<int, SeamCut> cuts;
+  for (auto& [rank, seams] : seamsTo)
+  {
+    const int axis = FindLongestAxis(seams.begin(), seams.end(), { 0, 1, 2 }, GetPlace);
+    const auto middle = seams.begin() + static_cast<std::ptrdiff_t>(seams.size() / 2);
+    std::nth_element(seams.begin(), middle, seams.end(),
+      [=](const BadSeam* a, const BadSeam* b) { return GetPlace(a, axis) < GetPlace(b, axis); });
+    cuts.emplace(rank, SeamCut{ axis, GetPlace(*middle, axis) });
+  }
+  return cuts;
+}
 }
 
 std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSeam>& bad,
   const MoveRule& rule, PieceGroup& group, std::int64_t& moved)
 {
   const int rank = group.GetRank();
-  std::optional<SeamHalves> halves;
-  if (rule.InHalves)
+  // In each round either rank gets the triangles of one half, so that usually both have edges to
+  // flip.
+  const std::unordered_map<int, SeamCut> cuts = CutSeams(bad);
+  const auto isInSecond = [&](const BadSeam& seam)
   {
-    halves.emplace(bad);
-  }
+    const SeamCut& cut = cuts.at(seam.OtherRank);
+    return GetPlace(&seam, cut.Axis) >= cut.Median;
+  };
   std::map<std::int64_t, int> receivers; // by triangle
   for (const BadSeam& seam : bad)
   {
-    const bool toLower = rule.ToLower != (halves && halves->IsInSecond(seam));
+    const bool toLower = rule.ToLower != (rule.InHalves && isInSecond(seam));
     const int receiver = toLower ? std::min(rank, seam.OtherRank) : std::max(rank, seam.OtherRank);
     int& best = receivers.emplace(seam.Triangle, receiver).first->second;
     best = rule.ToLower ? std::min(best, receiver) : std::max(best, receiver);

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_SEAMSURVEY_H
 #define DELAUNAYFLIP_SEAMSURVEY_H
 
+#include "ConstraintInsertion.h"
 #include "EdgeMesh.h"
 #include "FlipLoopChoice.h"
 #include "FlipOptions.h"
@@ -144,20 +145,55 @@ struct MarkedCorner
 struct SeamSurvey
 {
   std::vector<MarkedCorner> Marks;
-  /// Edges that have two triangles here and are fixed because of triangles or constraints of other
-  /// ranks.
-  std::vector<PointPair> EdgesToFix;
-  /// The constraints of the caller that this rank can look up alone: two ids for each.
+  /// Two ids for each edge: first those that have two triangles here and are fixed because of
+  /// triangles or constraints of other ranks; then the constraints of the caller that this rank can
+  /// look up alone.
   std::vector<std::int64_t> Constraints;
+  std::size_t NumberToFix = 0; ///< Of the first ones.
   std::vector<unsigned char> ToInsert; ///< One flag for each of them.
   /// The constraints of all ranks between shared points that are to be inserted: keys, ascending.
   std::vector<PointPair> Missing;
   SeamCounts Counts; ///< Sums over all ranks.
 };
 
-/// Surveys the seams. All ranks must call this together.
-/// @param piece the caller's part, or that part after constraints have been inserted.
-SeamSurvey SurveySeams(const PartJob& job, const MeshPiece& piece, const PartMesh& mesh);
+/// The mesh that the first flips start from, and its seams. In planar geometry, this is the
+/// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
+/// mesh.
+///
+/// Each rank inserts the constraints that stay within its part. Of those between shared points,
+/// which several ranks may have, it tries all whose two points it has. A constraint that no rank
+/// inserts counts as unmatched, once. Where flips need a guard, ranks insert nothing.
+class PartConstraints
+{
+public:
+  /// All ranks must call this together.
+  /// @param mesh before BeginRounds; receives the changed triangles.
+  PartConstraints(const PartJob& job, PartMesh& mesh);
+
+  MeshPiece Piece; ///< Views of the caller's arrays and of arrays of this object.
+  SeamSurvey Seams;
+  bool IsAborted = false; ///< Whether an observer of any rank has stopped the insertion.
+  double Share = 0.0; ///< Of the run that is done after the insertion.
+
+  /// Adds the constraints that this rank has inserted and refused.
+  void AddTo(FlipReport& report) const;
+
+private:
+  void Run();
+  ConstraintInsertion Insert(const TriangleMesh& mesh);
+  void Count(const ConstraintInsertion& insertion, std::vector<char> fates);
+  void Keep(const ConstraintInsertion& insertion, const TriangleMesh& mesh);
+
+  PartJob Job;
+  PartMesh& Mesh;
+  std::int64_t Inserted = 0;
+  std::int64_t Flips = 0;
+  std::vector<RefusedConstraint> Refused; ///< Those that this rank counts.
+
+  // What Piece views:
+  std::vector<std::int64_t> Constraints;
+  std::vector<std::int32_t> Ids;
+};
 
 }
 

@@ -72,7 +72,20 @@ protected:
 
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
-    const StepCounts flips = this->FlipOnce();
+    const EdgeMeshView mesh = this->Mesh.View();
+    const EdgeGuardView guard = this->Guard.View();
+    this->Worklist.Filter(this->Backend, ChooseStep{ mesh }); // pass 4
+    if (guard.Active) // pass 5
+    {
+      this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, guard.Claims });
+      this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
+    }
+    const StepCounts flips = this->Worklist.Run(
+      this->Backend, FlipStep{ { mesh }, guard, this->Worklist.GetFlags() }); // pass 6
+    if (guard.Active)
+    {
+      this->Guard.Maintain(flips, this->Mesh, this->Backend);
+    }
     const double angle =
       plan.MeasureFirst || plan.MeasureAll ? this->FindLargestSquaredCotangent() : -INFINITY;
     const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.GetBlocked(),
@@ -130,29 +143,11 @@ private:
     }
   }
 
-  StepCounts FlipOnce()
-  {
-    const EdgeMeshView mesh = this->Mesh.View();
-    const EdgeGuardView guard = this->Guard.View();
-    this->Worklist.Filter(this->Backend, ChooseStep{ mesh }); // pass 4
-    if (guard.Active) // pass 5
-    {
-      this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, guard.Claims });
-      this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
-    }
-    const StepCounts flips = this->Worklist.Run(
-      this->Backend, FlipStep{ { mesh }, guard, this->Worklist.GetFlags() }); // pass 6
-    if (guard.Active)
-    {
-      this->Guard.Maintain(flips, this->Mesh, this->Backend);
-    }
-    return flips;
-  }
-
   /// Runs all iterations of a chunk, on the calling thread.
   std::vector<IterationCounts> RunChunk(Chunk& chunk, const AdvancePlan& plan) const
   {
     const EdgeMeshView mesh = this->Mesh.View();
+    const AngleSurvey<Rule> angles = this->Angles();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
     const ChooseAndFlipStep flip{ { { mesh }, EdgeGuardView{}, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
@@ -163,8 +158,12 @@ private:
       counts[i] = { chunk.Tested, found.Bad, found.GetBlocked(), flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && i == 0))
       {
-        counts[i].SquaredCotangent =
-          this->FindLargestSquaredCotangent(chunk.FirstTriangle, chunk.LastTriangle);
+        LargestValue largest;
+        for (std::int64_t t = chunk.FirstTriangle; t < chunk.LastTriangle; ++t)
+        {
+          angles(t, largest);
+        }
+        counts[i].SquaredCotangent = largest.Value;
       }
       found = worklist.Detect(this->Judge(), this->Resolve());
       chunk.Tested = found.Tested;
@@ -175,17 +174,14 @@ private:
   void DeferEdgesBetweenChunks()
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    this->Backend.ForRange(this->Mesh.NumberOfEdges,
-      [&](std::int64_t begin, std::int64_t end)
+    this->Backend.ForEach(this->Mesh.NumberOfEdges,
+      [&](std::int64_t e)
       {
-        for (std::int64_t e = begin; e < end; ++e)
+        const TriangleId a = TriangleOf(mesh.CornerOfHalfEdge[2 * e]);
+        const TriangleId b = TriangleOf(mesh.CornerOfHalfEdge[2 * e + 1]);
+        if (mesh.States[e] != EdgeState::Fixed && (a ^ b) >> this->ChunkBits != 0)
         {
-          const TriangleId a = TriangleOf(mesh.CornerOfHalfEdge[2 * e]);
-          const TriangleId b = TriangleOf(mesh.CornerOfHalfEdge[2 * e + 1]);
-          if (mesh.States[e] != EdgeState::Fixed && (a ^ b) >> this->ChunkBits != 0)
-          {
-            mesh.States[e] = EdgeState::Deferred;
-          }
+          mesh.States[e] = EdgeState::Deferred;
         }
       });
   }
@@ -202,17 +198,6 @@ private:
   AngleSurvey<Rule> Angles() const
   {
     return { this->Mesh.Triangles.Data(), this->Decision, this->Range };
-  }
-
-  double FindLargestSquaredCotangent(std::int64_t firstTriangle, std::int64_t lastTriangle) const
-  {
-    const AngleSurvey<Rule> survey = this->Angles();
-    LargestValue largest;
-    for (std::int64_t t = firstTriangle; t < lastTriangle; ++t)
-    {
-      survey(t, largest);
-    }
-    return largest.Value;
   }
 
   EdgeMesh& Mesh;

@@ -148,8 +148,8 @@ class Mesh:
 
     def _set(self, point_type, id_type):
         struct = self.struct
-        struct.points, struct.number_of_points = address(self.points), len(self.points)
-        struct.triangles, struct.number_of_triangles = address(self.triangles), len(self.triangles)
+        struct.points, struct.number_of_points = address(self.points), self.points.shape[0]
+        struct.triangles, struct.number_of_triangles = address(self.triangles), self.triangles.shape[0]
         struct.point_type, struct.id_type = TYPES[point_type], TYPES[id_type]
 
 

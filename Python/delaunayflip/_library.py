@@ -118,24 +118,17 @@ class Callbacks(ctypes.Structure):
     ]
 
 
-def _candidates():
-    """Where the library may be: in the package (a wheel or a build), in the lib folder under which
-    the package was installed, or where the system searches."""
-    package = pathlib.Path(__file__).resolve().parent
-    for folder in (package, *list(package.parents)[1:3]):
-        if (folder / LIBRARY).exists():
-            yield str(folder / LIBRARY)
-    yield LIBRARY
-
-
 @functools.lru_cache(maxsize=None)
 def library():
-    """The loaded library, with the types of its functions.
+    """The loaded library, with the types of its functions. It is in the package (a wheel or a build),
+    in the lib folder under which the package was installed, or where the system searches.
 
     Raises:
         ImportError: The library does not exist, or has another interface version.
     """
-    loaded = ctypes.CDLL(next(_candidates()))
+    package = pathlib.Path(__file__).resolve().parent
+    places = [folder / LIBRARY for folder in (package, *list(package.parents)[1:3])]
+    loaded = ctypes.CDLL(str(next(filter(pathlib.Path.exists, places), LIBRARY)))
     if loaded.delaunayflip_interface_version() != INTERFACE_VERSION:
         raise ImportError(f"{loaded._name} has another interface than this Python package")
     pointer = ctypes.POINTER

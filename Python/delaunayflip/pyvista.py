@@ -28,6 +28,8 @@ from ._surface import Settings, Slots
 from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
+_LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
+         "scalar_bar_args": {"title": "Smallest angle (degrees)"}}
 _FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
@@ -120,7 +122,7 @@ def plot_quality(mesh: "pyvista.PolyData", **arguments: typing.Any) -> typing.An
     """
     surface = vtk_of(_require_mesh("mesh", mesh)).read(mesh)
     shown = _color_by_quality(surface.points, Slots(surface, True).triangles)
-    return shown.plot(**{**_look(), "cpos": _choose_camera(mesh), **arguments})
+    return shown.plot(**{**_LOOK, "cpos": _choose_camera(mesh), **arguments})
 
 
 def animate(
@@ -148,9 +150,12 @@ def animate(
     run = _Run(mesh, constraints, options)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(window_size))
     try:
-        _open_film(plotter, filename, fps)
+        if str(filename).endswith(".gif"):
+            plotter.open_gif(str(filename), fps=fps)
+        else:
+            plotter.open_movie(str(filename), framerate=fps)
         shown = run.show()
-        plotter.add_mesh(shown, **_look())
+        plotter.add_mesh(shown, **_LOOK)
         plotter.camera_position = _choose_camera(mesh) or "iso"
         plotter.write_frame()
         is_running = True
@@ -238,19 +243,7 @@ def _color_by_quality(points, triangles):
     return shown
 
 
-def _look():
-    return {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
-            "scalar_bar_args": {"title": "Smallest angle (degrees)"}}
-
-
 def _choose_camera(mesh):
     """Looks from above if the mesh is flat."""
     x, y, z = (mesh.bounds[2 * i + 1] - mesh.bounds[2 * i] for i in range(3))
     return "xy" if z <= 0.05 * max(x, y) else None
-
-
-def _open_film(plotter, filename, fps):
-    if str(filename).endswith(".gif"):
-        plotter.open_gif(str(filename), fps=fps)
-    else:
-        plotter.open_movie(str(filename), framerate=fps)

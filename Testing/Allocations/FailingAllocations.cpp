@@ -21,44 +21,22 @@ std::atomic<std::int64_t> left{ 0 };
 std::atomic<std::size_t> smallestCounted{ 0 };
 thread_local bool isSpared = false;
 
-/// What lies at an address: the program itself, the filter, VTK, or something else.
-enum class Owner
-{
-  Ours,
-  Vtk,
-  Other
-};
-
-Owner FindOwner(void* address)
-{
-  Dl_info info;
-  if (!dladdr(address, &info) || !info.dli_fname)
-  {
-    return Owner::Other;
-  }
-  if (std::strstr(info.dli_fname, "vtkDelaunayFlip") ||
-    std::strstr(info.dli_fname, "DelaunayFlipEngineAllocation"))
-  {
-    return Owner::Ours;
-  }
-  return std::strstr(info.dli_fname, "libvtk") ? Owner::Vtk : Owner::Other;
-}
-
 /// Whether the call from `caller` is the one to fail.
-bool ShouldFail(std::size_t bytes, void* caller, bool isArray)
+bool ShouldFail(std::size_t bytes, void* caller)
 {
   if (!isOn || isSpared || bytes < smallestCounted)
   {
     return false;
   }
-  const Owner owner = FindOwner(caller);
-  const bool isCounted = owner == Owner::Ours || (isArray && owner == Owner::Vtk);
-  return isCounted && --left == 0;
+  Dl_info info;
+  const bool isOurs = dladdr(caller, &info) && info.dli_fname &&
+    std::strstr(info.dli_fname, "DelaunayFlipEngineAllocation");
+  return isOurs && --left == 0;
 }
 
 void* AllocateOrThrow(std::size_t bytes, void* caller)
 {
-  void* memory = ShouldFail(bytes, caller, false) ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
+  void* memory = ShouldFail(bytes, caller) ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
   if (!memory)
   {
     throw std::bad_alloc();
@@ -105,14 +83,14 @@ void* operator new[](std::size_t bytes)
 
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 {
-  return ShouldFail(bytes, __builtin_return_address(0), false) ? nullptr
-                                                               : std::malloc(bytes > 0 ? bytes : 1);
+  return ShouldFail(bytes, __builtin_return_address(0)) ? nullptr
+                                                        : std::malloc(bytes > 0 ? bytes : 1);
 }
 
 void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
 {
-  return ShouldFail(bytes, __builtin_return_address(0), false) ? nullptr
-                                                               : std::malloc(bytes > 0 ? bytes : 1);
+  return ShouldFail(bytes, __builtin_return_address(0)) ? nullptr
+                                                        : std::malloc(bytes > 0 ? bytes : 1);
 }
 
 void operator delete(void* memory) noexcept { std::free(memory); }
@@ -127,36 +105,18 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 extern "C"
 {
 
-  void* __libc_malloc(std::size_t bytes);
-  void* __libc_realloc(void* memory, std::size_t bytes);
   void* __libc_memalign(std::size_t alignment, std::size_t bytes);
-
-  /// VTK's arrays come from here, and from realloc.
-  void* malloc(std::size_t bytes)
-  {
-    const bool fails =
-      isOn && bytes >= 1024 && ShouldFail(bytes, __builtin_return_address(0), true);
-    return fails ? nullptr : __libc_malloc(bytes);
-  }
-
-  void* realloc(void* memory, std::size_t bytes)
-  {
-    const bool fails =
-      isOn && bytes >= 1024 && ShouldFail(bytes, __builtin_return_address(0), true);
-    return fails ? nullptr : __libc_realloc(memory, bytes);
-  }
 
   int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes)
   {
-    *memory = ShouldFail(bytes, __builtin_return_address(0), true)
-      ? nullptr
-      : __libc_memalign(alignment, bytes);
+    *memory =
+      ShouldFail(bytes, __builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, bytes);
     return *memory ? 0 : ENOMEM;
   }
 
   void* mmap(void* place, std::size_t bytes, int protection, int flags, int file, off_t offset)
   {
-    if (ShouldFail(bytes, __builtin_return_address(0), true))
+    if (ShouldFail(bytes, __builtin_return_address(0)))
     {
       errno = ENOMEM;
       return MAP_FAILED;

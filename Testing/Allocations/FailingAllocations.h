@@ -8,10 +8,9 @@
 
 /// Makes allocations of this process fail, one at a time.
 ///
-/// Linking this replaces operator new, posix_memalign and mmap, and malloc and realloc of large
-/// blocks, in the whole program. Counted are calls from the engine and the filter and, for arrays,
-/// those of VTK's libraries. Out of reach are what the C++ library allocates for them within its
-/// own functions, and what oneTBB allocates, which ends the process where it gets nothing.
+/// Linking this replaces operator new, posix_memalign and mmap in the whole program. Counted are
+/// calls from the engine. Out of reach are what the C++ library allocates for it within its own
+/// functions, and what oneTBB allocates, which ends the process where it gets nothing.
 class FailingAllocations
 {
 public:

@@ -5,12 +5,11 @@
 #include "GeneratedMeshes.h"
 #include "Machine.h"
 #include "MeshDivision.h"
-#include "MeteredGroup.h"
 #include "PieceFlip.h"
 #include "Records.h"
 
 #ifdef DELAUNAYFLIP_HAS_MPI
-#include "MpiGroup.h"
+#include <mpi.h>
 #endif
 
 #include <algorithm>
@@ -18,11 +17,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
+#include <limits>
 #include <map>
-#include <sstream>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -57,6 +59,11 @@ namespace
 using Clock = std::chrono::steady_clock;
 using Settings = std::map<std::string, std::string>;
 
+double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 Settings ReadSettings(int argc, char** argv)
 {
   Settings settings{ { "points", "500000" }, { "mesh", "random" }, { "pieces", "2" },
@@ -76,24 +83,105 @@ Settings ReadSettings(int argc, char** argv)
   return settings;
 }
 
-OwnedMesh<float> MakeRandomMesh(std::int64_t points)
+/// What a rank has sent to others.
+struct GroupMeter
 {
-  // An odd number of tiles per side: pieces must not be cut along tiles, whose borders are good.
-  constexpr std::int64_t PointsPerTile = 100000;
-  const double tiles = static_cast<double>(points) / static_cast<double>(PointsPerTile);
-  const auto side = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))) | 1;
-  return MakeTiledBadMesh(points, side, 1);
-}
+  std::int64_t BytesSent = 0;
+  std::int64_t Exchanges = 0;
+  std::int64_t Gathers = 0;
+  double Seconds = 0.0; ///< In these, waiting included.
+};
 
-void AddHills(OwnedMesh<float>& mesh)
+/// Another group, with its messages measured.
+class MeteredGroup : public PieceGroup
 {
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+public:
+  MeteredGroup(PieceGroup& group, GroupMeter& meter)
+    : Group(group),
+      Meter(meter)
   {
-    const double x = mesh.Points[i];
-    const double y = mesh.Points[i + 1];
-    mesh.Points[i + 2] = static_cast<float>(0.05 * std::sin(20.0 * x) * std::cos(17.0 * y));
   }
-}
+
+  int GetRank() const override { return this->Group.GetRank(); }
+  int GetSize() const override { return this->Group.GetSize(); }
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    for (int rank = 0; rank < this->GetSize(); ++rank)
+    {
+      this->Meter.BytesSent += rank == this->GetRank() ? 0 : messages[rank].size();
+    }
+    ++this->Meter.Exchanges;
+    const auto start = Clock::now();
+    std::vector<Message> received = this->Group.Exchange(std::move(messages));
+    this->Meter.Seconds += SecondsSince(start);
+    return received;
+  }
+  std::vector<Message> Gather(const Message& message) override
+  {
+    this->Meter.BytesSent += (this->GetSize() - 1) * message.size();
+    ++this->Meter.Gathers;
+    const auto start = Clock::now();
+    std::vector<Message> received = this->Group.Gather(message);
+    this->Meter.Seconds += SecondsSince(start);
+    return received;
+  }
+  void Work(const std::function<void()>& work) override { this->Group.Work(work); }
+
+private:
+  PieceGroup& Group;
+  GroupMeter& Meter;
+};
+
+#ifdef DELAUNAYFLIP_HAS_MPI
+/// The processes of an mpirun. Messages have at most 2^31 - 1 bytes together.
+class MpiGroup : public PieceGroup
+{
+public:
+  int GetRank() const override
+  {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+  }
+  int GetSize() const override
+  {
+    int size = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size;
+  }
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    std::vector<int> sizes, sizesBack(messages.size());
+    Message all;
+    for (const Message& message : messages)
+    {
+      sizes.push_back(static_cast<int>(message.size()));
+      all.insert(all.end(), message.begin(), message.end());
+    }
+    MPI_Alltoall(sizes.data(), 1, MPI_INT, sizesBack.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    Message back(std::accumulate(sizesBack.begin(), sizesBack.end(), std::size_t(0)));
+    if (std::max(all.size(), back.size()) > std::numeric_limits<int>::max())
+    {
+      throw std::runtime_error("messages of more than 2^31 bytes");
+    }
+    std::vector<int> begins(sizes.size()), beginsBack(sizes.size());
+    std::partial_sum(sizes.begin(), sizes.end() - 1, begins.begin() + 1);
+    std::partial_sum(sizesBack.begin(), sizesBack.end() - 1, beginsBack.begin() + 1);
+    MPI_Alltoallv(all.data(), sizes.data(), begins.data(), MPI_CHAR, back.data(), sizesBack.data(),
+      beginsBack.data(), MPI_CHAR, MPI_COMM_WORLD);
+    for (std::size_t i = 0; i < messages.size(); ++i)
+    {
+      const char* begin = back.data() + beginsBack[i];
+      messages[i].assign(begin, begin + sizesBack[i]);
+    }
+    return messages;
+  }
+  std::vector<Message> Gather(const Message& message) override
+  {
+    return this->Exchange(std::vector<Message>(this->GetSize(), message));
+  }
+};
+#endif
 
 struct Measure
 {
@@ -104,161 +192,74 @@ struct Measure
   double Load = 1.0;
   std::uint64_t Hash = 14695981039346656037u; ///< FNV-1a.
   std::uint64_t Set = 0;
-
-  /// @param most triangles of a rank.
-  void SetLoad(std::size_t most, int ranks)
-  {
-    const auto all = static_cast<double>(this->Report.Triangles);
-    this->Load = static_cast<double>(most) * ranks / all;
-  }
-
-  /// Hashes some triangles.
-  template <typename Id>
-  void AddToHash(const std::vector<Id>& ids)
-  {
-    for (const Id id : ids)
-    {
-      this->Hash = (this->Hash ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
-    }
-  }
-
-  void AddToSet(const std::vector<std::int32_t>& ids)
-  {
-    for (std::size_t i = 0; i < ids.size(); i += 3)
-    {
-      const std::int32_t* t = ids.data() + i;
-      const auto first = std::min_element(t, t + 3) - t;
-      const auto get = [=](std::ptrdiff_t slot)
-      { return static_cast<std::uint64_t>(t[(first + slot) % 3]); };
-      this->Set += ScatterBits(get(0) + ScatterBits(get(1) + ScatterBits(get(2))));
-    }
-  }
 };
 
-/// @param work makes a measure but its times.
-template <typename Work>
-Measure TakeTime(const Work& work)
+/// Hashes some triangles after others.
+template <typename Id>
+std::uint64_t Hash(std::uint64_t hash, const std::vector<Id>& ids)
 {
-  Measure measure;
+  for (const Id id : ids)
+  {
+    hash = (hash ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
+  }
+  return hash;
+}
+
+template <typename Work>
+void TakeTime(Measure& measure, const Work& work)
+{
   const std::clock_t cpu = std::clock();
   const auto start = Clock::now();
-  work(measure);
-  measure.Seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  work();
+  measure.Seconds = SecondsSince(start);
   measure.CpuSeconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-  return measure;
 }
 
-#ifdef DELAUNAYFLIP_HAS_MPI
-/// @param flipped where the result goes; later runs reuse its memory.
-Measure FlipInProcesses(
-  MpiGroup& group, const OwnPiece& piece, const FlipOptions& options, FlippedPiece& flipped)
+/// The values of all ranks.
+template <typename T>
+std::vector<T> GatherValues(PieceGroup& group, const T& value)
 {
-  GroupMeter meter;
-  group.Wait();
-  Measure measure = TakeTime(
-    [&](Measure& own)
-    {
-      MeteredGroup metered(group, meter);
-      own.Report = FlipPiece(piece.View(), options, metered, flipped);
-      group.Wait();
-    });
-  measure.CpuSeconds = group.Sum(measure.CpuSeconds);
-  const std::uint64_t most = group.PassOn(0,
-    [&](std::uint64_t size) { return std::max<std::uint64_t>(size, flipped.FlipCounts.size()); });
-  measure.SetLoad(most, group.GetSize());
-  measure.Meter = meter;
-  measure.Hash = group.PassOn(measure.Hash,
-    [&](std::uint64_t hash)
-    {
-      measure.Hash = hash;
-      measure.AddToHash(flipped.Triangles);
-      return measure.Hash;
-    });
-  return measure;
-}
-#else
-/// Undivided, or in pieces without ranks.
-Measure FlipInOneProcess(OwnedMesh<float>& mesh, const FlipOptions& options, bool isLast)
-{
-  std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
-  std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
-  const MutableTriangleArray triangles(ids.data(), mesh.NumberOfTriangles());
-  const TriangleMesh given = mesh.View();
-  Measure measure = TakeTime(
-    [&](Measure& own)
-    {
-      if (options.NumberOfPieces > 0)
-      {
-        own.Report = FlipInPieces(given, options, triangles);
-      }
-      else
-      {
-        static_cast<FlipReport&>(own.Report) = FlipToDelaunay(given, options, triangles);
-      }
-    });
-  measure.AddToHash(ids);
-  measure.AddToSet(ids);
-  return measure;
-}
-
-/// @param flipped where the results go; later runs reuse their memory.
-Measure FlipPieces(const std::vector<OwnPiece>& pieces, const FlipOptions& options,
-  const std::vector<int>& devices, std::vector<FlippedPiece>& flipped)
-{
-  const int ranks = static_cast<int>(pieces.size());
-  std::vector<int> turns;
-  for (int rank = 0; rank < ranks && !devices.empty(); ++rank)
+  const char* bytes = reinterpret_cast<const char*>(&value);
+  std::vector<T> values;
+  for (const Message& message : group.Gather(Message(bytes, bytes + sizeof(T))))
   {
-    turns.push_back(rank % static_cast<int>(devices.size()));
+    std::memcpy(&values.emplace_back(), message.data(), sizeof(T));
   }
-  std::vector<GroupMeter> meters(ranks);
-  flipped.resize(ranks);
-  Measure measure = TakeTime(
-    [&](Measure& sum)
+  return values;
+}
+
+/// Flips the piece of a rank.
+/// @param flipped where the result goes; later runs reuse its memory.
+/// @returns on every rank the measure of all.
+Measure FlipAsRank(
+  PieceGroup& group, const OwnPiece& piece, const FlipOptions& options, FlippedPiece& flipped)
+{
+  Measure measure;
+  MeteredGroup metered(group, measure.Meter);
+  group.Gather({});
+  TakeTime(measure,
+    [&]
     {
-      RunInThreads(
-        ranks,
-        [&](PieceGroup& group)
-        {
-          MeteredGroup metered(group, meters[group.GetRank()]);
-          const int rank = group.GetRank();
-          FlipOptions own = options;
-          own.Device = devices.empty() ? -1 : devices[turns[rank]];
-          const PiecesReport report = FlipPiece(pieces[rank].View(), own, metered, flipped[rank]);
-          if (rank == 0)
-          {
-            sum.Report = report;
-          }
-        },
-        turns);
+      measure.Report = FlipPiece(piece.View(), options, metered, flipped);
+      group.Gather({});
     });
+#ifdef DELAUNAYFLIP_HAS_MPI
+  const std::vector<double> cpu = GatherValues(group, measure.CpuSeconds);
+  measure.CpuSeconds = std::accumulate(cpu.begin(), cpu.end(), 0.0);
+#endif
+  const std::vector<GroupMeter> meters = GatherValues(group, measure.Meter);
   measure.Meter = *std::max_element(meters.begin(), meters.end(),
     [](const GroupMeter& a, const GroupMeter& b) { return a.BytesSent < b.BytesSent; });
-  std::size_t most = 0;
-  for (const FlippedPiece& piece : flipped)
+  const std::vector<std::size_t> sizes = GatherValues(group, flipped.FlipCounts.size());
+  measure.Load = static_cast<double>(*std::max_element(sizes.begin(), sizes.end())) *
+    group.GetSize() / static_cast<double>(measure.Report.Triangles);
+  for (int rank = 0; rank < group.GetSize(); ++rank)
   {
-    measure.AddToHash(piece.Triangles);
-    most = std::max(most, piece.FlipCounts.size());
+    const bool isNext = rank == group.GetRank();
+    const std::uint64_t hash = isNext ? Hash(measure.Hash, flipped.Triangles) : 0;
+    measure.Hash = GatherValues(group, hash)[rank];
   }
-  measure.SetLoad(most, ranks);
   return measure;
-}
-#endif
-
-std::string DescribeCounts(const Measure& measure)
-{
-  const PiecesReport& report = measure.Report;
-  std::ostringstream text;
-  text << "\"build_seconds\": " << report.BuildSeconds
-       << ", \"flip_seconds\": " << report.FlipSeconds << ", \"triangles\": " << report.Triangles
-       << ", \"flips\": " << report.TotalFlips << ", \"rounds\": " << report.Rounds
-       << ", \"moved\": " << report.MovedTriangles << ", \"seam_edges\": " << report.SeamEdges
-       << ", \"load\": " << measure.Load << ", \"bytes_sent\": " << measure.Meter.BytesSent
-       << ", \"exchanges\": " << measure.Meter.Exchanges
-       << ", \"gathers\": " << measure.Meter.Gathers << ", \"backend\": \"" << report.Backend
-       << "\", \"hash\": \"" << std::hex << measure.Hash << "\", \"set\": \"" << measure.Set
-       << "\"";
-  return text.str();
 }
 
 void Print(const Settings& settings, const Measure& measure)
@@ -268,10 +269,22 @@ void Print(const Settings& settings, const Measure& measure)
     std::printf("%s\"%s\": \"%s\"", name == settings.begin()->first ? "{" : ", ", name.c_str(),
       value.c_str());
   }
-  std::printf(", \"seconds\": %.4f, \"cpu_seconds\": %.4f, \"communication_seconds\": %.4f, %s, "
-              "\"machine\": \"%s\"}\n",
-    measure.Seconds, measure.CpuSeconds, measure.Meter.Seconds, DescribeCounts(measure).c_str(),
-    DescribeMachine().c_str());
+  const PiecesReport& report = measure.Report;
+  const std::pair<const char*, double> numbers[] = { { "seconds", measure.Seconds },
+    { "cpu_seconds", measure.CpuSeconds }, { "communication_seconds", measure.Meter.Seconds },
+    { "build_seconds", report.BuildSeconds }, { "flip_seconds", report.FlipSeconds },
+    { "triangles", report.Triangles }, { "flips", report.TotalFlips }, { "rounds", report.Rounds },
+    { "moved", report.MovedTriangles }, { "seam_edges", report.SeamEdges },
+    { "load", measure.Load }, { "bytes_sent", measure.Meter.BytesSent },
+    { "exchanges", measure.Meter.Exchanges }, { "gathers", measure.Meter.Gathers } };
+  for (const auto& [name, number] : numbers)
+  {
+    std::printf(", \"%s\": %.12g", name, number);
+  }
+  std::printf(
+    ", \"backend\": \"%s\", \"hash\": \"%llx\", \"set\": \"%llx\", \"machine\": \"%s\"}\n",
+    report.Backend.c_str(), static_cast<unsigned long long>(measure.Hash),
+    static_cast<unsigned long long>(measure.Set), DescribeMachine().c_str());
 }
 
 FlipOptions MakeOptions(const Settings& settings, const std::vector<int>& devices)
@@ -289,7 +302,7 @@ FlipOptions MakeOptions(const Settings& settings, const std::vector<int>& device
 
 /// @param flip makes a measure; it is given whether it is the last run.
 template <typename Flip>
-Measure FindFastest(const Settings& settings, const Flip& flip)
+void PrintFastest(const Settings& settings, bool prints, const Flip& flip)
 {
   Measure best;
   const int runs = std::atoi(settings.at("runs").c_str());
@@ -301,7 +314,10 @@ Measure FindFastest(const Settings& settings, const Flip& flip)
       best = std::move(measure);
     }
   }
-  return best;
+  if (prints)
+  {
+    Print(settings, best);
+  }
 }
 
 OwnedMesh<float> MakeMesh(const Settings& settings)
@@ -316,25 +332,27 @@ OwnedMesh<float> MakeMesh(const Settings& settings)
   {
     throw std::runtime_error("mesh must be random, or grid without surface=1");
   }
-  OwnedMesh<float> mesh = MakeRandomMesh(points);
-  if (isSurface)
+  // An odd number of tiles per side: pieces must not be cut along tiles, whose borders are good.
+  constexpr double PointsPerTile = 100000.0;
+  const double tiles = static_cast<double>(points) / PointsPerTile;
+  const auto side = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))) | 1;
+  OwnedMesh<float> mesh = MakeTiledBadMesh(points, side, 1);
+  for (std::size_t i = 0; isSurface && i < mesh.Points.size(); i += 3)
   {
-    AddHills(mesh);
+    const double x = mesh.Points[i];
+    const double y = mesh.Points[i + 1];
+    mesh.Points[i + 2] = static_cast<float>(0.05 * std::sin(20.0 * x) * std::cos(17.0 * y));
   }
   return mesh;
 }
 
 #ifdef DELAUNAYFLIP_HAS_MPI
-OwnPiece MakePiece(const Settings& settings, const MpiGroup& group)
+void Run(Settings settings)
 {
-  const OwnedMesh<float> mesh = MakeMesh(settings);
-  return std::move(DivideMesh(mesh.View(), group.GetSize())[group.GetRank()]);
-}
-
-void Run(Settings settings, MpiGroup& group)
-{
+  MpiGroup group;
   settings["pieces"] = std::to_string(group.GetSize());
-  const OwnPiece piece = MakePiece(settings, group);
+  const OwnPiece piece =
+    std::move(DivideMesh(MakeMesh(settings).View(), group.GetSize())[group.GetRank()]);
   std::vector<int> devices = ParseDevices(settings.at("devices"));
   if (!devices.empty())
   {
@@ -342,14 +360,24 @@ void Run(Settings settings, MpiGroup& group)
   }
   const FlipOptions options = MakeOptions(settings, devices);
   FlippedPiece flipped;
-  const Measure measure =
-    FindFastest(settings, [&](bool) { return FlipInProcesses(group, piece, options, flipped); });
-  if (group.GetRank() == 0)
-  {
-    Print(settings, measure);
-  }
+  PrintFastest(settings, group.GetRank() == 0,
+    [&](bool) { return FlipAsRank(group, piece, options, flipped); });
 }
 #else
+std::uint64_t HashSet(const std::vector<std::int32_t>& ids)
+{
+  std::uint64_t set = 0;
+  for (std::size_t i = 0; i < ids.size(); i += 3)
+  {
+    const std::int32_t* t = ids.data() + i;
+    const auto first = std::min_element(t, t + 3) - t;
+    const auto get = [=](std::ptrdiff_t slot)
+    { return static_cast<std::uint64_t>(t[(first + slot) % 3]); };
+    set += ScatterBits(get(0) + ScatterBits(get(1) + ScatterBits(get(2))));
+  }
+  return set;
+}
+
 void Run(const Settings& settings)
 {
   OwnedMesh<float> mesh = MakeMesh(settings);
@@ -359,15 +387,61 @@ void Run(const Settings& settings)
   if (count > 0 && settings.at("ranks") != "0")
   {
     const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), count);
-    std::vector<FlippedPiece> flipped;
-    Print(settings,
-      FindFastest(settings, [&](bool) { return FlipPieces(pieces, options, devices, flipped); }));
+    std::vector<FlippedPiece> flipped(count);
+    std::vector<int> turns;
+    for (int rank = 0; rank < count && !devices.empty(); ++rank)
+    {
+      turns.push_back(rank % static_cast<int>(devices.size()));
+    }
+    PrintFastest(settings, true,
+      [&](bool)
+      {
+        Measure measure;
+        RunInThreads(
+          count,
+          [&](PieceGroup& group)
+          {
+            const int rank = group.GetRank();
+            FlipOptions own = options;
+            own.Device = devices.empty() ? -1 : devices[turns[rank]];
+            Measure ofRank = FlipAsRank(group, pieces[rank], own, flipped[rank]);
+            if (rank == 0)
+            {
+              measure = std::move(ofRank);
+            }
+          },
+          turns);
+        return measure;
+      });
     return;
   }
+  // Undivided, or in pieces without ranks.
   options.Devices = devices;
   options.NumberOfPieces = count;
-  Print(settings,
-    FindFastest(settings, [&](bool isLast) { return FlipInOneProcess(mesh, options, isLast); }));
+  PrintFastest(settings, true,
+    [&](bool isLast)
+    {
+      std::vector<std::int32_t> copy(isLast ? 0 : mesh.Triangles.size());
+      std::vector<std::int32_t>& ids = isLast ? mesh.Triangles : copy;
+      const MutableTriangleArray triangles(ids.data(), mesh.NumberOfTriangles());
+      const TriangleMesh given = mesh.View();
+      Measure measure;
+      TakeTime(measure,
+        [&]
+        {
+          if (count > 0)
+          {
+            measure.Report = FlipInPieces(given, options, triangles);
+          }
+          else
+          {
+            static_cast<FlipReport&>(measure.Report) = FlipToDelaunay(given, options, triangles);
+          }
+        });
+      measure.Hash = Hash(measure.Hash, ids);
+      measure.Set = HashSet(ids);
+      return measure;
+    });
 }
 #endif
 
@@ -376,23 +450,20 @@ void Run(const Settings& settings)
 int main(int argc, char** argv)
 {
 #ifdef DELAUNAYFLIP_HAS_MPI
-  MpiGroup group(argc, argv);
+  MPI_Init(&argc, &argv);
 #endif
+  int status = 0;
   try
   {
-#ifdef DELAUNAYFLIP_HAS_MPI
-    Run(ReadSettings(argc, argv), group);
-#else
     Run(ReadSettings(argc, argv));
-#endif
   }
   catch (const std::exception& error)
   {
     std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
-#ifdef DELAUNAYFLIP_HAS_MPI
-    group.Abort();
-#endif
-    return 1;
+    status = 1;
   }
-  return 0;
+#ifdef DELAUNAYFLIP_HAS_MPI
+  status == 0 ? MPI_Finalize() : MPI_Abort(MPI_COMM_WORLD, 1);
+#endif
+  return status;
 }

@@ -191,7 +191,6 @@ def find_wait(case, event):
 
 def time_aborts(triangles, names):
     cases = Cases(triangles)
-    vtkObject.GlobalWarningDisplayOff()
     print(f"{'':24}{'update':>8}{'events':>8}{'longest':>9}{'at':>6}")
     for name in names or [name for name in dir(Cases) if not name.startswith("_")]:
         case = getattr(cases, name)
@@ -266,4 +265,5 @@ if __name__ == "__main__":
     MODES = {"abort": time_aborts, "live": time_live_run, "threads": time_threads}
     if len(sys.argv) < 2 or sys.argv[1] not in MODES:
         sys.exit(__doc__)
+    vtkObject.GlobalWarningDisplayOff()
     MODES[sys.argv[1]](int(sys.argv[2]) if len(sys.argv) > 2 else 400_000, sys.argv[3:])

@@ -20,4 +20,16 @@
     }                                                                                            \
   } while (0)
 
+/** Whether the two triangles of a quad have the diagonal from point 1 to point 3. */
+static int HasShortDiagonal(const int64_t* triangles)
+{
+  int ends = 0;
+  int i;
+  for (i = 0; i < 6; ++i)
+  {
+    ends += triangles[i] == 1 || triangles[i] == 3;
+  }
+  return ends == 4;
+}
+
 #endif

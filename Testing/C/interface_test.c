@@ -27,17 +27,6 @@ static delaunayflip_mesh MakeMesh(void)
   return mesh;
 }
 
-static int HasShortDiagonal(const int64_t* triangles)
-{
-  int ends = 0;
-  int i;
-  for (i = 0; i < 6; ++i)
-  {
-    ends += triangles[i] == 1 || triangles[i] == 3;
-  }
-  return ends == 4;
-}
-
 /* A lattice of points, z = 0, whose columns have been pushed sideways. */
 enum
 {

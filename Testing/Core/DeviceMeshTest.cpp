@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 /// @file
 /// Meshes in device memory: the result is that of the same mesh in the host's memory, bit for bit.
 /// Runs on a GPU, and with FakeDevice.cpp where there need not be one.
@@ -98,8 +96,9 @@ FlipReport ExpectSame(const TriangleMesh& mesh, const FlipOptions& options)
 template <typename Real>
 OwnedMesh<Real> MakeRandomBadMeshOf(std::int64_t points, std::uint32_t seed)
 {
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(points, seed);
-  return { { mesh.Points.begin(), mesh.Points.end() }, mesh.Triangles };
+  OwnedMesh<Real> mesh;
+  Append(mesh, MakeRandomBadMeshDouble(points, seed));
+  return mesh;
 }
 
 /// Large enough to be sorted, and to iterate in chunks.
@@ -270,42 +269,34 @@ TEST_F(DeviceMeshTest, AnInvalidIdIsNamed)
   ExpectInvalid<std::int64_t>(this->Mesh.View(), std::int64_t(1) << 33);
 }
 
-TEST_F(DeviceMeshTest, ArraysOfTheHostAreRefused)
+TEST_F(DeviceMeshTest, RefusesOtherMemoryAndShapes)
 {
   const Arrays device(this->Mesh.View(), 3);
-  std::vector<std::int32_t> host(this->Mesh.Triangles.size());
-  DeviceMesh points = device.View();
-  points.Points = DevicePointArray(this->Mesh.Points.data(), this->Mesh.NumberOfPoints());
-  EXPECT_THROW(FlipSession(points, {}), InvalidOptions);
-  DeviceMesh triangles = device.View();
-  triangles.Triangles = this->Mesh.View().Triangles;
-  EXPECT_THROW(FlipSession(triangles, {}), InvalidOptions);
+  const auto expectRefused = [&](const auto& change, int number = -1)
+  {
+    DeviceMesh mesh = device.View();
+    change(mesh);
+    FlipOptions options;
+    options.Device = number;
+    EXPECT_THROW(FlipSession(mesh, options), InvalidOptions);
+  };
+  expectRefused([&](DeviceMesh& mesh)
+    { mesh.Points = DevicePointArray(this->Mesh.Points.data(), this->Mesh.NumberOfPoints()); });
+  expectRefused([&](DeviceMesh& mesh) { mesh.Triangles = this->Mesh.View().Triangles; });
+  for (const int components : { 0, 1, 4 })
+  {
+    expectRefused([&](DeviceMesh& mesh) { mesh.Points.Components = components; });
+  }
+  expectRefused([](DeviceMesh&) {}, 77);
   const FlipSession session(device.View(), {});
+  std::vector<std::int32_t> host(this->Mesh.Triangles.size());
   const MutableTriangleArray result(host.data(), this->Mesh.NumberOfTriangles());
   EXPECT_THROW(session.StoreTriangles(result, {}), InvalidOptions);
   EXPECT_THROW(session.StoreFlipCounts(host.data(), {}), InvalidOptions);
   EXPECT_TRUE(std::vector<std::int32_t>(host.size(), 0) == host);
-}
-
-TEST_F(DeviceMeshTest, AnotherDeviceIsRefused)
-{
-  const Arrays device(this->Mesh.View(), 3);
-  FlipOptions options;
-  options.Device = 77;
-  EXPECT_THROW(FlipSession(device.View(), options), InvalidOptions);
-  options.Device = 0;
-  ExpectSame(this->Mesh.View(), options);
-}
-
-TEST_F(DeviceMeshTest, PointsHaveTwoOrThreeComponents)
-{
-  const Arrays device(this->Mesh.View(), 3);
-  for (const int components : { 0, 1, 4 })
-  {
-    DeviceMesh mesh = device.View();
-    mesh.Points.Components = components;
-    EXPECT_THROW(FlipSession(mesh, {}), InvalidOptions);
-  }
+  FlipOptions first;
+  first.Device = 0;
+  ExpectSame(this->Mesh.View(), first);
 }
 
 }

@@ -330,21 +330,18 @@ TEST(EdgeGuard, HearsOfFlips)
       EdgeTableView::Empty);
   };
   const auto before = countEmpty();
-  StepCounts counts;
-  for (EdgeId edge = 0; edge < edges.NumberOfEdges; ++edge)
+  EdgeId edge = 0; // one of two triangles
+  while (edges.View().CornerOfHalfEdge[2 * edge + 1] == NoCorner)
   {
-    if (edges.View().CornerOfHalfEdge[2 * edge + 1] == NoCorner)
-    {
-      continue;
-    }
-    const Quad quad = edges.View().GetQuad(edge);
-    guard.Claims.Claim(quad.A, quad.B, Priority(edge));
-    UpdateGuard(guard, edge, quad, counts);
-    EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.P, quad.Q)));
-    EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.A, quad.B)));
-    EXPECT_EQ(EdgeState::BlockedByEdge, DecideByGuard(guard.Edges, quad));
-    break;
+    ++edge;
   }
+  const Quad quad = edges.View().GetQuad(edge);
+  StepCounts counts;
+  guard.Claims.Claim(quad.A, quad.B, Priority(edge));
+  UpdateGuard(guard, edge, quad, counts);
+  EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.P, quad.Q)));
+  EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.A, quad.B)));
+  EXPECT_EQ(EdgeState::BlockedByEdge, DecideByGuard(guard.Edges, quad));
   EXPECT_EQ(0, counts.LostInserts);
   EXPECT_EQ(before - countEmpty(), counts.FreshSlots);
   EXPECT_EQ(guard.Claims.Size,

@@ -160,6 +160,22 @@ OwnedMesh<double> Lift(OwnedMesh<double> mesh, const std::function<double(double
   return mesh;
 }
 
+OwnedMesh<double> MakeWindingFan(int count, double turns, bool closed)
+{
+  OwnedMesh<double> mesh = { { 0, 0, 0 }, {} };
+  for (std::int32_t i = 0; i <= count; ++i)
+  {
+    const double angle = 6.283185307179586 * turns * i / count;
+    mesh.Points.insert(mesh.Points.end(), { std::cos(angle), std::sin(angle), 0.0 });
+    if (i < count)
+    {
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { 0, i + 1, closed && i + 1 == count ? 1 : i + 2 });
+    }
+  }
+  return mesh;
+}
+
 OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh)
 {
   return { { mesh.Points.begin(), mesh.Points.end() }, mesh.Triangles };

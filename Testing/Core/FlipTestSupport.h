@@ -140,6 +140,10 @@ OwnedMesh<float> RoundToFloat(const OwnedMesh<double>& mesh);
 /// The mesh with a height for every x and y.
 OwnedMesh<double> Lift(OwnedMesh<double> mesh, const std::function<double(double, double)>& height);
 
+/// A fan of triangles around point 0 that covers so many turns; closed, or open like a spiral
+/// staircase.
+OwnedMesh<double> MakeWindingFan(int count, double turns, bool closed);
+
 /// Adds the points, times a factor, and the triangles of another mesh.
 template <typename Real>
 void Append(OwnedMesh<Real>& mesh, const OwnedMesh<double>& other, double factor = 1.0)

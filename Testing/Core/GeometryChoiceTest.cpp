@@ -405,19 +405,13 @@ TEST(GeometryChoice, NinetyFivePercentMustSlopeGently)
   ExpectChoice(plate(94.5), GeometryKind::Surface, "only 94 % of its area slopes below 45 degrees");
 }
 
-/// A fan around point 0 that covers a given angle and rises a little.
+/// A fan that rises a little.
 OwnedMesh<double> MakeStaircase(int count, double turns, bool closed)
 {
-  OwnedMesh<double> mesh;
-  mesh.Points = { 0, 0, 0 };
-  for (std::int32_t i = 0; i <= count; ++i)
+  OwnedMesh<double> mesh = MakeWindingFan(count, turns, closed);
+  for (std::size_t i = 6; i < mesh.Points.size(); i += 6)
   {
-    const double angle = 6.283185307179586 * turns * i / count;
-    mesh.Points.insert(mesh.Points.end(), { std::cos(angle), std::sin(angle), i % 2 * 0.001 });
-  }
-  for (std::int32_t i = 0; i < count; ++i)
-  {
-    mesh.Triangles.insert(mesh.Triangles.end(), { 0, i + 1, closed && i + 1 == count ? 1 : i + 2 });
+    mesh.Points[i + 2] = 0.001;
   }
   return mesh;
 }

@@ -335,10 +335,10 @@ TEST(StarCheck, SeesWhereStarsOverlap)
     for (int count = 1; count < 16; ++count)
     {
       SCOPED_TRACE(std::to_string(start) + " " + std::to_string(count));
-      ExpectSimple(count <= 8, MakeFan(start, count, false));
+      ExpectSimple(count <= 8, MakeFan(start, count));
     }
   }
-  OwnedMesh<double> twice = MakeFan(0, 16, false); // and closed
+  OwnedMesh<double> twice = MakeFan(0, 16); // and closed
   twice.Triangles.back() = 1;
   ExpectSimple(false, twice);
   ExpectSimple(true, MakeRandomBadMeshDouble(400, 3));

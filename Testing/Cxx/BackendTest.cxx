@@ -86,18 +86,6 @@ TEST(Backend, PiecesGiveTheSameMesh)
   }
 }
 
-TEST(Backend, ALiveUpdateFlipsPiecesAtOnce)
-{
-  WatchedFilter filter(ToPolyData(delaunayflip::MakeRandomBadMesh(500, 7)));
-  filter->LiveUpdateOn();
-  filter->SetIterationsPerUpdate(1);
-  filter->SetNumberOfPieces(2);
-  RunCleanly(filter);
-  EXPECT_LT(1, filter->GetNumberOfIterations());
-  EXPECT_EQ(filter->GetReport().StopReason, delaunayflip::StopReasonKind::Converged);
-  EXPECT_FALSE(filter->Advance());
-}
-
 TEST(Backend, DeviceIdIsNothingToTheCpu)
 {
   auto large = MakeLargeMesh();
@@ -158,22 +146,6 @@ TEST(Backend, ForcedBackendThatIsAbsentIsAnError)
   filter->SetBackendToThreads(); // then there is no error
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
-}
-
-TEST(Backend, ForcedBackendThatIsThereRuns)
-{
-  if (!delaunayflip::HasCudaDevice())
-  {
-    GTEST_SKIP() << "no GPU";
-  }
-  for (const auto& mesh : { MakeRhombus(), MakeLargeMesh() })
-  {
-    WatchedFilter filter(mesh);
-    filter->SetBackendToCUDA();
-    filter->SetDeviceId(0);
-    EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), RunOnThreads(mesh));
-    EXPECT_TRUE(RanOn(filter, "CUDA"));
-  }
 }
 
 TEST(Backend, DeviceMemoryMayBeReleasedAtAnyTime)

@@ -181,14 +181,6 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
   }
 }
 
-TEST(BadInput, InvertedTrianglesWarn)
-{
-  auto mesh = ToPolyData(delaunayflip::MakeGridMesh(4, 4));
-  mesh->GetPoints()->SetPoint(12, 20.0, 20.0, 0.0); // the middle, far outside
-  WatchedFilter filter(mesh);
-  ExpectHolds(RunToWarning(filter), "turn the other way");
-}
-
 TEST(BadInput, TiesStayBitIdentical)
 {
   Points circle; // 3-4-5: the points of a lattice at distance 5 from the origin

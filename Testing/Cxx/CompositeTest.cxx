@@ -76,20 +76,6 @@ TEST(Composite, EveryBlockIsFlipped)
   EXPECT_EQ(filter.GetBlock(4)->GetNumberOfCells(), 0);
 }
 
-TEST(Composite, ReadBackSumsBlocks)
-{
-  auto blocks = MakeBlocks({ MakeWorstCase(20), nullptr, MakeRhombus(), MakeWorstCase(4) });
-  WatchedFilter filter(blocks);
-  filter.Run();
-  EXPECT_EQ(filter->GetTotalFlips(), 19 * 19 + 1 + 9);
-  EXPECT_EQ(filter->GetNumberOfIterations(), 37);
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_TRUE(filter->GetConverged());
-  EXPECT_STREQ(filter->GetGeometryUsedAsString(), "planar");
-  EXPECT_EQ(std::string(filter->GetBackendUsed()).find(delaunayflip::GetTestBackendName()), 0u);
-  EXPECT_EQ(std::string(filter->GetBackendUsed()).find(','), std::string::npos);
-}
-
 TEST(Composite, BlockedEdgesAreSums)
 {
   const delaunayflip::OwnedMesh<double> tetrahedron = {
@@ -155,21 +141,6 @@ TEST(Composite, TheAngleIsTheSmallestOfAllBlocks)
   EXPECT_FALSE(std::isnan(filter.GetRow("MinimumAngle", 0)));
   EXPECT_TRUE(std::isnan(filter.GetRow("MinimumAngle", 2)));
   EXPECT_NEAR(filter.GetRow("MinimumAngle", 4), smallest, 1e-9);
-}
-
-TEST(Composite, ABlockWithoutAnglesDoesNotCount)
-{
-  const auto nowhere = MakeMesh({ { NAN, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
-  const auto getAngle = [](const Blocks& blocks)
-  {
-    WatchedFilter filter(blocks);
-    filter.Run();
-    return filter.GetRow("MinimumAngle", 0);
-  };
-  const double expected = getAngle(MakeBlocks({ MakeRhombus() }));
-  EXPECT_LT(0.0, expected);
-  EXPECT_EQ(getAngle(MakeBlocks({ nowhere, MakeRhombus(), nowhere })), expected);
-  EXPECT_EQ(getAngle(MakeBlocks({ MakeRhombus(), nowhere })), expected);
 }
 
 TEST(Composite, TheWorstStopReasonCounts)
@@ -252,20 +223,6 @@ TEST(Composite, ProgressRisesOverBlocks)
   EXPECT_EQ(filter->GetProgressScale(), 1.0);
 }
 
-TEST(Composite, InputMayChangeItsKind)
-{
-  auto blocks = MakeBlocks({ MakeRhombus() });
-  WatchedFilter filter(blocks);
-  for (int i = 0; i < 2; ++i)
-  {
-    filter->SetInputDataObject(blocks);
-    filter.Run();
-    EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
-    filter->SetInputData(MakeRhombus());
-    EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
-  }
-}
-
 TEST(Composite, ConstraintsForAllOrForEachBlock)
 {
   vtkNew<vtkPolyData> line;
@@ -290,14 +247,4 @@ TEST(Composite, ConstraintsInBlocksForASingleMeshAreAnError)
   ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "constraints");
   filter->SetInputDataObject(1, nullptr);
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
-}
-
-TEST(Composite, PiecesWarnOfSeams)
-{
-  WatchedFilter filter(MakeRhombus());
-  filter->UpdatePiece(0, 1, 0);
-  EXPECT_TRUE(filter.GetWarnings().empty());
-  filter->UpdatePiece(0, 2, 0);
-  ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  ExpectHolds(filter.GetWarnings()[0], "edges between pieces");
 }

@@ -157,20 +157,6 @@ TEST(Constraints, OfTheSecondInputByIdsOrByPlace)
   }
 }
 
-TEST(Constraints, OfBothInputsTogether)
-{
-  auto mesh = MakeRhombus();
-  mesh->SetLines(MakeCells({ { 0, 1 }, { 1, 3 } }));
-  WatchedFilter filter(mesh);
-  EXPECT_EQ(Constrain(filter,
-              MakeLines({ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 4, 0, 0 } },
-                { { 0, 1 }, { 0, 2 }, { 2, 3 } })),
-    Counts(2, 2));
-  ExpectHolds(filter.GetWarnings()[0], "1 constraint edge that is not an edge of the mesh");
-  ExpectHolds(
-    filter.GetWarnings()[0], "1 constraint edge of the second input that the mesh does not have");
-}
-
 TEST(Constraints, OutputOfFeatureEdgesHoldsEveryEdge)
 {
   vtkNew<vtkFeatureEdges> edges; // all with two triangles, with points in a different order
@@ -420,37 +406,4 @@ TEST(ConstraintInsertion, LiveRunsEndWithTheSameMesh)
   live->InsertConstraintsOff(); // starts again
   live.RunToTheEnd();
   EXPECT_EQ(live->GetNumberOfConstraintFlips(), 0);
-}
-
-TEST(ConstraintInsertion, WarmStartsKeepTheChains)
-{
-  Mesh mesh = MakeLattice();
-  LiveFilter filter(mesh);
-  filter->SetConstraintsData(MakeLines(Lines));
-  filter.RunToTheEnd();
-  const vtkIdType flips = filter->GetNumberOfConstraintFlips();
-  for (int move = 0; move < 2; ++move)
-  {
-    Shear(mesh, move == 0 ? 0.8 : -1.6);
-    filter.RunToTheEnd();
-    EXPECT_TRUE(HasEdges(filter->GetOutput(), FirstChain));
-    EXPECT_GT(filter->GetTotalFlips(), 0);
-    EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 2);
-    EXPECT_EQ(filter->GetNumberOfConstraintFlips(), flips);
-    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
-  }
-}
-
-TEST(ConstraintInsertion, SumsUpBlocks)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeLattice());
-  blocks->SetBlock(1, MakeLattice());
-  WatchedFilter filter(blocks);
-  filter->SetConstraintsData(MakeLines(Lines));
-  filter.Run();
-  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 4);
-  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 2);
-  EXPECT_EQ(filter->GetNumberOfConstraintFlips() % 2, 0);
-  EXPECT_GT(filter->GetNumberOfConstraintFlips(), 0);
 }

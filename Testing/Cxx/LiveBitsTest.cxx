@@ -20,7 +20,8 @@
 #include <functional>
 #include <map>
 #include <sstream>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -156,63 +157,42 @@ void Divide(vtkDelaunayFlip* filter)
   filter->SetConstraintsData(constraints);
 }
 
-struct Kind
-{
-  const char* Name;
-  Mesh (*Make)();
-  void (*Set)(vtkDelaunayFlip*);
-};
-
-void PrintTo(const Kind& kind, std::ostream* stream) { *stream << kind.Name; }
-
-const Kind Kinds[] = { { "Plane", MakeBadPlane, SetNothing },
-  { "Terrain", MakeTerrain, SetTerrain }, { "Divided", MakeDividedTerrain, Divide },
-  { "Surface", MakeBadSphere, SetNothing } };
-
-/// Mesh, whether points are double, offset, backend.
-using Parameters = std::tuple<Kind, bool, double, int>;
-
-std::string GetName(const testing::TestParamInfo<Parameters>& info)
-{
-  std::ostringstream name;
-  name << std::get<0>(info.param).Name << (std::get<1>(info.param) ? "Double" : "Float") << "At"
-       << static_cast<long>(std::get<2>(info.param))
-       << (std::get<3>(info.param) == vtkDelaunayFlip::BACKEND_CUDA ? "OnCuda" : "OnThreads");
-  return name.str();
 }
 
-class LiveBits : public testing::TestWithParam<Parameters>
+TEST(LiveBits, AreThoseOfAnUpdateAtOnce)
 {
-};
-
-}
-
-TEST_P(LiveBits, AreThoseOfAnUpdateAtOnce)
-{
-  const auto [kind, isDouble, offset, backend] = this->GetParam();
-  if (backend == vtkDelaunayFlip::BACKEND_CUDA && !delaunayflip::HasCudaDevice())
+  const std::pair<Mesh (*)(), Setting> kinds[] = { { MakeBadPlane, SetNothing },
+    { MakeTerrain, SetTerrain }, { MakeDividedTerrain, Divide }, { MakeBadSphere, SetNothing } };
+  std::vector<int> backends = { vtkDelaunayFlip::BACKEND_THREADS };
+  if (delaunayflip::HasCudaDevice())
   {
-    GTEST_SKIP() << "no GPU that this build can use";
+    backends.push_back(vtkDelaunayFlip::BACKEND_CUDA);
   }
-  auto mesh = kind.Make();
-  // Floats that far from the origin can represent only large meshes.
-  isDouble ? Place<vtkDoubleArray>(mesh, Size, offset)
-           : Place<vtkFloatArray>(mesh, 1000.0 * Size, offset);
-  ExpectLiveIsAtOnce(mesh,
-    [set = kind.Set, where = backend](vtkDelaunayFlip* filter)
+  for (std::size_t kind = 0; kind < 4; ++kind)
+  {
+    for (const double offset : { 0.0, 1e6, 1e7 })
     {
-      filter->SetBackend(where);
-      set(filter);
-    });
+      // Floats that far from the origin can represent only large meshes.
+      auto doubles = kinds[kind].first(), floats = kinds[kind].first();
+      Place<vtkDoubleArray>(doubles, Size, offset);
+      Place<vtkFloatArray>(floats, 1000.0 * Size, offset);
+      for (const int backend : backends)
+      {
+        SCOPED_TRACE(
+          testing::Message() << "kind " << kind << " at " << offset << " on " << backend);
+        const Setting set = [&](vtkDelaunayFlip* filter)
+        {
+          filter->SetBackend(backend);
+          kinds[kind].second(filter);
+        };
+        ExpectLiveIsAtOnce(doubles, set);
+        ExpectLiveIsAtOnce(floats, set);
+      }
+    }
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(LiveUpdate, LiveBits,
-  testing::Combine(testing::ValuesIn(Kinds), testing::Bool(), testing::Values(0.0, 1e6, 1e7),
-    testing::Values(static_cast<int>(vtkDelaunayFlip::BACKEND_THREADS),
-      static_cast<int>(vtkDelaunayFlip::BACKEND_CUDA))),
-  GetName);
-
-TEST(LiveUpdate, BitsDoNotDependOnTheLayoutOfPoints)
+TEST(LiveBits, DoNotDependOnTheLayoutOfPoints)
 {
   for (const auto place : { Place<vtkSOADataArrayTemplate<double>>,
          Place<vtkSOADataArrayTemplate<float>>, Place<vtkTypeInt64Array> })

@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Observers that take things from the filter while it works, or throw; and inputs that change in
-/// place after an update.
+/// Observers that take things from the filter while it works, or throw.
 
 #include "FilterTestSupport.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkExecutive.h"
-#include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
 
@@ -229,65 +225,4 @@ TEST(ObserverSafety, ExceptionsAreErrors)
   }
 }
 
-TEST(SharedArrays, CellsAddedToTheInputAreNotInTheOutput)
-{
-  auto mesh = MakeRhombus();
-  mesh->GetPolys()->Squeeze();
-  WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  const Cells cells = GetCells(output->GetPolys());
-  for (int i = 0; i < 1000; ++i)
-  {
-    mesh->GetPolys()->InsertNextCell({ 0, 1, 2 });
-  }
-  EXPECT_EQ(output->GetNumberOfCells(), 2);
-  EXPECT_TRUE(output->GetPolys()->IsValid());
-  EXPECT_EQ(GetCells(output->GetPolys()), cells);
-  EXPECT_NE(output->GetPolys()->GetOffsetsArray(), mesh->GetPolys()->GetOffsetsArray());
-}
-
 /// Without being marked as modified.
-TEST(SharedArrays, IdsOfTheInputOfALiveRunMayBeOverwritten)
-{
-  auto mesh = MakeBadPlane();
-  const auto normals = MakeArray<vtkFloatArray>("Normals", mesh->GetNumberOfCells(), 3);
-  normals->Fill(1.0);
-  mesh->GetCellData()->SetNormals(normals);
-  LiveFilter filter(mesh);
-  filter->GenerateQualityOn();
-  filter.Run();
-  vtkDataArray* ids = mesh->GetPolys()->GetConnectivityArray();
-  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
-  {
-    ids->SetComponent(i, 0, i % 2 == 0 ? 1e9 : -1e9);
-  }
-  filter->Advance();
-  filter.Run();
-  filter->GenerateQualityOff();
-  filter->Advance();
-  filter.RunToTheEnd();
-  EXPECT_NE(filter->GetFailure(), vtkDelaunayFlip::FAILURE_OTHER) << filter->GetErrorMessage();
-}
-
-TEST(SharedArrays, CellsAddedToTheInputOfALiveRunBeginItAnew)
-{
-  auto whole = MakeBadPlane();
-  const Cells cells = GetCells(whole->GetPolys());
-  auto mesh = MakeBadPlane();
-  mesh->SetPolys(MakeCells(Cells(cells.begin(), cells.begin() + cells.size() / 2)));
-  mesh->GetPolys()->Squeeze();
-  LiveFilter filter(mesh);
-  filter->GenerateQualityOn();
-  filter.Run();
-  const vtkSmartPointer<vtkCellArray> output = filter->GetOutput()->GetPolys();
-  const vtkIdType before = mesh->GetNumberOfPolys();
-  for (std::size_t i = cells.size() / 2; i < cells.size(); ++i) // none of it marked as modified
-  {
-    mesh->GetPolys()->InsertNextCell(static_cast<vtkIdType>(cells[i].size()), cells[i].data());
-  }
-  EXPECT_EQ(output->GetNumberOfCells(), before);
-  EXPECT_TRUE(output->IsValid());
-  filter->Advance();
-  filter.RunToTheEnd();
-  EXPECT_TRUE(filter.GetPolygons() == FlipAtOnce(whole));
-}

@@ -40,19 +40,6 @@ Corner GetPlace(vtkPolyData* mesh, vtkIdType point)
   return place;
 }
 
-/// By their corners, from the smallest one on.
-void AddTriangles(vtkPolyData* mesh, Triangles& triangles)
-{
-  for (const Cell& cell : GetCells(mesh->GetPolys()))
-  {
-    std::array<Corner, 3> corners;
-    std::transform(cell.begin(), cell.end(), corners.begin(),
-      [mesh](vtkIdType id) { return GetPlace(mesh, id); });
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    triangles.insert(corners);
-  }
-}
-
 /// Cuts a mesh: triangle t goes to part ownerOf(t). Each part has the points of its triangles, with
 /// their number in "Point", and its triangles' numbers in "Cell".
 template <typename OwnerOf>
@@ -144,12 +131,20 @@ public:
   }
 };
 
+/// By their corners, from the smallest one on.
 Triangles Join(const Parts& parts)
 {
   Triangles triangles;
   for (const auto& part : parts)
   {
-    AddTriangles(part, triangles);
+    for (const Cell& cell : GetCells(part->GetPolys()))
+    {
+      std::array<Corner, 3> corners;
+      std::transform(cell.begin(), cell.end(), corners.begin(),
+        [&part](vtkIdType id) { return GetPlace(part, id); });
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      triangles.insert(corners);
+    }
   }
   return triangles;
 }
@@ -158,9 +153,7 @@ Triangles FlipUndivided(vtkPolyData* mesh)
 {
   WatchedFilter filter(mesh);
   filter->SetTieRuleToCanonical();
-  Triangles triangles;
-  AddTriangles(RunCleanly(filter), triangles);
-  return triangles;
+  return Join({ RunCleanly(filter) });
 }
 
 /// Every partition has the cells that it had, and its points first.
@@ -235,9 +228,8 @@ TEST(Partitions, OfOtherDatasetsAreOtherMeshes)
   EXPECT_TRUE(filter.GetWarnings().empty());
   auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
   EXPECT_EQ(output->GetPartitionAsDataObject(0, 0), nullptr);
-  Triangles alone;
-  AddTriangles(vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(1, 0)), alone);
-  EXPECT_EQ(alone, FlipUndivided(given[1]));
+  EXPECT_EQ(Join({ vtkPolyData::SafeDownCast(output->GetPartitionAsDataObject(1, 0)) }),
+    FlipUndivided(given[1]));
 }
 
 TEST(Partitions, ShareNoPointsWithoutBorders)
@@ -320,19 +312,6 @@ TEST(Partitions, KeepArraysThatOthersLack)
 }
 
 /// As a partition may have that got no part of the mesh.
-TEST(Partitions, MayHaveCellsWithoutPoints)
-{
-  vtkNew<vtkPolyData> empty;
-  empty->SetPolys(MakeCells({ {}, {} }));
-  AddNumbers(empty->GetCellData(), "Number", 2, 3);
-  PartitionFilter filter({ MakeRhombus(), empty });
-  const Parts parts = filter.UpdateCleanly();
-  EXPECT_EQ(filter->GetTotalFlips(), 1);
-  EXPECT_TRUE(HasEdge(parts[0], 1, 3));
-  EXPECT_EQ(GetCells(parts[1]->GetPolys()), Cells({ {}, {} }));
-  EXPECT_EQ(GetNumbers(parts[1]->GetCellData(), "Number"), std::vector<int>({ 3, 4 }));
-}
-
 TEST(Partitions, DropDuplicateGhosts)
 {
   const auto mesh = MakeBadMesh();
@@ -350,22 +329,6 @@ TEST(Partitions, DropDuplicateGhosts)
   const Parts parts = filter.UpdateCleanly();
   EXPECT_EQ(Join(parts), FlipUndivided(mesh));
   EXPECT_EQ(parts[0]->GetNumberOfCells(), half);
-}
-
-TEST(Partitions, NewArraysGoToEachOfThem)
-{
-  PartitionFilter filter(CutInOrder(MakeBadMesh(), 3));
-  filter->GenerateFlipCountOn();
-  filter->GenerateQualityOn();
-  int flips = 0;
-  for (const auto& part : filter.UpdateCleanly())
-  {
-    const std::vector<int> counts = GetNumbers(part->GetCellData(), "vtkDelaunayFlipCount");
-    ASSERT_EQ(static_cast<vtkIdType>(counts.size()), part->GetNumberOfCells());
-    flips = std::accumulate(counts.begin(), counts.end(), flips);
-    EXPECT_TRUE(part->GetCellData()->HasArray("vtkDelaunayFlipAngleAfter"));
-  }
-  EXPECT_EQ(flips, 2 * filter->GetTotalFlips());
 }
 
 TEST(Partitions, RegionsMustBeInAllAndWhole)
@@ -389,43 +352,23 @@ TEST(Partitions, RegionsMustBeInAllAndWhole)
   EXPECT_EQ(all->GetTotalFlips(), 0); // every triangle is a region
 }
 
-TEST(Partitions, BrokenOnesAreNamed)
+TEST(Partitions, BrokenOnesAndShortArraysAreNamed)
 {
   const Parts given = CutInOrder(MakeBadMesh(60), 2);
-  given[1]->SetPolys(MakeCells({ { 0, 1, 4444 } }));
+  AddNumbers(given[1]->GetCellData(), "Short", 2, 0);
+  AddNumbers(given[1]->GetPointData(), "ShortToo", 2, 0);
   PartitionFilter filter(given);
-  const Parts parts = filter.Update();
-  EXPECT_EQ(parts[0]->GetNumberOfCells() + parts[1]->GetNumberOfCells(), 0);
-  ASSERT_EQ(filter.GetErrors().size(), 1u);
-  ExpectHolds(filter.GetErrors()[0], "4444");
-}
-
-/// @param isOfCells whether the short array is of the cells, or of the points.
-/// @param iterations with 0, no partition gains a point.
-void ExpectLeftOut(bool isOfCells, int iterations)
-{
-  Parts given = CutInOrder(MakeBadMesh(60), 3);
-  given.insert(given.begin(), nullptr);
-  vtkDataSetAttributes* cells = given[2]->GetCellData();
-  AddNumbers(isOfCells ? cells : given[2]->GetPointData(), "Short", 2, 0);
-  PartitionFilter filter(given);
-  filter->SetMaximumIterations(iterations);
   const Parts parts = filter.Update();
   ASSERT_EQ(filter.GetWarnings().size(), 1u);
-  const std::string kind = isOfCells ? "cell" : "point";
-  ExpectHolds(filter.GetWarnings()[0],
-    "block 3: 1 " + kind + " array with too few tuples left out: \"Short\"");
-  EXPECT_EQ(parts[2]->GetCellData()->GetNumberOfArrays(), 1);
-  EXPECT_EQ(parts[2]->GetPointData()->GetNumberOfArrays(), 1);
-}
-
-TEST(Partitions, ShortArraysAreLeftOutWithAWarning)
-{
-  for (const int iterations : { 0, -1 })
-  {
-    ExpectLeftOut(true, iterations);
-    ExpectLeftOut(false, iterations);
-  }
+  ExpectHolds(filter.GetWarnings()[0], "with too few tuples left out: \"Short\"");
+  ExpectHolds(filter.GetWarnings()[0], "with too few tuples left out: \"ShortToo\"");
+  EXPECT_EQ(parts[1]->GetCellData()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(parts[1]->GetPointData()->GetNumberOfArrays(), 1);
+  given[1]->SetPolys(MakeCells({ { 0, 1, 4444 } }));
+  PartitionFilter broken(given);
+  EXPECT_EQ(broken.Update()[0]->GetNumberOfCells(), 0);
+  ASSERT_EQ(broken.GetErrors().size(), 1u);
+  ExpectHolds(broken.GetErrors()[0], "4444");
 }
 
 TEST(Partitions, ConstraintsMayBeOfEach)

@@ -10,7 +10,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -201,16 +200,6 @@ TEST(FilterProgress, AbortsAnywhere)
   EXPECT_TRUE(hasStoppedEarly);
 }
 
-TEST(FilterProgress, IsToldWhilePolygonsAreSplit)
-{
-  WatchedFilter filter(MakeQuads());
-  ProgressWatch watch(filter);
-  RunCleanly(filter);
-  EXPECT_TRUE(std::is_sorted(watch.Progress.begin(), watch.Progress.end()));
-  const auto isOfSplit = [](double progress) { return progress <= 0.3; };
-  EXPECT_GE(std::count_if(watch.Progress.begin(), watch.Progress.end(), isOfSplit), 3);
-}
-
 TEST(FilterProgress, AbortsWhileTheInputIsRead)
 {
   WatchedFilter split;
@@ -259,54 +248,6 @@ TEST(FilterProgress, AbortsWhileAnglesAreFound)
 }
 
 /// Wherever it is stopped: the same mesh in the end.
-TEST(FilterProgress, WarmStartsContinue)
-{
-  std::size_t events = SIZE_MAX;
-  Cells expected;
-  for (std::size_t event = 0; event <= events; ++event)
-  {
-    const Mesh mesh = MakeBadPlane();
-    LiveFilter filter(mesh);
-    filter->SetIterationsPerUpdate(1000);
-    filter.RunToTheEnd();
-    const Cells before = filter.GetPolygons();
-    Shear(mesh, 0.4);
-    ProgressWatch watch(filter, event);
-    filter.Run();
-    if (event == 0)
-    {
-      events = watch.Progress.size() - 2; // the others tell that all is done
-      expected = filter.GetPolygons();
-      EXPECT_LT(watch.Progress.front(), 0.1);
-      EXPECT_NE(expected, before);
-      continue;
-    }
-    ASSERT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED) << event;
-    ASSERT_EQ(watch.Progress.size(), event);
-    filter->RemoveAllObservers();
-    EXPECT_TRUE(filter->Advance());
-    filter.RunToTheEnd();
-    EXPECT_EQ(filter.GetPolygons(), expected) << event;
-  }
-  EXPECT_GT(events, 10u);
-}
-
-TEST(FilterProgress, ABlockAfterAnAbortPasses)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeLongRun());
-  blocks->SetBlock(1, MakeLongRun());
-  WatchedFilter filter(blocks);
-  ProgressWatch watch(filter, 1);
-  filter.Run();
-  EXPECT_EQ(watch.Progress.size(), 1u);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
-  for (unsigned int i = 0; i < 2; ++i)
-  {
-    EXPECT_EQ(GetCells(filter.GetBlock(i)->GetPolys()), GetCells(MakeLongRun()->GetPolys()));
-  }
-}
-
 /// Wherever it is stopped, a live run continues with the next update.
 TEST(FilterProgress, LiveRunsContinue)
 {

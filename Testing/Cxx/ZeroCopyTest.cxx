@@ -82,22 +82,6 @@ TEST(ZeroCopy, SamePicturesAndMesh)
   }
 }
 
-TEST(ZeroCopy, FillsOncePerStep)
-{
-  const TestFiller& filler = TestFiller::Install();
-  WatchedView view;
-  view->Step();
-  EXPECT_EQ(filler.Registers, 1);
-  EXPECT_EQ(filler.Fills, 1);
-  view->Step();
-  view->Step();
-  EXPECT_EQ(filler.Fills, 3);
-  view->Render();
-  view.Window->Render();
-  EXPECT_EQ(filler.Fills, 3);
-  EXPECT_EQ(filler.Registers, 1);
-}
-
 TEST(ZeroCopy, TheBuffersAreMappedDuringAStep)
 {
   const TestFiller& filler = TestFiller::Install();
@@ -165,22 +149,6 @@ TEST(ZeroCopy, RestartBeginsAtTheInput)
   EXPECT_EQ(view.Filter.GetPolygons(), FlipAtOnce(mesh));
 }
 
-TEST(ZeroCopy, ColorsChangeInPlace)
-{
-  const TestFiller& filler = TestFiller::Install();
-  WatchedView view;
-  view->Step();
-  view->Step();
-  const Bytes byAngle = view.GetPicture();
-  view->SetColorByToFlipCount();
-  view->Render();
-  EXPECT_GT(Compare(view.GetPicture(), byAngle), 0.1);
-  view->SetColorByToSmallestAngle();
-  view->Render();
-  EXPECT_EQ(view.GetPicture(), byAngle);
-  EXPECT_EQ(filler.Registers, 1);
-}
-
 TEST(ZeroCopy, ResizingAndEdges)
 {
   TestFiller::Install();
@@ -200,24 +168,6 @@ TEST(ZeroCopy, ResizingAndEdges)
   }
   views.ExpectSamePicture();
   EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
-}
-
-TEST(ZeroCopy, SeveralRenderers)
-{
-  TestFiller::Install();
-  WatchedView view;
-  view->Step();
-  view->GetRenderer()->SetViewport(0.0, 0.0, 0.5, 1.0);
-  vtkNew<vtkRenderer> other;
-  other->SetViewport(0.5, 0.0, 1.0, 1.0);
-  other->SetActiveCamera(view->GetRenderer()->GetActiveCamera());
-  other->AddActor(view.GetActor());
-  view.Window->AddRenderer(other);
-  view->Step();
-  const Bytes two = view.GetPicture();
-  view->Step();
-  EXPECT_GT(Compare(view.GetPicture(), two), 0.01);
-  EXPECT_EQ(view->GetDrawing(), WithoutCopies);
 }
 
 TEST(ZeroCopy, PickersAndSelectionsSeeTheTrianglesThatAreDrawn)

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FileMutation.h"
-#include "FileSeeds.h"
+#include "FileCases.h"
 #include "FuzzTarget.h"
 
 #include <fcntl.h>

@@ -9,13 +9,13 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
-#include "vtkDelaunayFlip.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPDelaunayFlip.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -60,11 +60,11 @@ private:
 };
 
 /// The filter of one rank.
-class RankFilter : public vtkDelaunayFlip
+class RankFilter : public vtkPDelaunayFlip
 {
 public:
   static RankFilter* New();
-  vtkTypeMacro(RankFilter, vtkDelaunayFlip);
+  vtkTypeMacro(RankFilter, vtkPDelaunayFlip);
 
   PieceGroup* Group = nullptr;
 

@@ -97,21 +97,17 @@ OwnedMesh<double> MakeSphere(
 OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size)
 {
   OwnedMesh<double> mesh;
-  for (std::int32_t i = 0; i < size; ++i)
+  for (std::int32_t i = 0; i < 2 * size; ++i)
   {
-    AddPoint(mesh, size + 1 + i, 1.0, 0.0);
-  }
-  for (std::int32_t j = 0; j < size; ++j)
-  {
-    AddPoint(mesh, j, -1.0, 0.0);
+    AddPoint(mesh, i < size ? size + 1 + i : i - size, i < size ? 1.0 : -1.0, 0.0);
   }
   for (std::int32_t i = 0; i + 1 < size; ++i)
   {
     AddTriangle(mesh, size, i + 1, i);
   }
-  for (std::int32_t j = 0; j + 1 < size; ++j)
+  for (std::int32_t i = size; i + 1 < 2 * size; ++i)
   {
-    AddTriangle(mesh, size - 1, size + j, size + j + 1);
+    AddTriangle(mesh, size - 1, i, i + 1);
   }
   return mesh;
 }
@@ -195,7 +191,7 @@ OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std:
   return mesh;
 }
 
-OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
+OwnedMesh<double> MakeFan(int start, int count)
 {
   constexpr int Ring[8][2] = { { 2, 0 }, { 2, 2 }, { 0, 2 }, { -2, 2 }, { -2, 0 }, { -2, -2 },
     { 0, -2 }, { 2, -2 } };
@@ -208,7 +204,7 @@ OwnedMesh<double> MakeFan(int start, int count, bool clockwise)
   }
   for (std::int32_t i = 1; i <= count; ++i)
   {
-    AddTriangle(mesh, 0, clockwise ? i + 1 : i, clockwise ? i : i + 1);
+    AddTriangle(mesh, 0, i, i + 1);
   }
   return mesh;
 }

@@ -80,7 +80,7 @@ OwnedMesh<double> MakeMoebiusStrip(std::int32_t columns, std::int32_t rows, std:
 
 /// `count` triangles around point 0, each an eighth of a turn from `start` eighths on. They do not
 /// close, and overlap where they are more than eight.
-OwnedMesh<double> MakeFan(int start, int count, bool clockwise);
+OwnedMesh<double> MakeFan(int start, int count);
 
 /// The mesh with every tenth triangle repeated, so that many edges have three or more triangles.
 OwnedMesh<double> RepeatTriangles(OwnedMesh<double> mesh);

@@ -56,25 +56,17 @@ class Consumer(unittest.TestCase):
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.write(text)
 
-    def run_cmake(self, *arguments):
-        return subprocess.run([CMAKE, *arguments], capture_output=True, text=True, check=False)
-
-    def succeed(self, *arguments):
-        run = self.run_cmake(*arguments)
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-
     def install(self, build):
-        self.succeed("--install", build, "--prefix", self.prefix)
+        self.run_command([CMAKE, "--install", build, "--prefix", self.prefix])
 
     def configure(self, *options, source=None):
-        return self.run_cmake(
-            "-S", source or self.folder, "-B", self.path("build"), "-G", "Ninja",
-            f"-DCMAKE_PREFIX_PATH={self.prefix}", *options)
+        """The command."""
+        return [CMAKE, "-S", source or self.folder, "-B", self.path("build"), "-G", "Ninja",
+                f"-DCMAKE_PREFIX_PATH={self.prefix}", *options]
 
     def build(self, *options, source=None):
-        run = self.configure(*options, source=source)
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        self.succeed("--build", self.path("build"), "--parallel", "2")
+        self.run_command(self.configure(*options, source=source))
+        self.run_command([CMAKE, "--build", self.path("build"), "--parallel", "2"])
 
     def read_option(self, name):
         """An entry of the cache; None if there is none."""
@@ -82,9 +74,14 @@ class Consumer(unittest.TestCase):
             found = re.search(rf"^{name}:\w+=(.*)$", file.read(), re.MULTILINE)
         return found and found.group(1)
 
+    def run_command(self, command, **environment):
+        run = subprocess.run(command, cwd=self.folder, env={**os.environ, **environment},
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        return run.stdout
+
     def run_program(self, name):
-        return subprocess.run([self.path(f"build/{name}")], cwd=self.folder, capture_output=True,
-                              text=True, check=True).stdout
+        return self.run_command([self.path(f"build/{name}")])
 
     def write_rhombus(self):
         self.write("rhombus.obj", "v -3 0 0\nv 0 -1 0\nv 3 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
@@ -203,8 +200,9 @@ echo "Cuda compilation tools, release {version}, V{version}.89"
     def configure_engine(self, *options, **environment):
         """How CMake ended, and what it said, in one line."""
         with mock.patch.dict(os.environ, {"CUDACXX": "", **environment}):
-            run = self.configure("-DDELAUNAYFLIP_BUILD_VTK=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=OFF",
-                                 *options, source=ROOT)
+            run = subprocess.run(
+                self.configure("-DDELAUNAYFLIP_BUILD_VTK=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=OFF",
+                               *options, source=ROOT), capture_output=True, text=True, check=False)
         return run.returncode, " ".join((run.stdout + run.stderr).split())
 
     def test_an_old_one_is_not_used(self):
@@ -237,9 +235,7 @@ class Packing(Consumer):
     def pack(self, generator):
         """The path of the only package."""
         config = os.path.join(os.environ["DELAUNAYFLIP_BUILD"], "CPackConfig.cmake")
-        run = subprocess.run([CPACK, "--config", config, "-G", generator, "-B", self.path("packed")],
-                             cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.run_command([CPACK, "--config", config, "-G", generator, "-B", self.path("packed")])
         (package,) = [entry.path for entry in os.scandir(self.path("packed")) if entry.is_file()]
         return package
 
@@ -254,12 +250,6 @@ class Packing(Consumer):
             output = self.run_command([sys.executable, "-c", PROGRAM.format(prefix=prefix)],
                                       PYTHONPATH=packages)
             self.assertEqual(output, "1 vtkDelaunayFlip\n")
-
-    def run_command(self, command, **environment):
-        run = subprocess.run(command, cwd=self.folder, env={**os.environ, **environment},
-                             capture_output=True, text=True, check=False)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run.stdout
 
 
 class Archive(Packing):
@@ -277,24 +267,16 @@ class Archive(Packing):
                      "no dpkg-shlibdeps or file (Debian: dpkg-dev, file)")
 class DebianPackage(Packing):
 
-    def read_field(self, name):
-        return subprocess.run(["dpkg-deb", "-f", self.package, name], capture_output=True, text=True,
-                              check=True).stdout.strip()
-
     def test_package(self):
-        self.package = self.pack("DEB")
-        self.check_fields()
-        subprocess.run(["dpkg-deb", "-x", self.package, self.folder], check=True)
-        self.expect_that_it_works(self.path("usr"))
-
-    def check_fields(self):
-        self.assertEqual(self.read_field("Package"), "delaunayflip")
-        self.assertEqual(self.read_field("Version"), VERSION)
-        names = [part.split()[0] for part in self.read_field("Depends").split(",")]
+        package = self.pack("DEB")
+        fields = self.run_command(["dpkg-deb", "-f", package])
+        self.assertRegex(fields, rf"(?s)Package: delaunayflip\n.*Version: {VERSION}\n")
+        needed = re.search(r"^Depends: (.*)$", fields, re.MULTILINE).group(1)
         for library in ("libc6", "libstdc++6", "libtbb12", "libvtk9"):
-            self.assertTrue(any(name.startswith(library) for name in names), names)
-        for name in names:
-            subprocess.run(["dpkg-query", "-W", name], stdout=subprocess.DEVNULL, check=True)
+            self.assertIn(library, needed)
+        self.run_command(["dpkg-query", "-W", *(part.split()[0] for part in needed.split(","))])
+        self.run_command(["dpkg-deb", "-x", package, self.folder])
+        self.expect_that_it_works(self.path("usr"))
 
 
 if __name__ == "__main__":

@@ -6,13 +6,18 @@ For scripts that the client runs by --script. The script's session is a generato
 function, and the client continues until that function returns true.
 """
 
+import importlib
 import os
 import sys
 import time
 import traceback
 
-from ClientQt import QtCore, QtWidgets
 from paraview import simple
+
+# For the Qt of ParaView's client. Another version in the same process would crash it.
+QT = "PyQt" + os.environ.get("DELAUNAYFLIP_QT", "5")
+QtCore = importlib.import_module(QT + ".QtCore")
+QtWidgets = importlib.import_module(QT + ".QtWidgets")
 
 FOLDER = os.environ["DELAUNAYFLIP_FOLDER"]
 PATIENCE = 60  # seconds, for one wait
@@ -44,11 +49,6 @@ class Client:
     def choose(self, menu, text):
         """Clicks an action of the menu bar."""
         self.find_actions(text)[menu].trigger()
-
-    def choose_beginning(self, menu, beginning):
-        """Clicks the action of a menu whose text begins with this."""
-        next(action for action in dict(self.find_menus())[menu].actions()
-             if action.text().replace("&", "").startswith(beginning)).trigger()
 
     def select(self, text):
         """Clicks an entry of the Pipeline Browser."""

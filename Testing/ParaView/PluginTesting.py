@@ -96,13 +96,31 @@ class PluginTest(unittest.TestCase):
         """A reader of the mesh."""
         return simple.XMLPolyDataReader(FileName=[self.save(mesh, name)])
 
-    def flip(self, source, **properties):
-        """Applies the filter, and expects no message. Returns it."""
+    def flip_with_messages(self, source, **properties):
+        """Applies the filter. Returns it, and the messages."""
         with Messages() as messages:
             flip = simple.DelaunayFlip(Input=source, **properties)
             refresh(flip)
-        self.assertEqual(messages.text, "")
+        return flip, messages.text
+
+    def flip(self, source, **properties):
+        """Applies the filter, and expects no message. Returns it."""
+        flip, text = self.flip_with_messages(source, **properties)
+        self.assertEqual(text, "")
         return flip
+
+    def expect_alternating_errors(self, flip, update):
+        """Ten updates that fail, and others between them that do not."""
+        for geometry in ("Planar", "Surface") * 10:
+            flip.Geometry = geometry
+            with Messages() as messages:
+                update()
+            flip.SMProxy.UpdatePropertyInformation()
+            fails = geometry == "Planar"
+            self.assertEqual(messages.text.count("ERROR"), int(fails), messages.text)
+            mesh = flip.GetClientSideObject().GetOutputDataObject(0)
+            self.assertEqual(mesh.GetNumberOfCells() == 0, fails)
+            self.assertEqual(flip.StopReason.split(":")[0], "failed" if fails else "converged")
 
 
 def main():

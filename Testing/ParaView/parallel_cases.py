@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes in pieces, for programs with any number of ranks: pvbatch and clients of pvserver.
+"""Meshes in pieces, for programs with any number of ranks. Run by test_parallel.py:
+parallel_cases.py FOLDER [PORT], in pvbatch, or in pvpython as the client of a server at the port.
+Writes what the filter says of each case to FOLDER/facts.json, and files of the ranks beside it.
 
 Sources make the pieces on the ranks, and another filter, downstream, writes what every rank has into
 a file of its own.
@@ -9,41 +11,29 @@ a file of its own.
 import glob
 import json
 import os
+import sys
 
 from paraview import simple
 
-from PluginTesting import Messages, fetch, refresh
+from PluginTesting import PLUGIN, Messages, fetch, refresh
 
-# The sizes of meshes, by their blocks. A mesh of negative size is broken on the last rank.
+# The size of the mesh, its type, and whether it is broken on the last rank.
 CASES = {
-    "pieces": {0: 40},
-    "one rank has all": {0: 20},
-    "unstructured pieces": {0: 30},
-    "one fails": {0: -20},
-    "nothing": {0: 0},
-    "blocks": {0: 20, 1: 15, 2: 25},
-    "blocks of other types": {0: 20, 1: 12, 2: 12, 3: 9},
-    "block fails": {0: 10, 1: -20, 3: 15},
+    "pieces": (40, "vtkPolyData", False),
+    "unstructured pieces": (30, "vtkUnstructuredGrid", False),
+    "one fails": (20, "vtkPolyData", True),
 }
-# By case and block: the types of meshes that are not polygonal data, and the blocks that only the
-# last rank has.
-KINDS = {
-    "unstructured pieces": {0: "vtkUnstructuredGrid"},
-    "blocks of other types": {0: "vtkUnstructuredGrid", 1: "vtkStructuredGrid", 2: "vtkImageData"},
-}
-ALONE = {"one rank has all": (0,), "blocks": (1,), "blocks of other types": (2, 3)}
-
 SOURCE = """
 import sys
 sys.path.insert(0, {here!r})
-from rank_pieces import make_pieces
-make_pieces(self.GetOutput(), {sizes!r}, {kinds!r}, {alone!r})
+from surfaces import make_piece
+make_piece(self.GetOutput(), {size}, {broken})
 """
 PIECES = "self.GetOutputInformation(0).Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)"
 WRITER = """
 import sys
 sys.path.insert(0, {here!r})
-from rank_pieces import write_rank
+from surfaces import write_rank
 write_rank(self.GetInput(), {folder!r})
 self.GetOutput().Initialize()
 """
@@ -51,11 +41,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def make_source(case):
-    kinds = KINDS.get(case, {})
-    kind = "vtkMultiblockDataSet" if "block" in case else kinds.get(0, "vtkPolyData")
+    size, kind, broken = CASES[case]
     source = simple.ProgrammableSource(OutputDataSetType=kind)
-    source.Script = SOURCE.format(
-        here=HERE, sizes=CASES[case], kinds=kinds, alone=ALONE.get(case, ()))
+    source.Script = SOURCE.format(here=HERE, size=size, broken=broken)
     source.ScriptRequestInformation = PIECES
     return source
 
@@ -94,3 +82,14 @@ def run(case, folder):
         "geometry": flip.GeometryUsed, "iterations": flip.NumberOfIterations,
         "flipped": get_flipped(fetch(flip, 1)), "errors": messages.text.count("ERROR"),
         "warnings": messages.text.count("Warning"), "text": messages.text}
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        simple.Connect("127.0.0.1", int(sys.argv[2]))
+        simple.LoadPlugin(PLUGIN, remote=True)
+    simple.LoadPlugin(PLUGIN, remote=False)
+    facts = {case: run(case, sys.argv[1]) for case in CASES}
+    with open(os.path.join(sys.argv[1], "facts.json"), "w", encoding="utf-8") as file:
+        json.dump(facts, file)
+    print("all is well", flush=True)

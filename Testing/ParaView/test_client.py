@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in ParaView's Qt client: menu, Apply, panel, undo, live runs, errors and charts.
+"""The plugin in ParaView's Qt client: menu, Apply, panel, live runs and charts.
 
-The scripts client_*.py run inside it. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
+The sessions of client_sessions.py run inside it. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
 """
 
 import glob
@@ -36,15 +36,16 @@ def find_client():
 class Client(PluginTest):
     """Each test starts a client, whose script plays a session."""
 
-    def play(self, name):
-        """Runs a script in a client, with pictures in DELAUNAYFLIP_PICTURES. Returns its output."""
+    def play(self, session):
+        """Plays a session in a client. Returns its output."""
         self.save(make_fan(14))
         self.save(make_fan(30), "long.vtp")  # 17 iterations
         self.save(make_line(make_fan(30), 15, 29), "lines.vtp")
-        environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder)
+        environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder,
+                           DELAUNAYFLIP_SESSION=session)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
         client = subprocess.run(
-            [find_client(), "--script=" + os.path.join(HERE, name)], env=environment,
+            [find_client(), "--script=" + os.path.join(HERE, "client_sessions.py")], env=environment,
             timeout=PATIENCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, encoding="utf-8", check=False)
         for picture in glob.glob(self.path("*.png")):
@@ -53,24 +54,10 @@ class Client(PluginTest):
         self.assertIn("all is well", client.stdout)
         return client.stdout
 
-    def expect_quiet(self, written):
-        self.assertNotRegex(written, "ERR[|]|WARN[|]|warning:")
-
-    def test_session(self):
-        self.play("client_session.py")
-
-    def test_errors(self):
-        written = self.play("client_errors.py")
-        self.assertEqual(written.count("do not lie in one plane"), 10, written)
-
-    def test_chart(self):
-        self.expect_quiet(self.play("client_chart.py"))
-
-    def test_panel(self):
-        self.expect_quiet(self.play("client_panel.py"))
-
-    def test_statistics(self):
-        self.expect_quiet(self.play("client_statistics.py"))
+    def test_sessions(self):
+        for session in ("use_filter", "use_panel", "use_chart", "use_statistics"):
+            with self.subTest(session):
+                self.assertNotRegex(self.play(session), "ERR[|]|WARN[|]|warning:")
 
 
 if __name__ == "__main__":

@@ -1,18 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs that are surfaces but not vtkPolyData, and inputs that are not surfaces."""
+"""Inputs that are surfaces but not vtkPolyData, inputs that are not surfaces, and errors, which are
+explained to the user and after which the session continues."""
 
 from paraview import simple
 from vtkmodules.vtkCommonCore import (
-    vtkBitArray, vtkDoubleArray, vtkIdTypeArray, vtkStringArray, vtkTypeInt64Array,
+    vtkBitArray, vtkIdTypeArray, vtkStringArray, vtkTypeInt64Array,
     vtkUnsignedCharArray, vtkVariantArray)
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE, VTK_TRIANGLE_STRIP,
-    VTK_VERTEX, vtkCellArray, vtkMultiBlockDataSet, vtkRectilinearGrid, vtkUnstructuredGrid)
-from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter, vtkXMLUnstructuredGridWriter
+    VTK_VERTEX, vtkCellArray, vtkMultiBlockDataSet, vtkUnstructuredGrid)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from PluginTesting import (
-    Messages, PluginTest, fetch, get_triangles, main, make_fan, refresh)
+    PluginTest, fetch, get_triangles, main, make_cells, make_fan, refresh)
 
 # Cells on the points of make_fan(9) that do not overlap.
 MIXED = [(VTK_TRIANGLE, (0, 1, 2)), (VTK_PIXEL, (2, 3, 8, 4)), (VTK_LINE, (0, 8)),
@@ -51,14 +52,12 @@ def get_numbers(mesh):
 
 
 class InputTest(PluginTest):
-    def write(self, writer, data, name):
+    def read_grid(self, grid, name="grid.vtu"):
+        writer = vtkXMLUnstructuredGridWriter()
         writer.SetDataModeToBinary()
         writer.SetFileName(self.path(name))
-        writer.SetInputData(data)
+        writer.SetInputData(grid)
         self.assertEqual(writer.Write(), 1)
-
-    def read_grid(self, grid, name="grid.vtu"):
-        self.write(vtkXMLUnstructuredGridWriter(), grid, name)
         return simple.XMLUnstructuredGridReader(FileName=[self.path(name)])
 
     def expect_same_points(self, before, after):
@@ -67,34 +66,38 @@ class InputTest(PluginTest):
 
 
 class UnstructuredGrids(InputTest):
-    def test_one_type(self):
-        """Their types may be one constant."""
-        mesh = make_fan(20)
-        grid = vtkUnstructuredGrid()
-        grid.SetPoints(mesh.GetPoints())
-        grid.SetCells(VTK_TRIANGLE, mesh.GetPolys())
-        source = simple.TrivialProducer()
-        source.GetClientSideObject().SetOutput(grid)
-        self.assertEqual(
-            get_triangles(fetch(self.flip(source))), get_triangles(fetch(self.flip(self.read(mesh)))))
+    live = 0
 
     def test_triangles(self):
+        """Their types may be one constant."""
         mesh = make_fan(20)
         number_cells(mesh)
-        grid = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)])
         from_mesh = fetch(self.flip(self.read(mesh)))
-        flip = self.flip(self.read_grid(grid))
-        self.expect_same_points(grid, fetch(flip))
-        self.assertGreater(flip.TotalFlips, 20)
-        self.assertEqual(get_triangles(fetch(flip)), get_triangles(from_mesh))
-        self.assertEqual(get_numbers(fetch(flip)), get_numbers(from_mesh))
+        constant = vtkUnstructuredGrid()
+        constant.SetPoints(mesh.GetPoints())
+        constant.SetCells(VTK_TRIANGLE, mesh.GetPolys())
+        number_cells(constant)
+        producer = simple.TrivialProducer()
+        producer.GetClientSideObject().SetOutput(constant)
+        blanked = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)] +
+                            [(VTK_EMPTY_CELL, ())])
+        for source in (producer, self.read_grid(blanked)):
+            flip = self.flip(source, LiveUpdate=self.live)
+            for step in range(1, 4 * self.live):
+                self.assertEqual(flip.NumberOfIterations, step)
+                flip.SMProxy.InvokeCommand("Advance")
+                refresh(flip)
+            while flip.StopReason == "running":
+                flip.SMProxy.InvokeCommand("Advance")
+                refresh(flip)
+            self.expect_same_points(mesh, fetch(flip))
+            self.assertEqual(get_triangles(fetch(flip)), get_triangles(from_mesh))
+            self.assertEqual(get_numbers(fetch(flip)), get_numbers(from_mesh))
 
     def test_mixed_cells(self):
         """The output has vertices, lines, polygons and strips, in this order, with their data."""
         grid = make_grid(make_fan(9).GetPoints(), MIXED)
-        flip = simple.DelaunayFlip(Input=self.read_grid(grid), Triangulate=0)
-        refresh(flip)
-        mesh = fetch(flip)
+        mesh = fetch(self.flip_with_messages(self.read_grid(grid), Triangulate=0)[0])
         self.expect_same_points(grid, mesh)
         self.assertEqual([mesh.GetNumberOfVerts(), mesh.GetNumberOfLines()], [1, 1])
         self.assertEqual(get_triangles(mesh), [(0, 1, 2), (2, 3, 4, 8), (0, 2, 8, 7)])
@@ -106,30 +109,16 @@ class UnstructuredGrids(InputTest):
         self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
 
     def test_volume(self):
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=self.read_grid(make_volume()))
-            refresh(flip)
-        self.assertIn("Extract Surface", messages.text)
-        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+        for volume in (self.read_grid(make_volume()), simple.Wavelet(WholeExtent=[0, 3] * 3)):
+            flip, text = self.flip_with_messages(volume)
+            self.assertIn("Extract Surface", text)
+            self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
 
 
-class Live(InputTest):
-    def test_live(self):
-        """Steps continue from the last one, although the surface is extracted."""
-        mesh = make_fan(20)
-        grid = make_grid(mesh.GetPoints(), [(VTK_TRIANGLE, t) for t in get_triangles(mesh)] +
-                         [(VTK_EMPTY_CELL, ())])
-        source = self.read_grid(grid)
-        at_once = self.flip(source)
-        live = self.flip(source, LiveUpdate=1, IterationsPerUpdate=3)
-        for step in (1, 2, 3):
-            self.assertEqual(live.NumberOfIterations, 3 * step)
-            live.SMProxy.InvokeCommand("Advance")
-            refresh(live)
-        while live.StopReason == "running":
-            live.SMProxy.InvokeCommand("Advance")
-            refresh(live)
-        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
+class Live(UnstructuredGrids):
+    """Steps continue from the last one, although the surface is extracted."""
+
+    live = 1
 
 
 class Grids(InputTest):
@@ -166,24 +155,6 @@ class Grids(InputTest):
         flip = self.expect_grid(heights, fetch(heights), "surface", Geometry="Surface")
         self.assertGreater(flip.TotalFlips, 0)
 
-    def test_rectilinear_grid(self):
-        grid = vtkRectilinearGrid()
-        grid.SetDimensions(8, 1, 6)
-        for values, put in ((range(8), grid.SetXCoordinates), ([2], grid.SetYCoordinates),
-                            ([0, 1, 3, 7, 9, 10], grid.SetZCoordinates)):
-            coordinates = vtkDoubleArray()
-            for value in values:
-                coordinates.InsertNextValue(value)
-            put(coordinates)
-        self.write(vtkXMLRectilinearGridWriter(), grid, "grid.vtr")
-        reader = simple.XMLRectilinearGridReader(FileName=[self.path("grid.vtr")])
-        self.expect_grid(reader, grid, "planar")
-
-    def test_volume(self):
-        with Messages() as messages:
-            refresh(simple.DelaunayFlip(Input=simple.Wavelet(WholeExtent=[0, 3, 0, 3, 0, 3])))
-        self.assertIn("Extract Surface", messages.text)
-
 
 class Blocks(InputTest):
     def get_leaves(self, output):
@@ -199,11 +170,9 @@ class Blocks(InputTest):
         group = simple.GroupDatasets(Input=[
             self.read_grid(make_volume(), "a.vtu"), self.read(make_fan(20)),
             self.read_grid(make_volume(), "b.vtu"), simple.Wavelet(WholeExtent=[0, 7, 0, 5, 0, 0])])
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=group)
-            refresh(flip)
-        self.assertEqual(messages.text.count("passed unchanged"), 1)
-        self.assertNotIn("ERROR", messages.text)
+        flip, text = self.flip_with_messages(group)
+        self.assertEqual(text.count("passed unchanged"), 1)
+        self.assertNotIn("ERROR", text)
         leaves = self.get_leaves(fetch(flip))
         self.assertEqual([leaf.GetClassName() for leaf in leaves], [
             "vtkUnstructuredGrid", "vtkPolyData", "vtkUnstructuredGrid", "vtkPolyData"])
@@ -214,10 +183,8 @@ class Blocks(InputTest):
 
     def test_amr_holds_no_meshes(self):
         amr = simple.AMRGaussianPulseSource(Dimension=2)
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=amr)
-            refresh(flip)
-        self.assertEqual(messages.text.count("passed unchanged"), 1)
+        flip, text = self.flip_with_messages(amr)
+        self.assertEqual(text.count("passed unchanged"), 1)
         inputs, outputs = (self.get_leaves(source.GetClientSideObject().GetOutputDataObject(0))
                            for source in (amr, flip))
         self.assertGreater(len(inputs), 0)
@@ -231,10 +198,8 @@ class Malformed(InputTest):
     def apply(self, data):
         producer = simple.TrivialProducer()
         producer.GetClientSideObject().SetOutput(data)
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=producer)
-            refresh(flip)
-        return messages.text, flip.GetClientSideObject().GetOutputDataObject(0)
+        flip, text = self.flip_with_messages(producer)
+        return text, flip.GetClientSideObject().GetOutputDataObject(0)
 
     def test_pixels_without_four_points(self):
         for ids in ((), (0, 1), (0, 1, 2)):
@@ -274,6 +239,51 @@ class Malformed(InputTest):
             self.assertIn("3 cell arrays with too few tuples", text)
             self.assertGreater(output.GetNumberOfCells(), 1)
             self.assertEqual(get_numbers(output)[-1], 1)
+
+
+class Errors(PluginTest):
+    def test_errors_are_told(self):
+        broken = make_fan(10)
+        broken.SetPolys(make_cells([(0, 1, 2), (1, 2, 77)]))
+        broken.GetCellData().Initialize()
+        fan = self.read(make_fan(10))
+        for word, source, properties in (
+                ("tie rule", simple.Sphere(), {"TieRule": "Canonical"}),
+                ("plane", simple.Sphere(), {"Geometry": "Planar"}),
+                ("Regions", fan, {"RegionArray": "Regions"}),
+                ("olerance", fan, {"Tolerance": 2.0}),
+                ("77", self.read(broken, "broken.vtp"), {})):
+            with self.subTest(word):
+                flip, text = self.flip_with_messages(source, **properties)
+                self.assertRegex(text, "ERROR(.|\n)*vtkDelaunayFlip(.|\n)*" + word)
+                self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
+                self.assertRegex(flip.StopReason, "^failed: .*" + word)
+
+    def test_ten(self):
+        flip = simple.DelaunayFlip(Input=simple.Sphere())
+        self.expect_alternating_errors(flip, lambda: refresh(flip))
+
+    def test_what_is_no_error(self):
+        nothing = make_fan(10)
+        nothing.SetPolys(vtkCellArray())
+        nothing.GetCellData().Initialize()
+        flip = self.flip(self.read(nothing))
+        self.assertEqual(fetch(flip).GetNumberOfPoints(), 10)
+        self.assertEqual(fetch(flip, 1).GetNumberOfRows(), 0)
+        flip = self.flip(self.read(make_fan(20), "fan.vtp"), MaximumIterations=2)
+        self.assertEqual(flip.StopReason, "iteration limit")
+        self.assertEqual(flip.NumberOfIterations, 2)
+        self.assertGreater(flip.NumberOfNonDelaunayEdges, 0)
+
+
+class ViewErrors(PluginTest):
+    """In a pipeline that only a view updates, as in the client."""
+
+    def test_ten(self):
+        flip = simple.DelaunayFlip(Input=simple.Sphere())
+        view = simple.CreateView("RenderView")
+        simple.Show(flip, view)
+        self.expect_alternating_errors(flip, lambda: simple.Render(view))
 
 
 if __name__ == "__main__":

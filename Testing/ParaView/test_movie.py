@@ -62,15 +62,6 @@ class Movie(unittest.TestCase):
         self.assertGreater(
             compare(self.path(frames[0]), self.path(frames[-1])), 10 * TOLERANCE)
 
-    def test_a_file_of_another_format(self):
-        """A roof whose ridge must flip in x and y; in space it is a feature edge."""
-        file = self.path("roof.obj")
-        with open(file, "w", encoding="ascii") as roof:
-            roof.write("v -3 0 1\nv 0 -1 0\nv 3 0 1\nv 0 1 0\nvn 0 1 1\nvn 0 -1 1\n"
-                       "f 1//2 2//2 3//2\nf 1//1 3//1 4//1\n")
-        self.expect("2 frames of 1 flips", file, "--geometry", "planar-xy")
-        self.expect("1 frames of 0 flips", file, "--geometry", "surface")
-
     def test_what_is_wrong_is_told(self):
         for status, message, *arguments in (
                 (2, "known are .vtk .vtp .ply .stl .obj", "mesh.xyz"),
@@ -80,11 +71,6 @@ class Movie(unittest.TestCase):
                 run = run_example(self.folder, *arguments)
                 self.assertEqual(run.returncode, status, run.stdout)
                 self.assertIn(message, run.stdout)
-
-    def test_help(self):
-        run = run_example("--help")
-        self.assertEqual(run.returncode, 0, run.stdout)
-        self.assertIn("--geometry", run.stdout)
 
     def expect(self, outcome, *arguments):
         run = run_example(self.folder, *arguments)

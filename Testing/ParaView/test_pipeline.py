@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter in ParaView's pipelines: inputs and outputs."""
+"""The filter in ParaView's pipelines: inputs, outputs, progress, steps of a script; and that its
+meshes are those of the command, which is built with another VTK."""
 
 import math
+import os
+import subprocess
+import unittest
 
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
-    Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, make_fan, make_line,
+    PluginTest, fetch, get_edges, get_triangles, main, make_cells, make_fan, make_line,
     refresh)
 
+COMMAND = os.environ["DELAUNAYFLIP_COMMAND"]
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
 
@@ -22,50 +25,21 @@ def get_rows(table, column):
 
 
 class Inputs(PluginTest):
-    def test_sphere(self):
-        flip = self.flip(simple.Sphere(ThetaResolution=60, PhiResolution=40))
-        self.assertEqual(flip.GeometryUsed, "surface")
-        self.assertEqual(flip.TotalFlips, 0)  # only rounding noise could flip
-        flip.Tolerance = 1e-9
-        refresh(flip)
-        self.assertGreater(flip.TotalFlips, 0)
-        self.assertEqual(flip.NumberOfNonDelaunayEdges, 0)
-
-    def test_quads(self):
-        flip = self.flip(simple.Plane(XResolution=5, YResolution=4))
-        self.assertEqual(flip.GeometryUsed, "planar")
-        self.assertEqual(len(get_triangles(fetch(flip))), 40)
-        self.assertTrue(all(len(cell) == 3 for cell in get_triangles(fetch(flip))))
-
-    def test_empty(self):
-        empty = vtkPolyData()
-        empty.SetPoints(vtkPoints())
-        flip = self.flip(self.read(empty))
-        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
-        self.assertEqual(fetch(flip, 1).GetNumberOfRows(), 0)
-
     def test_composite(self):
-        group = simple.GroupDatasets(
-            Input=[self.read(make_fan(20), "a.vtp"), self.read(make_fan(30), "b.vtp")])
-        output = fetch(self.flip(group))
-        blocks = [output.GetPartition(i, 0) if hasattr(output, "GetPartition")
-                  else output.GetBlock(i) for i in range(2)]
-        flips = [block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0) for block in blocks]
-        alone = [self.flip(self.read(make_fan(n))).TotalFlips for n in (20, 30)]
-        self.assertEqual(flips, alone)
-        self.assertGreater(min(flips), 20)
-
-    def test_sums_of_blocks(self):
         group = simple.GroupDatasets(
             Input=[self.read(make_fan(20), "a.vtp"), self.read(make_fan(30), "b.vtp")])
         flip = self.flip(group)
         alone = [self.flip(self.read(make_fan(n))) for n in (20, 30)]
         self.assertEqual(flip.TotalFlips, sum(one.TotalFlips for one in alone))
         self.assertEqual(flip.NumberOfIterations, max(one.NumberOfIterations for one in alone))
-        table = fetch(flip, 1)
+        table, output = fetch(flip, 1), fetch(flip)
         self.assertTrue(table.IsA("vtkTable"), table.GetClassName())
         self.assertEqual(sum(get_rows(table, "Flipped")), flip.TotalFlips)
         self.assertEqual(table.GetNumberOfRows(), flip.NumberOfIterations)
+        for i, one in enumerate(alone):
+            block = output.GetPartition(i, 0) if hasattr(output, "GetPartition") else output.GetBlock(i)
+            flips = block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
+            self.assertEqual(flips, one.TotalFlips)
 
     def test_a_block_that_fails(self):
         broken = make_fan(10)
@@ -73,10 +47,8 @@ class Inputs(PluginTest):
         broken.GetCellData().Initialize()
         group = simple.GroupDatasets(
             Input=[self.read(make_fan(20), "a.vtp"), self.read(broken, "b.vtp")])
-        with Messages() as messages:
-            flip = simple.DelaunayFlip(Input=group)
-            refresh(flip)
-        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
+        flip, text = self.flip_with_messages(group)
+        self.assertEqual(text.count("ERROR"), 1, text)
         self.assertRegex(flip.StopReason, "^failed: block [0-9]+ .*names point 77")
         self.assertGreater(flip.TotalFlips, 20)
         self.assertEqual(fetch(flip).GetNumberOfPoints(), 20)
@@ -105,15 +77,14 @@ class Inputs(PluginTest):
 
 
 class Regions(PluginTest):
-    def test_cell_arrays_are_offered(self):
+    def test_cell_arrays_are_offered_and_their_borders_stay(self):
         flip = self.flip(self.read(make_fan(20)))
         domain = flip.SMProxy.GetProperty("RegionArray").FindDomain("vtkSMArrayListDomain")
         names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
         self.assertEqual(names, ["", "Side"])
         self.assertEqual(flip.RegionArray, "")
-
-    def test_borders_stay(self):
-        flip = self.flip(self.read(make_fan(20)), RegionArray="Side")
+        flip.RegionArray = "Side"
+        refresh(flip)
         self.assertIn(frozenset((10, 19)), get_edges(fetch(flip)))
 
 
@@ -130,83 +101,117 @@ class Outputs(PluginTest):
         self.assertEqual(sum(get_rows(table, "Flipped")), self.filter.TotalFlips)
 
     def test_plot(self):
-        plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1))
-        table, iterations = fetch(plot), fetch(self.filter, 1)
-        self.assertEqual(
-            [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())],
-            ["Iteration", "Flipped", "Excluded", "Blocked", "NonDelaunay", "Tested",
-             "MinimumAngle"])
-        self.assertEqual(get_rows(table, "Iteration")[0], 1)
-        for column in ("Iteration", "Flipped", "Excluded", "Blocked", "Tested"):
-            self.assertEqual(get_rows(table, column), get_rows(iterations, column))
-
-    def test_plot_on_a_logarithmic_scale(self):
-        """Counts of 0 are left out; the smallest angle has its own axis."""
-        plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(self.filter, 1), LogScale=1)
-        self.assertTrue(all(math.isnan(count) for count in get_rows(fetch(plot), "Blocked")))
-        self.assertGreater(get_rows(fetch(plot), "MinimumAngle")[0], 0)
-        for before, after in zip(get_rows(fetch(self.filter, 1), "Excluded"),
-                                 get_rows(fetch(plot), "Excluded")):
-            self.assertTrue(before == after or before == 0 and math.isnan(after))
-
-    def test_plot_of_one_row_or_none(self):
-        for limit, rows in ((1, 2), (0, 0)):
+        """On a logarithmic scale, counts of 0 are left out; the smallest angle has its own axis."""
+        iterations = fetch(self.filter, 1)
+        for is_log in (0, 1):
+            table = fetch(simple.PlotDelaunayFlips(
+                Input=simple.OutputPort(self.filter, 1), LogScale=is_log))
+            self.assertEqual(
+                [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())],
+                ["Iteration", "Flipped", "Excluded", "Blocked", "NonDelaunay", "Tested",
+                 "MinimumAngle"])
+            self.assertGreater(get_rows(table, "MinimumAngle")[0], 0)
+            for column in ("Iteration", "Flipped", "Excluded", "Blocked", "Tested"):
+                for before, after in zip(get_rows(iterations, column), get_rows(table, column)):
+                    self.assertTrue(math.isnan(after) if is_log and not before else before == after)
+        for limit, rows in ((1, 2), (0, 0)):  # a line needs two points
             flip = self.flip(self.read(make_fan(20)), MaximumIterations=limit)
             plot = simple.PlotDelaunayFlips(Input=simple.OutputPort(flip, 1))
             self.assertEqual(get_rows(fetch(plot), "Iteration"), [1] * rows)
 
-    def test_information(self):
-        delaunay_already = self.flip(self.filter)
-        self.assertEqual(delaunay_already.NumberOfIterations, 0)
-        for flip in (self.filter, delaunay_already):
-            information = flip.GetDataInformation().DataInformation
-            arrays = information.GetFieldDataInformation()
+    def test_read_back(self):
+        """Also as field data; of a mesh that was Delaunay already, in place of earlier ones."""
+        again = self.flip(self.filter)
+        self.assertEqual((again.NumberOfIterations, again.TotalFlips), (0, 0))
+        for flip in (self.filter, again):
+            self.assertEqual((flip.StopReason, flip.Converged, flip.GeometryUsed,
+                              flip.NumberOfNonDelaunayEdges), ("converged", 1, "planar", 0))
+            self.assertRegex(flip.BackendUsed, "^Threads: [0-9]+$")
+            arrays = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
             for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
                 self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
-
-    def test_read_back(self):
-        self.assertEqual(self.filter.StopReason, "converged")
-        self.assertEqual(self.filter.Converged, 1)
-        self.assertEqual(self.filter.GeometryUsed, "planar")
-        self.assertRegex(self.filter.BackendUsed, "^Threads: [0-9]+$")
-        self.assertEqual(self.filter.NumberOfNonDelaunayEdges, 0)
 
 
 class Progress(PluginTest):
     """The events for observers of the filter's object, such as the client's progress bar."""
 
-    def setUp(self):
-        super().setUp()
-        self.filter = simple.DelaunayFlip(Input=self.read(make_fan(40)))
-        self.object = self.filter.SMProxy.GetClientSideObject()
+    def test_progress_and_abort(self):
+        for last in (2.0, 0.5, 0.0):  # the progress at which the filter is stopped
+            flip = simple.DelaunayFlip(Input=self.read(make_fan(40)))
+            filter_object, seen = flip.SMProxy.GetClientSideObject(), []
 
-    def test_progress_goes_up(self):
-        seen = []
-        self.object.AddObserver(
-            "ProgressEvent", lambda *_: seen.append(self.object.GetProgress()))
-        refresh(self.filter)
-        self.assertGreater(len(seen), 5)
-        self.assertEqual(seen, sorted(seen))
+            def look(*_):
+                seen.append(filter_object.GetProgress())
+                filter_object.SetAbortExecute(seen[-1] >= last)
 
-    def abort_at(self, share):
-        def stop(*_):
-            self.object.SetAbortExecute(self.object.GetProgress() >= share)
+            filter_object.AddObserver("ProgressEvent", look)
+            refresh(flip)
+            self.assertEqual(seen, sorted(seen))
+            self.assertEqual(flip.StopReason, "converged" if last > 1.0 else "aborted")
+            self.assertEqual(len(seen) > 5, last > 0.0)
+            self.assertEqual(flip.NumberOfIterations > 0, last > 0.0)
+            self.assertEqual(len(get_triangles(fetch(flip))), 38)
 
-        self.object.AddObserver("ProgressEvent", stop)
-        refresh(self.filter)
-        self.assertEqual(self.filter.StopReason, "aborted")
-        return get_triangles(fetch(self.filter))
 
-    def test_abort(self):
-        self.assertEqual(len(self.abort_at(0.5)), 38)
-        self.assertGreater(self.filter.NumberOfIterations, 0)
-        self.assertGreater(self.filter.NumberOfNonDelaunayEdges, 0)
+class Live(PluginTest):
+    def test_a_script_steps(self):
+        source = self.read(make_fan(20))
+        at_once = self.flip(source)
+        live = self.flip(source, LiveUpdate=1, IterationsPerUpdate=3)
+        self.assertEqual(live.NumberOfIterations, 3)
+        self.assertEqual(live.StopReason, "running")
+        steps = 1
+        while live.StopReason == "running" and steps < 100:
+            live.SMProxy.InvokeCommand("Advance")
+            refresh(live)
+            steps += 1
+        self.assertEqual(steps, -(-at_once.NumberOfIterations // 3))
+        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
 
-    def test_abort_before_the_first_iteration(self):
-        before = get_triangles(fetch(self.filter.Input))
-        self.assertEqual(self.abort_at(0.0), before)
-        self.assertEqual(self.filter.NumberOfIterations, 0)
+    def test_restart(self):
+        live = self.flip(self.read(make_fan(20)), LiveUpdate=1)
+        live.SMProxy.InvokeCommand("Advance")
+        refresh(live)
+        self.assertEqual(live.NumberOfIterations, 2)
+        live.SMProxy.InvokeCommand("Restart")
+        refresh(live)
+        self.assertEqual(live.NumberOfIterations, 1)
 
+
+@unittest.skipUnless(os.path.exists(COMMAND), f"skipped: no command {COMMAND}")
+class SameBits(PluginTest):
+    def expect_same(self, path, options=(), **properties):
+        flipped_by_command = self.path("command.vtp")
+        environment = {name: value for name, value in os.environ.items()  # without ParaView's libraries
+                       if name not in ("LD_LIBRARY_PATH", "PYTHONPATH")}
+        subprocess.run([COMMAND, path, flipped_by_command, *options], check=True, timeout=120,
+                       env=environment, stdout=subprocess.DEVNULL)
+        before = simple.XMLPolyDataReader(FileName=[path])
+        after = simple.XMLPolyDataReader(FileName=[flipped_by_command])
+        triangles = get_triangles(fetch(self.flip(before, **properties)))
+        # Not by assertEqual, which would take a minute to describe the difference.
+        self.assertTrue(triangles == get_triangles(fetch(after)), "not the command's triangles")
+        self.assertTrue(triangles != get_triangles(fetch(before)), "nothing was flipped")
+
+    def save_source(self, source):
+        path = self.path("source.vtp")
+        simple.SaveData(path, source, DataMode="Binary")
+        return path
+
+    def test_plane(self):
+        self.expect_same(self.save(make_fan(150)))
+
+    def test_surface(self):
+        sphere = simple.Sphere(ThetaResolution=300, PhiResolution=60)
+        self.expect_same(self.save_source(sphere), ["--tolerance", "1e-9"], Tolerance=1e-9)
+
+    def test_terrain(self):
+        grid = simple.Plane(XResolution=120, YResolution=90)
+        hills = simple.Calculator(
+            Input=simple.Triangulate(Input=grid), CoordinateResults=1,
+            Function="coordsX*(1+0.9*sin(9*coordsY))*iHat+coordsY*jHat+0.3*sin(8*coordsX)*kHat")
+        self.expect_same(self.save_source(hills), ["--geometry", "planar-xy"],
+                         Geometry="Planar XY")
 
 if __name__ == "__main__":
     main()

@@ -1,22 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The contents of the menu and of the Properties panel."""
+"""The contents of the menu and of the Properties panel, and how the plugin is found and loaded."""
 
+import contextlib
+import io
 import os
 import re
+import unittest
 
 from paraview import servermanager, simple
 from paraview.modules.vtkRemotingClientServerStream import vtkClientServerInterpreterInitializer
 
-from PluginTesting import PluginTest, main
+from PluginTesting import Messages, PluginTest, main, refresh
 
 HEADER = os.path.join(
     os.path.dirname(os.path.abspath(__file__)), "..", "..", "Filters", "vtkDelaunayFlip.h")
-
-
-def get_hints(proxy):
-    hints = proxy.SMProxy.GetHints()
-    return [hints.GetNestedElement(i) for i in range(hints.GetNumberOfNestedElements())]
 
 
 def list_properties():
@@ -51,18 +49,17 @@ class Proxy(PluginTest):
         names = self.proxy.ListProperties()
         return [name for name in names if name not in ("Input", "Constraints")]
 
-    def test_menu_entry(self):
-        manager = servermanager.ProxyManager()
-        prototype = manager.GetPrototypeProxy("filters", "DelaunayFlip")
-        self.assertEqual(prototype.GetXMLLabel(), "Delaunay Flip")
-        menu = [hint for hint in get_hints(self.proxy) if hint.GetName() == "ShowInMenu"]
-        self.assertEqual(menu[0].GetAttribute("category"), "Delaunay Flip")
-        self.assertTrue(menu[0].GetAttribute("icon").startswith(":/DelaunayFlip/"))
-
-    def test_apply_opens_no_view_for_the_table(self):
-        views = [hint for hint in get_hints(self.proxy) if hint.GetName() == "View"]
-        self.assertEqual([(view.GetAttribute("type"), view.GetAttribute("port"))
-                          for view in views], [("None", "1")])
+    def test_hints(self):
+        """An entry in the menu, no view for the table, polling of live runs, movies."""
+        hints = self.proxy.SMProxy.GetHints()
+        self.assertEqual(self.proxy.SMProxy.GetXMLLabel(), "Delaunay Flip")
+        menu = hints.FindNestedElementByName("ShowInMenu")
+        self.assertEqual(menu.GetAttribute("category"), "Delaunay Flip")
+        self.assertTrue(menu.GetAttribute("icon").startswith(":/DelaunayFlip/"))
+        view = hints.FindNestedElementByName("View")
+        self.assertEqual((view.GetAttribute("type"), view.GetAttribute("port")), ("None", "1"))
+        self.assertIsNotNone(hints.FindNestedElementByName("LiveSource"))
+        self.assertEqual(self.property("MaximumIterations").GetAnimateable(), 1)
 
     def test_everything_is_documented(self):
         self.assertIn("Delaunay", self.proxy.SMProxy.GetDocumentation().GetLongHelp())
@@ -101,24 +98,31 @@ class Proxy(PluginTest):
                        for i in range(domain.GetNumberOfEntries())]
             self.assertEqual(entries, list(zip(choices, range(len(choices)))))
 
-    def test_basics_first(self):
-        basic = [name for name in self.own_properties()
-                 if self.property(name).GetPanelVisibility() == "default"]
-        self.assertEqual(set(basic), {
-            "Geometry", "FeatureAngle", "RegionArray", "MaximumIterations", "LiveUpdate",
-            "IterationsPerUpdate", "Paused", "Step", "Restart", "NumberOfIterations",
-            "TotalFlips", "NumberOfNonDelaunayEdges", "NumberOfEdgesBlockedByShape",
-            "NumberOfEdgesBlockedByEdge", "NumberOfConstraintEdges",
-            "NumberOfUnmatchedConstraintEdges", "NumberOfInsertedConstraintEdges",
-            "NumberOfConstraintFlips", "StopReason", "GeometryUsed", "GeometryReason",
-            "BackendUsed"})
-
-    def test_iterations_can_be_animated(self):
-        self.assertEqual(self.property("MaximumIterations").GetAnimateable(), 1)
-
     def test_ports(self):
         self.assertEqual([self.proxy.SMProxy.GetOutputPortName(i) for i in range(2)],
                          ["Mesh", "Iterations"])
+
+
+class PluginPath(unittest.TestCase):
+    """The filter is available if only PV_PLUGIN_PATH names the plugin's folder."""
+
+    def test_filter_is_there(self):
+        flip = simple.DelaunayFlip(Input=simple.Sphere())
+        refresh(flip)
+        self.assertEqual(flip.GetPropertyValue("StopReason"), "converged")
+
+
+class Refuses(PluginTest):
+    """The plugin in Python refuses to be the second one with the same filter."""
+
+    def test_says_why(self):
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told), Messages(), self.assertRaises(RuntimeError):
+            simple.LoadPlugin(os.environ["DELAUNAYFLIP_PYTHON_PLUGIN"], remote=False, ns={})
+        self.assertIn("The plugin DelaunayFlip in C++ is loaded already", told.getvalue())
+        manager = servermanager.ProxyManager()
+        prototype = manager.GetPrototypeProxy("filters", "DelaunayFlip")
+        self.assertEqual(prototype.GetVTKClassName(), "vtkPVDelaunayFlip")
 
 
 if __name__ == "__main__":

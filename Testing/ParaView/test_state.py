@@ -69,34 +69,17 @@ class Session(PluginTest):
         simple.ResetSession()
         self.assertIsNone(simple.FindSource("Flip"))
 
-    def expect_again(self, before, restore):
-        """Clears the session, restores it by `restore`, and compares."""
-        self.start_again()
-        restore()
-        self.assertEqual(self.snapshot(), before)
-
-    def test_the_picture_shows_the_mesh(self):
-        self.build()
-        settings, triangles, with_mesh = self.snapshot()
-        self.assertEqual(settings, SETTINGS)
-        self.assertEqual(len(triangles), 28)
-        simple.Hide(simple.FindSource("Flip"), self.view)
-        without_mesh = self.snapshot()[2]
-        self.assertEqual(with_mesh[0], without_mesh[0])
-        self.assertNotEqual(with_mesh[1], without_mesh[1])
-
-    def test_state_file(self):
-        self.build()
-        before = self.snapshot()
-        simple.SaveState(self.path("state.pvsm"))
-        self.expect_again(before, lambda: simple.LoadState(self.path("state.pvsm")))
-
-    def test_python_state(self):
+    def test_states(self):
         self.build()
         before = self.snapshot()
         script = smstate.get_state()
         self.assertIn("DelaunayFlip(registrationName='Flip'", script)
-        self.expect_again(before, lambda: run_script(script))
+        simple.SaveState(self.path("state.pvsm"))
+        for restore in (
+                lambda: simple.LoadState(self.path("state.pvsm")), lambda: run_script(script)):
+            self.start_again()
+            restore()
+            self.assertEqual(self.snapshot(), before)
 
     def test_trace(self):
         smtrace.start_trace()
@@ -131,14 +114,11 @@ class Chart(PluginTest):
                 view.RightAxisTitle, display.UseIndexForXAxis, display.XArrayName,
                 list(display.SeriesVisibility), get_pairs(display.SeriesPlotCorner))
 
-    def test_python_state(self):
-        self.expect_again(lambda: smstate.get_state(), run_script)
-
-    def test_state_file(self):
-        def save():
-            simple.SaveState(self.path("state.pvsm"))
-            return self.path("state.pvsm")
-        self.expect_again(save, simple.LoadState)
+    def test_state(self):
+        path = self.path("state.pvsm")
+        self.expect_again(smstate.get_state, run_script)
+        self.expect_again(
+            lambda: simple.SaveState(path) or path, simple.LoadState)
 
     def expect_again(self, save, load):
         self.build()

@@ -106,27 +106,6 @@ def run_abort(rank):
     return {"reasons": reasons}, []
 
 
-def measure_memory():
-    with open("/proc/self/statm", encoding="ascii") as file:
-        return int(file.read().split()[1]) * 4096
-
-
-def run_growth(updates):
-    """Updates again and again. @returns by how many bytes the memory of any rank grew in the second
-    half."""
-    points, triangles = rank_meshes.make_random(100)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1, "NumberOfThreads": 1})
-    flip.SetInputData(piece)
-    half = 0
-    for update in range(updates):
-        flip.Modified()
-        flip.UpdatePiece(RANK, RANKS, 0)
-        half = measure_memory() if update == updates // 2 else half
-    return {"growth": max(WORLD.allgather(measure_memory() - half))}, []
-
-
 def run_constraints(count, kind):
     """Lines of the pieces and a second input, which only rank 0 has."""
     points, triangles = rank_meshes.make_random(count)

@@ -163,15 +163,3 @@ def run_lattice(side, pairs, kind, given="rank 0", across=()):
     def find(places):
         return np.array([(side * x + y, side * u + v) for x, y, u, v in places])
     return compare_inserted(points, triangles, find(pairs), kind, given, across=find(across))
-
-
-def run_ring(side):
-    """Constraints of a lattice with a hole in its middle, and one to a point that no rank has."""
-    points, triangles = make_lattice(side)
-    middle = points[triangles].mean(1)
-    keep = np.abs(middle[:, :2] - (side - 1) / 2).max(1) > 1
-    last = len(points) - 1
-    pairs = np.array([(0, last), (side + 2, last - 1), (0, last + 1)])
-    points = np.r_[points, [[-5.0, 0.5, 0.0]]]
-    return compare_inserted(points, triangles[keep], np.array([(1, side + 3)]), "space",
-                            across=pairs)

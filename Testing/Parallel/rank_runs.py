@@ -49,8 +49,8 @@ def flip_piece(piece, options):
 
 def describe(flip, said):
     return {
-        "flips": flip.GetTotalFlips(), "rounds": flip.GetNumberOfRounds(),
-        "moved": flip.GetNumberOfMovedTriangles(), "left": flip.GetNumberOfNonDelaunayEdges(),
+        "flips": flip.GetTotalFlips(), "left": flip.GetNumberOfNonDelaunayEdges(),
+        "rounds": flip.GetNumberOfRounds() if isinstance(flip, delaunayflip.vtkPDelaunayFlip) else 0,
         "stopped": flip.GetStopReasonAsString(), "geometry": flip.GetGeometryUsedAsString(),
         "constraints": flip.GetNumberOfConstraintEdges(),
         "unmatched": flip.GetNumberOfUnmatchedConstraintEdges(), "error": flip.GetErrorMessage(),

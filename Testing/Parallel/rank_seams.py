@@ -1,20 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases of real meshes, of seams where meshes are not simple, and of a rank that dies."""
+"""The cases of real meshes and of seams where meshes are not simple."""
 import os
-import signal
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
-import delaunayflip
 import rank_meshes
 from rank_runs import (
-    RANK, RANKS, compare, describe, flip_alone, flip_piece, same, set_options)
+    RANK, RANKS, compare, describe, flip_alone, flip_piece, same)
 
 READERS = {".vtk": vtkPolyDataReader, ".obj": vtkOBJReader, ".stl": vtkSTLReader}
 
@@ -32,29 +29,6 @@ def read_mesh(name):
 def run_real(name, kind, options, unique=True):
     points, triangles = read_mesh(name)
     return same(points, triangles, kind, True, options, unique)
-
-
-def run_lines(name):
-    """The lines of a file, which all are edges of its mesh and seams between pieces here and there,
-    as constraints: no edge flips."""
-    reader = vtkPolyDataReader()
-    reader.SetFileName(os.path.join(os.environ["DELAUNAYFLIP_DATA_DIR"], name))
-    reader.Update()
-    points, triangles = read_mesh(name)
-    lines = vtkPolyData()
-    lines.SetPoints(reader.GetOutput().GetPoints())
-    lines.SetLines(reader.GetOutput().GetLines())
-    facts = {}
-    for kept in (True, False):
-        flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"Geometry": 1})
-        owners = rank_meshes.divide(points, triangles, RANKS, "space")
-        flip.SetInputData(rank_meshes.make_piece(
-            points, triangles, np.flatnonzero(owners == RANK), True))
-        if kept:
-            flip.SetConstraintsData(lines)
-        flip.UpdatePiece(RANK, RANKS, 0)
-        facts["kept" if kept else "not kept"] = describe(flip, [])
-    return facts, []
 
 
 def run_book(side, kind):
@@ -105,30 +79,3 @@ def run_slit(ids):
     triangles = np.array([[0, 1, 2], [3, 4, 1], [0, 2, 5]])
     flip, said = flip_piece(rank_meshes.make_piece(points, triangles, slots, ids), {})
     return describe(flip, said), said
-
-
-def run_track_quality():
-    points, triangles = rank_meshes.make_random(100)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    flip, _ = flip_piece(piece, {"TrackQuality": True, "TieRule": 1})
-    alone = flip_alone(points, triangles, {"TieRule": 1})
-    facts = {"iterations": flip.GetNumberOfIterations()}
-    for name, one in (("angles", flip), ("angles alone", alone)):
-        column = one.GetOutput().GetFieldData().GetArray("DelaunayFlip:MinimumAngle")
-        values = [column.GetValue(i) for i in range(column.GetNumberOfValues())]
-        facts[name] = [value if value == value else None for value in values]
-    return facts, []
-
-
-def run_death(rank):
-    """A rank is killed in the middle of an update, while the others wait for it."""
-    points, triangles = rank_meshes.make_random(300)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    flip = delaunayflip.vtkPDelaunayFlip()
-    flip.SetInputData(rank_meshes.make_piece(
-        points, triangles, np.flatnonzero(owners == RANK), True))
-    if RANK == rank:
-        flip.AddObserver("ProgressEvent", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
-    flip.UpdatePiece(RANK, RANKS, 0)
-    return {}, []

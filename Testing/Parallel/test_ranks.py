@@ -103,11 +103,5 @@ class Failures(RanksTest):
                 self.assertEqual(facts["reasons"], ["aborted"] * 3)
 
 
-class Growth(RanksTest):
-    def test_memory_does_not_grow(self):
-        facts = flip_on(2, "growth", updates=100)
-        self.assertLess(facts["growth"], 4 << 20)
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -6,6 +6,7 @@ Ito's, which colour-blind readers can tell apart; markers and line styles differ
 
 import contextlib
 import os
+import re
 import textwrap
 
 import matplotlib
@@ -431,58 +432,45 @@ def ruined(results):
 
 
 def claims(results):
-    """The paper's claims, one per row."""
-    def count_ramps(program):
-        own = find(results.rows("chain"), program=program)
-        return own and (f"so in {sum(row['is_ramp'] for row in own)} of {len(own)} chains of up to "
-                        f"{own[-1]['triangles']:,} triangles") or None
-
-    def fit(program):
-        found = fit_iterations(results, program)[1]
-        return f"{found[0]:.2f} log10(points) {found[1]:+.1f}" if found is not None else None
-
-    def speed(program, place):
-        ratio = compare_flips(results, "lawson", f"{program}-{place}")[1]
-        return ratio and f"{number(ratio)} times"
-
-    def of_schedule(describe):
-        rows = rows_of_largest(results)
-        for program in ("ours", "paper"):
-            row = rows.get(program + "-gpu") or rows.get(program + "-all")
-            yield row and f"{describe(row)} ({row['points']:,} points)"
-
-    def span(program):
-        found = [row["iterations"] for row in find(results.rows("surface"), threshold=180)
-                 if row["program"].startswith(program)]
-        return f"{min(found)} to {max(found)}" if found else None
-
+    """What was measured of the paper's claims, by the place in report.md."""
+    cells = {}
+    for program in ("ours-all", "no-chunks", "paper-all", "paper-gpu"):
+        fit = fit_iterations(results, program)[1]
+        if fit is not None:
+            cells[f"{program} fit"] = f"{fit[0]:.2f} log10(points) {fit[1]:+.1f}"
+    cells["paper fit"] = cells.get("paper-gpu fit", cells.get("paper-all fit"))
     quality = results.rows("quality")
-    ours = [row["different"] for row in find(quality, program="ours, canonical")]
+    cells["ours quality"] = max(
+        (row["different"] for row in find(quality, program="ours, canonical")), default=None)
     ended = find(quality, program="paper", precision="float", stop="converged")
-    largest = max((row["points"] for row in ended), default=0)
-    best = min(find(ended, points=largest), key=lambda row: row["percent"], default=None)
-    rows = [
-        ("Fig. 6: m triangles take m - 1 iterations, flips rise and fall by one",
-         count_ramps("ours-1"), count_ramps("paper")),
-        ("iterations grow as O(log n)", f"{number(fit('ours-all'))}; without chunks "
-         f"{number(fit('no-chunks'))}", fit("paper-gpu") or fit("paper-all"))]
-    for place, where in (("gpu", "GPU"), ("all", "all threads")):
-        size = compare_flips(results, "lawson", f"ours-{place}")[0]
-        if size:
-            rows.append((f"up to 50 times as fast as sequential Lawson ({where}, {size:,} points, "
-                         "flips)", speed("ours", place), speed("paper", place)))
-    rows += [
-        ("less than 0.05 % of the triangles differ from CGAL's",
-         f"{max(ours, default=0)} triangles",
-         best and f"{number(best['percent'])} % in single precision with epsilon "
-                  f"{best['epsilon']:g} ({largest:,} points)"),
-        ("37 M flips for 5 M points: 7.4 for each",
-         *of_schedule(lambda row: number(row["flips"] / row["points"]))),
-        ("most flips in the first half of the iterations",
-         *of_schedule(lambda row: f"{share_of_first_half(row):.1f} %")),
-        ("less than 20 % excluded", *of_schedule(lambda row: f"{share_excluded(row):.1f} %")),
-        ("5 to 10 iterations on surfaces", span("ours"), span("paper"))]
-    return [], markdown(("the paper", "this project", "the paper's method, here"), rows)
+    if ended:
+        largest = max(row["points"] for row in ended)
+        best = min(find(ended, points=largest), key=lambda row: row["percent"])
+        cells["paper quality"] = (f"{number(best['percent'])} % in single precision with epsilon "
+                                  f"{best['epsilon']:g} ({largest:,} points)")
+    for who, chain in (("ours", "ours-1"), ("paper", "paper")):
+        own = find(results.rows("chain"), program=chain)
+        if own:
+            cells[f"{who} chains"] = (
+                f"so in {sum(row['is_ramp'] for row in own)} of {len(own)} chains of up to "
+                f"{own[-1]['triangles']:,} triangles")
+        for place in ("gpu", "all"):
+            size, ratio = compare_flips(results, "lawson", f"{who}-{place}")
+            if size:
+                cells[f"{place} size"] = size
+                cells[f"{who}-{place} speed"] = f"{number(ratio)} times"
+        rows = rows_of_largest(results)
+        row = rows.get(who + "-gpu") or rows.get(who + "-all")
+        if row:
+            at = f"({row['points']:,} points)"
+            cells[f"{who} flips"] = f"{number(row['flips'] / row['points'])} {at}"
+            cells[f"{who} half"] = f"{share_of_first_half(row):.1f} % {at}"
+            cells[f"{who} excluded"] = f"{share_excluded(row):.1f} % {at}"
+        counts = [row["iterations"] for row in find(results.rows("surface"), threshold=180)
+                  if row["program"].startswith(who)]
+        if counts:
+            cells[f"{who} iterations"] = f"{min(counts)} to {max(counts)}"
+    return cells
 
 
 def machine(results):
@@ -502,8 +490,7 @@ def failures(results):
     return [], markdown(("part", "reason"), results.failures() or [("none", "")])
 
 
-FIGURES = (fig6, fig8a, fig8b, fig9a, fig9b, fig11, tests, ruined, claims, machine, rivals,
-           failures)
+FIGURES = (fig6, fig8a, fig8b, fig9a, fig9b, fig11, tests, ruined, machine, rivals, failures)
 
 
 def make(results, images="plots"):
@@ -521,4 +508,5 @@ def make(results, images="plots"):
         plot = f"![{title.removeprefix('## ')}]({images}/{name}.png)\n\n" if is_drawn else ""
         text = text.replace(f"@{name} measured@", measured).replace(f"@{name} plot@\n\n", plot)
         text = text.replace(f"@{name}@", "\n".join(lines))
-    return text
+    cells = claims(results)
+    return re.sub("@([a-z0-9 -]+)@", lambda place: number(cells.get(place[1])), text)

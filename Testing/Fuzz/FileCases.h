@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_FILESEEDS_H
-#define DELAUNAYFLIP_FILESEEDS_H
+#ifndef DELAUNAYFLIP_FILECASES_H
+#define DELAUNAYFLIP_FILECASES_H
+
+#include "ByteSource.h"
 
 #include <string>
 #include <vector>
@@ -20,6 +22,9 @@ struct SeedFile
 /// start threads, and a process that forks must not have any.
 /// @param folder for temporary files.
 std::vector<SeedFile> MakeSeedFiles(const std::string& folder);
+
+/// A file with a few faults: bits, bytes, numbers, lines, a cut, or a piece of `other`.
+std::string MutateFile(std::string bytes, const std::string& other, ByteSource& source);
 
 }
 

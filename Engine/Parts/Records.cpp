@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "JoinReports.h"
-
 #include "Records.h"
 
 #include <algorithm>

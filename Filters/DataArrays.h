@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DataArrays_h
+#define DataArrays_h
+
+#include "EngineExport.h"
+#include "FlipReport.h"
+#include "TriangleMesh.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class vtkPolyData;
+class vtkUnsignedCharArray;
+
+/// @file
+/// The arrays of a vtkPolyData: views, checks, and copies of tuples.
+
+namespace delaunayflip
+{
+
+/// A view of the points if the engine can read their layout, else of a copy in `storage`.
+/// @throws InvalidMesh if points do not have three coordinates.
+DELAUNAYFLIP_EXPORT PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
+
+/// Whether both have the same number of points and the same bits.
+bool HaveSameBits(const PointArray& points, const PointArray& others);
+
+/// Checks one cell array of a vtkPolyData before any of its ids is used.
+struct PointIdCheck
+{
+  const char* What; ///< What messages call a cell, e.g. "cell".
+  vtkIdType FirstCell; ///< The cell id, in the vtkPolyData, of the array's first cell.
+  vtkIdType NumberOfPoints;
+
+  /// @throws InvalidMesh when offsets and connectivity of `cells` contradict each other.
+  DELAUNAYFLIP_EXPORT void RequireValid(vtkCellArray* cells) const;
+
+  /// @throws InvalidMesh when `id`, named by cell `cell` of the array, is not a point.
+  void RequireInRange(vtkIdType cell, vtkIdType id) const
+  {
+    if (id < 0 || id >= this->NumberOfPoints)
+    {
+      this->ThrowOutOfRange(cell, id);
+    }
+  }
+
+private:
+  [[noreturn]] DELAUNAYFLIP_EXPORT void ThrowOutOfRange(vtkIdType cell, vtkIdType id) const;
+};
+
+/// Calls visit(cell, ids) for the cells of an array, after checks.
+/// @throws InvalidMesh.
+template <typename Visit>
+void VisitCells(vtkCellArray* cells, const PointIdCheck& check, const Visit& visit)
+{
+  check.RequireValid(cells);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    cells->GetCellAtId(cell, ids);
+    for (const vtkIdType id : *ids)
+    {
+      check.RequireInRange(cell, id);
+    }
+    visit(cell, ids.Get());
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A shallow copy without the arrays that have fewer than `tuples` tuples: they would be read past
+/// their end.
+template <typename Data>
+vtkSmartPointer<Data> TakeWholeArrays(Data* data, vtkIdType tuples)
+{
+  auto whole = vtkSmartPointer<Data>::New();
+  whole->ShallowCopy(data);
+  for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < tuples)
+    {
+      whole->RemoveArray(i);
+    }
+  }
+  return whole;
+}
+
+/// Whether an array is named as ghost types are, but has not one number of type unsigned char for
+/// each tuple. Such an array is ignored.
+bool IsWrongGhostArray(vtkAbstractArray* array);
+
+/// The ghost types of the cells, of which there may be too few; null if there are none that are not
+/// ignored.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh);
+
+/// Point and cell arrays with too few tuples, and ghost arrays that are ignored.
+/// @param pointsPass whether such point arrays pass, or are left out. @param cellsPass the same for
+/// cell arrays.
+DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
+  vtkPolyData* mesh, bool pointsPass, bool cellsPass);
+
+//------------------------------------------------------------------------------
+/// The numbers from `first` on.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count);
+
+/// An array of the same kind, of zeros or empty texts; null if there is no such kind.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
+  vtkAbstractArray* like, vtkIdType tuples);
+
+/// Whether values may be copied from one to the other.
+DELAUNAYFLIP_EXPORT bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b);
+
+/// Gives `result` the arrays of `own`. Tuple i is tuple sources[i] of `own`, or, if that is
+/// negative, tuple -1 - sources[i] of the array of the same name in `more`.
+/// @param more may be null. If `own` has no arrays and no tuple is its, `result` gets those of
+/// `more`.
+DELAUNAYFLIP_EXPORT void JoinTuples(vtkDataSetAttributes* own, vtkDataSetAttributes* more,
+  vtkIdList* sources, vtkDataSetAttributes* result);
+
+}
+
+#endif

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshBlocks.h"
+
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
+#include "FlipError.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPolyData.h"
+#include "vtkUniformGridAMR.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// The leaves of AMR, which is a tree from VTK 9.6 on, are grids.
+vtkDataObjectTree* GetTree(vtkDataObject* data)
+{
+  return vtkUniformGridAMR::SafeDownCast(data) ? nullptr : vtkDataObjectTree::SafeDownCast(data);
+}
+
+double CountCells(vtkDataObject* data)
+{
+  return static_cast<double>(data->GetNumberOfElements(vtkDataObject::CELL));
+}
+
+/// @param number the flat index of the tree, and then of its last node.
+void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigned int& number,
+  std::vector<MeshBlock>& blocks)
+{
+  const bool arePartitions = vtkPartitionedDataSet::SafeDownCast(tree) != nullptr;
+  place.push_back(0);
+  const auto child = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  child->TraverseSubTreeOff();
+  child->VisitOnlyLeavesOff();
+  child->SkipEmptyNodesOff();
+  std::int64_t i = 0;
+  std::size_t joined = blocks.size(); // the block of the partitions that have cells
+  bool hasJoined = false;
+  for (child->InitTraversal(); !child->IsDoneWithTraversal(); child->GoToNextItem(), ++i)
+  {
+    ++number;
+    vtkDataObject* data = child->GetCurrentDataObject();
+    const bool isJoined = arePartitions && data && CountCells(data) > 0.0;
+    place.back() = isJoined ? 0 : arePartitions ? -1 - i : i;
+    if (vtkDataObjectTree* inner = GetTree(data))
+    {
+      AddLeaves(inner, place, number, blocks);
+    }
+    else if (data)
+    {
+      vtkInformation* about = child->HasCurrentMetaData() ? child->GetCurrentMetaData() : nullptr;
+      const char* text = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
+      const std::string name =
+        "block " + std::to_string(number) + (text && *text ? std::string(" (") + text + ")" : "");
+      if (!isJoined || !hasJoined)
+      {
+        joined = isJoined ? blocks.size() : joined;
+        hasJoined = hasJoined || isJoined;
+        blocks.push_back({ place, name, 0.0, false, {} });
+      }
+      MeshBlock& block = isJoined ? blocks[joined] : blocks.back();
+      block.Cells += CountCells(data);
+      block.Leaves.push_back({ data, number, name, nullptr });
+    }
+  }
+}
+
+}
+
+std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input)
+{
+  std::vector<MeshBlock> blocks;
+  unsigned int number = 0;
+  if (vtkDataObjectTree* tree = GetTree(input))
+  {
+    AddLeaves(tree, {}, number, blocks);
+  }
+  else
+  {
+    std::vector<std::int64_t> place(vtkCompositeDataSet::SafeDownCast(input) ? 1 : 0);
+    blocks.push_back({ place, "", CountCells(input), false, { { input, number, "", nullptr } } });
+  }
+  return blocks;
+}
+
+void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vtkDataObject* output)
+{
+  vtkDataObjectTree* given = GetTree(input);
+  auto* tree = vtkDataObjectTree::SafeDownCast(output);
+  if (!given || !tree)
+  {
+    output->ShallowCopy(blocks.front().Leaves.front().Result);
+    return;
+  }
+  std::map<unsigned int, vtkDataObject*> results; // by flat index
+  for (const MeshBlock& block : blocks)
+  {
+    for (const BlockLeaf& leaf : block.Leaves)
+    {
+      results[leaf.Number] = leaf.Result;
+    }
+  }
+  tree->CopyStructure(given);
+  tree->GetFieldData()->ShallowCopy(given->GetFieldData());
+  const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(given->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    tree->SetDataSet(leaf, results[leaf->GetCurrentFlatIndex()]);
+  }
+}
+
+//------------------------------------------------------------------------------
+BlockMesh::BlockMesh(
+  MeshBlock& block, const Reader& read, const std::string& regions, bool dropsDuplicates)
+  : Block(block)
+{
+  for (std::size_t i = 0; i < block.Leaves.size(); ++i)
+  {
+    if (const vtkSmartPointer<vtkPolyData> mesh = read(block.Leaves[i].Data))
+    {
+      this->Meshes.push_back(mesh);
+      this->Leaves.push_back(i);
+    }
+    else if (block.Place.empty())
+    {
+      throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
+    }
+  }
+  if (this->Meshes.size() > 1 ||
+    (dropsDuplicates && !this->Meshes.empty() && HasDuplicateCells(this->Meshes.front())))
+  {
+    this->Joined.reset(new JoinedPartitions(this->Meshes, regions));
+  }
+}
+
+std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
+{
+  std::vector<Note> notes;
+  for (std::size_t i = 0; i < this->Meshes.size() && (this->Joined || ofArrays); ++i)
+  {
+    const std::vector<Defect> defects = ListMalformedArrays(this->Meshes[i], false, false);
+    if (!defects.empty())
+    {
+      notes.push_back({ this->Block.Leaves[this->Leaves[i]].Name, DescribeDefects(defects) });
+    }
+  }
+  if (this->Leaves.size() < this->Block.Leaves.size() && this->Block.Cells > 0.0)
+  {
+    notes.push_back({ this->Block.Name, "not a surface, passed unchanged" });
+  }
+  if (this->Joined && this->Joined->CountAmbiguousPoints() > 0)
+  {
+    notes.push_back({ this->Block.Name,
+      "points of some partitions coincide with others of the same partition, and edges there "
+      "stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds" });
+  }
+  return notes;
+}
+
+vtkPolyData* BlockMesh::GetMesh() const
+{
+  return this->Joined      ? this->Joined->GetMesh()
+    : this->Meshes.empty() ? nullptr
+                           : this->Meshes.front().Get();
+}
+
+vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
+  const std::vector<MeshBlock>& constraints) const
+{
+  const bool areOfAll = constraints.size() == 1 && constraints.front().Place.empty();
+  if (!constraints.empty() && !areOfAll && this->Block.Place.empty())
+  {
+    throw InvalidOptions("the constraints of a single mesh cannot be a composite dataset");
+  }
+  std::vector<std::pair<vtkPolyData*, vtkPolyData*>> sources; // each with the mesh that it is for
+  for (const MeshBlock& block : constraints)
+  {
+    for (const BlockLeaf& leaf : block.Leaves)
+    {
+      auto* edges = vtkPolyData::SafeDownCast(leaf.Data);
+      if (edges && areOfAll && (!this->Joined || edges->GetNumberOfPoints() > 0))
+      {
+        return edges;
+      }
+      for (std::size_t i = 0; edges && areOfAll && i < this->Meshes.size(); ++i)
+      {
+        sources.emplace_back(edges, this->Meshes[i]);
+      }
+      if (edges && !areOfAll && block.Place == this->Block.Place)
+      {
+        const auto own = std::find_if(this->Leaves.begin(), this->Leaves.end(),
+          [&](std::size_t i) { return this->Block.Leaves[i].Number == leaf.Number; });
+        sources.emplace_back(
+          edges, own == this->Leaves.end() ? nullptr : this->Meshes[own - this->Leaves.begin()]);
+      }
+    }
+  }
+  if (!this->Joined && sources.size() == 1)
+  {
+    return sources.front().first;
+  }
+  return JoinConstraints(sources);
+}
+
+void BlockMesh::Store(vtkPolyData* flipped)
+{
+  for (BlockLeaf& leaf : this->Block.Leaves)
+  {
+    leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
+    leaf.Result->ShallowCopy(leaf.Data);
+  }
+  if (flipped && !this->Leaves.empty())
+  {
+    const std::vector<vtkSmartPointer<vtkPolyData>> partitions = this->Joined
+      ? this->Joined->Divide(flipped)
+      : std::vector<vtkSmartPointer<vtkPolyData>>{ flipped };
+    for (std::size_t i = 0; i < partitions.size(); ++i)
+    {
+      this->Block.Leaves[this->Leaves[i]].Result = partitions[i];
+    }
+  }
+}
+
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef MeshBlocks_h
+#define MeshBlocks_h
+
+#include "EngineExport.h"
+#include "JoinedPartitions.h"
+#include "UpdateReport.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkPolyData;
+
+namespace delaunayflip
+{
+
+/// A leaf of the input.
+struct BlockLeaf
+{
+  vtkSmartPointer<vtkDataObject> Data; ///< Never null.
+  unsigned int Number; ///< VTK's flat index.
+  std::string Name; ///< In messages: "block 3 (wing)".
+  vtkSmartPointer<vtkDataObject> Result; ///< The leaf of the output.
+};
+
+/// A block of the input that is one mesh, or none: a leaf, the partitions of a dataset, or all of
+/// it.
+struct MeshBlock
+{
+  /// Where it is in composite data: the numbers of children, from the root on. The partitions of a
+  /// dataset that have cells are at one place, whatever their numbers. Empty if it is all.
+  std::vector<std::int64_t> Place;
+  std::string Name; ///< In messages.
+  double Cells = 0.0;
+  bool IsLive = false; ///< Flipped a few iterations at a time.
+  std::vector<BlockLeaf> Leaves;
+};
+
+/// The blocks of an input, in the order of their first leaves.
+DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input);
+
+/// Gives `output`, which is of the same type, the structure of `input` and the results of the
+/// blocks' leaves.
+void StoreResults(
+  const std::vector<MeshBlock>& blocks, vtkDataObject* input, vtkDataObject* output);
+
+/// The mesh of a block: its leaf or, if a dataset is in several partitions, all of them as one.
+class DELAUNAYFLIP_EXPORT BlockMesh
+{
+public:
+  /// What turns a leaf into a mesh; null if it is not a surface.
+  using Reader = std::function<vtkSmartPointer<vtkPolyData>(vtkDataObject*)>;
+
+  /// @param block must live as long as this object. @param regions as in JoinedPartitions.
+  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf.
+  /// @throws what `read` and JoinedPartitions throw; InvalidMesh if all of the input is no surface.
+  BlockMesh(
+    MeshBlock& block, const Reader& read, const std::string& regions, bool dropsDuplicates = false);
+  BlockMesh(const BlockMesh&) = delete;
+  BlockMesh& operator=(const BlockMesh&) = delete;
+
+  /// What to warn of.
+  /// @param ofArrays also of malformed arrays of a single leaf; else these are told of when it is
+  /// flipped.
+  std::vector<Note> ListNotes(bool ofArrays = false) const;
+
+  /// Null if the block is none.
+  vtkPolyData* GetMesh() const;
+
+  /// All of the second input, or its leaves at the same place; null if there are none.
+  /// @param constraints the blocks of the second input.
+  /// @throws InvalidOptions, InvalidMesh.
+  vtkSmartPointer<vtkPolyData> FindConstraints(const std::vector<MeshBlock>& constraints) const;
+
+  /// Writes the results of the block's leaves.
+  /// @param flipped the mesh after the run; or null: the leaves of the input pass unchanged.
+  void Store(vtkPolyData* flipped);
+
+private:
+  MeshBlock& Block;
+  std::vector<vtkSmartPointer<vtkPolyData>> Meshes; ///< The surfaces.
+  std::vector<std::size_t> Leaves; ///< Those of the surfaces, in the block.
+  std::unique_ptr<JoinedPartitions> Joined;
+};
+
+}
+
+#endif

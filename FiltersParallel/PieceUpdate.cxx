@@ -1,0 +1,413 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PieceUpdate.h"
+
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
+#include "JoinedPartitions.h"
+#include "RankMessages.h"
+#include "TriangleAngles.h"
+
+#include "vtkFieldData.h"
+#include "vtkMath.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkTriangle.h"
+
+#include <algorithm>
+#include <set>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// The constraints of all ranks as lines, each once: every rank may have all of them, or a part.
+/// Null if there are none.
+vtkSmartPointer<vtkPolyData> GatherConstraints(
+  vtkPolyData* constraints, vtkPolyData* mesh, PieceGroup& group)
+{
+  const auto own =
+    constraints ? JoinConstraints({ { constraints, mesh } }) : vtkSmartPointer<vtkPolyData>();
+  bool areFloats = !own || own->GetPoints()->GetDataType() == VTK_FLOAT;
+  Packet message;
+  message.Put(areFloats);
+  for (vtkIdType i = 0; own && i < own->GetNumberOfPoints(); ++i)
+  {
+    const double* x = own->GetPoint(i);
+    message.Put(std::array<double, 3>{ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 }); // -0 becomes 0
+  }
+  std::vector<std::array<double, 3>> ends;
+  std::set<Message> known;
+  for (Message& one : group.Gather(message.Bytes))
+  {
+    Packet packet(std::move(one));
+    areFloats = packet.Get<bool>() && areFloats;
+    while (!packet.IsAtEnd())
+    {
+      const auto from = packet.Get<std::array<double, 3>>(),
+                 to = packet.Get<std::array<double, 3>>();
+      Packet key; // of bytes, since coordinates may be NaN
+      key.Put(std::min(from, to));
+      key.Put(std::max(from, to));
+      if (from != to && known.insert(key.Bytes).second)
+      {
+        ends.insert(ends.end(), { from, to });
+      }
+    }
+  }
+  if (ends.empty())
+  {
+    return nullptr;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
+  vtkNew<vtkCellArray> lines;
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+  {
+    lines->InsertNextCell(
+      { points->InsertNextPoint(ends[i].data()), points->InsertNextPoint(ends[i + 1].data()) });
+  }
+  auto gathered = vtkSmartPointer<vtkPolyData>::New();
+  gathered->SetPoints(points);
+  gathered->SetLines(lines);
+  return gathered;
+}
+
+/// How many constraint edges have two ends that no rank has together; all ranks get the same.
+/// @param constraints those of all ranks. @param mesh this rank's.
+std::int64_t CountElsewhere(vtkPolyData* constraints, const TriangleMesh& mesh, PieceGroup& group)
+{
+  std::vector<double> storage;
+  const PointArray ends = ViewPoints(constraints, storage);
+  PointPlaces places(ends.Floats != nullptr || mesh.Points.Floats != nullptr);
+  std::vector<std::int64_t> placeOf;
+  for (std::int64_t i = 0; i < ends.Count; ++i)
+  {
+    placeOf.push_back(places.Add(ends, i));
+  }
+  std::vector<bool> isHere(places.GetNumberOfPlaces());
+  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
+  {
+    const std::int64_t place = places.Find(mesh.Points, point);
+    if (place != PointPlaces::None)
+    {
+      isHere[place] = true;
+    }
+  }
+  Message areHere; // one flag per constraint
+  for (std::int64_t i = 0; i < ends.Count; i += 2)
+  {
+    areHere.push_back(isHere[placeOf[i]] && isHere[placeOf[i + 1]] ? 1 : 0);
+  }
+  const std::vector<Message> flags = group.Gather(areHere);
+  std::int64_t elsewhere = 0;
+  for (std::size_t i = 0; i < areHere.size(); ++i)
+  {
+    elsewhere +=
+      std::none_of(flags.begin(), flags.end(), [i](const Message& one) { return one[i] != 0; });
+  }
+  return elsewhere;
+}
+
+/// Gives regions the same labels on all ranks.
+void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
+{
+  Packet own;
+  for (const std::string& key : bridge.RegionKeys)
+  {
+    own.Put(key);
+  }
+  std::set<std::string> all;
+  for (Message& message : group.Gather(own.Bytes))
+  {
+    for (Packet packet(std::move(message)); !packet.IsAtEnd();)
+    {
+      all.insert(packet.GetText());
+    }
+  }
+  std::vector<std::int32_t> labels;
+  for (const std::string& key : bridge.RegionKeys)
+  {
+    labels.push_back(static_cast<std::int32_t>(std::distance(all.begin(), all.find(key))));
+  }
+  for (std::int32_t& label : bridge.Regions)
+  {
+    label = labels[label];
+  }
+}
+
+/// Writes the piece of a rank, with the data of what it has received.
+class PieceOutput
+{
+public:
+  /// All must live as long as this object.
+  PieceOutput(
+    vtkPolyData* mesh, const PolyDataBridge& bridge, const FlippedPiece& flipped, PieceGroup& group)
+    : Mesh(mesh),
+      Bridge(bridge),
+      Slots(bridge.GetSlots()),
+      Flipped(flipped),
+      Group(group)
+  {
+    // The polygons that stayed, in their order, then those received.
+    std::vector<vtkIdType> places(this->Slots.Triangles.Count, 0);
+    for (const std::int64_t slot : flipped.GoneTriangles)
+    {
+      places[slot] = -1;
+    }
+    vtkIdType kept = 0;
+    for (vtkIdType& place : places)
+    {
+      place = place < 0 ? -1 : kept++;
+    }
+    for (vtkIdType polygon = 0; polygon < this->Slots.GetNumberOfPolygons(); ++polygon)
+    {
+      const vtkIdType slot = this->Slots.GetTriangle(polygon);
+      const vtkIdType place = slot == TriangleSlots::None ? -1 : places[slot];
+      if (slot == TriangleSlots::None || place >= 0)
+      {
+        this->Sources.push_back(this->Slots.GetCellOfPolygon(polygon));
+        this->Triangles.push_back(place);
+      }
+    }
+    for (std::size_t i = 0; i < flipped.ReceivedTriangles.size(); ++i)
+    {
+      this->Sources.push_back(-1 - static_cast<vtkIdType>(i));
+      this->Triangles.push_back(kept++);
+    }
+  }
+
+  void Store(vtkPolyData* output) const
+  {
+    this->StorePoints(output);
+    output->SetVerts(this->Mesh->GetVerts());
+    output->SetLines(this->Mesh->GetLines());
+    output->SetPolys(this->BuildPolygons());
+    output->SetStrips(BuildStrips(this->Slots, this->Mesh));
+    output->GetFieldData()->ShallowCopy(this->Mesh->GetFieldData());
+    const auto data = TakeWholeArrays(this->Mesh->GetCellData(), this->Mesh->GetNumberOfCells());
+    vtkNew<vtkCellData> received;
+    BringTuples(
+      this->Flipped.ReceivedTriangles, data,
+      [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, this->Group, received);
+    if (this->Slots.InPlace && this->Flipped.ReceivedTriangles.empty() &&
+      this->Flipped.GoneTriangles.empty())
+    {
+      output->GetCellData()->ShallowCopy(data);
+    }
+    else
+    {
+      const auto sources = MakeRange(0, this->Slots.FirstPolygon);
+      std::for_each(this->Sources.begin(), this->Sources.end(),
+        [&](vtkIdType source) { sources->InsertNextId(source); });
+      std::for_each(this->Slots.Strips.begin(), this->Slots.Strips.end(),
+        [&](vtkIdType strip) { sources->InsertNextId(strip); });
+      JoinTuples(data, received, sources, output->GetCellData());
+    }
+    // The ids are not unique if any rank has divided cells.
+    if (IsOnAnyRank(this->Slots.AreDivided, this->Group))
+    {
+      DemoteGlobalIds(output->GetCellData());
+    }
+    this->MarkReceived(output);
+    this->RenewNormals(output);
+  }
+
+  template <typename Value>
+  void AddArray(
+    const char* name, const std::vector<Value>& values, Value elsewhere, vtkPolyData* output) const
+  {
+    AddTriangleArray(
+      name, values, elsewhere, [this](vtkIdType polygon) { return this->Triangles[polygon]; },
+      output);
+  }
+
+  void AddAngles(GeometryKind geometry, int threads, vtkPolyData* output) const
+  {
+    TriangleMesh mesh = this->Bridge.GetMesh();
+    vtkNew<vtkDoubleArray> first; // of the slots that this rank had
+    first->SetName("vtkDelaunayFlipAngleBefore");
+    first->SetNumberOfTuples(mesh.Triangles.Count);
+    FindSmallestAngles(mesh, geometry, threads, first->GetPointer(0), {});
+    vtkNew<vtkCellData> given, brought;
+    given->AddArray(first);
+    BringTuples(
+      ListOrigins(this->Flipped, this->Group.GetRank()), given,
+      [](std::int64_t slot) { return static_cast<vtkIdType>(slot); }, this->Group, brought);
+    const double* before =
+      vtkDoubleArray::SafeDownCast(brought->GetArray(first->GetName()))->GetPointer(0);
+    std::vector<double> angles(before, before + this->Flipped.FlipCounts.size());
+    this->AddArray(first->GetName(), angles, NaN, output);
+    std::vector<double> storage;
+    mesh = TriangleMesh();
+    mesh.Points = ViewPoints(output, storage);
+    mesh.Triangles =
+      TriangleArray(this->Flipped.Triangles.data(), static_cast<std::int64_t>(angles.size()));
+    FindSmallestAngles(mesh, geometry, threads, angles.data(), {});
+    this->AddArray("vtkDelaunayFlipAngleAfter", angles, NaN, output);
+  }
+
+private:
+  /// The points of the mesh, then those received, with their data.
+  void StorePoints(vtkPolyData* output) const
+  {
+    const vtkIdType given = this->Mesh->GetNumberOfPoints();
+    const auto count = static_cast<vtkIdType>(this->Flipped.ReceivedPoints.size());
+    const auto data = TakeWholeArrays(this->Mesh->GetPointData(), given);
+    vtkNew<vtkPointData> received;
+    BringTuples(
+      this->Flipped.ReceivedPoints, data,
+      [](std::int64_t point) { return static_cast<vtkIdType>(point); }, this->Group, received);
+    if (count == 0)
+    {
+      output->SetPoints(this->Mesh->GetPoints());
+      output->GetPointData()->ShallowCopy(data);
+      return;
+    }
+    vtkNew<vtkPoints> points;
+    points->SetDataType(this->Flipped.AreFloats ? VTK_FLOAT : VTK_DOUBLE);
+    if (given > 0)
+    {
+      points->SetDataType(this->Mesh->GetPoints()->GetDataType());
+      points->InsertPoints(0, given, 0, this->Mesh->GetPoints());
+    }
+    const auto sources = MakeRange(0, given);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      points->InsertNextPoint(this->Flipped.ReceivedCoordinates.data() + 3 * i);
+      sources->InsertNextId(-1 - i);
+    }
+    output->SetPoints(points);
+    JoinTuples(data, received, sources, output->GetPointData());
+  }
+
+  vtkSmartPointer<vtkCellArray> BuildPolygons() const
+  {
+    auto polygons = vtkSmartPointer<vtkCellArray>::New();
+    UsesWideIds(this->Mesh) ? polygons->Use64BitStorage() : polygons->Use32BitStorage();
+    vtkNew<vtkIdList> ids;
+    for (std::size_t polygon = 0; polygon < this->Triangles.size(); ++polygon)
+    {
+      if (this->Triangles[polygon] < 0)
+      {
+        this->Mesh->GetPolys()->GetCellAtId(this->Sources[polygon] - this->Slots.FirstPolygon, ids);
+        polygons->InsertNextCell(ids);
+      }
+      else
+      {
+        const std::int32_t* points = this->Flipped.Triangles.data() + 3 * this->Triangles[polygon];
+        polygons->InsertNextCell({ points[0], points[1], points[2] });
+      }
+    }
+    return polygons;
+  }
+
+  /// A received cell is in no partition of this rank.
+  void MarkReceived(vtkPolyData* output) const
+  {
+    vtkDataArray* marks = output->GetCellData()->GetArray(JoinedPartitions::MarkName);
+    for (std::size_t polygon = 0; marks && polygon < this->Sources.size(); ++polygon)
+    {
+      if (this->Sources[polygon] < 0)
+      {
+        marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
+      }
+    }
+  }
+
+  /// Recomputes the active normals of triangles that took part in a flip, on the side on which they
+  /// have been.
+  void RenewNormals(vtkPolyData* output) const
+  {
+    const vtkSmartPointer<vtkDataArray> normals = CopyNormals(output);
+    for (std::size_t polygon = 0; normals && polygon < this->Triangles.size(); ++polygon)
+    {
+      const vtkIdType triangle = this->Triangles[polygon];
+      if (triangle < 0 || this->Flipped.FlipCounts[triangle] == 0)
+      {
+        continue;
+      }
+      double corners[3][3], old[3], normal[3];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        output->GetPoint(this->Flipped.Triangles[3 * triangle + slot], corners[slot]);
+      }
+      vtkTriangle::ComputeNormal(corners[0], corners[1], corners[2], normal);
+      const vtkIdType cell = this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon);
+      normals->GetTuple(cell, old);
+      if (vtkMath::Dot(old, normal) < 0.0)
+      {
+        vtkMath::MultiplyScalar(normal, -1.0);
+      }
+      normals->SetTuple(cell, normal);
+    }
+    if (normals)
+    {
+      output->GetCellData()->SetNormals(normals);
+    }
+  }
+
+  vtkPolyData* Mesh;
+  const PolyDataBridge& Bridge;
+  const TriangleSlots& Slots;
+  const FlippedPiece& Flipped;
+  PieceGroup& Group;
+  // Of each polygon of the output:
+  std::vector<vtkIdType> Sources; ///< The cell of the mesh; -1 - i: that of received triangle i.
+  std::vector<vtkIdType> Triangles; ///< The triangle of the flipped piece, or -1.
+};
+
+}
+
+PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyData* output)
+{
+  const auto mesh = ShareMesh(request.Input);
+  const bool isEmpty = mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0;
+  const auto constraints = GatherConstraints(request.Constraints, mesh, group);
+  BridgeSettings settings = request.Settings;
+  if (isEmpty)
+  {
+    settings.RegionArray.clear(); // an empty piece has no arrays
+  }
+  PolyDataBridge bridge(mesh, constraints, settings, UpdatePlan({}, {}));
+  bridge.RequireValidIds();
+  if (!request.Settings.RegionArray.empty())
+  {
+    ShareRegionLabels(bridge, group);
+  }
+  if (!IsOnAnyRank(!isEmpty, group))
+  {
+    output->ShallowCopy(mesh);
+    PiecesReport nothing;
+    nothing.StopReason = StopReasonKind::Converged;
+    return nothing;
+  }
+  const std::vector<std::int64_t> numbers = ReadPointNumbers(mesh);
+  const MeshPiece piece{ bridge.GetMesh(), numbers.empty() ? nullptr : numbers.data() };
+  const std::int64_t elsewhere = constraints ? CountElsewhere(constraints, piece.Mesh, group) : 0;
+  FlippedPiece flipped;
+  PiecesReport report = FlipPiece(piece, request.Options, group, flipped, request.Progress);
+  if (elsewhere > 0)
+  {
+    report.UnmatchedConstraints += elsewhere;
+    report.Defects.push_back({ request.Settings.InsertConstraints && group.GetSize() > 1
+        ? "constraint edges of the second input whose two ends no rank has together: insert "
+          "constraints before the mesh is divided"
+        : "constraint edges of the second input that the mesh does not have",
+      elsewhere, {}, DefectIds::Points });
+  }
+  const PieceOutput writer(mesh, bridge, flipped, group);
+  writer.Store(output);
+  if (request.WantsFlipCounts)
+  {
+    writer.AddArray("vtkDelaunayFlipCount", flipped.FlipCounts, 0, output);
+  }
+  if (request.WantsAngles)
+  {
+    writer.AddAngles(report.GeometryUsed, request.Options.NumberOfThreads, output);
+  }
+  return report;
+}
+
+}

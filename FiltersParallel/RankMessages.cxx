@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RankMessages.h"
+
+#include "DataArrays.h"
+
+#include "vtkDataArray.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// How many bytes the values of an array of a standard layout take.
+std::int64_t CountBytes(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_BIT ? (array->GetNumberOfValues() + 7) / 8
+                                         : array->GetNumberOfValues() * array->GetDataTypeSize();
+}
+
+/// Writes tuples of all arrays that have them.
+void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Packet& packet)
+{
+  const vtkIdType count = ids->GetNumberOfIds();
+  const vtkIdType last = count > 0 ? *std::max_element(ids->begin(), ids->end()) : 0;
+  for (int i = 0; i < data->GetNumberOfArrays() && count > 0; ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const auto taken = last < array->GetNumberOfTuples() ? MakeZeros(array, count) : nullptr;
+    if (!taken)
+    {
+      continue;
+    }
+    taken->InsertTuples(MakeRange(0, count), ids, array);
+    packet.Put(std::string(taken->GetName() ? taken->GetName() : ""));
+    packet.Put(taken->GetDataType());
+    packet.Put(taken->GetNumberOfComponents());
+    packet.Put(data->IsArrayAnAttribute(i));
+    if (auto* numbers = vtkArrayDownCast<vtkDataArray>(taken))
+    {
+      const auto* bytes = static_cast<const char*>(numbers->GetVoidPointer(0));
+      packet.Bytes.insert(packet.Bytes.end(), bytes, bytes + CountBytes(numbers));
+      continue;
+    }
+    for (vtkIdType value = 0; value < taken->GetNumberOfValues(); ++value)
+    {
+      packet.Put(std::string(taken->GetVariantValue(value).ToString()));
+    }
+  }
+}
+
+/// Reads an array of `count` tuples. @param attribute receives what it is, or -1.
+vtkSmartPointer<vtkAbstractArray> GetTuples(Packet& packet, vtkIdType count, int& attribute)
+{
+  const std::string name = packet.GetText();
+  const auto array =
+    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(packet.Get<int>()));
+  array->SetName(name.empty() ? nullptr : name.c_str());
+  array->SetNumberOfComponents(packet.Get<int>());
+  array->SetNumberOfTuples(count);
+  attribute = packet.Get<int>();
+  if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
+  {
+    packet.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
+    return array;
+  }
+  for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
+  {
+    array->SetVariantValue(value, vtkVariant(packet.GetText()));
+  }
+  return array;
+}
+
+std::vector<Message> TakeMessages(std::vector<Packet>& packets)
+{
+  std::vector<Message> messages;
+  for (Packet& packet : packets)
+  {
+    messages.push_back(std::move(packet.Bytes));
+  }
+  return messages;
+}
+
+}
+
+bool IsOnAnyRank(bool flag, PieceGroup& group)
+{
+  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
+  return std::any_of(
+    flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
+}
+
+void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* given,
+  const std::function<vtkIdType(std::int64_t)>& tupleOf, PieceGroup& group,
+  vtkDataSetAttributes* result)
+{
+  std::vector<Packet> requests(group.GetSize()), answers;
+  std::vector<vtkNew<vtkIdList>> places(group.GetSize()); // in the result
+  const auto size = static_cast<vtkIdType>(origins.size());
+  for (vtkIdType i = 0; i < size; ++i)
+  {
+    requests[origins[i].Rank].Put(origins[i].Id);
+    places[origins[i].Rank]->InsertNextId(i);
+  }
+  for (Message& message : group.Exchange(TakeMessages(requests)))
+  {
+    Packet wanted(std::move(message));
+    vtkNew<vtkIdList> ids;
+    while (!wanted.IsAtEnd())
+    {
+      ids->InsertNextId(tupleOf(wanted.Get<std::int64_t>()));
+    }
+    answers.emplace_back();
+    PutTuples(given, ids, answers.back());
+  }
+  std::vector<Message> received = group.Exchange(TakeMessages(answers));
+  for (int i = 0; i < given->GetNumberOfArrays(); ++i)
+  {
+    if (const auto zeros = MakeZeros(given->GetAbstractArray(i), size))
+    {
+      result->AddArray(zeros);
+    }
+  }
+  for (int rank = 0; rank < group.GetSize(); ++rank)
+  {
+    Packet packet(std::move(received[rank]));
+    const vtkIdType count = places[rank]->GetNumberOfIds();
+    while (!packet.IsAtEnd())
+    {
+      int attribute = -1;
+      const auto values = GetTuples(packet, count, attribute);
+      const char* name = values->GetName() ? values->GetName() : "";
+      vtkSmartPointer<vtkAbstractArray> target = result->GetAbstractArray(name);
+      if (!target && given->GetNumberOfArrays() == 0 && *name)
+      {
+        target = MakeZeros(values, size);
+        const int index = result->AddArray(target);
+        if (attribute >= 0)
+        {
+          result->SetActiveAttribute(index, attribute);
+        }
+      }
+      if (target && IsSameKind(target, values))
+      {
+        target->InsertTuples(places[rank], MakeRange(0, count), values);
+      }
+    }
+  }
+}
+
+}

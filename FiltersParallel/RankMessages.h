@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RankMessages_h
+#define RankMessages_h
+
+#include "PieceFlip.h"
+#include "PieceGroup.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+class vtkDataSetAttributes;
+
+/// @file
+/// What ranks tell each other. All ranks must call each function together.
+
+namespace delaunayflip
+{
+
+/// Writes a message, or reads one in the same order.
+class Packet
+{
+public:
+  explicit Packet(Message bytes = {})
+    : Bytes(std::move(bytes))
+  {
+  }
+
+  /// @param number of a type that has the same bytes on all ranks.
+  template <typename Number>
+  void Put(Number number)
+  {
+    static_assert(!std::is_base_of<std::string, Number>::value, "a text");
+    const char* bytes = reinterpret_cast<const char*>(&number);
+    this->Bytes.insert(this->Bytes.end(), bytes, bytes + sizeof(number));
+  }
+  void Put(const std::string& text)
+  {
+    this->Put(static_cast<std::int64_t>(text.size()));
+    this->Bytes.insert(this->Bytes.end(), text.begin(), text.end());
+  }
+
+  bool IsAtEnd() const { return this->At >= this->Bytes.size(); }
+  template <typename Number>
+  Number Get()
+  {
+    Number number;
+    this->Read(reinterpret_cast<char*>(&number), sizeof(number));
+    return number;
+  }
+  void Read(char* bytes, std::int64_t count)
+  {
+    std::memcpy(bytes, this->Bytes.data() + this->At, count);
+    this->At += count;
+  }
+  std::string GetText()
+  {
+    const auto size = this->Get<std::int64_t>();
+    this->At += size;
+    return std::string(this->Bytes.data() + this->At - size, size);
+  }
+
+  Message Bytes;
+
+private:
+  std::size_t At = 0;
+};
+
+bool IsOnAnyRank(bool flag, PieceGroup& group);
+
+/// Brings the data of points or cells from the ranks that have them.
+/// @param origins what to bring. @param given the data of this rank.
+/// @param tupleOf the tuple of `given` for an id of an origin.
+/// @param result receives one tuple for each origin in every array that `given` has. Where `given`
+/// has no arrays at all, because the rank's piece is empty, it gets those of the others. Values
+/// that the other rank does not have are 0 or empty.
+void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* given,
+  const std::function<vtkIdType(std::int64_t)>& tupleOf, PieceGroup& group,
+  vtkDataSetAttributes* result);
+
+}
+
+#endif

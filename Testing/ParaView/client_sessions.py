@@ -1,0 +1,368 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Users' sessions with the plugin in the client's window; DELAUNAYFLIP_SESSION says which one.
+
+Played by test_client.py, which makes the meshes in the folder DELAUNAYFLIP_FOLDER; the pictures stay
+there.
+"""
+
+import os
+import re
+
+from paraview import servermanager, simple
+
+from ClientTesting import FOLDER, Panel, QtWidgets, expect, idle, load_plugin, play, start_filter
+
+RESULTS = ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
+           "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge", "StopReason",
+           "NumberOfConstraintEdges", "NumberOfUnmatchedConstraintEdges", "GeometryUsed",
+           "BackendUsed"]
+QUIET = 1.5  # seconds: many times the interval of polls
+
+
+def read_mesh(name, **options):
+    return simple.XMLPolyDataReader(FileName=[os.path.join(FOLDER, name)], **options)
+
+
+def get_triangles(flip):
+    polys = servermanager.Fetch(flip).GetPolys().GetConnectivityArray()
+    ids = [int(polys.GetTuple1(i)) for i in range(polys.GetNumberOfTuples())]
+    return [tuple(ids[i:i + 3]) for i in range(0, len(ids), 3)]
+
+
+def has_converged(flip):
+    return lambda: flip.StopReason == "converged"
+
+
+def use_menu(client):
+    """Creates the filter from the menu and applies it with its defaults."""
+    where = client.find_actions("Delaunay Flip")
+    expect({"Alphabetical", "Delaunay Flip"} <= set(where), f"menu entries: {list(where)}")
+    client.choose("Delaunay Flip", "Delaunay Flip")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "DelaunayFlip"
+    client.apply()
+    yield has_converged(simple.GetActiveSource())
+
+
+def look_at_panel(client, panel):
+    """Widgets that have no effect are hidden."""
+    expect(panel.is_shown("FeatureAngle"), "FeatureAngle is not shown")
+    expect(not panel.is_shown("IterationsPerUpdate"), "IterationsPerUpdate is shown")
+    panel.choose("Geometry", "Planar")
+    yield lambda: not panel.is_shown("FeatureAngle")
+    panel.choose("Geometry", "Auto")
+    yield lambda: panel.is_shown("FeatureAngle")
+    client.save_picture("applied.png")
+
+
+def watch_live(client, panel, flip):
+    """Live update: the mesh improves by itself, step by step; polling ends when the run ends."""
+    at_once = get_triangles(flip)
+    iterations = int(flip.NumberOfIterations)
+    renders, seen = [], []
+    window = simple.GetActiveView().GetRenderWindow()
+    window.AddObserver("EndEvent", lambda *_: renders.append(flip.NumberOfIterations))
+    panel.click("LiveUpdate")
+    yield lambda: panel.is_shown("IterationsPerUpdate")
+    client.apply()
+
+    def has_ended():
+        if flip.NumberOfIterations not in seen:
+            seen.append(flip.NumberOfIterations)
+        return has_converged(flip)()
+
+    yield has_ended
+    expect(seen[-1] == iterations, f"ended after {seen[-1]} iterations, not {iterations}")
+    expect(len(set(renders)) > iterations // 2, f"{iterations} steps, rendered: {renders}")
+    expect(get_triangles(flip) == at_once, "live update ended with another mesh")
+    renders.clear()
+    yield idle(QUIET)
+    expect(not renders, "the view was rendered after the end")
+    client.save_picture("live.png")
+    panel.press("Restart")
+    yield lambda: flip.StopReason == "running"
+    yield has_converged(flip)
+    expect(get_triangles(flip) == at_once, "a restarted live update ended with another mesh")
+
+
+def use_filter(client):
+    """Menu, Apply, panel, live update."""
+    mesh = read_mesh("mesh.vtp")
+    simple.Show(mesh).Representation = "Surface With Edges"
+    simple.ResetCamera()
+    yield idle(0.2)
+    yield from use_menu(client)
+    flip = simple.GetActiveSource()
+    simple.GetDisplayProperties(flip).Representation = "Surface With Edges"
+    panel = Panel(client)
+    yield from look_at_panel(client, panel)
+    yield from watch_live(client, panel, flip)
+
+
+def read_results(panel, flip):
+    """Results are text that cannot be edited, and whole numbers have no decimal point."""
+    for name in RESULTS:
+        expect(panel.read(name) == str(flip.GetPropertyValue(name)), f"{name}: {panel.read(name)}")
+        for widget in panel.find_all(name):
+            expect(not isinstance(widget, QtWidgets.QLineEdit) and not widget.findChildren(QtWidgets.QLineEdit),
+                   f"{name} looks as if it could be edited")
+    expect(panel.read("TotalFlips").isdigit(), panel.read("TotalFlips"))
+    expect(any(label.text().endswith("<b>Last Update</b></html>")
+               for label in panel.window.findChildren(QtWidgets.QLabel) if label.isVisible()), "no title")
+
+
+def use_buttons(client, panel, flip):
+    """Pause pauses the run, Step makes one step, Restart starts again, Pause continues."""
+    expect(not panel.is_shown("Step"), "buttons are shown without live update")
+    panel.click("LiveUpdate")
+    yield lambda: panel.is_shown("Step")
+    client.apply()
+    yield lambda: flip.NumberOfIterations >= 3
+    panel.press("Paused")
+    yield idle(0.3)
+    held = flip.NumberOfIterations
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == held and flip.StopReason == "running", "it did not pause")
+    client.save_picture("panel_paused.png")
+    panel.press("Step")
+    yield lambda: flip.NumberOfIterations == held + 1
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == held + 1, "a step made more than one iteration")
+    expect(panel.read("NumberOfIterations") == str(held + 1), "the panel lags behind")
+    panel.press("Restart")
+    yield lambda: flip.NumberOfIterations == 1
+    yield idle(QUIET)
+    expect(flip.NumberOfIterations == 1, "a paused run continued after its restart")
+    panel.press("Paused")
+    yield has_converged(flip)
+    panel.press("Restart")
+    yield lambda: flip.NumberOfIterations >= 2
+    panel.press("Step")  # pauses a run that is not paused
+    yield idle(QUIET)
+    expect(flip.StopReason == "running", "the run continued")
+    expect(panel.find("Paused", QtWidgets.QPushButton).isChecked(), "the button does not show it")
+    panel.press("Paused")
+    yield has_converged(flip)
+    panel.click("LiveUpdate")
+    client.apply()
+    yield idle(0.3)
+
+
+def count_edges(flip, edge):
+    """The number of triangles of the output with this edge."""
+    return sum(edge <= set(triangle) for triangle in get_triangles(flip))
+
+
+def choose_constraints(client, panel, flip):
+    edge = {15, 29}  # of the input's fan; flipped unless it is a constraint
+    expect(count_edges(flip, edge) == 0, "the edge is there without constraints")
+    choices = panel.find("Constraints", QtWidgets.QComboBox)
+    texts = [choices.itemText(i) for i in range(choices.count())]
+    expect(texts[0] == "(none)" and "Lines" in texts, texts)
+    panel.choose("Constraints", "Lines")
+    client.apply()
+    yield lambda: count_edges(flip, edge) == 2
+    yield lambda: panel.read("NumberOfConstraintEdges") == "1"
+    expect(panel.read("NumberOfUnmatchedConstraintEdges") == "0", "an edge was not found")
+    client.save_picture("panel.png")
+    panel.choose("Constraints", "(none)")
+    client.apply()
+    yield lambda: count_edges(flip, edge) == 0
+    flip.Constraints = simple.FindSource("Lines")
+    yield lambda: choices.currentText() == "Lines"
+    flip.Constraints = None
+    yield lambda: choices.currentText() == "(none)"
+
+
+def omit_loops(panel, flip):
+    """The list of constraints omits sources downstream of the filter, which would make a loop."""
+    simple.SetActiveSource(flip)
+    later = simple.Transform(registrationName="Later", Input=flip)
+    last = simple.FeatureEdges(registrationName="Last", Input=later)
+    simple.Show(last)
+    simple.FeatureEdges(registrationName="Beside", Input=simple.FindSource("Lines")).UpdatePipeline()
+    yield idle(0.5)
+    simple.SetActiveSource(flip)
+    yield idle(0.5)
+    choices = panel.find("Constraints", QtWidgets.QComboBox)
+    texts = {choices.itemText(i) for i in range(choices.count())}
+    expect(texts == {"(none)", "Lines", "Mesh", "Beside"}, texts)
+    for source in (last, later, simple.FindSource("Beside")):
+        simple.Delete(source)
+    yield idle(0.5)
+    expect(choices.findText("Beside") == -1, "a deleted source is listed")
+
+
+def look_at_color_by(flip):
+    """Color By does not list the filter's field data, whatever other arrays the user hides."""
+    information = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
+    expect(information.GetArrayInformation("DelaunayFlip:TotalFlips"), "no field data")
+    display = simple.GetDisplayProperties(flip)
+    domain = display.SMProxy.GetProperty("ColorArrayName").FindDomain("vtkSMArrayListDomain")
+    settings = servermanager._getPyProxy(
+        servermanager.ProxyManager().GetProxy("settings", "RepresentedArrayListSettings"))
+    for hidden in ([], ["^Side$"], ["^Other$", "^Side$"], ["^Other$"], []):
+        settings.FilterExpressions = hidden
+        names = {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
+        expect(("Side" in names) == ("^Side$" not in hidden), f"{hidden}: {names}")
+        expect(not any(name.startswith("DelaunayFlip:") for name in names), f"{hidden}: {names}")
+        expect(list(settings.FilterExpressions) == hidden, "the user's settings were changed")
+
+
+def use_panel(client):
+    """The results, the list of constraints, the buttons of a live run; Color By."""
+    client.window.resize(1500, 1150)
+    mesh = read_mesh("long.vtp", registrationName="Mesh")
+    read_mesh("lines.vtp", registrationName="Lines")
+    flip = yield from start_filter(client, mesh)
+    client.apply()
+    yield has_converged(flip)
+    panel = Panel(client)
+    read_results(panel, flip)
+    look_at_color_by(flip)
+    yield from choose_constraints(client, panel, flip)
+    yield from omit_loops(panel, flip)
+    yield from use_buttons(client, panel, flip)
+    read_results(panel, flip)
+
+
+def get_chart():
+    return simple.GetActiveView().SMProxy.GetContextItem()
+
+
+def get_lines():
+    """The lines of the chart, as {label: [(x, y), ...]}."""
+    lines = {}
+    for plot in map(get_chart().GetPlot, range(get_chart().GetNumberOfPlots())):
+        if plot.GetVisible() and plot.GetInput():
+            columns = [plot.GetData().GetInputAbstractArrayToProcess(k, plot.GetInput())
+                       for k in (0, 1)]
+            lines[plot.GetLabel()] = [tuple(column.GetTuple1(i) for column in columns)
+                                      for i in range(columns[0].GetNumberOfTuples())]
+    return lines
+
+
+def get_columns(flip, *names):
+    """Rows of the filter's table, of some columns."""
+    rows = simple.servermanager.Fetch(flip, idx=1).GetRowData()
+    columns = [rows.GetArray(name) for name in names]
+    return [tuple(column.GetTuple1(i) for column in columns)
+            for i in range(columns[0].GetNumberOfTuples())]
+
+
+def watch_chart(client, panel, flip):
+    """The first chart has one row; it follows the run to the end by itself."""
+    panel.write("MaximumIterations", "1")
+    client.apply()
+    yield lambda: flip.NumberOfIterations == 1
+    client.select("Iterations")
+    yield idle(0.3)
+    client.choose("Delaunay Flip", "Plot Delaunay Flips")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
+    client.apply()
+    yield lambda: simple.GetActiveView().GetXMLName() == "DelaunayFlipChartView"
+    yield idle(0.3)
+    row = get_columns(flip, "Iteration", "Flipped")
+    expect(get_lines() == {"Flipped": 2 * row}, get_lines())  # a single point is not a line
+    client.save_picture("chart_one_row.png")
+    client.select("DelaunayFlip1")
+    yield idle(0.3)
+    panel.write("MaximumIterations", "-1")
+    panel.click("LiveUpdate")
+    client.apply()
+    yield lambda: 3 < len(get_lines()["Flipped"]) < 12
+    yield has_converged(flip)
+    rows = get_columns(flip, "Iteration", "Flipped")
+    yield lambda: get_lines() == {"Flipped": rows}
+    expect(rows[0][0] == 1 and len(rows) == flip.NumberOfIterations > 12, rows)
+    client.save_picture("chart_live.png")
+
+
+def choose_lines(client, display):
+    """Other lines than flips, also on a logarithmic axis, which cannot show 0."""
+    names = ["Flipped", "Excluded", "Blocked", "MinimumAngle"]
+    display.SeriesVisibility = names
+    simple.Render()
+    expect(set(get_lines()) == set(names), get_lines())
+    expect((2, 0) not in get_lines()["Excluded"] and any(
+        y == 0 for _, y in get_lines()["Excluded"]), "Excluded should fall to 0")
+    client.save_picture("chart_lines.png")
+    client.select("PlotDelaunayFlips1")
+    yield idle(0.3)
+    Panel(client).click("LogScale")
+    client.apply()
+    yield lambda: get_chart().GetAxis(0).GetLogScaleActive()
+    expect(not any(y == 0 for _, y in get_lines()["Excluded"]), "a 0 on a logarithmic axis")
+    client.save_picture("chart_log.png")
+    Panel(client).click("LogScale")
+    client.apply()
+    yield lambda: not get_chart().GetAxis(0).GetLogScaleActive()
+
+
+def use_chart(client):
+    """Plot Delaunay Flips, during a live run and after it."""
+    client.window.resize(1500, 900)
+    flip = yield from start_filter(client, read_mesh("long.vtp"))
+    yield from watch_chart(client, Panel(client), flip)
+    display = simple.GetDisplayProperties(simple.FindSource("PlotDelaunayFlips1"))
+    yield from choose_lines(client, display)
+
+
+def read_view():
+    """All texts that the render view shows."""
+    view = simple.GetActiveView().SMProxy.GetClientSideObject()
+    props = view.GetNonCompositedRenderer().GetViewProps()
+    shown = [props.GetItemAsObject(i) for i in range(props.GetNumberOfItems())]
+    return "\n".join(prop.GetText() for prop in shown
+                     if prop.IsA("vtkTextRepresentation") and prop.GetVisibility())
+
+
+def expect_text(flip):
+    """The text in the view agrees with the panel."""
+    text = read_view()
+    expect(text.startswith(f"iteration {flip.NumberOfIterations}, {flip.StopReason}\n"), text)
+    counts = f"{flip.TotalFlips} flips, {flip.NumberOfNonDelaunayEdges} bad edges left"
+    expect(counts in text, f"{counts}: {text}")
+    expect(bool(re.search(r"smallest angle \d+\.\d\d degrees", text))
+           == (flip.StopReason == "converged"), text)
+
+
+def use_statistics(client):
+    """Delaunay Flip Statistics: a text in the render view, which follows a live run."""
+    client.window.resize(1200, 800)
+    mesh = read_mesh("long.vtp")
+    flip = yield from start_filter(client, mesh)
+    client.apply()
+    yield has_converged(flip)
+    statistics = yield from start_filter(client, flip, "Delaunay Flip Statistics")
+    client.apply()
+    yield idle(0.5)
+    for source in (flip, statistics):
+        expect(simple.GetDisplayProperties(source).Visibility == 1, f"{source} is not shown")
+    expect(len(simple.GetViews()) == 1, "another view was opened")
+    expect_text(flip)
+    flip.LiveUpdate = 1
+    client.application.processEvents()
+    simple.Render()
+    yield lambda: flip.NumberOfIterations >= 3
+    flip.Paused = 1
+    yield idle(0.5)
+    expect(flip.StopReason == "running", flip.StopReason)
+    expect_text(flip)
+    client.save_picture("statistics.png")
+    flip.Paused = 0
+    yield has_converged(flip)
+    yield idle(0.5)
+    expect_text(flip)
+    simple.Hide(statistics)
+    simple.Show(simple.DelaunayFlipStatistics(Input=mesh))
+    simple.Render()
+    expect(read_view() == "no statistics: not a mesh of Delaunay Flip", read_view())
+
+
+def session(client):
+    load_plugin()
+    yield from globals()[os.environ["DELAUNAYFLIP_SESSION"]](client)
+
+
+play(session)
