@@ -133,8 +133,8 @@ public:
   /// @param table holds the vertex pairs of all `edges` edges, or is empty.
   /// @param shared the flags of WholeMesh::SharedPoints, in the order of vertices; or empty.
   template <typename Backend>
-  EdgeGuard(EdgeTable table, Array<unsigned char> shared, std::int64_t edges, std::int64_t vertices,
-    const Backend& backend)
+  EdgeGuard(EdgeTable table, std::int64_t edges, std::int64_t vertices, const Backend& backend,
+    Array<unsigned char> shared = {})
     : Table(std::move(table)),
       Claims(backend.template MakeArray<std::uint64_t>(EdgeClaims::GetSize(edges))),
       SharedVertices(std::move(shared)),

@@ -136,8 +136,8 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   if (needsGuard)
   {
     const bool isMissing = table.IsEmpty();
-    guard = EdgeGuard(std::move(table), std::move(input.SharedVertices), input.Counts.Edges.Edges,
-      input.Counts.Points, backend);
+    guard = EdgeGuard(std::move(table), input.Counts.Edges.Edges, input.Counts.Points, backend,
+      std::move(input.SharedVertices));
     if (isMissing)
     {
       guard.Rebuild(input.Mesh, backend);
