@@ -98,102 +98,127 @@ struct BoundaryEdges
   }
 };
 
-/// A closed path: vertices, and the labels of the edges after them.
+/// A path: vertices, and the labels of the edges after them.
 struct LabelledPath
 {
   std::vector<std::uint32_t> Vertices, Labels;
+};
+
+/// Cuts ears off paths. Vertices are numbers of the boundary's places.
+class HullFiller
+{
+public:
+  HullFiller(const Boundary& boundary, const std::vector<CoordinatePair<double>>& places)
+    : FirstLabel(static_cast<std::uint32_t>(4 * places.size())),
+      Open{ FirstLabel, boundary, this->Result },
+      Stored(places.size())
+  {
+    this->Result.Triangles.resize(places.size());
+    this->Chains.Places = places.data();
+    this->Chains.Triangles = this->Result.Triangles.data();
+    this->Chains.Failed = &this->Failed;
+  }
+
+  /// What is left of a path from its first vertex to `right`.
+  LabelledPath Cut(const LabelledPath& path, std::uint32_t right)
+  {
+    const auto inner = static_cast<std::uint32_t>(path.Vertices.size() - 1);
+    for (std::uint32_t i = 0; i < inner; ++i)
+    {
+      this->Stored[i].InputTriangle = path.Vertices[i + 1];
+      this->Stored[i].Flips = path.Labels[i];
+    }
+    EarCutter<double, BoundaryEdges> cutter{ this->Chains, this->Stored.data(), inner,
+      path.Vertices[0], right, path.Labels[inner], 1, this->Next, this->Open };
+    cutter.Cut();
+    this->Next = cutter.Next;
+    LabelledPath left;
+    left.Vertices.push_back(path.Vertices[0]);
+    for (std::uint32_t i = 0; i < cutter.Size; ++i)
+    {
+      left.Vertices.push_back(this->Stored[i].InputTriangle);
+      left.Labels.push_back(this->Stored[i].Flips);
+    }
+    left.Labels.push_back(cutter.LastLabel);
+    return left;
+  }
+
+  /// The boundary after each of its parts has been filled alone.
+  LabelledPath CutParts(const Boundary& boundary)
+  {
+    LabelledPath whole;
+    std::size_t begin = 0;
+    for (const std::size_t end : boundary.PartEnds)
+    {
+      LabelledPath part;
+      for (std::size_t i = begin; i + 1 < end; ++i)
+      {
+        part.Vertices.push_back(static_cast<std::uint32_t>(i));
+        part.Labels.push_back(this->FirstLabel + static_cast<std::uint32_t>(i));
+      }
+      if (!part.Vertices.empty())
+      {
+        const LabelledPath left = this->Cut(part, static_cast<std::uint32_t>(end - 1));
+        whole.Vertices.insert(whole.Vertices.end(), left.Vertices.begin(), left.Vertices.end());
+        whole.Labels.insert(whole.Labels.end(), left.Labels.begin(), left.Labels.end());
+      }
+      begin = end;
+    }
+    return whole;
+  }
+
+  /// The triangles, when all is cut but the hull.
+  HullTriangles Finish(
+    const LabelledPath& hull, const Boundary& boundary, std::int64_t firstTriangle)
+  {
+    this->Result.HullEdges = static_cast<std::int64_t>(hull.Labels.size());
+    for (const std::uint32_t label : hull.Labels)
+    {
+      if (!this->Open.IsOpen(label))
+      {
+        this->Chains.Join(label, NoCorner);
+      }
+    }
+    this->Result.Triangles.resize(this->Next);
+    const auto firstCorner = static_cast<CornerId>(4 * firstTriangle);
+    for (TriangleRecord& triangle : this->Result.Triangles)
+    {
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        triangle.Vertices[slot] = boundary.Places[triangle.Vertices[slot]];
+        triangle.HalfEdges[slot] += triangle.HalfEdges[slot] == NoCorner ? 0 : firstCorner;
+      }
+    }
+    for (CornerId& corner : this->Result.Corners)
+    {
+      corner += firstCorner;
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  HullTriangles Result;
+  const std::uint32_t FirstLabel; ///< Of the boundary's edges, above those of all corners.
+  const BoundaryEdges Open;
+  std::vector<TriangleRecord> Stored; ///< The path that is cut.
+  ChainView<double> Chains{};
+  std::int32_t Failed = 0; ///< Never on the host.
+  TriangleId Next = 0;
 };
 }
 
 HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePair<double>>& places,
   std::int64_t firstTriangle)
 {
-  HullTriangles result;
-  const std::size_t size = places.size();
-  result.Triangles.resize(size);
-  std::vector<TriangleRecord> stored(size);
-  const auto firstLabel = static_cast<std::uint32_t>(4 * size);
-  std::int32_t failed = 0;
-  ChainView<double> chains{};
-  chains.Places = places.data();
-  chains.Triangles = result.Triangles.data();
-  chains.Failed = &failed;
-  TriangleId next = 0;
-  const BoundaryEdges open{ firstLabel, boundary, result };
-  LabelledPath whole;
-
-  // Cuts ears along a path that begins with `path`'s first vertex and ends at `right`.
-  const auto fill = [&](const LabelledPath& path, std::uint32_t right)
-  {
-    const auto inner = static_cast<std::uint32_t>(path.Vertices.size() - 1);
-    for (std::uint32_t i = 0; i < inner; ++i)
-    {
-      stored[i].InputTriangle = path.Vertices[i + 1];
-      stored[i].Flips = path.Labels[i];
-    }
-    EarCutter<double, BoundaryEdges> cutter{ chains, stored.data(), inner, path.Vertices[0], right,
-      path.Labels[inner], 1, next, open };
-    cutter.Cut();
-    next = cutter.Next;
-    LabelledPath left;
-    left.Vertices.push_back(path.Vertices[0]);
-    for (std::uint32_t i = 0; i < cutter.Size; ++i)
-    {
-      left.Vertices.push_back(stored[i].InputTriangle);
-      left.Labels.push_back(stored[i].Flips);
-    }
-    left.Labels.push_back(cutter.LastLabel);
-    return left;
-  };
-
-  std::size_t begin = 0;
-  for (const std::size_t end : boundary.PartEnds)
-  {
-    if (end - begin > 1)
-    {
-      LabelledPath part;
-      for (std::size_t i = begin; i + 1 < end; ++i)
-      {
-        part.Vertices.push_back(static_cast<std::uint32_t>(i));
-        part.Labels.push_back(firstLabel + static_cast<std::uint32_t>(i));
-      }
-      const LabelledPath filled = fill(part, static_cast<std::uint32_t>(end - 1));
-      whole.Vertices.insert(whole.Vertices.end(), filled.Vertices.begin(), filled.Vertices.end());
-      whole.Labels.insert(whole.Labels.end(), filled.Labels.begin(), filled.Labels.end());
-    }
-    begin = end;
-  }
+  HullFiller filler(boundary, places);
+  LabelledPath whole = filler.CutParts(boundary);
   const auto isLower = [&](std::uint32_t a, std::uint32_t b)
   { return places[a].V != places[b].V ? places[a].V < places[b].V : places[a].U < places[b].U; };
   const auto lowest = std::min_element(whole.Vertices.begin(), whole.Vertices.end(), isLower) -
     whole.Vertices.begin();
   std::rotate(whole.Vertices.begin(), whole.Vertices.begin() + lowest, whole.Vertices.end());
   std::rotate(whole.Labels.begin(), whole.Labels.begin() + lowest, whole.Labels.end());
-  const LabelledPath hull = fill(whole, whole.Vertices[0]);
-
-  result.HullEdges = static_cast<std::int64_t>(hull.Labels.size());
-  for (const std::uint32_t label : hull.Labels)
-  {
-    if (label < firstLabel)
-    {
-      chains.Join(label, NoCorner);
-    }
-  }
-  result.Triangles.resize(next);
-  const auto firstCorner = static_cast<CornerId>(4 * firstTriangle);
-  for (TriangleRecord& triangle : result.Triangles)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      triangle.Vertices[slot] = boundary.Places[triangle.Vertices[slot]];
-      triangle.HalfEdges[slot] += triangle.HalfEdges[slot] == NoCorner ? 0 : firstCorner;
-    }
-  }
-  for (CornerId& corner : result.Corners)
-  {
-    corner += firstCorner;
-  }
-  return result;
+  return filler.Finish(filler.Cut(whole, whole.Vertices[0]), boundary, firstTriangle);
 }
 
 }
