@@ -30,6 +30,52 @@ POINTS = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
 TRIANGLES = numpy.array([[0, 1, 2], [0, 2, 3]])
 
 
+class Triangulate(unittest.TestCase):
+    def test_equals_flips_of_another_triangulation(self):
+        points = numpy.random.default_rng(1).integers(0, 40, (800, 2)).astype(float)
+        result = delaunayflip.triangulate(points)
+        start = delaunayflip.triangulate(points, maximum_iterations=0)
+        self.assertGreater(start.report.non_delaunay_after, 0)
+        flipped = delaunayflip.flip(points, start.triangles, tie_rule="canonical")
+        canonical = [{frozenset(ids) for ids in mesh.triangles.tolist()} for mesh in (result, flipped)]
+        self.assertEqual(*canonical)
+        shuffled = numpy.random.default_rng(2).permutation(len(points))
+        again = delaunayflip.triangulate(points[shuffled]).triangles
+        places = [{frozenset(map(tuple, corners)) for corners in where[triangles].tolist()}
+                  for where, triangles in ((points, result.triangles), (points[shuffled], again))]
+        self.assertEqual(*places)
+        border = (result.neighbors == -1).sum()
+        self.assertEqual(len(result.triangles), 2 * len(set(result.used_points)) - 2 - border)
+        for triangle, slot in ((0, 0), (5, 1), (9, 2)):
+            across = result.neighbors[triangle, slot]
+            if across >= 0:
+                self.assertIn(triangle, result.neighbors[across])
+                self.assertNotIn(result.triangles[triangle, slot], result.triangles[across])
+
+    def test_points_that_are_not_used(self):
+        points = numpy.array([[1, 0, 9], [0, 0, 9], [numpy.nan, 0, 9], [-0.0, 0, 1], [0, 1, numpy.inf]],
+                             dtype=numpy.float32)
+        result = delaunayflip.triangulate(points)
+        self.assertEqual(result.triangles.tolist(), [[1, 0, 4]])
+        self.assertEqual(result.used_points.tolist(), [0, 1, -1, 1, 4])
+        self.assertIn("place of another", result.report.defects)
+        for none in (numpy.empty((0, 2)), points[:1], [[0, 0], [1, 1], [2, 2], [3, 3]]):
+            self.assertEqual(delaunayflip.triangulate(none).triangles.shape, (0, 3))
+
+    def test_can_be_stopped(self):
+        points = numpy.random.default_rng(3).random((20000, 2))
+        stopped = delaunayflip.triangulate(points, progress=lambda share: share < 0.2)
+        self.assertEqual(stopped.report.stop_reason, "aborted")
+        self.assertEqual(len(stopped.triangles), 0)
+        with self.assertRaises(ZeroDivisionError):
+            delaunayflip.triangulate(points, progress=lambda share: 1 / 0)
+
+    def test_wrong_points(self):
+        for points, error in (([[1]], ValueError), (["a"], ValueError), (None, TypeError)):
+            with self.assertRaises((error, TypeError, ValueError)):
+                delaunayflip.triangulate(points)
+
+
 class Flip(unittest.TestCase):
     def test_square(self):
         result = delaunayflip.flip(POINTS, TRIANGLES)
