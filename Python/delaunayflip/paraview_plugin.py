@@ -158,3 +158,9 @@ class DelaunayFlip(vtkDelaunayFlip):
 
     def get_mesh(self, data):
         return _to_poly_data(data)
+
+    def GetNumberOfRounds(self):
+        return 0  # of ranks, whose pieces only the plugin in C++ flips as one mesh
+
+    def GetNumberOfMovedTriangles(self):
+        return 0

@@ -48,7 +48,8 @@ class Messages(unittest.TestCase):
 
     def test_messages(self):
         """The terms of the list in faq.md; "..." stands for anything."""
-        literals = "".join(read(path) for folder in ("Engine", "CUDA", "Filters", "Command", "Python")
+        folders = ("Engine", "CUDA", "Filters", "FiltersParallel", "Command", "Python")
+        literals = "".join(read(path) for folder in folders
                            for path in glob.glob(f"{ROOT}/{folder}/**/*.*", recursive=True)
                            if not path.endswith(".pyc"))
         literals = re.sub(r'"\s*"', "", literals)  # adjacent strings are one

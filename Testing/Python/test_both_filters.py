@@ -232,8 +232,9 @@ class Same(unittest.TestCase):
         self.expect_same(make_rhombus(), lambda flip: flip.SetTolerance(3))
         self.expect_same(make_rhombus(), lambda flip: flip.SetBackendToCUDA())
         self.expect_same(make_rhombus(), lambda flip: flip.SetConstraintsData(bad))
-        self.expect_same(make_rhombus(),
-                         lambda flip: flip.SetInputDataObject(1, vtkMultiBlockDataSet()))
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, make_rhombus())
+        self.expect_same(make_rhombus(), lambda flip: flip.SetInputDataObject(1, blocks))
 
     def test_warnings(self):
         mesh = make_polygon_mesh()
