@@ -11,7 +11,7 @@
 #include "PieceFlip.h"
 #include "SeamRounds.h"
 #include "SeamSurvey.h"
-#include "StopWatch.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <functional>
