@@ -21,13 +21,6 @@ DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
   : Device(device),
     Stream(stream)
 {
-  int supported = 0;
-  CallCuda("ask for memory pools", cudaDeviceGetAttribute, &supported,
-    cudaDevAttrMemoryPoolsSupported, device);
-  if (supported == 0)
-  {
-    return;
-  }
   cudaMemPoolProps properties = {};
   properties.allocType = cudaMemAllocationTypePinned;
   properties.location.type = cudaMemLocationTypeDevice;
@@ -40,13 +33,7 @@ DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
   }
 }
 
-DeviceMemory::~DeviceMemory()
-{
-  if (this->Pool)
-  {
-    cudaMemPoolDestroy(this->Pool);
-  }
-}
+DeviceMemory::~DeviceMemory() { cudaMemPoolDestroy(this->Pool); }
 
 void* DeviceMemory::Allocate(std::size_t bytes)
 {
@@ -57,19 +44,14 @@ void* DeviceMemory::Allocate(std::size_t bytes)
     {
       void* memory = nullptr;
       CallCuda("allocate memory",
-        [&]
-        {
-          return this->Pool ? cudaMallocFromPoolAsync(&memory, size, this->Pool, this->Stream)
-                            : cudaMalloc(&memory, size);
-        });
+        [&] { return cudaMallocFromPoolAsync(&memory, size, this->Pool, this->Stream); });
       return memory;
     });
 }
 
 void DeviceMemory::Free(void* memory, std::size_t) noexcept
 {
-  const cudaError_t error = this->Pool ? cudaFreeAsync(memory, this->Stream) : cudaFree(memory);
-  if (error != cudaSuccess)
+  if (cudaFreeAsync(memory, this->Stream) != cudaSuccess)
   {
     cudaGetLastError(); // there is no caller to report to
   }
@@ -77,11 +59,6 @@ void DeviceMemory::Free(void* memory, std::size_t) noexcept
 
 void DeviceMemory::AllowAccess(const std::vector<int>& devices)
 {
-  if (!this->Pool)
-  {
-    throw BackendUnavailable(
-      "GPU " + std::to_string(this->Device) + " has no memory pools to share; use one GPU");
-  }
   for (const int device : devices)
   {
     if (device == this->Device)
@@ -98,13 +75,9 @@ void DeviceMemory::AllowAccess(const std::vector<int>& devices)
 
 std::size_t DeviceMemory::TakePeak()
 {
-  std::uint64_t peak = 0;
-  if (this->Pool)
-  {
-    cudaMemPoolGetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &peak);
-    std::uint64_t reset = 0;
-    cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &reset);
-  }
+  std::uint64_t peak = 0, reset = 0;
+  cudaMemPoolGetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &peak);
+  cudaMemPoolSetAttribute(this->Pool, cudaMemPoolAttrUsedMemHigh, &reset);
   return peak;
 }
 

@@ -21,6 +21,7 @@ namespace delaunayflip
 class DeviceMemory : public Memory
 {
 public:
+  /// @throws BackendUnavailable, also for a device without memory pools.
   DeviceMemory(int device, cudaStream_t stream);
   ~DeviceMemory() override;
   DeviceMemory(const DeviceMemory&) = delete;
@@ -43,7 +44,7 @@ public:
 private:
   int Device;
   cudaStream_t Stream;
-  cudaMemPool_t Pool = nullptr; ///< Null if the device has none; cudaMalloc is used then.
+  cudaMemPool_t Pool = nullptr;
 };
 
 /// Frees the memory that is kept for later runs of the process, on all GPUs. @returns whether there

@@ -41,7 +41,7 @@ DELAUNAYFLIP_EXPORT std::vector<int> ParseDevices(const std::string& list);
 DELAUNAYFLIP_EXPORT void ReleaseCudaMemory();
 
 /// The most device memory, in bytes, that a single run has used, of all that have ended since the
-/// last call. 0 without the backend, and if the device has no memory pools.
+/// last call. 0 without the backend.
 DELAUNAYFLIP_EXPORT std::size_t TakePeakCudaMemory();
 
 }

@@ -10,7 +10,7 @@
 #include "Records.h"
 #include "SeamRounds.h"
 #include "SeamSurvey.h"
-#include "StopWatch.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <functional>

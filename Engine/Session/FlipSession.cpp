@@ -12,8 +12,8 @@
 #include "InputChecks.h"
 #include "LoadedMesh.h"
 #include "RunProgress.h"
-#include "StopWatch.h"
 #include "SurfaceAngles.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <cstddef>

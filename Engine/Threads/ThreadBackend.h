@@ -11,6 +11,7 @@
 #include "TriangleMesh.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -321,6 +322,19 @@ private:
   class Pool;
   std::unique_ptr<Pool> Threads;
   std::unique_ptr<HostMemory> Memory;
+};
+
+/// The seconds since it was made.
+class StopWatch
+{
+public:
+  double GetSeconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
 };
 
 }
