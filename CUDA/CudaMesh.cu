@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
-#include "MeshOnBackend.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
 #include "FlipError.h"
+#include "MeshOnBackend.h"
 
 #include <algorithm>
 #include <atomic>

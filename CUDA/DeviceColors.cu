@@ -5,8 +5,8 @@
 #include "Array.h"
 #include "CudaBackend.cuh"
 #include "DelaunayFlip.h"
-#include "LoadedMesh.h"
 #include "FlipError.h"
+#include "LoadedMesh.h"
 #include "SmallestAngle.h"
 
 #include <cstdint>

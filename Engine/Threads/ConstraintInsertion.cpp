@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintInsertion.h"
 
-#include "MeshOnBackend.h"
 #include "ConstraintFlips.h"
 #include "EdgeMeshBuilder.h"
+#include "MeshOnBackend.h"
 #include "MeshSurveyBuilder.h"
 #include "ThreadBackend.h"
 

@@ -6,8 +6,8 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
-#include "LoadedMesh.h"
 #include "HostMemory.h"
+#include "LoadedMesh.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
