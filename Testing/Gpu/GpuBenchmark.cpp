@@ -21,7 +21,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <future>
 #include <map>
 #include <stdexcept>
 #include <thread>
@@ -153,19 +152,6 @@ public:
                           [=](int threads) { return threads > cores; }),
       this->Threads.end());
     Print(Json::object());
-    // Meshes that a single thread makes are made in parallel, before the first is timed.
-    std::map<std::int64_t, std::future<BenchmarkMesh>> meshes;
-    for (const std::int64_t size : this->Sizes)
-    {
-      if (size <= LargestUntiledMesh && (this->HasGpu || this->IsForCpu(size)))
-      {
-        meshes[size] = std::async(std::launch::async, MakeRandomMesh, size);
-      }
-    }
-    for (auto& [size, mesh] : meshes)
-    {
-      mesh.wait();
-    }
     for (const std::int64_t size : this->Sizes)
     {
       // The mesh as generated, as given to the program, and the result.
@@ -178,7 +164,7 @@ public:
         this->Skip(none, size, hasMemory ? "no GPU" : "too little memory on the host");
         continue;
       }
-      this->RunSize(meshes.count(size) != 0 ? meshes[size].get() : MakeRandomMesh(size));
+      this->RunSize(MakeRandomMesh(size));
     }
     this->RunSpecialMeshes();
     for (const BenchmarkMesh& mesh : ReadRealMeshes(this->MeshFolder))

@@ -111,16 +111,6 @@ TEST_F(DeviceStreamTest, ResultsAreWrittenAfterTheCallersWork)
   EXPECT_EQ(std::vector<std::int32_t>(this->Mesh.Triangles.size(), 77), seen.Get());
 }
 
-TEST_F(DeviceStreamTest, TheCurrentDeviceAndItsErrorsStay)
-{
-  const Arrays device(this->Mesh.View(), 3);
-  FlipToDelaunay(device.View(), {}, device.ViewResult());
-  int current = -1;
-  EXPECT_EQ(cudaSuccess, cudaGetDevice(&current));
-  EXPECT_EQ(0, current);
-  EXPECT_EQ(cudaSuccess, cudaPeekAtLastError());
-}
-
 TEST_F(DeviceStreamTest, ManagedMemoryIsDeviceMemory)
 {
   const Arrays device(this->Mesh.View(), 3);
@@ -133,38 +123,6 @@ TEST_F(DeviceStreamTest, ManagedMemoryIsDeviceMemory)
   FlipToDelaunay(mesh, {}, device.ViewResult());
   EXPECT_TRUE(this->Expected == device.Result.Get());
   cudaFree(managed);
-}
-
-/// Each call fails once: the CPU takes over, or an error says why.
-TEST_F(DeviceStreamTest, AnyCallMayFail)
-{
-  const Arrays device(this->Mesh.View(), 2);
-  std::int64_t fallbacks = 0;
-  std::int64_t errors = 0;
-  for (std::int64_t call = 1;; ++call)
-  {
-    InjectCudaError(call, cudaErrorMemoryAllocation);
-    try
-    {
-      const FlipReport report = FlipToDelaunay(device.View(), {}, device.ViewResult());
-      InjectCudaError(0, cudaSuccess);
-      ASSERT_TRUE(this->Expected == device.Result.Get()) << "call " << call;
-      if (report.Fallback.empty())
-      {
-        break;
-      }
-      ++fallbacks;
-    }
-    catch (const BackendUnavailable&)
-    {
-      InjectCudaError(0, cudaSuccess);
-      ++errors;
-    }
-    ReleaseCudaMemory();
-  }
-  EXPECT_LT(30, fallbacks);
-  EXPECT_LT(0, errors); // where the arrays are must be known, whoever flips
-  EXPECT_GT(5, errors);
 }
 
 /// Iterations are made in batches; an abort acts at the end of one.
@@ -220,25 +178,6 @@ TEST_F(BatchTest, AnAbortActsAtItsEnd)
   EXPECT_EQ(complete.Report.TotalFlips, session.GetReport().TotalFlips);
   EXPECT_EQ(complete.Report.Iterations.size(), session.GetReport().Iterations.size());
   ExpectConsistentStatistics(session.GetReport());
-}
-
-TEST_F(BatchTest, AnExceptionLeavesTheSessionUsable)
-{
-  FlipSession session = this->Start();
-  const auto throwing = [](const IterationRecord& record) -> bool
-  {
-    if (record.Iteration == 2)
-    {
-      throw std::logic_error("from the observer");
-    }
-    return true;
-  };
-  EXPECT_THROW(session.Advance(-1, throwing), std::logic_error);
-  session.Advance();
-  EXPECT_TRUE(session.GetReport().Converged());
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
-  EXPECT_TRUE(Flip(this->Mesh.View(), options).Triangles == this->Store(session));
 }
 
 /// Every call of the CUDA runtime fails once. The result is the right mesh from the CPU, or an

@@ -60,6 +60,13 @@ TEST_F(DeviceTest, OneThatIsAbsentIsRefusedOrReplaced)
   this->Options.Backend = BackendKind::CUDA;
   this->Options.Device = CountDevices();
   EXPECT_THROW(Flip(this->Mesh.View(), this->Options), BackendUnavailable);
+  for (const int pieces : { 0, 5 })
+  {
+    FlipOptions several = MakeOptions(BackendKind::CUDA);
+    several.Devices = { 0, 1000 };
+    several.NumberOfPieces = pieces;
+    EXPECT_THROW(Flip(this->Mesh.View(), several), FlipError);
+  }
   this->Options.Backend = BackendKind::Auto;
   const FlipResult result = Flip(this->Mesh.View(), this->Options);
   EXPECT_TRUE(this->Expected.Triangles == result.Triangles);
@@ -197,17 +204,6 @@ TEST_F(SharedMeshTest, AnyCallMayFail)
   EXPECT_LT(10, fallbacks);
 }
 
-TEST_F(SharedMeshTest, NoSuchGpuIsAnError)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(100, 58);
-  FlipOptions options;
-  options.Backend = BackendKind::CUDA;
-  options.Devices = { 0, 1000 };
-  EXPECT_THROW(Flip(mesh.View(), options), BackendUnavailable);
-  options.Devices = { 0, 1 };
-  EXPECT_NO_THROW(Flip(mesh.View(), options));
-}
-
 class PiecesTest : public GpuTest
 {
 protected:
@@ -248,27 +244,14 @@ protected:
   }
 };
 
-TEST_F(PiecesTest, RandomMesh)
+TEST_F(PiecesTest, AgreeWithThreads)
 {
   const OwnedMesh<float> mesh = MakeRandomBadMesh(200000, 1);
   FlipOptions options;
   options.TieRule = TieRuleKind::Canonical;
   const std::vector<std::int32_t> together = ExpectSameAsThreads(mesh.View(), options);
   EXPECT_EQ(ToTriangleSet(Flip(mesh.View(), options).Triangles), ToTriangleSet(together));
-}
-
-TEST_F(PiecesTest, SurfaceWithFeatures)
-{
-  ExpectSameAsThreads(MakeBadSphere(400, 200, 2).View(), {});
-}
-
-TEST_F(PiecesTest, AGpuThatDoesNotExist)
-{
-  FlipOptions options;
-  options.Backend = BackendKind::CUDA;
-  PiecesReport report;
-  EXPECT_THROW(
-    FlipPieces(MakeRandomBadMesh(1000, 3).View(), options, { 0, 999 }, report), FlipError);
+  ExpectSameAsThreads(MakeBadSphere(400, 200, 2).View(), {}); // with features
 }
 
 }

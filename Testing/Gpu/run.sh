@@ -191,9 +191,9 @@ prepare_egl()
 
 run_window()
 {
-  local sizes=(--frames 30 --moving 100000 1000000 5000000)
+  local frames=30 sizes=(1000000 5000000)
   if [ ${#quick[@]} -gt 0 ]; then
-    sizes=(--frames 5 --moving 10000 50000)
+    frames=5 sizes=(50000)
   fi
   prepare_egl
   if [ "$tests" = yes ]; then
@@ -201,10 +201,11 @@ run_window()
     run_tests window-colors DelaunayFlipGpuTests 'DeviceColors*:DrawnTriangles*'
   fi
   if [ "$benchmarks" = yes ]; then
-    run_step window-benchmark timeout 300 "$programs/delaunay-flip-window-benchmark" "${sizes[@]}"
+    run_step window-benchmark timeout 300 "$programs/delaunay-flip-window-benchmark" \
+      --frames "$frames" "${sizes[@]}"
     cat "$output/window-benchmark.log"
     if [ "$has_gpu" = yes ]; then
-      run_step window-example "$programs/SwellingSurface" --points "${sizes[3]}" --backend cuda
+      run_step window-example "$programs/SwellingSurface" --points "${sizes[0]}" --backend cuda
     fi
   fi
 }
