@@ -153,14 +153,5 @@ class Success(CommandTest):
         for text in ("0x10", "1e1", "10.0", "", " 10", "1 0", "+-1", "99999999999999999999"):
             self.fail_with(2, mesh, "out.vtk", f"--max-iterations={text}", naming=["max-iterations"])
 
-    def test_no_iterations(self):
-        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
-        self.assertEqual(
-            self.report(mesh, "out.vtk", "--max-iterations", "0", code=4)["total_flips"], 0
-        )
-        before, after = (triangles_of(read_mesh(self.path(n))) for n in ("mesh.vtk", "out.vtk"))
-        self.assertEqual(before, after)
-
-
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -3,7 +3,6 @@
 """Every input format to every output format: what each keeps, and what the command reports."""
 
 import os
-import shutil
 import unittest
 
 from CommandTesting import (

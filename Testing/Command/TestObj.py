@@ -2,23 +2,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a .obj contains besides points and faces: what is kept, and what is named."""
 
-import math
 import unittest
-
-import vtkmodules.vtkCommonCore as vtk
 
 from CommandTesting import (
     ArrayTest,
     bumpy_grid,
     cells_of,
-    make_mesh,
     make_values,
     points_of,
     read_mesh,
     triangles_of,
     tuples_of,
     values_of,
-    write_mesh,
 )
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -139,17 +134,6 @@ class Obj(ArrayTest):
         out = self.convert(mesh, "out.obj", "out.vtp")
         colors = out.GetPointData().GetArray("Colors")
         self.assertEqual(colors.GetTuple(3), (3 / 255, 0, 1))
-
-    def test_float_points_stay_exact(self):
-        mesh = make_mesh([], [(0, 1, 2)])
-        points = vtk.vtkPoints()
-        for point in ((0.1, 1 / 3, 1e-30), (1, 0, 0), (0, 1, math.inf)):
-            points.InsertNextPoint(point)
-        mesh.SetPoints(points)
-        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.obj", "--quiet")
-        self.succeed("out.obj", "out.vtp", "--quiet")
-        self.assertEqual(points_of(read_mesh(self.path("out.vtp"))), points_of(mesh))
-
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

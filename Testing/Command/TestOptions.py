@@ -58,16 +58,6 @@ class Options(CommandTest):
         triangles = triangles_of(read_mesh(self.path("out.vtk")))
         return any(a in triangle and b in triangle for triangle in triangles)
 
-    def test_constraints_by_place(self):
-        points = [(9, 9, 9), (0, 2, 0), (0, -2, 0)]
-        mesh = make_mesh([(0, -2, 0), (1, 0, 0), (0, 2, 0), (-1, 0, 0)], [(0, 1, 3), (1, 2, 3)])
-        path = write_mesh(mesh, self.path("in.vtk"))
-        for name in ("lines.vtp", "lines.obj"):
-            with self.subTest(name):
-                lines = write_mesh(make_mesh(points, [], [(1, 2)]), self.path(name))
-                report = self.report(path, "out.vtk", "--constraints", lines)
-                self.assertEqual(report["inserted_constraint_edges"], 1)
-
     def test_lines_are_inserted_on_request(self):
         mesh = make_mesh(KITE, [(0, 1, 3), (1, 2, 3)], [(0, 2)])
         self.assertEqual(self.flips(mesh), 0)

@@ -160,19 +160,6 @@ class Properties(PlyTest):
             self.assertEqual(tuples_of(cells.GetArray("RGB")), [(1, 2, 3), (4, 5, 6)])
             self.assertEqual(tuples_of(cells.GetArray("region")), [(77,), (88,)])
 
-    def test_colors_of_any_type_keep_their_names(self):
-        for kind in ("ushort", "float"):
-            for colors in (["red", "green", "blue"], ["red", "green", "blue", "alpha"]):
-                properties = [f"{kind} {color}" for color in colors]
-                vertices = ("vertex", XYZ + properties, [(*p, *([7] * len(colors))) for p in SQUARE])
-                faces = ("face", INDICES + properties, [([0, 1, 2], *([9] * len(colors)))])
-                self.write("a.ply", make_ply("ascii", vertices, faces))
-                self.assertEqual(self.succeed("a.ply", "out.ply").stderr, "")
-                with open(self.path("out.ply"), "rb") as file:
-                    head = file.read().split(b"end_header")[0].decode().splitlines()
-                for text in properties:
-                    self.assertEqual(head.count("property " + text), 2, head)
-
     def test_other_lists_are_left_out_with_a_warning(self):
         vertex = ["list uchar int neighbours"] + XYZ
         rows = [([1, 2, 3], *point) for point in SQUARE]

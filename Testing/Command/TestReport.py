@@ -78,17 +78,6 @@ class Report(CommandTest):
         }
         self.assertEqual({key: report[key] for key in expected}, expected)
 
-    def test_geometry(self):
-        for mesh, geometry, reason in (
-            (bumpy_grid(6, 0), "planar", "all points lie in one plane"),
-            (bumpy_grid(6, 0.1), "planar-xy", "100 % of its area slopes below 45 degrees"),
-            (bumpy_grid(6, 90), "planar-xy", "z extends further than x and y"),
-            (bumpy_grid(20, 20), "surface", "% of its area slopes below 45 degrees"),
-        ):
-            report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
-            self.assertEqual(report["geometry"], geometry)
-            self.assertIn(reason, report["geometry_reason"])
-
     def test_counts_and_angles(self):
         for height in (0, 1):
             mesh = bumpy_grid(12, height)

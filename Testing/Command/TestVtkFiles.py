@@ -5,7 +5,6 @@
 import math
 import unittest
 
-import vtkmodules.vtkCommonCore as vtk
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
