@@ -46,13 +46,6 @@ QString MakeKey(vtkSMProxy* proxy, unsigned int port)
   return proxy ? QString("%1:%2").arg(proxy->GetGlobalID()).arg(port) : QString();
 }
 
-QString MakeText(pqOutputPort* port)
-{
-  pqPipelineSource* source = port->getSource();
-  const QString name = source->getSMName();
-  return source->getNumberOfOutputPorts() > 1 ? name + ":" + port->getPortName() : name;
-}
-
 /// A filter and everything downstream of it.
 QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
 {
@@ -70,12 +63,6 @@ QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
     }
   }
   return found;
-}
-
-bool HoldsPolygons(pqOutputPort* port)
-{
-  vtkPVDataInformation* information = port->getDataInformation();
-  return information && information->DataSetTypeIsA("vtkPolyData");
 }
 
 /// Buttons that pause a live run, make one step of it, and restart it. They act at once, without
@@ -271,9 +258,14 @@ private:
     {
       for (pqOutputPort* port : source->getOutputPorts())
       {
-        if (!downstream.contains(source) && HoldsPolygons(port))
+        vtkPVDataInformation* information = port->getDataInformation();
+        if (!downstream.contains(source) && information &&
+          information->DataSetTypeIsA("vtkPolyData"))
         {
-          sources.append({ MakeText(port), MakeKey(source->getProxy(), port->getPortNumber()) });
+          const QString name = source->getSMName();
+          const bool isOnly = source->getNumberOfOutputPorts() == 1;
+          sources.append({ isOnly ? name : name + ":" + port->getPortName(),
+            MakeKey(source->getProxy(), port->getPortNumber()) });
         }
       }
     }
@@ -310,30 +302,6 @@ private:
   bool IsEdited = false; ///< Whether edited since the last Apply or Reset.
   QTimer Changes; ///< Fires once after one or more changes.
 };
-
-void ReadBack(pqPipelineSource* flip)
-{
-  flip->getProxy()->UpdatePropertyInformation();
-  for (pqPipelineSource* consumer : flip->getAllConsumers())
-  {
-    consumer->renderAllViews(); // later, from the event loop
-  }
-}
-
-void SetScale(pqPipelineSource* chart)
-{
-  const int isLog = vtkSMPropertyHelper(chart->getProxy(), "LogScale").GetAsInt();
-  for (pqView* view : chart->getViews())
-  {
-    vtkSMProxy* proxy = view->getProxy();
-    if (proxy->GetProperty("LeftAxisLogScale"))
-    {
-      vtkSMPropertyHelper(proxy, "LeftAxisLogScale").Set(isLog);
-      proxy->UpdateVTKObjects();
-      view->render();
-    }
-  }
-}
 
 }
 
@@ -379,14 +347,28 @@ void pqDelaunayFlipClient::hideArrays()
 
 void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
 {
-  const QString name = source->getProxy()->GetXMLName();
+  vtkSMProxy* proxy = source->getProxy();
+  const QString name = proxy->GetXMLName();
   if (name == "DelaunayFlip")
   {
-    ReadBack(source);
+    proxy->UpdatePropertyInformation();
+    for (pqPipelineSource* consumer : source->getAllConsumers())
+    {
+      consumer->renderAllViews(); // later, from the event loop
+    }
   }
   else if (name == "PlotDelaunayFlips")
   {
-    SetScale(source);
+    for (pqView* view : source->getViews())
+    {
+      if (view->getProxy()->GetProperty("LeftAxisLogScale"))
+      {
+        vtkSMPropertyHelper(view->getProxy(), "LeftAxisLogScale")
+          .Set(vtkSMPropertyHelper(proxy, "LogScale").GetAsInt());
+        view->getProxy()->UpdateVTKObjects();
+        view->render();
+      }
+    }
   }
 }
 

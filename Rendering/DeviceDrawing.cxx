@@ -84,13 +84,6 @@ std::string FindObstacleInMesh(vtkPolyData* mesh, const FlipSession* session)
   return ViewPoints(mesh).Count == 0 ? "the points are neither float nor double" : "";
 }
 
-/// Whether the user is moving the camera: then an interactor style asks for more frames per second.
-bool IsInteracting(vtkRenderWindow* window)
-{
-  vtkRenderWindowInteractor* interactor = window->GetInteractor();
-  return interactor && window->GetDesiredUpdateRate() > interactor->GetStillUpdateRate();
-}
-
 /// What is drawn until other colours are written into the mapper's buffer.
 vtkSmartPointer<vtkUnsignedCharArray> MakeColors(vtkIdType count)
 {
@@ -430,8 +423,13 @@ struct DeviceDrawing::Parts
     };
     this->Mapper->IsQuiet = [this]()
     {
-      return this->IsCalm || !this->Window || this->Window->CheckInRenderStatus() ||
-        IsInteracting(this->Window);
+      if (this->IsCalm || !this->Window || this->Window->CheckInRenderStatus())
+      {
+        return true;
+      }
+      // While the user moves the camera, an interactor style asks for more frames per second.
+      vtkRenderWindowInteractor* interactor = this->Window->GetInteractor();
+      return interactor && this->Window->GetDesiredUpdateRate() > interactor->GetStillUpdateRate();
     };
   }
 

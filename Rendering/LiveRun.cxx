@@ -30,29 +30,6 @@ const char* const KeyHelp = "space: run/pause   n: next step   b: begin again   
 namespace
 {
 
-LiveState ToState(int stopReason)
-{
-  switch (stopReason)
-  {
-    case vtkDelaunayFlip::STOP_REASON_RUNNING:
-      return LiveState::UnderWay;
-    case vtkDelaunayFlip::STOP_REASON_ABORTED:
-      return LiveState::Aborted;
-    case vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT:
-      return LiveState::Limited;
-    default:
-      return LiveState::Converged;
-  }
-}
-
-/// Whether every cell is a triangle, as in outputs of the filter without lines or verts.
-bool HasOnlyTriangles(vtkPolyData* mesh)
-{
-  const vtkIdType triangles = mesh->GetNumberOfPolys();
-  return mesh->GetNumberOfCells() == triangles &&
-    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0);
-}
-
 /// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
 /// with VTK 9.6 a line stays.
 vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
@@ -192,7 +169,12 @@ LiveStep MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
     return { LiveState::Failed, isWithheld };
   }
   const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  const LiveState state = isNew ? ToState(filter->GetStopReason()) : LiveState::Unchanged;
+  const int reason = filter->GetStopReason();
+  const LiveState state = !isNew                             ? LiveState::Unchanged
+    : reason == vtkDelaunayFlip::STOP_REASON_RUNNING         ? LiveState::UnderWay
+    : reason == vtkDelaunayFlip::STOP_REASON_ABORTED         ? LiveState::Aborted
+    : reason == vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT ? LiveState::Limited
+                                                             : LiveState::Converged;
   if (isWithheld && IsEnd(state))
   {
     filter->GetExecutive()->Update(0); // puts the mesh out
@@ -212,7 +194,9 @@ vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
     mesh = AppendBlocks(blocks);
   }
   auto faces = vtkSmartPointer<vtkPolyData>::New();
-  if (mesh && HasOnlyTriangles(mesh))
+  const vtkIdType triangles = mesh ? mesh->GetNumberOfPolys() : 0;
+  if (mesh && mesh->GetNumberOfCells() == triangles &&
+    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0)) // as in outputs of the filter
   {
     faces->ShallowCopy(mesh);
   }

@@ -82,13 +82,11 @@ void FillColors(vtkLookupTable* table, const std::vector<Color>& stops, double l
 ColorBands GetBands(vtkLookupTable* table)
 {
   ColorBands bands;
-  const vtkIdType count = table->GetNumberOfTableValues();
-  bands.Colors.resize(static_cast<std::size_t>(count));
+  bands.Colors.resize(static_cast<std::size_t>(table->GetNumberOfTableValues()));
   std::memcpy(bands.Colors.data(), table->GetPointer(0), 4 * bands.Colors.size());
   bands.First = table->GetRange()[0];
   bands.Last = table->GetRange()[1];
-  const unsigned char* ofNaN = table->GetNanColorAsUnsignedChars();
-  std::memcpy(&bands.OfNaN, ofNaN, sizeof(bands.OfNaN));
+  std::memcpy(&bands.OfNaN, table->GetNanColorAsUnsignedChars(), sizeof(bands.OfNaN));
   return bands;
 }
 
@@ -107,14 +105,8 @@ int GetViewAxis(const double* bounds)
 {
   const auto extent = [bounds](int axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
   const double largest = std::max({ extent(0), extent(1), extent(2) });
-  for (const int axis : { 2, 1, 0 })
-  {
-    if (extent(axis) < 1e-3 * largest)
-    {
-      return axis;
-    }
-  }
-  return 2;
+  const auto isFlat = [&](int axis) { return extent(axis) < 1e-3 * largest; };
+  return isFlat(2) ? 2 : isFlat(1) ? 1 : isFlat(0) ? 0 : 2;
 }
 
 }
@@ -149,8 +141,6 @@ LiveScene::LiveScene()
   this->Keys->GetTextProperty()->SetJustificationToCentered();
   this->Keys->SetPosition(0.5, 0.015);
   this->Mapper->SetInputDataObject(this->Mesh);
-  this->Mapper->ScalarVisibilityOff();
-  this->Scale->VisibilityOff();
 }
 
 LiveScene::~LiveScene() { this->Leave(); }

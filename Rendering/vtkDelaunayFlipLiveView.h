@@ -311,9 +311,6 @@ private:
   bool IsMeantToRun = false; ///< Run() was called, and no Pause() or Step() since.
   bool IsBusy = false; ///< The filter is executing, or the window is being drawn.
   bool CanWrite = true; ///< False once a frame could not be written.
-
-  vtkDelaunayFlipLiveView(const vtkDelaunayFlipLiveView&) = delete;
-  void operator=(const vtkDelaunayFlipLiveView&) = delete;
 };
 
 #endif

@@ -8,8 +8,7 @@ paraview_live.png: during a live update.
 
 import os
 
-from ClientQt import QtCore, QtWidgets
-from ClientTesting import FOLDER, Panel, idle, load_plugin, play
+from ClientTesting import FOLDER, Panel, QtCore, QtWidgets, idle, load_plugin, play
 from paraview import simple
 
 

@@ -4,7 +4,6 @@
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
-#include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -41,12 +40,6 @@ void AddColumn(vtkTable* input, const char* name, bool withZeros, vtkTable* outp
 
 }
 
-int vtkDelaunayFlipChart::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
-  return 1;
-}
-
 int vtkDelaunayFlipChart::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -59,10 +52,4 @@ int vtkDelaunayFlipChart::RequestData(
   }
   AddColumn(input, "MinimumAngle", true, output);
   return 1;
-}
-
-void vtkDelaunayFlipChart::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "LogScale: " << this->LogScale << "\n";
 }

@@ -19,7 +19,6 @@ class VTKDELAUNAYFLIPPARAVIEWFILTERS_EXPORT vtkDelaunayFlipChart : public vtkTab
 public:
   static vtkDelaunayFlipChart* New();
   vtkTypeMacro(vtkDelaunayFlipChart, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**
@@ -35,15 +34,11 @@ protected:
   vtkDelaunayFlipChart() = default;
   ~vtkDelaunayFlipChart() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
   bool LogScale = false;
-
-  vtkDelaunayFlipChart(const vtkDelaunayFlipChart&) = delete;
-  void operator=(const vtkDelaunayFlipChart&) = delete;
 };
 
 #endif

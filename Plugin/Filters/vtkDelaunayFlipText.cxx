@@ -46,16 +46,6 @@ std::string Group(double number)
   return text;
 }
 
-std::string DescribeAngle(double degrees)
-{
-  char text[64] = "";
-  if (!std::isnan(degrees))
-  {
-    std::snprintf(text, sizeof(text), "\nsmallest angle %.2f degrees", degrees);
-  }
-  return text;
-}
-
 std::string Describe(vtkFieldData* data)
 {
   auto* reason = vtkStringArray::SafeDownCast(FindArray(data, "StopReason"));
@@ -63,9 +53,15 @@ std::string Describe(vtkFieldData* data)
   {
     return "no statistics: not a mesh of Delaunay Flip";
   }
+  char angle[64] = "";
+  const double degrees = GetLast(data, "MinimumAngle");
+  if (!std::isnan(degrees))
+  {
+    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", degrees);
+  }
   return "iteration " + Group(GetLast(data, "Iteration")) + ", " + reason->GetValue(0) + "\n" +
     Group(GetLast(data, "TotalFlips")) + " flips, " + Group(GetLast(data, "NonDelaunayEdges")) +
-    " bad edges left" + DescribeAngle(GetLast(data, "MinimumAngle"));
+    " bad edges left" + angle;
 }
 
 }

@@ -29,10 +29,6 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-
-private:
-  vtkDelaunayFlipText(const vtkDelaunayFlipText&) = delete;
-  void operator=(const vtkDelaunayFlipText&) = delete;
 };
 
 #endif

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPVDelaunayFlip.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -92,64 +91,15 @@ vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)
   return points;
 }
 
-/// The types of a grid's cells, which VTK 9.6 and newer may keep as one constant.
-vtkDataArray* GetTypes(vtkUnstructuredGrid* grid)
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  return grid->GetCellTypes();
-#else
-  return grid->GetCellTypesArray();
-#endif
-}
-
-/// Checks the arrays of a grid before any of its offsets is used.
-void RequireWholeCells(vtkUnstructuredGrid* grid)
-{
-  vtkCellArray* cells = grid->GetCells();
-  vtkDataArray* types = GetTypes(grid);
-  if (cells &&
-    (!cells->IsValid() || !types || types->GetNumberOfValues() < cells->GetNumberOfCells()))
-  {
-    throw std::invalid_argument(
-      "The offsets, the connectivity and the types of the cells contradict each other.");
-  }
-}
-
-/// Reorders the points of a pixel from row by row to around the quad.
-void TurnPixel(vtkIdType cell, vtkIdList* ids)
-{
-  if (ids->GetNumberOfIds() != 4)
-  {
-    throw std::invalid_argument("Cell " + std::to_string(cell) + " is a pixel, but has " +
-      std::to_string(ids->GetNumberOfIds()) + " points, not 4.");
-  }
-  std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
-}
-
-/// Shares the cell array of an unstructured grid that consists of polygons only.
-bool ShareCells(vtkDataSet* input, vtkPolyData* output)
-{
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  for (vtkIdType i = 0; grid && i < grid->GetNumberOfCells(); ++i)
-  {
-    const int type = grid->GetCellType(i);
-    if (GetKind(type) != Polys || type == VTK_PIXEL)
-    {
-      return false;
-    }
-  }
-  if (grid)
-  {
-    output->SetPolys(grid->GetCells());
-    output->GetCellData()->PassData(grid->GetCellData());
-  }
-  return grid != nullptr;
-}
-
 using CellsByKind = std::array<Cells, NumberOfKinds>;
 
 void SortCells(vtkDataSet* input, CellsByKind& cells)
 {
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && grid->GetCells() && !grid->GetCells()->IsStorage64Bit())
+  {
+    cells[Polys].Array->Use32BitStorage();
+  }
   vtkNew<vtkIdList> ids;
   for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
   {
@@ -162,27 +112,16 @@ void SortCells(vtkDataSet* input, CellsByKind& cells)
     input->GetCellPoints(i, ids);
     if (type == VTK_PIXEL)
     {
-      TurnPixel(i, ids);
+      if (ids->GetNumberOfIds() != 4)
+      {
+        throw std::invalid_argument("Cell " + std::to_string(i) + " is a pixel, but has " +
+          std::to_string(ids->GetNumberOfIds()) + " points, not 4.");
+      }
+      std::swap(*ids->GetPointer(2), *ids->GetPointer(3)); // from row by row to around the quad
     }
     cells[kind].Array->InsertNextCell(ids);
     cells[kind].Sources->InsertNextId(i);
   }
-}
-
-/// Removes the arrays that have too few tuples for the cells from `data` and returns them.
-std::vector<vtkSmartPointer<vtkAbstractArray>> TakeShortArrays(vtkIdType cells, vtkCellData* data)
-{
-  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
-  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() < cells)
-    {
-      arrays.emplace_back(array);
-      data->RemoveArray(i);
-    }
-  }
-  return arrays;
 }
 
 /// Arrays that are too short to be copied become empty, so that the filter warns of them.
@@ -190,7 +129,16 @@ void CopyCellData(vtkDataSet* input, const CellsByKind& cells, vtkCellData* outp
 {
   vtkNew<vtkCellData> source;
   source->ShallowCopy(input->GetCellData());
-  const auto shortArrays = TakeShortArrays(input->GetNumberOfCells(), source);
+  std::vector<vtkSmartPointer<vtkAbstractArray>> shortArrays;
+  for (int i = source->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = source->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() < input->GetNumberOfCells())
+    {
+      shortArrays.emplace_back(array);
+      source->RemoveArray(i);
+    }
+  }
   output->CopyAllOn();
   output->CopyAllocate(source, input->GetNumberOfCells());
   vtkIdType next = 0;
@@ -209,25 +157,25 @@ void CopyCellData(vtkDataSet* input, const CellsByKind& cells, vtkCellData* outp
   }
 }
 
-void CopyCells(vtkDataSet* input, vtkPolyData* output)
-{
-  CellsByKind cells;
-  SortCells(input, cells);
-  output->SetVerts(cells[Verts].Array);
-  output->SetLines(cells[Lines].Array);
-  output->SetPolys(cells[Polys].Array);
-  output->SetStrips(cells[Strips].Array);
-  CopyCellData(input, cells, output->GetCellData());
-}
-
 /// Whether a vtkPolyData can hold all cells of a dataset: vertices, lines, triangles, quads,
 /// pixels, polygons and strips. True for a dataset without cells.
 /// @throws std::invalid_argument if the arrays of its cells contradict each other.
 bool HasSurfaceCells(vtkDataSet* input)
 {
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && grid->GetCells()) // whose arrays are checked before any of its offsets is used
   {
-    RequireWholeCells(grid);
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+    vtkDataArray* types = grid->GetCellTypes(); // which may be one constant
+#else
+    vtkDataArray* types = grid->GetCellTypesArray();
+#endif
+    vtkCellArray* cells = grid->GetCells();
+    if (!cells->IsValid() || !types || types->GetNumberOfValues() < cells->GetNumberOfCells())
+    {
+      throw std::invalid_argument(
+        "The offsets, the connectivity and the types of the cells contradict each other.");
+    }
   }
   for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
   {
@@ -249,10 +197,13 @@ vtkSmartPointer<vtkPolyData> ToPolyData(vtkDataSet* input)
   output->SetPoints(GetPoints(input));
   output->GetPointData()->PassData(input->GetPointData());
   output->GetFieldData()->PassData(input->GetFieldData());
-  if (!ShareCells(input, output))
-  {
-    CopyCells(input, output);
-  }
+  CellsByKind cells;
+  SortCells(input, cells);
+  output->SetVerts(cells[Verts].Array);
+  output->SetLines(cells[Lines].Array);
+  output->SetPolys(cells[Polys].Array);
+  output->SetStrips(cells[Strips].Array);
+  CopyCellData(input, cells, output->GetCellData());
   return output;
 }
 

@@ -43,9 +43,6 @@ private:
   vtkSmartPointer<vtkDataSet> Source;
   vtkMTimeType SourceTime = 0;
   vtkSmartPointer<vtkPolyData> Surface;
-
-  vtkPVDelaunayFlip(const vtkPVDelaunayFlip&) = delete;
-  void operator=(const vtkPVDelaunayFlip&) = delete;
 };
 
 #endif

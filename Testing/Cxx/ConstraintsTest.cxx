@@ -12,7 +12,6 @@
 #include "vtkFeatureEdges.h"
 #include "vtkIntArray.h"
 #include "vtkLongLongArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"

@@ -10,10 +10,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
-#include "vtkSOADataArrayTemplate.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
-#include "vtkTypeInt64Array.h"
 
 #include <gtest/gtest.h>
 
@@ -189,16 +186,5 @@ TEST(LiveBits, AreThoseOfAnUpdateAtOnce)
         ExpectLiveIsAtOnce(floats, set);
       }
     }
-  }
-}
-
-TEST(LiveBits, DoNotDependOnTheLayoutOfPoints)
-{
-  for (const auto place : { Place<vtkSOADataArrayTemplate<double>>,
-         Place<vtkSOADataArrayTemplate<float>>, Place<vtkTypeInt64Array> })
-  {
-    auto mesh = MakeTerrain();
-    place(mesh, 1e6, 1e7);
-    ExpectLiveIsAtOnce(mesh, SetTerrain);
   }
 }

@@ -259,6 +259,7 @@ TEST(LiveView, AFailureEndsTheRun)
 {
   WatchedView view(MakeBadPlane(), false);
   view->Step();
+  view->ShowStatisticsOff(); // but a failure is shown
   view.Filter->SetTolerance(2.0);
   view.RunToTheEnd();
   EXPECT_FALSE(view->IsRunning());
@@ -412,7 +413,7 @@ TEST(LiveViewPicture, Texts)
   EXPECT_EQ(view.GetKeys(), "");
 }
 
-TEST(LiveViewPicture, StatisticsCanBeTurnedOffButFailuresAreShown)
+TEST(LiveViewPicture, StatisticsCanBeTurnedOff)
 {
   WatchedView view;
   view->Step();
@@ -425,11 +426,6 @@ TEST(LiveViewPicture, StatisticsCanBeTurnedOffButFailuresAreShown)
   view->ShowStatisticsOn();
   view->Render();
   EXPECT_EQ(view.GetPicture(), before);
-  view->ShowStatisticsOff();
-  view.Filter->SetTieRuleToCanonical();
-  view.Filter->SetGeometryToSurface();
-  view->Step();
-  EXPECT_EQ(view.GetStatus().find("failed: "), 0u);
 }
 
 TEST(LiveViewPicture, Colors)

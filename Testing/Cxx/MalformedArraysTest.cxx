@@ -146,20 +146,6 @@ TEST(MalformedArrays, ThatAreShortAreLeftOutWhereACellIsSplitAndElsePass)
   }
 }
 
-TEST(MalformedArrays, OneWarningNamesTheFirstArrays)
-{
-  auto mesh = MakeQuadAndTriangle();
-  AddNumbers(mesh->GetCellData(), "Long", 9, 5); // no trouble
-  for (const char* name : { "a", "b", "c", "d", "e" })
-  {
-    mesh->GetCellData()->AddArray(MakeArray<vtkStringArray>(name, 1));
-  }
-  WatchedFilter filter(mesh);
-  ExpectHolds(RunToWarning(filter),
-    "5 cell arrays with too few tuples left out: \"a\", \"b\", \"c\", and 2 more");
-  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Long"), std::vector<int>({ 5, 5, 6 }));
-}
-
 TEST(MalformedArrays, ActiveCellNormals)
 {
   for (const vtkIdType tuples : { 0, 1 })
@@ -240,16 +226,6 @@ TEST(MalformedArrays, PointsThatAreNoTriplesAreAnError)
     filter->SetConstraintsData(mesh);
     ExpectHolds(RunToError(filter), "coordinates");
   }
-}
-
-TEST(MalformedArrays, ConstraintsWithoutPointsOrCellsAreNone)
-{
-  vtkNew<vtkPolyData> nothing;
-  WatchedFilter filter(MakeRhombus());
-  filter->SetConstraintsData(nothing);
-  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
-  nothing->SetPoints(vtkNew<vtkPoints>());
-  EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
 }
 
 TEST(MalformedArrays, InALiveRunWarnOnce)

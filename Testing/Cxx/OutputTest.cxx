@@ -7,7 +7,6 @@
 
 #include "FlipReport.h"
 
-#include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

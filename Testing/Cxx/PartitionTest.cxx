@@ -6,8 +6,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -23,7 +21,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace
@@ -95,13 +92,10 @@ Mesh MakeBadMesh(int points = 300)
 class PartitionFilter : public WatchedFilter
 {
 public:
-  explicit PartitionFilter(const Parts& parts, vtkPartitionedDataSet* like = nullptr)
+  explicit PartitionFilter(const Parts& parts,
+    const vtkSmartPointer<vtkPartitionedDataSet>& data =
+      vtkSmartPointer<vtkPartitionedDataSet>::New())
   {
-    auto data = vtkSmartPointer<vtkPartitionedDataSet>::New();
-    if (like)
-    {
-      data.TakeReference(like);
-    }
     for (const auto& part : parts)
     {
       data->SetPartition(data->GetNumberOfPartitions(), part);
@@ -206,7 +200,6 @@ TEST(Partitions, AreFlippedAsOneMesh)
     {
       EXPECT_EQ(part->GetFieldData()->GetArray("DelaunayFlip:TotalFlips")->GetComponent(0, 0),
         filter->GetTotalFlips());
-      EXPECT_EQ(part->GetCellData()->GetNumberOfArrays(), 1);
     }
   }
 }
@@ -215,7 +208,7 @@ TEST(Partitions, OfOtherDatasetsAreOtherMeshes)
 {
   const auto mesh = MakeBadMesh();
   const Parts given = CutInOrder(mesh, 3);
-  PartitionFilter pieces(given, vtkMultiPieceDataSet::New());
+  PartitionFilter pieces(given, vtkSmartPointer<vtkMultiPieceDataSet>::New());
   EXPECT_EQ(Join(pieces.UpdateCleanly()), FlipUndivided(mesh));
   vtkNew<vtkPartitionedDataSetCollection> collection;
   collection->SetPartition(0, 1, given[0]); // after one that is null

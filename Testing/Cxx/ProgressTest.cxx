@@ -5,8 +5,6 @@
 
 #include "FilterTestSupport.h"
 
-#include "TestBackend.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
@@ -156,23 +154,6 @@ TEST(FilterProgress, BeginsBeforeTheFirstIterationAndRisesToOne)
   EXPECT_GT(watch.Progress[early - 1], 0.4);
   EXPECT_LT(watch.Progress[early - 1], 0.7);
   EXPECT_EQ(watch.Iterations.back(), filter->GetNumberOfIterations());
-}
-
-TEST(FilterProgress, AbortsBetweenAnyTwoIterations)
-{
-  if (delaunayflip::IsTestBackendCuda())
-  {
-    GTEST_SKIP() << "the GPU aborts at the end of a batch of iterations: BatchTest";
-  }
-  WatchedFilter filter(ToPolyData(delaunayflip::MakeWorstCaseMesh(20))); // 37 iterations
-  auto stop = [&]() { filter->SetAbortExecute(filter->GetNumberOfIterations() == 5); };
-  OnProgress(filter.Get(), stop);
-  vtkPolyData* output = filter.Run();
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
-  EXPECT_EQ(filter->GetNumberOfIterations(), 5);
-  EXPECT_FALSE(filter->GetConverged());
-  EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
-  EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
 }
 
 TEST(FilterProgress, AbortsAnywhere)

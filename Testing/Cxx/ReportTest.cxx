@@ -142,37 +142,6 @@ TEST(Report, FieldDataOfTheInputPass)
   EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
 }
 
-TEST(Tolerance, IsInTheFieldData)
-{
-  WatchedFilter filter(MakeWorstCase());
-  EXPECT_EQ(filter->GetTolerance(), -1.0);
-  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "none"); // in-circle
-  filter->SetCriterionToOppositeAngles();
-  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "automatic");
-  filter->SetTolerance(1e-9);
-  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
-  filter->SetCriterionToInCircle();
-  filter->SetGeometryToSurface();
-  EXPECT_EQ(GetText(RunCleanly(filter), "Tolerance"), "1e-09");
-}
-
-TEST(Tolerance, IsOfOppositeAnglesOnly)
-{
-  // Opposite angles of 95.4 degrees each: 0.19 radians above pi.
-  WatchedFilter filter(MakeMesh(
-    { { -1.1, 0, 0 }, { 0, -1, 0 }, { 1.1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } }));
-  filter->SetCriterionToOppositeAngles();
-  for (const double tolerance : { 0.1, 0.3 })
-  {
-    filter->SetTolerance(tolerance);
-    RunCleanly(filter);
-    EXPECT_EQ(filter->GetTotalFlips(), tolerance < 0.19 ? 1 : 0);
-  }
-  filter->SetCriterionToInCircle();
-  filter.Run();
-  EXPECT_EQ(filter->GetTotalFlips(), 1);
-}
-
 TEST(Tolerance, LeavesTheSpheresOfVtkAsTheyAre)
 {
   for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION })

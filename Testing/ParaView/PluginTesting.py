@@ -17,8 +17,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints, vtkStringOutput
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from surfaces import (  # noqa: F401
-    convert_surface, get_triangles, make_cells, make_fan, make_lattice, make_surface)
+from surfaces import get_triangles, make_cells, make_fan, make_lattice  # noqa: F401
 
 PLUGIN = os.environ["DELAUNAYFLIP_PLUGIN"]
 if not hasattr(inspect, "getargspec"):

@@ -7,8 +7,7 @@ import json
 import os
 
 from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import (
-    VTK_TRIANGLE, vtkCellArray, vtkImageData, vtkPolyData, vtkStructuredGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonDataModel import VTK_TRIANGLE, vtkCellArray, vtkPolyData
 
 
 def make_cells(cells):
@@ -49,31 +48,6 @@ def make_lattice(side, shear=0.7):
     mesh.SetPoints(points)
     mesh.SetPolys(make_cells([(i, i + 1, i + side + 1, i + side) for i in corners]))
     return mesh
-
-
-def make_surface(size, kind):
-    """A mesh whose points and cells are those of convert_surface's result of this kind."""
-    if kind == "vtkImageData":
-        return make_lattice(size, 0.0)
-    return make_lattice(size) if kind == "vtkStructuredGrid" else make_fan(size)
-
-
-def convert_surface(size, kind):
-    """A surface as another type of dataset."""
-    mesh = make_surface(size, kind)
-    if kind == "vtkImageData":
-        result = vtkImageData()
-        result.SetDimensions(size, size, 1)
-    elif kind == "vtkStructuredGrid":
-        result = vtkStructuredGrid()
-        result.SetDimensions(size, size, 1)
-        result.SetPoints(mesh.GetPoints())
-    else:
-        result = vtkUnstructuredGrid()
-        result.SetPoints(mesh.GetPoints())
-        result.SetCells(VTK_TRIANGLE, mesh.GetPolys())
-        result.GetCellData().ShallowCopy(mesh.GetCellData())
-    return result
 
 
 def get_triangles(mesh):

@@ -181,16 +181,6 @@ class Blocks(InputTest):
         alone = fetch(self.flip(self.read(make_fan(20))))
         self.assertEqual(get_triangles(leaves[1]), get_triangles(alone))
 
-    def test_amr_holds_no_meshes(self):
-        amr = simple.AMRGaussianPulseSource(Dimension=2)
-        flip, text = self.flip_with_messages(amr)
-        self.assertEqual(text.count("passed unchanged"), 1)
-        inputs, outputs = (self.get_leaves(source.GetClientSideObject().GetOutputDataObject(0))
-                           for source in (amr, flip))
-        self.assertGreater(len(inputs), 0)
-        self.assertEqual([leaf.GetNumberOfCells() for leaf in outputs],
-                         [leaf.GetNumberOfCells() for leaf in inputs])
-
 
 class Malformed(InputTest):
     """Grids that no reader returns, but a programmable filter may."""

@@ -11,7 +11,7 @@ import unittest
 from paraview import simple
 
 from PluginTesting import (
-    PluginTest, fetch, get_edges, get_triangles, main, make_cells, make_fan, make_line,
+    PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_line,
     refresh)
 
 COMMAND = os.environ["DELAUNAYFLIP_COMMAND"]
@@ -40,18 +40,6 @@ class Inputs(PluginTest):
             block = output.GetPartition(i, 0) if hasattr(output, "GetPartition") else output.GetBlock(i)
             flips = block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
             self.assertEqual(flips, one.TotalFlips)
-
-    def test_a_block_that_fails(self):
-        broken = make_fan(10)
-        broken.SetPolys(make_cells([(0, 1, 77)]))
-        broken.GetCellData().Initialize()
-        group = simple.GroupDatasets(
-            Input=[self.read(make_fan(20), "a.vtp"), self.read(broken, "b.vtp")])
-        flip, text = self.flip_with_messages(group)
-        self.assertEqual(text.count("ERROR"), 1, text)
-        self.assertRegex(flip.StopReason, "^failed: block [0-9]+ .*names point 77")
-        self.assertGreater(flip.TotalFlips, 20)
-        self.assertEqual(fetch(flip).GetNumberOfPoints(), 20)
 
     def test_time_series(self):
         files = [self.save(make_fan(n), f"fan_{i}.vtp") for i, n in enumerate((10, 20, 30))]
@@ -168,15 +156,6 @@ class Live(PluginTest):
         self.assertEqual(steps, -(-at_once.NumberOfIterations // 3))
         self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
 
-    def test_restart(self):
-        live = self.flip(self.read(make_fan(20)), LiveUpdate=1)
-        live.SMProxy.InvokeCommand("Advance")
-        refresh(live)
-        self.assertEqual(live.NumberOfIterations, 2)
-        live.SMProxy.InvokeCommand("Restart")
-        refresh(live)
-        self.assertEqual(live.NumberOfIterations, 1)
-
 
 @unittest.skipUnless(os.path.exists(COMMAND), f"skipped: no command {COMMAND}")
 class SameBits(PluginTest):
@@ -193,25 +172,21 @@ class SameBits(PluginTest):
         self.assertTrue(triangles == get_triangles(fetch(after)), "not the command's triangles")
         self.assertTrue(triangles != get_triangles(fetch(before)), "nothing was flipped")
 
-    def save_source(self, source):
-        path = self.path("source.vtp")
-        simple.SaveData(path, source, DataMode="Binary")
-        return path
-
     def test_plane(self):
         self.expect_same(self.save(make_fan(150)))
 
-    def test_surface(self):
+    def test_surface_and_terrain(self):
         sphere = simple.Sphere(ThetaResolution=300, PhiResolution=60)
-        self.expect_same(self.save_source(sphere), ["--tolerance", "1e-9"], Tolerance=1e-9)
-
-    def test_terrain(self):
-        grid = simple.Plane(XResolution=120, YResolution=90)
+        grid = simple.Triangulate(Input=simple.Plane(XResolution=120, YResolution=90))
         hills = simple.Calculator(
-            Input=simple.Triangulate(Input=grid), CoordinateResults=1,
+            Input=grid, CoordinateResults=1,
             Function="coordsX*(1+0.9*sin(9*coordsY))*iHat+coordsY*jHat+0.3*sin(8*coordsX)*kHat")
-        self.expect_same(self.save_source(hills), ["--geometry", "planar-xy"],
-                         Geometry="Planar XY")
+        for source, options, properties in (
+                (sphere, ["--tolerance", "1e-9"], {"Tolerance": 1e-9}),
+                (hills, ["--geometry", "planar-xy"], {"Geometry": "Planar XY"})):
+            simple.SaveData(self.path("source.vtp"), source, DataMode="Binary")
+            self.expect_same(self.path("source.vtp"), options, **properties)
+
 
 if __name__ == "__main__":
     main()

@@ -20,10 +20,6 @@ SETTINGS = {
 }
 
 
-def get_pairs(values):
-    return dict(zip(values[::2], values[1::2]))
-
-
 def run_script(text):
     exec(compile(text, "script", "exec"), {"__name__": "__main__"})
 
@@ -92,44 +88,6 @@ class Session(PluginTest):
         run_script(script)
         # A trace has the settings at creation, not later changes of displays.
         self.assertEqual(self.snapshot()[:2], (settings, triangles))
-
-
-class Chart(PluginTest):
-    """A chart of the iterations, and its properties in a script."""
-
-    def build(self):
-        flip = simple.DelaunayFlip(Input=self.read(make_fan(30)))
-        plot = simple.PlotDelaunayFlips(
-            registrationName="Plot", Input=simple.OutputPort(flip, 1), LogScale=1)
-        view = simple.CreateView("DelaunayFlipChartView")
-        view.LeftAxisLogScale = 1
-        simple.Show(plot, view)
-        simple.Render(view)
-
-    def snapshot(self):
-        plot, view = simple.FindSource("Plot"), simple.GetActiveView()
-        simple.Render(view)
-        display = simple.GetRepresentation(plot, view)
-        return (plot.LogScale, view.LeftAxisLogScale, view.LeftAxisTitle, view.BottomAxisTitle,
-                view.RightAxisTitle, display.UseIndexForXAxis, display.XArrayName,
-                list(display.SeriesVisibility), get_pairs(display.SeriesPlotCorner))
-
-    def test_state(self):
-        path = self.path("state.pvsm")
-        self.expect_again(smstate.get_state, run_script)
-        self.expect_again(
-            lambda: simple.SaveState(path) or path, simple.LoadState)
-
-    def expect_again(self, save, load):
-        self.build()
-        before = self.snapshot()
-        self.assertEqual(before[:7], (1, 1, "Edges", "Iteration", "Smallest angle (degrees)", 0,
-                                      "Iteration"))
-        self.assertEqual(before[8]["MinimumAngle"], "1")
-        saved = save()
-        simple.ResetSession()
-        load(saved)
-        self.assertEqual(self.snapshot(), before)
 
 
 if __name__ == "__main__":
