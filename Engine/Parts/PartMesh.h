@@ -260,6 +260,7 @@ public:
   /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
   /// without a pass over all. From now on only the functions below may change triangles.
   void BeginRounds();
+  bool HasBegunRounds() const { return this->HasStars; }
   /// Flips the edge opposite to two corners.
   void Flip(const PartCorner& one, const PartCorner& other);
   /// Marks the edge opposite to a corner as a seam edge.

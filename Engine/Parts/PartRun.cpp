@@ -451,7 +451,7 @@ private:
   void CountBad()
   {
     this->Mesh.ListAll();
-    if (this->Job.Group.GetSize() == 1)
+    if (!this->Mesh.HasBegunRounds())
     {
       this->Mesh.BeginRounds(); // which finds the mates of corners
     }
