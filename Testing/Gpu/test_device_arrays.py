@@ -9,12 +9,16 @@ import importlib.util
 import sys
 import unittest
 
-import numpy
+SKIPPED = 77
+try:
+    import numpy
+except ImportError:
+    print("NumPy is not installed")
+    sys.exit(SKIPPED)
 
 import delaunayflip
 from lattice import sheared_lattice
 
-SKIPPED = 77
 LIBRARIES = ("cupy", "torch", "numba")
 INSTALLED = [name for name in LIBRARIES if importlib.util.find_spec(name)]
 

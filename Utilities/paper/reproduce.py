@@ -21,8 +21,6 @@ RIVALS = os.path.join(HERE, "rivals.py")
 LONGEST = 540  # seconds that a part may take
 
 EPSILONS = (1e-7, 1e-6, 1e-5, 1e-4, 5e-4, 1e-3)
-FEATURE_ANGLES = "20,30,60,180"
-SURFACE_THRESHOLD = 30  # degrees; the paper does not say which it took
 GENERATED = {"torus", "noisy-torus", "decimated-torus"}
 
 # How large a reproduction is: points of the random bad meshes, more of them for a GPU alone, the
@@ -48,38 +46,38 @@ RIVAL_LARGEST = {"scipy": 5_000_000, "triangle": 5_000_000, "vtk": 100_000, "sta
 
 
 def plan(scale, has_gpu, rivals, meshes):
-    """(name, words of the command) of all parts, in the order in which they run."""
-    yield "chain", ["chain", "--triangles", ",".join(map(str, scale["chain"]))]
+    """(name, program, experiment, settings) of all parts, in the order in which they run."""
+    yield "chain", "paper", "chain", {"Triangles": scale["chain"]}
     gpu = ["ours-gpu", "paper-gpu"] if has_gpu else []
     threads = ["ours-1", "ours-all", "no-chunks", "paper-all", "paper-1", "lawson", "cgal"]
     programs = [(size, name) for size in scale["sizes"] for name in gpu + threads]
     if has_gpu:
         programs += [(size, name) for size in scale["gpu_sizes"] for name in [*gpu, "ours-all"]]
     for size, name in programs:
-        yield f"random-{size}-{name}", ["random", "--points", size, "--program", name]
+        yield f"random-{size}-{name}", "paper", "random", {
+            "Points": size, "Program": name, "OnGpu": name in gpu}
     for size in scale["sizes"]:
         if size <= scale["largest"] and size in (scale["sizes"][0], 1_000_000, scale["largest"]):
             for epsilon in EPSILONS:
-                yield (f"quality-{size}-{epsilon:g}",
-                       ["quality", "--points", size, "--epsilons", epsilon])
-    angles = ["--feature-angles", FEATURE_ANGLES]
+                yield f"quality-{size}-{epsilon:g}", "paper", "quality", {
+                    "Points": size, "Epsilons": [epsilon]}
     for mesh in meshes:
-        path = "{folder}/meshes/" + mesh + ".dfmesh"
-        yield f"surface-{mesh}", ["surface", "--mesh", path, "--threshold", SURFACE_THRESHOLD]
+        path = {"Mesh": "{folder}/meshes/" + mesh + ".dfmesh"}
+        yield f"surface-{mesh}", "paper", "surface", path
         if mesh not in GENERATED:
-            yield f"ruined-{mesh}", ["ruined", "--mesh", path, *angles]
+            yield f"ruined-{mesh}", "paper", "ruined", path
         if "meshlib" in rivals:
-            yield f"meshlib-{mesh}", [RIVALS, "meshlib", "--mesh", path]
+            yield f"meshlib-{mesh}", "rivals", "meshlib", path
     for mesh in ("random", "offset", "grid", "circles") if meshes else ("random", "offset"):
         path = mesh if mesh in ("random", "offset") else "{folder}/meshes/tests/" + mesh + ".dfmesh"
-        yield f"tests-{mesh}", ["tests", "--mesh", path, "--points", scale["tests"]]
+        yield f"tests-{mesh}", "paper", "tests", {"Mesh": path, "Points": scale["tests"]}
     for kind, folder, shape in RUINED if meshes else ():
         path = "{folder}/meshes/" + folder + "/" + shape + ".dfmesh"
-        yield f"ruined-{kind}-{shape}", ["ruined", "--mesh", path, "--ruin", kind, *angles]
+        yield f"ruined-{kind}-{shape}", "paper", "ruined", {"Mesh": path, "Ruin": kind}
     for name, largest in RIVAL_LARGEST.items():
         for size in scale["sizes"] if name in rivals else ():
             if size <= min(largest, scale["largest"]):
-                yield f"rival-{size}-{name}", [RIVALS, name, "--points", size]
+                yield f"rival-{size}-{name}", "rivals", name, {"Points": size}
 
 
 class Results:
@@ -136,13 +134,12 @@ def digest(row):
     return row
 
 
-def run(arguments, name, command, timeout=LONGEST):
+def run(arguments, name, program, experiment, settings, timeout=LONGEST):
     """Runs a part and writes its file. @returns whether it was in time."""
-    program = [arguments.rivals] if command[0] == RIVALS else [arguments.program]
-    words = [*program, *(str(word).replace("{folder}", arguments.output) for word in command)]
-    if command[0] == RIVALS:
-        words += ["--program", arguments.program]
-    result = {"command": " ".join(map(str, command))}
+    programs = {"paper": [arguments.program], "rivals": [arguments.rivals, RIVALS]}
+    text = json.dumps({"DelaunayFlip": arguments.program, **settings})
+    words = [*programs[program], experiment, text.replace("{folder}", arguments.output)]
+    result = {"command": f"{program} {experiment} {json.dumps(settings)}"}
     try:
         done = subprocess.run(words, capture_output=True, text=True, timeout=timeout, check=False)
         if done.returncode:
@@ -204,18 +201,16 @@ def run_parts(arguments):
     scale = SCALES[arguments.scale]
     present = [name for name, about in machine["rivals"].items() if "version" in about]
     done = Results(arguments.output).parts
-    left = [(name, command) for name, command in plan(
+    left = [part for part in plan(
         scale, machine["gpu"], present, prepare_meshes(arguments, scale))
-        if arguments.parts.search(name) and "failed" in done.get(name, {"failed": ""})]
-    repetitions, seconds = map(str, scale["timing"])
-    for number, (name, command) in enumerate(left):
-        timing = ["--no-times"] if arguments.no_times else [
-            "--repetitions", repetitions, "--seconds", seconds]
-        gpu = ["--gpu"] if machine["gpu"] and command[0] != RIVALS and (
-            command[0] != "random" or name.endswith("-gpu")) else []
+        if arguments.parts.search(part[0]) and "failed" in done.get(part[0], {"failed": ""})]
+    shared = {"Repetitions": scale["timing"][0], "Seconds": scale["timing"][1],
+              "HasTimes": not arguments.no_times, "OnGpu": machine["gpu"]}
+    for number, (name, program, experiment, settings) in enumerate(left):
         timeout = min(LONGEST, arguments.time_limit - (time.monotonic() - start))
         print(f"[{number + 1}/{len(left)}] {name}", flush=True)
-        if timeout <= 0 or not run(arguments, name, [*command, *timing, *gpu], timeout):
+        if timeout <= 0 or not run(arguments, name, program, experiment, {**shared, **settings},
+                                   timeout):
             print(f"time limit: {len(left) - number} parts are left; call again", flush=True)
             return len(left) - number
     return 0

@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: rivals.py list|scipy|triangle|startinpy|vtk|meshlib [OPTION...]
+"""Usage: rivals.py list|scipy|triangle|startinpy|vtk|meshlib [SETTINGS]
 
-Other people's programs on the meshes of the experiments, in the form of delaunay-flip-paper's rows.
-They come from packages in the virtual environment of reproduce_paper.sh; nothing in this project
-links or ships them. `list` prints which are installed.
+Other people's programs on the meshes of the experiments, with the settings and rows of
+delaunay-flip-paper. They come from packages in the virtual environment of reproduce_paper.sh;
+nothing in this project links or ships them. `list` prints which are installed.
 """
 
-import argparse
 import importlib
 import importlib.metadata
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -85,67 +85,61 @@ def run_vtk(points):
     return milliseconds, meshes.read_poly_data(delaunay.GetOutput())[1]
 
 
-def repeat(arguments, call):
+def repeat(settings, call):
     """A list of times of call(), and its last result."""
     times, result = [], None
     start = time.monotonic()
-    while not times or (not arguments.no_times and len(times) < arguments.repetitions
-                        and time.monotonic() - start < arguments.seconds):
+    while not times or (settings["HasTimes"] and len(times) < settings["Repetitions"]
+                        and time.monotonic() - start < settings["Seconds"]):
         milliseconds, result = call()
         times.append(milliseconds)
     return times, result
 
 
-def run_from_points(arguments):
-    def ask(command, *more):
-        words = [arguments.program, command, "--points", str(arguments.points), *more]
+def run_from_points(what, settings):
+    def ask(experiment, **more):
+        text = json.dumps({"Points": settings["Points"], **more})
+        words = [settings["DelaunayFlip"], experiment, text]
         return subprocess.run(words, check=True, stdout=subprocess.PIPE).stdout
 
     flat = numpy.frombuffer(ask("points"), numpy.float32).reshape(-1, 2).astype(numpy.float64)
     points = numpy.column_stack((flat, numpy.zeros(len(flat))))
-    program = globals()["run_" + arguments.what]
-    times, triangles = repeat(arguments, lambda: program(points))
+    program = globals()["run_" + what]
+    times, triangles = repeat(settings, lambda: program(points))
     with tempfile.NamedTemporaryFile() as file:
         file.write(numpy.ascontiguousarray(triangles, numpy.int32).tobytes())
         file.flush()
-        compared = json.loads(ask("compare", "--mesh", file.name))["rows"][0]
-    return {"program": arguments.what, "points": len(points), "total_ms": times, **compared}
+        compared = json.loads(ask("compare", Mesh=file.name))["rows"][0]
+    return {"program": what, "points": len(points), "total_ms": times, **compared}
 
 
-def run_meshlib(arguments):
+def run_meshlib(settings):
     """MeshLib's flips of a surface, with its default limits but no limit on passes."""
     from meshlib import mrmeshnumpy, mrmeshpy
 
-    points, triangles = meshes.read(arguments.mesh)
-    settings = mrmeshpy.DeloneSettings()
+    points, triangles = meshes.read(settings["Mesh"])
+    limits = mrmeshpy.DeloneSettings()
 
     def run():
         mesh = mrmeshnumpy.meshFromFacesVerts(triangles, points)
-        return time_call(lambda: mrmeshpy.makeDeloneEdgeFlips(mesh, settings, 100))
+        return time_call(lambda: mrmeshpy.makeDeloneEdgeFlips(mesh, limits, 100))
 
-    times, flips = repeat(arguments, run)
-    name = os.path.splitext(os.path.basename(arguments.mesh))[0]
+    times, flips = repeat(settings, run)
+    name = os.path.splitext(os.path.basename(settings["Mesh"]))[0]
     return {"program": "meshlib", "mesh": name, "points": len(points),
             "triangles": len(triangles), "flips": flips, "flips_ms": times}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=["list", *PACKAGES])
-    parser.add_argument("--points", type=int, default=1000)
-    parser.add_argument("--mesh", help="a .dfmesh file")
-    parser.add_argument("--program", help="delaunay-flip-paper")
-    parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--seconds", type=float, default=20.0, help="after which none is begun")
-    parser.add_argument("--no-times", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.what == "list":
+    what = sys.argv[1]
+    if what == "list":
         print(json.dumps(list_packages()))
-    else:
-        row = (run_meshlib if arguments.what == "meshlib" else run_from_points)(arguments)
-        if arguments.no_times:
-            row = {name: value for name, value in row.items() if not name.endswith("_ms")}
-        print(json.dumps({"rows": [row]}))
+        return
+    settings = json.loads(sys.argv[2])
+    row = run_meshlib(settings) if what == "meshlib" else run_from_points(what, settings)
+    if not settings["HasTimes"]:
+        row = {name: value for name, value in row.items() if not name.endswith("_ms")}
+    print(json.dumps({"rows": [row]}))
 
 
 if __name__ == "__main__":

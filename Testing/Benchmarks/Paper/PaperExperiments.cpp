@@ -15,7 +15,6 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -25,6 +24,7 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -33,8 +33,9 @@
 #include <vector>
 
 /// @file
-/// delaunay-flip-paper: the experiments of the paper, one at a time, as JSON. reproduce_paper.sh
-/// runs them all.
+/// delaunay-flip-paper EXPERIMENT [SETTINGS]: the experiments of the paper, one at a time, as JSON.
+/// reproduce_paper.sh runs them all. The experiments are named at the end of this file. SETTINGS is
+/// a JSON object of public members of Experiments, e.g. {"Points": 1000, "Program": "lawson"}.
 
 namespace delaunayflip
 {
@@ -363,7 +364,7 @@ double FindMean(const std::vector<double>& values)
 }
 
 /// One function for each experiment; all add to Rows an object for each program and mesh. The
-/// other public members are options. Times are lists of milliseconds, one for each run.
+/// other public members are settings. Times are lists of milliseconds, one for each run.
 class Experiments
 {
 public:
@@ -848,55 +849,39 @@ private:
   Ids Result; ///< The triangles that the last program has left.
 };
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Experiments, Repetitions, Seconds, OnGpu, HasTimes,
+  Mesh, Ruin, Points, Triangles, Epsilons, FeatureAngles, Program, Threshold)
+
 }
 }
 
 int main(int argc, char** argv)
 {
   using delaunayflip::Experiments;
-  Experiments e;
-  CLI::App app("The experiments of Navarro, Hitschfeld and Scheihing (2013), as JSON");
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.add_option("--repetitions", e.Repetitions, "of what is timed");
-  app.add_option("--seconds", e.Seconds, "after which none is begun");
-  app.add_flag("--gpu", e.OnGpu, "use the GPU, too");
-  app.add_flag("!--no-times", e.HasTimes, "run everything once, without times");
-  app.add_option("--points", e.Points, "of the mesh")->check(CLI::Range(4, 500000000));
-  app.add_option("--mesh", e.Mesh, "a file, or a name as the command says");
-  app.add_option("--ruin", e.Ruin, "flips or splits; or a name for what is ruined already");
-  app.add_option("--triangles", e.Triangles, "of chains: even, 4 and more")->delimiter(',');
-  app.add_option("--program", e.Program, "ours, no-chunks, paper, lawson or cgal; -1: one thread");
-  app.add_option("--epsilons", e.Epsilons, "of the paper's method")->delimiter(',');
-  app.add_option("--threshold", e.Threshold, "of normals, in degrees");
-  app.add_option("--feature-angles", e.FeatureAngles, "in degrees")->delimiter(',');
-  const struct
-  {
-    const char* Name;
-    void (Experiments::*Run)();
-    const char* Help;
-  } commands[] = {
-    { "machine", &Experiments::WriteRows, "the machine" },
-    { "chain", &Experiments::RunChain, "Fig. 6: the worst case" },
-    { "random", &Experiments::RunRandom, "Figs. 8a and 9: a random bad mesh by --program" },
-    { "quality", &Experiments::RunQuality, "Fig. 8b: triangles that differ from CGAL's" },
-    { "compare", &Experiments::RunComparison, "the same for a file of 32-bit ids" },
-    { "surface", &Experiments::RunSurface, "Fig. 11 and Table 2: a .dfmesh file" },
-    { "tests", &Experiments::RunTests, "two criteria; a .dfmesh file, random or offset" },
-    { "ruined", &Experiments::RunRuined, "a .dfmesh file of bad quality, or to ruin" },
-    { "points", &Experiments::WritePoints, "writes x and y of a random bad mesh" },
+  const std::map<std::string, void (Experiments::*)()> all = {
+    { "machine", &Experiments::WriteRows },
+    { "chain", &Experiments::RunChain },
+    { "random", &Experiments::RunRandom },
+    { "quality", &Experiments::RunQuality },
+    { "compare", &Experiments::RunComparison },
+    { "surface", &Experiments::RunSurface },
+    { "tests", &Experiments::RunTests },
+    { "ruined", &Experiments::RunRuined },
+    { "points", &Experiments::WritePoints },
   };
-  for (const auto& command : commands)
-  {
-    app.add_subcommand(command.Name, command.Help)
-      ->callback([&e, run = command.Run] { (e.*run)(); });
-  }
   try
   {
-    CLI11_PARSE(app, argc, argv);
-    if (!e.Rows.empty())
+    const auto experiment = all.find(argc > 1 ? argv[1] : "");
+    if (experiment == all.end())
     {
-      e.WriteRows();
+      throw std::invalid_argument("no such experiment; see PaperExperiments.cpp");
+    }
+    Experiments experiments =
+      argc > 2 ? nlohmann::json::parse(argv[2]).get<Experiments>() : Experiments();
+    (experiments.*experiment->second)();
+    if (!experiments.Rows.empty())
+    {
+      experiments.WriteRows();
     }
     return std::cout.flush() ? 0 : 1;
   }

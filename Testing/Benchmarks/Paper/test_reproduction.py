@@ -122,7 +122,7 @@ class Reproduction(unittest.TestCase):
         before = reproduce.read_json(path)
         arguments = type("Arguments", (), {
             "output": self.folder, "program": sys.executable, "rivals": None})
-        reproduce.run(arguments, "tests-offset", ["-c", "import sys; sys.exit('no memory')"])
+        reproduce.run(arguments, "tests-offset", "paper", "-cimport sys; sys.exit('no memory')", {})
         self.assertEqual([("tests-offset", "no memory")],
                          reproduce.Results(self.folder).failures())
         self.reproduce("--draw-only")
