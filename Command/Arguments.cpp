@@ -208,14 +208,16 @@ void CheckTogether(Arguments& arguments)
     throw CommandError(
       ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk, .vtp or .ply file");
   }
-  CheckDistinct(arguments.Input, arguments.Statistics);
-  CheckDistinct(arguments.Input, arguments.Report);
-  CheckDistinct(arguments.Constraints, arguments.Output);
-  CheckDistinct(arguments.Constraints, arguments.Statistics);
-  CheckDistinct(arguments.Constraints, arguments.Report);
-  CheckDistinct(arguments.Output, arguments.Statistics);
-  CheckDistinct(arguments.Output, arguments.Report);
-  CheckDistinct(arguments.Statistics, arguments.Report);
+  // The input may also be the output, or its own constraints.
+  const std::string files[] = { arguments.Input, arguments.Constraints, arguments.Output,
+    arguments.Statistics, arguments.Report };
+  for (std::size_t i = 0; i < std::size(files); ++i)
+  {
+    for (std::size_t j = i == 0 ? 3 : i + 1; j < std::size(files); ++j)
+    {
+      CheckDistinct(files[i], files[j]);
+    }
+  }
 }
 
 }

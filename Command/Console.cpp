@@ -172,17 +172,15 @@ ProgressBar::ProgressBar(bool wanted, MeshFormat input, MeshFormat output)
                                                                            { 0.5, 1.6 } },
     { MeshFormat::VTP, { 1.8, 3.2 } }, { MeshFormat::PLY, { 0.8, 2.0 } },
     { MeshFormat::STL, { 3.5, 1.6 } }, { MeshFormat::OBJ, { 1.4, 3.6 } } };
-  constexpr double flips = 4.0;
   const double read = costs.at(input).first;
-  const double all = read + flips + costs.at(output).second;
-  this->Ends[0] = read / all;
-  this->Ends[1] = (read + flips) / all;
-  this->Ends[2] = 1.0;
+  const double flipped = read + 4.0;
+  const double all = flipped + costs.at(output).second;
+  this->Ends = { read / all, flipped / all, 1.0 };
 }
 
 void ProgressBar::Begin(Phase phase, const std::string& text)
 {
-  this->PhaseBegin = std::exchange(this->PhaseEnd, this->Ends[static_cast<int>(phase)]);
+  this->PhaseBegin = std::exchange(this->PhaseEnd, this->Ends.at(static_cast<std::size_t>(phase)));
   this->Done = std::max(this->Done, this->PhaseBegin);
   this->Draw(text);
 }

@@ -6,6 +6,7 @@
 #include "ChildProcess.h"
 #include "MeshFiles.h"
 
+#include <array>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -79,7 +80,8 @@ private:
 
   bool Draws;
   std::chrono::steady_clock::time_point LastDrawn;
-  double Ends[3]; ///< The shares of the time, 0 .. 1, at which the phases are expected to end.
+  std::array<double, 3>
+    Ends = {}; ///< The shares of the time, 0 .. 1, at which the phases are expected to end.
   double PhaseBegin = 0.0;
   double PhaseEnd = 0.0;
   double Done = 0.0;

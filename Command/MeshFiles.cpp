@@ -9,7 +9,6 @@
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -24,6 +23,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -114,13 +114,6 @@ bool IsEnded(const std::string& path, MeshFormat format)
   std::ifstream file(path, std::ios::binary);
   file.seekg(-1, std::ios::end);
   return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
-}
-
-bool HasSameCounts(vtkPolyData* mesh, vtkPolyData* written, MeshFormat format)
-{
-  return mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
-    (format == MeshFormat::STL || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
-    (format != MeshFormat::VTK || mesh->GetNumberOfCells() == written->GetNumberOfCells());
 }
 
 using Place = std::array<double, 3>;
@@ -243,16 +236,11 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
       : format == MeshFormat::STL    ? ReadStl(file)
                                      : ReadObj(file);
   }
-  catch (const CommandError&)
+  catch (const std::bad_alloc&)
   {
-    throw;
   }
-  catch (const std::exception& error)
+  catch (const std::length_error&)
   {
-    if (!IsLackOfMemory(error))
-    {
-      throw;
-    }
   }
   file.Fail(
     "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
@@ -283,8 +271,10 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
         WriteObj(mesh, path);
         break;
     }
-    const FileMesh written = ReadMesh(path, format, messages);
-    if (IsEnded(path, format) && HasSameCounts(mesh, written.Mesh, format))
+    const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format, messages).Mesh;
+    if (IsEnded(path, format) && mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
+      (format == MeshFormat::STL || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
+      (format != MeshFormat::VTK || mesh->GetNumberOfCells() == written->GetNumberOfCells()))
     {
       return;
     }

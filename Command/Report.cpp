@@ -97,13 +97,6 @@ std::string Degrees(double angle)
   return angle == angle ? text.str() : "none";
 }
 
-/// E.g. "planar: all points lie in one plane; the feature angle has no effect".
-std::string DescribeGeometry(const FlipReport& flip)
-{
-  const std::string name = ToString(flip.GeometryUsed);
-  return flip.GeometryReason.empty() ? name : name + ": " + flip.GeometryReason;
-}
-
 /// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
 std::string DescribeLeft(const FlipReport& flip)
 {
@@ -152,7 +145,8 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
   stream << "mesh            " << Count(flip.Points, "point") << ", "
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
          << Grouped(flip.Edges.Fixed) << " fixed)\n"
-         << "geometry        " << DescribeGeometry(flip) << '\n'
+         << "geometry        " << ToString(flip.GeometryUsed)
+         << (flip.GeometryReason.empty() ? "" : ": ") << flip.GeometryReason << '\n'
          << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
          << " -> " << DescribeLeft(flip) << '\n'
          << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
