@@ -284,6 +284,7 @@ private:
     this->Mesh = std::move(mesh.Edges);
     this->Order.VertexOfRank = std::move(mesh.Points.Ids);
     this->Points.Count = places;
+    const Real* coordinates = mesh.Points.Coordinates.Data();
     this->Points.Take(std::move(mesh.Points.Coordinates));
 
     FlipReport& report = this->Report;
@@ -298,14 +299,21 @@ private:
     report.GeometryReason = "points are triangulated in x and y";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
-    this->AddDefect(
-      { "points with NaN or infinite coordinates", points.Count - finite, {}, DefectIds::Points });
-    this->AddDefect(
-      { "points at the place of another one", finite - places, {}, DefectIds::Points });
-    Array<unsigned char> none;
-    this->Loop =
-      MakePlanarLoop({ this->Points, survey, options, report, this->Mesh, WholeMesh(), none }, 1,
-        EdgeGuard(), this->Backend);
+    if (finite < points.Count)
+    {
+      report.Defects.push_back({ "points with NaN or infinite coordinates", points.Count - finite,
+        {}, DefectIds::Points });
+    }
+    if (places < finite)
+    {
+      report.Defects.push_back(
+        { "points at the place of another one", finite - places, {}, DefectIds::Points });
+    }
+    // All triangles turn to the left and none overlap, so that flips need no guard.
+    using Rule = PlanarRule<Real, 2>;
+    using Loop = typename LoopOf<BackendT, Rule>::Type;
+    this->Loop.reset(new Loop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
+      survey.Range, EdgeGuard(), this->Backend));
   }
 
   /// In the plane the caller's points are not needed once they are packed; on surfaces feature
