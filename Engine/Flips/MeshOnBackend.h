@@ -311,8 +311,8 @@ private:
     }
     // All triangles turn to the left and none overlap, so that flips need no guard.
     using Rule = PlanarRule<Real, 2>;
-    using Loop = typename LoopOf<BackendT, Rule>::Type;
-    this->Loop.reset(new Loop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
+    using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
+    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
       survey.Range, EdgeGuard(), this->Backend));
   }
 
