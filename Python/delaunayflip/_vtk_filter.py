@@ -271,13 +271,11 @@ def _get_stop_reason(update):
     return "failed: " + update.error_message if update.failure else update.totals.stop_reason
 
 
-# What the last update did, and what only the class in C++ has: live updates, pieces on ranks.
+# What the last update did, and what only the class in C++ has: live updates.
 _ANSWERS = {
     "Advance": lambda update: False,
     "Step": lambda update: False,
     "GetNeedsUpdate": lambda update: False,
-    "GetNumberOfRounds": lambda update: 0,
-    "GetNumberOfMovedTriangles": lambda update: 0,
     "GetNumberOfIterations": lambda update: len(update.totals.iterations),
     "GetConverged": lambda update: not update.failure and update.totals.converged,
     "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
