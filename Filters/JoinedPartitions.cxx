@@ -69,12 +69,6 @@ vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
   return list;
 }
 
-bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
-{
-  return ghosts && cell < ghosts->GetNumberOfValues() &&
-    (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
-}
-
 /// The mesh without cells that are copies of others.
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 {
@@ -85,7 +79,8 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
     std::vector<vtkIdType> chosen;
     for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
     {
-      if (!IsDuplicate(ghosts, cell))
+      if (cell >= ghosts->GetNumberOfValues() ||
+        (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) == 0)
       {
         chosen.push_back(cell);
       }
@@ -245,13 +240,9 @@ std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
 bool HasDuplicateCells(vtkPolyData* mesh)
 {
   const auto ghosts = FindGhosts(mesh);
-  const vtkIdType count = ghosts ? ghosts->GetNumberOfValues() : 0;
-  vtkIdType cell = 0;
-  while (cell < count && !IsDuplicate(ghosts, cell))
-  {
-    ++cell;
-  }
-  return cell < count;
+  return ghosts &&
+    std::any_of(ghosts->Begin(), ghosts->End(),
+      [](unsigned char ghost) { return (ghost & vtkDataSetAttributes::DUPLICATECELL) != 0; });
 }
 
 //------------------------------------------------------------------------------

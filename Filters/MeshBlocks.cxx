@@ -46,8 +46,8 @@ void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigne
   child->VisitOnlyLeavesOff();
   child->SkipEmptyNodesOff();
   std::int64_t i = 0;
-  std::size_t joined = blocks.size(); // the block of the partitions that have cells
-  bool hasJoined = false;
+  constexpr std::size_t None = SIZE_MAX;
+  std::size_t joined = None; // the block of the partitions that have cells
   for (child->InitTraversal(); !child->IsDoneWithTraversal(); child->GoToNextItem(), ++i)
   {
     ++number;
@@ -64,10 +64,9 @@ void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigne
       const char* text = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
       const std::string name =
         "block " + std::to_string(number) + (text && *text ? std::string(" (") + text + ")" : "");
-      if (!isJoined || !hasJoined)
+      if (!isJoined || joined == None)
       {
         joined = isJoined ? blocks.size() : joined;
-        hasJoined = hasJoined || isJoined;
         blocks.push_back({ place, name, 0.0, false, {} });
       }
       MeshBlock& block = isJoined ? blocks[joined] : blocks.back();

@@ -16,9 +16,6 @@
 #include <string>
 #include <vector>
 
-class vtkDataObject;
-class vtkPolyData;
-
 namespace delaunayflip
 {
 

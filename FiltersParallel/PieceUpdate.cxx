@@ -210,7 +210,15 @@ public:
     {
       DemoteGlobalIds(output->GetCellData());
     }
-    this->MarkReceived(output);
+    // A received cell is in no partition of this rank.
+    vtkDataArray* marks = output->GetCellData()->GetArray(JoinedPartitions::MarkName);
+    for (std::size_t polygon = 0; marks && polygon < this->Sources.size(); ++polygon)
+    {
+      if (this->Sources[polygon] < 0)
+      {
+        marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
+      }
+    }
     this->RenewNormals(output);
   }
 
@@ -301,19 +309,6 @@ private:
       }
     }
     return polygons;
-  }
-
-  /// A received cell is in no partition of this rank.
-  void MarkReceived(vtkPolyData* output) const
-  {
-    vtkDataArray* marks = output->GetCellData()->GetArray(JoinedPartitions::MarkName);
-    for (std::size_t polygon = 0; marks && polygon < this->Sources.size(); ++polygon)
-    {
-      if (this->Sources[polygon] < 0)
-      {
-        marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
-      }
-    }
   }
 
   /// Recomputes the active normals of triangles that took part in a flip, on the side on which they

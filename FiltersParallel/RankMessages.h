@@ -4,11 +4,9 @@
 #define RankMessages_h
 
 #include "PieceFlip.h"
-#include "PieceGroup.h"
 
 #include "vtkType.h"
 
-#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <string>

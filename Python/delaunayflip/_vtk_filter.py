@@ -271,7 +271,7 @@ def _get_stop_reason(update):
     return "failed: " + update.error_message if update.failure else update.totals.stop_reason
 
 
-# What the last update did, and the live updates that only the class in C++ has.
+# What the last update did, and what only the class in C++ has: live updates.
 _ANSWERS = {
     "Advance": lambda update: False,
     "Step": lambda update: False,

@@ -149,6 +149,13 @@ _require_no_other()
 class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView, which accepts any surface."""
 
+    # Properties of ParaView that only the class for several processes has in C++.
+    def GetNumberOfRounds(self):
+        return 0
+
+    def GetNumberOfMovedTriangles(self):
+        return 0
+
     def FillInputPortInformation(self, port, info):
         result = super().FillInputPortInformation(port, info)
         if port == 0:
