@@ -153,7 +153,8 @@ extern "C"
     int64_t maximum_iterations; /**< -1: until done. [-1] */
     int32_t number_of_threads; /**< 0: as many as the machine has. [0] */
     int32_t device; /**< CUDA's number of the GPU; -1: the thread's current one. [-1] */
-    int32_t track_quality; /**< Not 0: the smallest angle after every iteration. [0] */
+    int32_t track_quality; /**< Not 0: the smallest angle after every iteration, unless the mesh is
+                              flipped in several pieces. [0] */
     int32_t number_of_pieces; /**< In how many pieces the mesh is flipped, one after the other, 1 to
                                  255; 0: as few as possible. Does not hold for device memory. [0] */
     const char* devices; /**< GPUs that share the mesh: CUDA's numbers, such as "0,1", or "all";

@@ -141,7 +141,7 @@ private:
   }
 };
 
-/// Pass 5: winners claim the edge that they would make (EdgeClaims.h).
+/// Pass 5: winners claim the edge that they would make (EdgeGuard.h).
 struct ClaimStep : QuadStep
 {
   EdgeClaims Claims;

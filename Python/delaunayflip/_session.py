@@ -274,7 +274,7 @@ def flip(
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
         devices: GPUs, connected by NVLink, that share the mesh: [0, 1] or "all"; (): device.
         pieces: 1 to 255, flipped in turn where a GPU is too small for the mesh; 0: the fewest.
-        track_quality: Compute the smallest angle after every iteration.
+        track_quality: Compute the smallest angle after every iteration; not with several pieces.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
         on_iteration: Called after each iteration with a dict of its numbers; False aborts.
 
