@@ -243,49 +243,6 @@ TEST(EdgeTable, HoldsAsManyKeysAsItHasSlots)
   }
 }
 
-TEST(EdgeTable, TakesAKeyOnceAndForgetsIt)
-{
-  const ThreadBackend backend(1);
-  EdgeTable table(0, { 0, 1000 }, false, backend);
-  const EdgeTableView view = table.View();
-  const std::uint64_t key = EdgeKey(3, 5);
-  bool fresh = false;
-  for (const bool first : { true, false })
-  {
-    EXPECT_TRUE(view.InsertNew(key, fresh));
-    EXPECT_EQ(first, fresh);
-    EXPECT_EQ(1, std::count(view.Keys, view.Keys + view.Capacity, key));
-    view.Remove(key);
-    EXPECT_EQ(EdgeTableView::NoSlot, view.Find(key));
-  }
-}
-
-TEST(EdgeClaims, GoToTheSmallestPriorityInAnyOrder)
-{
-  constexpr std::uint32_t Size = 100;
-  std::vector<std::uint64_t> words(4 * Size, EdgeClaims::Empty); // with room behind them
-  EdgeClaims claims{ words.data(), Size };
-  for (const bool smallestFirst : { false, true })
-  {
-    for (VertexId i = 0; i < Size; ++i)
-    {
-      claims.Claim(i, 1000 + i, smallestFirst ? i : Size + i);
-      claims.Claim(1000 + i, i, smallestFirst ? Size + i : i);
-    }
-    for (VertexId i = 0; i < Size; ++i)
-    {
-      EXPECT_TRUE(claims.Holds(i, 1000 + i, i));
-      EXPECT_FALSE(claims.Holds(i, 1000 + i, Size + i));
-    }
-    EXPECT_EQ(3 * Size, std::count(words.begin() + Size, words.end(), EdgeClaims::Empty));
-    for (VertexId i = 0; i < Size; ++i)
-    {
-      claims.Release(i, 1000 + i, i);
-    }
-    EXPECT_EQ(4 * Size, std::count(words.begin(), words.end(), EdgeClaims::Empty));
-  }
-}
-
 TEST(EdgeGuard, RenewsItsTableInTime)
 {
   const ThreadBackend backend(1);
@@ -314,38 +271,6 @@ TEST(EdgeGuard, RenewsItsTableInTime)
   used.FreshSlots = 1; // too many slots were used
   EXPECT_TRUE(isRenewedAfter(used));
   EXPECT_EQ(left, guard.GetFreshSlotsLeft());
-}
-
-TEST(EdgeGuard, HearsOfFlips)
-{
-  const ThreadBackend backend(1);
-  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
-  EdgeGuard owner(
-    EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
-  owner.Rebuild(edges, backend);
-  const EdgeGuardView guard = owner.View();
-  const auto countEmpty = [&]
-  {
-    return std::count(guard.Edges.Table.Keys, guard.Edges.Table.Keys + guard.Edges.Table.Capacity,
-      EdgeTableView::Empty);
-  };
-  const auto before = countEmpty();
-  EdgeId edge = 0; // one of two triangles
-  while (edges.View().CornerOfHalfEdge[2 * edge + 1] == NoCorner)
-  {
-    ++edge;
-  }
-  const Quad quad = edges.View().GetQuad(edge);
-  StepCounts counts;
-  guard.Claims.Claim(quad.A, quad.B, Priority(edge));
-  UpdateGuard(guard, edge, quad, counts);
-  EXPECT_EQ(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.P, quad.Q)));
-  EXPECT_NE(EdgeTableView::NoSlot, guard.Edges.Table.Find(EdgeKey(quad.A, quad.B)));
-  EXPECT_EQ(EdgeState::BlockedByEdge, DecideByGuard(guard.Edges, quad));
-  EXPECT_EQ(0, counts.LostInserts);
-  EXPECT_EQ(before - countEmpty(), counts.FreshSlots);
-  EXPECT_EQ(guard.Claims.Size,
-    std::count(guard.Claims.Words, guard.Claims.Words + guard.Claims.Size, EdgeClaims::Empty));
 }
 
 }

@@ -96,16 +96,6 @@ TEST(PaperMethod, FindsTheDelaunayTriangulation)
   }
 }
 
-TEST(PaperMethod, StopsAtTheLimit)
-{
-  const OwnedMesh<float> mesh = MakeRandomBadMesh(2000, 7);
-  PaperOptions options = InDouble(1e-7);
-  options.MaximumIterations = 3;
-  const PaperResult result = RunPaper(mesh.View(), options);
-  EXPECT_FALSE(result.Converged);
-  EXPECT_EQ(3, result.Iterations);
-}
-
 TEST(PaperMethod, MakesASurfaceDelaunay)
 {
   const OwnedMesh<double> mesh = MakeBadSphere(60, 40, 8);

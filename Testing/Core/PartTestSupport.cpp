@@ -78,7 +78,13 @@ PartsResult FlipDivided(const TriangleMesh& mesh, const std::vector<OwnPiece>& p
 {
   const int ranks = static_cast<int>(pieces.size());
   std::vector<PiecesReport> reports(ranks);
-  std::vector<FlippedPiece> flipped(ranks);
+  FlippedPiece old; // whose memory is used again
+  old.Triangles.assign(30, 77);
+  old.FlipCounts = { 77 };
+  old.GoneTriangles = { 77 };
+  old.ReceivedTriangles = old.ReceivedPoints = { { 77, 77 } };
+  old.ReceivedCoordinates.assign(3, 77.0);
+  std::vector<FlippedPiece> flipped(ranks, old);
   RunInThreads(ranks,
     [&](PieceGroup& group)
     {

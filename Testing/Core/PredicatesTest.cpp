@@ -191,59 +191,6 @@ TEST(FilterBounds, AreThoseOfTheProofs)
   EXPECT_LE(2.0 * LargestFilteredCoordinate, LargestFilteredDifference);
 }
 
-/// A quad a, p, q, b with p at the left and q at the right, and its mirror image.
-void ExpectConvex(EdgeState expected, const PlanePoint (&apqb)[4])
-{
-  const int side = ExactOrientation(apqb[0], apqb[1], apqb[2]);
-  ASSERT_EQ(side, ExactOrientation(apqb[3], apqb[2], apqb[1]));
-  EXPECT_EQ(expected, CheckConvex<ExactSigns>(apqb, side));
-  PlanePoint mirrored[4];
-  std::transform(apqb, apqb + 4, mirrored,
-    [](const PlanePoint& p) {
-      return PlanePoint{ -p.U, p.V, p.W };
-    });
-  EXPECT_EQ(expected, CheckConvex<ExactSigns>(mirrored, -side));
-}
-
-TEST(CheckConvex, LooksAtBothEnds)
-{
-  ExpectConvex(EdgeState::Bad, { { 0, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 0, -1, 0 } });
-  // Dented at p, then at q; then straight there.
-  ExpectConvex(
-    EdgeState::BlockedByShape, { { -3, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { -3, -1, 0 } });
-  ExpectConvex(EdgeState::BlockedByShape, { { 3, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 3, -1, 0 } });
-  ExpectConvex(
-    EdgeState::BlockedByShape, { { -2, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { -2, -1, 0 } });
-  ExpectConvex(EdgeState::BlockedByShape, { { 2, 1, 0 }, { -2, 0, 0 }, { 2, 0, 0 }, { 2, -1, 0 } });
-}
-
-bool Spans(double a, double p, double q, double b)
-{
-  const PlanePoint apqb[4] = { { 3 * a, a, 0 }, { 3 * p, p, 0 }, { 3 * q, q, 0 }, { 3 * b, b, 0 } };
-  const PlanePoint turned[4] = { apqb[3], apqb[2], apqb[1], apqb[0] };
-  const PlanePoint upright[4] = { { 1, a, 0 }, { 1, p, 0 }, { 1, q, 0 }, { 1, b, 0 } };
-  EXPECT_EQ(SpansOpposite(apqb), SpansOpposite(turned));
-  EXPECT_EQ(SpansOpposite(apqb), SpansOpposite(upright));
-  return SpansOpposite(apqb);
-}
-
-TEST(SpansOpposite, HoldsWhereTheFlipShortensTheEdge)
-{
-  EXPECT_TRUE(Spans(1, 0, 3, 2));
-  EXPECT_TRUE(Spans(2, 0, 3, 1));
-  EXPECT_TRUE(Spans(1, 0, 3, 1));
-  EXPECT_TRUE(Spans(0, 0, 3, 2));
-  EXPECT_TRUE(Spans(3, 0, 3, 2));
-  EXPECT_TRUE(Spans(0, 0, 3, 0));
-  EXPECT_FALSE(Spans(0, 0, 3, 3));
-  EXPECT_FALSE(Spans(3, 0, 3, 0));
-  EXPECT_FALSE(Spans(1, 0, 3, 4));
-  EXPECT_FALSE(Spans(-1, 0, 3, 2));
-  EXPECT_FALSE(Spans(-1, 0, 3, 4));
-  EXPECT_FALSE(Spans(1, 0, 0, 2));
-  EXPECT_FALSE(Spans(0, 0, 0, 0));
-}
-
 /// A kite whose angles at a and b are obtuse, so small and so near to the origin that the product
 /// of its lengths is far below the smallest number; beside it a mesh of usual size may lie.
 TEST(SurfaceRule, JudgesQuadsOfAnySize)

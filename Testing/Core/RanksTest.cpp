@@ -111,61 +111,6 @@ TEST_P(RanksTest, DecideAboutTheGeometryTogether)
   EXPECT_THROW(FlipDivided(mesh.View(), this->Cut(mesh), options), InvalidOptions);
 }
 
-std::vector<FlippedPiece> FlipInto(std::vector<FlippedPiece> flipped,
-  const std::vector<OwnPiece>& pieces, const FlipOptions& options)
-{
-  flipped.resize(pieces.size());
-  RunInThreads(static_cast<int>(pieces.size()),
-    [&](PieceGroup& group)
-    {
-      const int rank = group.GetRank();
-      FlipPiece(pieces[rank].View(), options, group, flipped[rank]);
-    });
-  return flipped;
-}
-
-/// All that is in a result, as numbers.
-std::vector<double> ListNumbers(const std::vector<FlippedPiece>& pieces)
-{
-  std::vector<double> all;
-  const auto add = [&](const auto& values)
-  {
-    all.push_back(static_cast<double>(values.size()));
-    all.insert(all.end(), values.begin(), values.end());
-  };
-  for (const FlippedPiece& piece : pieces)
-  {
-    add(piece.Triangles);
-    add(piece.FlipCounts);
-    add(piece.GoneTriangles);
-    add(piece.ReceivedCoordinates);
-    for (const auto* origins : { &piece.ReceivedTriangles, &piece.ReceivedPoints })
-    {
-      std::vector<std::int64_t> numbers;
-      for (const PieceOrigin& origin : *origins)
-      {
-        numbers.insert(numbers.end(), { origin.Rank, origin.Id });
-      }
-      add(numbers);
-    }
-  }
-  return all;
-}
-
-TEST_P(RanksTest, OverwriteAResult)
-{
-  const std::vector<OwnPiece> large = this->Cut(MakeRandomBadMeshDouble(2000, 38));
-  const std::vector<OwnPiece> small = this->Cut(MakeRandomBadMeshDouble(1000, 39));
-  for (const FlipOptions& options : { MakeCanonical(), OnSurfaceOfRanks() })
-  {
-    // On the surface all triangles are listed in the end.
-    const std::vector<FlippedPiece> first = FlipInto({}, large, options);
-    const std::vector<FlippedPiece> second = FlipInto(first, small, options);
-    EXPECT_EQ(ListNumbers(FlipInto({}, small, options)), ListNumbers(second));
-    EXPECT_EQ(ListNumbers(first), ListNumbers(FlipInto(second, large, options)));
-  }
-}
-
 TEST_P(RanksTest, AllStopIfOneDoes)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000 / Reduction, 31);
