@@ -441,8 +441,7 @@ private:
     this->Own.MinimumAngleAfter =
       this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
     this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
-    if (this->HasBlocked ||
-      (this->Whole.Rounds > 1 && this->StopReason != StopReasonKind::Converged))
+    if (this->HasBlocked || this->StopReason != StopReasonKind::Converged)
     {
       this->CountBad();
     }

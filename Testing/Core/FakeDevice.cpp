@@ -88,6 +88,11 @@ public:
   {
     this->Engine->StoreFlipCounts(counts);
   }
+  void StoreNeighbors(std::int32_t* neighbors) const override
+  {
+    this->Engine->StoreNeighbors(neighbors);
+  }
+  void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&) const override
   {
@@ -119,6 +124,13 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   return LoadOnCuda(WidePoints(mesh).View, options, progress);
+}
+
+std::unique_ptr<LoadedMesh> LoadOnCuda(const PlaneArray& points, const FlipOptions& options,
+  bool byDivision, const BuildProgress& progress)
+{
+  return std::unique_ptr<LoadedMesh>(
+    new FakeEngine(LoadOnThreads(points, options, byDivision, progress)));
 }
 
 bool HasCudaDevice() { return true; }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 /// @file
 /// What happens where a GPU fails, without one.
 
@@ -71,6 +73,39 @@ TEST_F(FallbackTest, AnyCallMayFail)
       break;
     }
     EXPECT_EQ("as the test wants it", report.Fallback);
+  }
+}
+
+/// Of points whose flips go on, and of points that divide and conquer takes over.
+TEST_F(FallbackTest, AnyCallMayFailForPoints)
+{
+  std::vector<double> places[2];
+  for (int i = 0; i < 24000; ++i)
+  {
+    const double angle = 0.1 * i;
+    places[0].insert(places[0].end(), { std::cos(angle) * i, std::sin(angle) * i });
+    const double place = 0.0002618 * i;
+    places[1].insert(places[1].end(), { 1000.0 * std::cos(place), std::sin(place) });
+  }
+  for (const std::vector<double>& xy : places)
+  {
+    const PlaneArray points(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2);
+    FlipOptions threads;
+    threads.Backend = BackendKind::Threads;
+    FlipSession expected(points, threads);
+    expected.Advance();
+    for (int call = 1; CallsToFailure == 0; ++call)
+    {
+      CallsToFailure = call;
+      FlipSession session(points, {});
+      while (session.Advance(50))
+      {
+      }
+      ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+      ASSERT_EQ(expected.GetReport().TotalFlips, session.GetReport().TotalFlips) << call;
+      ASSERT_EQ(CallsToFailure > 0 ? "" : "as the test wants it", session.GetReport().Fallback);
+    }
+    CallsToFailure = 0;
   }
 }
 
