@@ -80,11 +80,11 @@ TEST_F(FallbackTest, AnyCallMayFail)
 TEST_F(FallbackTest, AnyCallMayFailForPoints)
 {
   std::vector<double> places[2];
-  for (int i = 0; i < 24000; ++i)
+  for (int i = 0; i < 12000; ++i)
   {
     const double angle = 0.1 * i;
     places[0].insert(places[0].end(), { std::cos(angle) * i, std::sin(angle) * i });
-    const double place = 0.0002618 * i;
+    const double place = 0.0005236 * i;
     places[1].insert(places[1].end(), { 1000.0 * std::cos(place), std::sin(place) });
   }
   for (const std::vector<double>& xy : places)
