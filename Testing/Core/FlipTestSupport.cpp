@@ -82,6 +82,17 @@ FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options)
     options, [&](const FlipOptions& chosen) { return FlipSession(mesh, chosen); });
 }
 
+FlipSession FlipPoints(const PlaneArray& points, const FlipOptions& options)
+{
+  return RunOnTestBackend(options,
+    [&](const FlipOptions& chosen)
+    {
+      FlipSession session(points, chosen);
+      session.Advance();
+      return session;
+    });
+}
+
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options)
 {
   return RunOnTestBackend(

@@ -49,6 +49,9 @@ FlipOptions OnTestBackend(FlipOptions options);
 /// with BackendKind::Auto.
 FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options = {});
 
+/// A session from points, on the same backend, that has done all.
+FlipSession FlipPoints(const PlaneArray& points, const FlipOptions& options = {});
+
 /// The triangles that a session has now, and their flips.
 std::vector<std::int32_t> StoreTriangles(const FlipSession& session);
 std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session);

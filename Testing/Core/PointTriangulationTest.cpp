@@ -39,8 +39,7 @@ PlaneArray View(const Places& points)
 
 Triangulation Triangulate(const PlaneArray& points, const FlipOptions& options = {})
 {
-  FlipSession session(points, OnTestBackend(options));
-  session.Advance();
+  const FlipSession session = FlipPoints(points, options);
   Triangulation result;
   result.Report = session.GetReport();
   result.Triangles = StoreTriangles(session);
@@ -209,9 +208,7 @@ TEST_P(PointFamiliesTest, AreDelaunay)
         }
       }
     }
-    FlipOptions options;
-    options.Backend = BackendKind::Auto; // coordinates may need the CPU's arithmetic
-    ExpectDelaunay(points, Triangulate(points, options));
+    ExpectDelaunay(points, Triangulate(points));
     ASSERT_FALSE(HasFatalFailure()) << "case " << i;
   }
 }
@@ -407,9 +404,7 @@ TEST(PointTriangulation, ExtremeCoordinates)
       point = { scale * (point[0] - 4), scale * (point[1] - 4) };
     }
     points.push_back({ 0.3, 0.7 });
-    FlipOptions options;
-    options.Backend = BackendKind::Auto;
-    ExpectDelaunay(points, Triangulate(points, options));
+    ExpectDelaunay(points, Triangulate(points));
   }
 }
 

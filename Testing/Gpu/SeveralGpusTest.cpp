@@ -60,6 +60,8 @@ TEST_F(DeviceTest, OneThatIsAbsentIsRefusedOrReplaced)
   this->Options.Backend = BackendKind::CUDA;
   this->Options.Device = CountDevices();
   EXPECT_THROW(Flip(this->Mesh.View(), this->Options), BackendUnavailable);
+  const std::int64_t smallest = GetSmallestShare();
+  SetSmallestShare(1); // so that a small mesh is shared
   for (const int pieces : { 0, 5 })
   {
     FlipOptions several = MakeOptions(BackendKind::CUDA);
@@ -67,6 +69,7 @@ TEST_F(DeviceTest, OneThatIsAbsentIsRefusedOrReplaced)
     several.NumberOfPieces = pieces;
     EXPECT_THROW(Flip(this->Mesh.View(), several), FlipError);
   }
+  SetSmallestShare(smallest);
   this->Options.Backend = BackendKind::Auto;
   const FlipResult result = Flip(this->Mesh.View(), this->Options);
   EXPECT_TRUE(this->Expected.Triangles == result.Triangles);
