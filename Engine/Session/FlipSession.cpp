@@ -305,7 +305,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     const StopWatch watch;
     const AdvancePlan plan{ std::min(batch, iterations - done), false, false };
     done += static_cast<std::int64_t>(loop.Advance(plan).size());
-    batch = watch.GetSeconds() < 0.05 ? 2 * batch : batch;
+    batch = watch.GetSeconds() < 0.05 ? std::min(2 * batch, iterations) : batch;
     this->Building.Tell(0.0);
   }
 }

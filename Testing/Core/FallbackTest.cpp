@@ -94,7 +94,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     threads.Backend = BackendKind::Threads;
     FlipSession expected(points, threads);
     expected.Advance();
-    for (int call = 1; CallsToFailure == 0; ++call)
+    for (int call = 1; CallsToFailure == 0; call += static_cast<int>(Reduction))
     {
       CallsToFailure = call;
       FlipSession session(points, {});

@@ -341,7 +341,10 @@ TEST_P(RankInsertionTest, AllStopIfOneDoes)
           EXPECT_LE(last, share);
           last = share;
           const bool stops = rank == GetParam() - 1 && share > limit;
-          stopped = stops ? std::min(stopped, share) : stopped;
+          if (stops) // only in the last rank's thread
+          {
+            stopped = std::min(stopped, share);
+          }
           return !stops;
         };
         reports[rank] = FlipPiece(pieces[rank].View(), MakeCanonical(), group, flipped, progress);
