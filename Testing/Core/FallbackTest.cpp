@@ -94,7 +94,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     threads.Backend = BackendKind::Threads;
     FlipSession expected(points, threads);
     expected.Advance();
-    for (int call = 1; CallsToFailure == 0; call += static_cast<int>(Reduction))
+    for (int call = 1; CallsToFailure == 0; call += 1 + (Reduction > 1 ? call : call / 8))
     {
       CallsToFailure = call;
       FlipSession session(points, {});
