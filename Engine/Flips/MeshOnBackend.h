@@ -191,7 +191,8 @@ public:
   {
     const std::int64_t count = this->Report.Points;
     std::vector<VertexId> used(this->UsedPoint.Size());
-    this->Backend.Download(this->UsedPoint.Data(), count * (used.empty() ? 0 : 1), used.data());
+    this->Backend.Download(
+      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
     for (std::int64_t i = 0; i < count; ++i)
     {
       ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
@@ -251,7 +252,7 @@ private:
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
     StripPoints<Real> sorted;
     {
-      const auto numbers = static_cast<std::int64_t>(points.Count * points.Stride);
+      const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;
       Array<Real> copy = this->Backend.template MakeArray<Real>(BackendT::IsOnHost ? 0 : numbers);
       if (!BackendT::IsOnHost)
       {

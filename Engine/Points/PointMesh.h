@@ -72,7 +72,7 @@ void NumberJoinedEdges(EdgeMesh& edges, const Backend& backend)
   edges = std::move(result.Edges);
 }
 
-/// What judging edges between these places needs to know.
+/// What a rule needs to know about these places.
 template <typename Real, typename Backend>
 MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
 {
@@ -100,7 +100,7 @@ MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
   return survey;
 }
 
-/// What the functions below share.
+/// The steps of BuildPointMesh, and the arrays that they share.
 template <typename Real, typename Backend>
 struct PointMeshBuilder
 {

@@ -132,8 +132,8 @@ DELAUNAYFLIP_HOST_DEVICE inline std::int64_t PickSample(std::uint64_t i, std::in
   return static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(count));
 }
 
-/// How far the middle 98 of 100 values are spread, times 2^-1 so that it cannot overflow. Outliers
-/// do not count.
+/// Half of the distance over which the middle 98 of 100 values are spread. Outliers do not count,
+/// and half of it cannot overflow.
 inline double FindSpread(std::vector<double>& values)
 {
   const std::size_t tail = values.size() / 100;
@@ -230,8 +230,8 @@ DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(const CoordinatePair<Real>* places,
 
 /// Keeps of the points at equal places that with the lowest id.
 /// @param callerPoints the number of the caller's points.
-/// @returns, if there are such points, for each of the caller's points the id of the point that is
-/// used at its place; NoVertex for one that is not finite.
+/// @returns for each of the caller's points the id of the point that is used at its place, NoVertex
+/// for one that is not finite; empty if all points are used.
 template <typename Real, typename Backend>
 Array<VertexId> MergePlaces(
   StripPoints<Real>& strips, std::int64_t callerPoints, const Backend& backend)
@@ -242,7 +242,7 @@ Array<VertexId> MergePlaces(
   const auto isFirst = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
   { return IsFirstAtPlace(places, i) ? 1 : 0; };
   const typename Backend::Numbering numbering = backend.Count(count, isFirst);
-  if (numbering.Total == count)
+  if (numbering.Total == callerPoints)
   {
     return {};
   }

@@ -320,7 +320,7 @@ void FlipSession::Work::Reset()
   this->IterationsBeforeDivision = 0;
   this->Insertion = ConstraintInsertion();
   this->Report = FlipReport();
-  this->Report.Points = this->Mesh.CountPoints();
+  this->Report.Points = this->Cloud ? this->Cloud->Count : this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
   this->IsMeasured = true;
 }
@@ -614,7 +614,10 @@ void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
 
 void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 {
-  this->Own->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreUsedPoints(ids); });
+  if (!this->Own->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreUsedPoints(ids); }))
+  {
+    std::fill_n(ids, this->Own->Report.Points, -1);
+  }
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const

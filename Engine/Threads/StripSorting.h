@@ -32,9 +32,10 @@ struct StripSorter<Real, ThreadBackend>
   static StripPoints<Real> Sort(
     const PlaneArray& points, const StripBounds& bounds, const ThreadBackend& backend)
   {
-    constexpr std::int64_t Grain = 1 << 16;
-    const std::int64_t pieces = (points.Count + Grain - 1) / Grain;
     const std::int64_t strips = bounds.CountStrips();
+    // So that there are not more counters than points, however many strips there are.
+    const std::int64_t grain = std::max<std::int64_t>(1 << 16, strips);
+    const std::int64_t pieces = (points.Count + grain - 1) / grain;
     const StripFinder findStrip = bounds.View();
     const std::uint32_t unused = static_cast<std::uint32_t>(strips); // not finite
     Array<std::uint32_t> stripOf = backend.MakeArray<std::uint32_t>(points.Count);
@@ -43,7 +44,7 @@ struct StripSorter<Real, ThreadBackend>
       points.Count,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::uint32_t* counts = &next[begin / Grain * strips];
+        std::uint32_t* counts = &next[begin / grain * strips];
         for (std::int64_t i = begin; i < end; ++i)
         {
           stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused;
@@ -53,7 +54,7 @@ struct StripSorter<Real, ThreadBackend>
           }
         }
       },
-      Grain);
+      grain);
 
     StripPoints<Real> sorted;
     sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
@@ -77,7 +78,7 @@ struct StripSorter<Real, ThreadBackend>
       points.Count,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::uint32_t* places = &next[begin / Grain * strips];
+        std::uint32_t* places = &next[begin / grain * strips];
         for (std::int64_t i = begin; i < end; ++i)
         {
           if (stripOf[i] != unused)
@@ -87,7 +88,7 @@ struct StripSorter<Real, ThreadBackend>
           }
         }
       },
-      Grain);
+      grain);
     sorted.Coordinates = backend.MakeArray<Real>(2 * std::int64_t(start));
     CoordinatePair<Real>* sortedPlaces = sorted.Places();
     sorted.Ids = backend.MakeArray<VertexId>(start);

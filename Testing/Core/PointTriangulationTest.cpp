@@ -365,6 +365,14 @@ TEST(PointTriangulation, EqualPlacesAreOnePoint)
   EXPECT_EQ(2, result.Report.Defects[1].Count);
 }
 
+TEST(PointTriangulation, PointsThatAreNotFinite)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Triangulation result = Triangulate({ { 1, 0 }, { nan, 0 }, { 0, 0 }, { 0, 1 } });
+  EXPECT_EQ(1, result.Report.Triangles);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, -1, 2, 3 }), result.UsedPoints);
+}
+
 TEST(PointTriangulation, OfNothing)
 {
   for (const Places& points : { Places{}, Places{ { 1, 2 } }, Places{ { 1, 2 }, { 3, 4 } },
