@@ -89,12 +89,21 @@ struct StripSorter<Real, ThreadBackend>
         }
       },
       grain);
-    sorted.Coordinates = backend.MakeArray<Real>(2 * std::int64_t(start));
+    SortStrips(items, sorted, backend);
+    return sorted;
+  }
+
+private:
+  static void SortStrips(
+    Array<Item>& items, StripPoints<Real>& sorted, const ThreadBackend& backend)
+  {
+    sorted.Coordinates = backend.MakeArray<Real>(2 * sorted.Count);
     CoordinatePair<Real>* sortedPlaces = sorted.Places();
-    sorted.Ids = backend.MakeArray<VertexId>(start);
-    const std::int64_t stripGrain = std::max<std::int64_t>(1, 4096 * strips / (start + 1));
+    sorted.Ids = backend.MakeArray<VertexId>(sorted.Count);
+    const std::int64_t stripGrain =
+      std::max<std::int64_t>(1, 4096 * sorted.Strips / (sorted.Count + 1));
     backend.ForRange(
-      strips,
+      sorted.Strips,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (std::int64_t strip = begin; strip < end; ++strip)
@@ -108,7 +117,6 @@ struct StripSorter<Real, ThreadBackend>
         }
       },
       stripGrain);
-    return sorted;
   }
 };
 
