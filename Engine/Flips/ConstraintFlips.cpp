@@ -20,10 +20,10 @@ struct CertainSigns
 }
 
 ConstraintFlips::ConstraintFlips(
-  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table)
+  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table)
   : Mesh(mesh),
     Table(table),
-    Fans(mesh, vertices, triangles)
+    Fans(mesh, vertices, triangles, table == nullptr)
 {
 }
 
@@ -52,7 +52,7 @@ PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
   for (const Rim& rim : path.Segments)
   {
     this->Mesh.Edges.States[EdgeOf(rim.front())] = EdgeState::Fixed;
-    this->Segments.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
+    this->Segments.push_back(rim.front());
   }
   return PathResult::Found;
 }
@@ -174,17 +174,28 @@ bool ConstraintFlips::TryFlip(EdgeId edge)
     return false;
   }
   const Quad quad = mesh.GetQuad(edge);
-  const std::uint64_t key = EdgeKey(quad.A, quad.B);
-  bool fresh = false;
-  if (!this->IsConvex(quad) || this->Table.Find(key) != EdgeTableView::NoSlot ||
-    !this->Table.InsertNew(key, fresh))
+  if (!this->IsConvex(quad))
   {
     return false;
   }
-  this->Table.Remove(EdgeKey(quad.P, quad.Q));
+  if (this->Table)
+  {
+    const std::uint64_t key = EdgeKey(quad.A, quad.B);
+    bool fresh = false;
+    if (this->Table->Find(key) != EdgeTableView::NoSlot || !this->Table->InsertNew(key, fresh))
+    {
+      return false;
+    }
+    this->Table->Remove(EdgeKey(quad.P, quad.Q));
+  }
   const OuterHalfEdges outer = FlipEdge(mesh, edge, quad, mesh.Triangles[TriangleOf(quad.CornerA)],
     mesh.Triangles[TriangleOf(quad.CornerB)], nullptr);
   this->Fans.NoteFlip(edge, quad, outer.PB, outer.QA);
+  for (const HalfEdgeId side : { 2 * edge, outer.AP, outer.QA, outer.PB, outer.BQ })
+  {
+    EdgeState& state = mesh.States[EdgeOf(side)];
+    state = state == EdgeState::Fixed ? state : EdgeState::Candidate;
+  }
   ++this->Flips;
   return true;
 }

@@ -7,7 +7,6 @@
 #include "EdgeTable.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -21,15 +20,17 @@ namespace delaunayflip
 class ConstraintFlips
 {
 public:
-  /// @param table of the vertex pairs of all edges.
+  /// @param table of the vertex pairs of all edges; null for a triangulation, in which no flip can
+  /// make an edge that exists.
   ConstraintFlips(
-    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table);
+    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table);
 
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
   PathResult Insert(VertexId from, VertexId to);
 
-  /// The ends of the edges that constraints have become, in the order of insertion.
-  const std::vector<std::pair<VertexId, VertexId>>& GetSegments() const { return this->Segments; }
+  /// A side of each of the edges that constraints have become, in the order of insertion and from
+  /// start to end. Flips do not change it.
+  const std::vector<HalfEdgeId>& GetSegments() const { return this->Segments; }
 
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
 
@@ -45,9 +46,9 @@ private:
   bool IsConvex(const Quad& quad) const;
 
   const PlaneMesh& Mesh;
-  EdgeTableView Table;
+  EdgeTableView* Table;
   VertexFans Fans;
-  std::vector<std::pair<VertexId, VertexId>> Segments;
+  std::vector<HalfEdgeId> Segments;
   std::int64_t Flips = 0;
 };
 

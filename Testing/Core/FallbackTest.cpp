@@ -89,8 +89,8 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
   }
   for (const std::vector<double>& xy : places)
   {
-    const PlaneArray points(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2);
-    FlipOptions threads;
+    const PointInput points{ PlaneArray(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2) };
+    PointOptions threads;
     threads.Backend = BackendKind::Threads;
     FlipSession expected(points, threads);
     expected.Advance();

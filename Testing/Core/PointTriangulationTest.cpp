@@ -39,7 +39,7 @@ PlaneArray View(const Places& points)
 
 Triangulation Triangulate(const PlaneArray& points, const FlipOptions& options = {})
 {
-  const FlipSession session = FlipPoints(points, options);
+  const FlipSession session = FlipPoints(PointInput{ points }, PointOptions{ options });
   Triangulation result;
   result.Report = session.GetReport();
   result.Triangles = StoreTriangles(session);
@@ -422,8 +422,8 @@ TEST(PointTriangulation, CanBeStopped)
   const Places points = DrawOnGrid(random, 20000, 1 << 20, 1 << 20);
   for (const double limit : { 0.0, 0.3, 0.45 })
   {
-    FlipSession session(
-      View(points), OnTestBackend({}), [=](double share) { return share <= limit; });
+    FlipSession session(PointInput{ View(points) }, PointOptions{ OnTestBackend({}) },
+      [=](double share) { return share <= limit; });
     EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
     EXPECT_FALSE(session.Advance(-1, {}, {}));
     EXPECT_EQ(StopReasonKind::Converged, session.GetReport().StopReason);
@@ -434,7 +434,8 @@ TEST(PointTriangulation, CanBeStopped)
 TEST(PointTriangulation, TooManyPoints)
 {
   const double one[2] = { 0.0, 0.0 };
-  EXPECT_THROW(FlipSession(PlaneArray(one, std::int64_t(1) << 30, 2), {}), MeshTooLarge);
+  const PointInput points{ PlaneArray(one, std::int64_t(1) << 30, 2) };
+  EXPECT_THROW(FlipSession(points, PointOptions()), MeshTooLarge);
 }
 
 }
