@@ -37,10 +37,10 @@
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
  * cells (vtkGhostType: duplicate, refined or hidden).
  *
- * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, in x and y
- * only. This one improves an existing mesh, planar in any orientation or a surface in space, and
- * keeps its holes, borders and constraints. In the plane it is exact: by default each edge is
- * judged by an error-free in-circle predicate.
+ * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, as
+ * vtkDelaunayFlipPoints does. This one improves an existing mesh, planar in any orientation or a
+ * surface in space, and keeps its holes, borders and constraints. In the plane it is exact: by
+ * default each edge is judged by an error-free in-circle predicate.
  *
  * The work is done on a GPU if the build has the CUDA backend, there is a GPU, and the mesh is
  * large enough; otherwise on CPU threads (see Backend). The same input gives the same output, bit
@@ -81,7 +81,7 @@
  * predicates", Discrete & Computational Geometry 18, 1997.
  *
  * @sa
- * vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
+ * vtkDelaunayFlipPoints vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
  */
 #ifndef vtkDelaunayFlip_h
 #define vtkDelaunayFlip_h

@@ -392,6 +392,7 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(vtkDataObject* input
 void vtkDelaunayFlipAlgorithm::FlipBlock(
   MeshBlock& block, const std::vector<MeshBlock>& others, UpdateSummary& summary)
 {
+  *this->Report = UpdateReport();
   try
   {
     this->FlipLeaves(block, others, summary);

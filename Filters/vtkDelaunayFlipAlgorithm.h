@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDelaunayFlipAlgorithm
- * @brief   what the filters have in common
+ * @brief   what vtkDelaunayFlip and vtkDelaunayFlipPoints have in common
  *
  * Where and how long a filter works, its live updates, and what the last update did. See the two
  * classes.
