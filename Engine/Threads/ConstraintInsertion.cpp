@@ -200,15 +200,12 @@ ConstraintInsertion::ConstraintInsertion(
     }
     const std::int64_t* ends = mesh.ConstraintEdges + 2 * missing.First[i];
     const PathResult result = flips.Insert(ranks.GetRank(ends[0]), ranks.GetRank(ends[1]));
-    if (result == PathResult::Found)
-    {
-      ++this->Inserted;
-    }
-    else
+    if (result != PathResult::Found)
     {
       refuse(missing.First[i], ToRefusal(result));
     }
   }
+  this->Inserted = static_cast<std::int64_t>(missing.First.size() - this->Refused.size());
   for (const HalfEdgeId segment : flips.GetSegments())
   {
     this->Edges.insert(this->Edges.end(),
