@@ -34,7 +34,7 @@ find_package(VTK 9.1 REQUIRED
   OPTIONAL_COMPONENTS ${delaunayflip_vtk_optional})
 
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
-set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
+set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel CommonTransforms) # what users need
 option(DELAUNAYFLIP_BUILD_PARALLEL "Build the filter for many ranks, where VTK has ParallelCore" ON)
 set(DELAUNAYFLIP_PARALLEL OFF) # whether it is built
 if(DELAUNAYFLIP_BUILD_PARALLEL AND TARGET VTK::ParallelCore)

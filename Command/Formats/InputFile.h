@@ -48,7 +48,8 @@ private:
   std::string_view Bytes;
 };
 
-/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks.
+/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks,
+/// unless SeparateBy says otherwise.
 class TextLines
 {
 public:
@@ -57,6 +58,11 @@ public:
 
   /// After this call, a backslash at the end of a line continues the line.
   void ContinueLines() { this->Continues = true; }
+
+  /// From this line on, words are separated by the first of these characters that this line has, if
+  /// it has one. Then words may be empty, and quotes around them are removed. Returns the
+  /// character, or a blank.
+  char SeparateBy(std::string_view characters);
 
   /// Reads the next line that is not empty. Returns false if there is none.
   bool Next();
@@ -82,17 +88,19 @@ public:
 private:
   void Split(std::string_view line);
 
+  std::string_view Text; ///< The last one that was split.
   const InputFile& File;
   std::size_t Here = 0;
   std::size_t Line = 0;
   char Comment;
+  char Separator = ' '; ///< Or a blank: any blanks.
   bool Continues = false;
 };
 
 template <typename T>
 T TextLines::Number(std::size_t place) const
 {
-  if (place >= this->Words.size())
+  if (place >= this->Words.size() || this->Words[place].empty())
   {
     this->Fail("a number is missing");
   }

@@ -87,7 +87,7 @@ def triangulate(
         >>> sorted(sorted(ids) for ids in result.triangles.tolist())
         [[0, 1, 2], [1, 2, 3]]
     """
-    given = _Input(points, segments, outline, holes)
+    given = points if isinstance(points, Input) else Input(points, segments, outline, holes)
     struct = given.struct
     struct.alpha, struct.longest_edge = alpha or 0.0, longest_edge or 0.0
     struct.point_tolerance, struct.split_crossings = point_tolerance, bool(split_crossings)
@@ -107,7 +107,7 @@ def triangulate(
         _library.library().delaunayflip_close(handle)
 
 
-class _Input:
+class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
     def __init__(self, points, segments, outline, holes):
@@ -117,7 +117,7 @@ class _Input:
             points = _arrays.as_plane(points)
         self.segments = [_as_ids(segments, "segments")]
         self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
-        self.new_points = []
+        self.new_points, self.ends = [], []
         self.number_of_points = len(points)
         self.number_of_rings = 0
         seeds = numpy.empty((0, 2))
@@ -202,9 +202,10 @@ class _Input:
         _library.call("store_added_points", handle, address(places), address(ends), address(shares))
         points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
         points[first:, :2] = places
+        self.ends = list(zip(*ends.T, shares))
         if points.shape[1] == 3:
-            for i, (start, end) in enumerate(ends):  # an end may be an added point before
-                points[first + i, 2] = (1 - shares[i]) * points[start, 2] + shares[i] * points[end, 2]
+            for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
+                points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
         return points
 
 
