@@ -60,7 +60,7 @@ struct PointInput
   /// Whether the coordinates are in the memory of a GPU, ordered by Stream. All other arrays are in
   /// the host's.
   bool OnDevice = false;
-  DeviceStream Stream;
+  DeviceStream Stream{};
 };
 
 /// How points are triangulated. Of FlipOptions, Geometry, Criterion, TieRule and FeatureAngle are
