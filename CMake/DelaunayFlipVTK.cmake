@@ -10,7 +10,7 @@ option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it 
 # finds it first, and what those link to must be known there.
 set(delaunayflip_vtk_drawing "") # for DelaunayFlip::Rendering and its example
 if(DELAUNAYFLIP_BUILD_RENDERING)
-  set(delaunayflip_vtk_drawing FiltersCore FiltersVerdict IOImage RenderingAnnotation RenderingCore
+  set(delaunayflip_vtk_drawing FiltersCore IOImage RenderingAnnotation RenderingCore
     RenderingFreeType RenderingOpenGL2)
   if(DELAUNAYFLIP_BUILD_TESTING)
     enable_language(C) # a VTK with MPI, such as Debian's, needs MPI for C

@@ -11,6 +11,7 @@
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -134,23 +135,32 @@ bool vtkDelaunayFlip::Advance()
   const bool continues = this->LiveUpdate && this->CanContinue;
   if (continues)
   {
-    this->IsStepAsked = true;
+    this->Next = NextUpdate::StepAndStore;
     this->Modified();
   }
   return continues;
 }
 
-/// The executive takes the output for current after any update, so one that withheld the mesh must
-/// be followed by a modification.
+/// The executive empties the output, and takes it for current after any update.
 bool vtkDelaunayFlip::AdvanceSession()
 {
-  this->Advance();
-  this->WithholdsMesh = true;
-  const bool works = this->GetExecutive()->Update(0) != 0;
-  this->WithholdsMesh = false;
-  if (this->MeshIsWithheld)
+  auto* output = vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+  vtkNew<vtkPolyData> last;
+  if (output)
   {
+    last->ShallowCopy(output);
+  }
+  this->Advance();
+  this->Next = NextUpdate::Step;
+  const bool works = this->GetExecutive()->Update(0) != 0;
+  if (this->Next == NextUpdate::Store)
+  {
+    output->ShallowCopy(last);
     this->Modified();
+  }
+  else
+  {
+    this->Next = NextUpdate::StepAndStore;
   }
   return works;
 }
@@ -160,16 +170,11 @@ const FlipSession* vtkDelaunayFlip::GetSession() const
   return this->Run ? &this->Run->GetSession() : nullptr;
 }
 
-bool vtkDelaunayFlip::StoreMesh(vtkPolyData* mesh) const
-{
-  return this->Run && this->Run->Store(mesh);
-}
-
 void vtkDelaunayFlip::Restart()
 {
   this->Run.reset();
   this->CanContinue = true;
-  this->MeshIsWithheld = false;
+  this->Next = NextUpdate::StepAndStore;
   this->Modified();
 }
 

@@ -170,7 +170,7 @@ void vtkDelaunayFlip::DiscardRun()
 {
   this->Run.reset();
   this->CanContinue = false;
-  this->MeshIsWithheld = false;
+  this->Next = NextUpdate::StepAndStore;
   *this->Report = UpdateReport();
 }
 
@@ -300,8 +300,7 @@ void vtkDelaunayFlip::FlipMesh(
 {
   std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
-  const bool isAsked = std::exchange(this->IsStepAsked, false);
-  const bool wasWithheld = std::exchange(this->MeshIsWithheld, false);
+  const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
   if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0)
   {
@@ -321,7 +320,7 @@ void vtkDelaunayFlip::FlipMesh(
     }
     const bool isSame = FlipRun::ContinueOrStart(run, this->MakeRequest(mesh, constraints, isLive));
     *this->Report = UpdateReport(run->GetReport());
-    const bool storesOnly = isSame && wasWithheld && !isAsked;
+    const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
     if (!storesOnly && !run->IsStopped())
     {
@@ -337,8 +336,9 @@ void vtkDelaunayFlip::FlipMesh(
         ? AdvanceFor(session, Seconds, observer, run->GetProgress())
         : session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
     }
-    this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
-    const bool isWhole = this->MeshIsWithheld || run->Store(output);
+    const bool isWithheld = isSame && asked == NextUpdate::Step;
+    this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;
+    const bool isWhole = isWithheld || run->Store(output);
     // Not before: a GPU may fail while its result is fetched.
     *this->Report = UpdateReport(run->GetReport());
     this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
