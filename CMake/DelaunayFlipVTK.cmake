@@ -33,6 +33,11 @@ find_package(VTK 9.1 REQUIRED
   COMPONENTS ${delaunayflip_vtk}
   OPTIONAL_COMPONENTS ${delaunayflip_vtk_optional})
 
+set(delaunayflip_opengl VTK::glew) # what loads OpenGL's functions
+if(TARGET VTK::glad) # since VTK 9.4
+  set(delaunayflip_opengl VTK::glad)
+endif()
+
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
 set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
 option(DELAUNAYFLIP_BUILD_PARALLEL "Build the filter for many ranks, where VTK has ParallelCore" ON)

@@ -6,6 +6,8 @@
 #include "OpenGLFunctions.h"
 #include "TriangleAngles.h"
 
+#include "vtkSMPTools.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,26 +38,37 @@ public:
 
   void Fill(const FilledMesh& mesh) override
   {
+    constexpr vtkIdType grain = 1 << 15; // triangles at a time
     const auto count = static_cast<std::size_t>(this->Buffers.Count);
     this->Before.swap(this->Ids);
     this->Ids.resize(3 * count);
     this->Counts.assign(mesh.Colors.ByFlipCount ? count : 0, 0);
     this->StoreMesh(mesh);
     const bool areMoved = std::exchange(this->PointsTime, mesh.PointsTime) != mesh.PointsTime;
-    this->Measure(mesh.Points, areMoved || this->Before.size() != this->Ids.size());
-    this->Paint(mesh.Colors);
+    const bool measuresAll = areMoved || this->Before.size() != this->Ids.size();
+    this->Degrees.resize(count);
+    this->Colors.resize(count);
+    const std::int32_t largest =
+      this->Counts.empty() ? 0 : *std::max_element(this->Counts.begin(), this->Counts.end());
+    const ColorBands bands = mesh.Colors.Choose(largest);
+    vtkSMPTools::For(0, this->Buffers.Count, grain,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        this->Measure(mesh.Points, begin, end, measuresAll);
+        this->Paint(bands, begin, end);
+      });
     Upload(this->Buffers.Triangles, this->Ids.data(), 12 * this->Buffers.Count);
     Upload(this->Buffers.Colors, this->Colors.data(), 4 * this->Buffers.Count);
   }
 
   double GetSmallestAngle() noexcept override
   {
-    double smallest = std::numeric_limits<double>::quiet_NaN();
+    double smallest = std::numeric_limits<double>::infinity();
     for (const double angle : this->Degrees)
     {
-      smallest = smallest <= angle || std::isnan(angle) ? smallest : angle;
+      smallest = angle < smallest ? angle : smallest;
     }
-    return smallest;
+    return smallest <= 60.0 ? smallest : std::numeric_limits<double>::quiet_NaN();
   }
 
 private:
@@ -82,43 +95,37 @@ private:
     }
   }
 
-  void Measure(const PointArray& points, bool measuresAll)
+  void Measure(const PointArray& points, vtkIdType begin, vtkIdType end, bool measuresAll)
   {
-    this->Degrees.resize(this->Ids.size() / 3);
-    std::vector<std::size_t> changed;
+    std::vector<vtkIdType> changed;
     std::vector<std::int32_t> ids;
-    for (std::size_t t = 0; t < this->Degrees.size(); ++t)
+    for (vtkIdType t = begin; t < end; ++t)
     {
-      const auto first = this->Ids.begin() + static_cast<std::ptrdiff_t>(3 * t);
-      if (measuresAll ||
-        !std::equal(first, first + 3, this->Before.begin() + (first - this->Ids.begin())))
+      const std::int32_t* triangle = &this->Ids[3 * t];
+      if (measuresAll || !std::equal(triangle, triangle + 3, &this->Before[3 * t]))
       {
         changed.push_back(t);
-        ids.insert(ids.end(), first, first + 3);
+        ids.insert(ids.end(), triangle, triangle + 3);
       }
     }
     TriangleMesh mesh;
     mesh.Points = points;
     mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(changed.size()));
     std::vector<double> degrees(changed.size());
-    FindSmallestAngles(mesh, GeometryKind::Surface, 0, degrees.data());
+    FindSmallestAngles(mesh, GeometryKind::Surface, 1, degrees.data());
     for (std::size_t i = 0; i < changed.size(); ++i)
     {
       this->Degrees[changed[i]] = degrees[i];
     }
   }
 
-  void Paint(const DrawnColors& colors)
+  void Paint(const ColorBands& bands, vtkIdType begin, vtkIdType end)
   {
-    const std::int32_t largest =
-      this->Counts.empty() ? 0 : *std::max_element(this->Counts.begin(), this->Counts.end());
-    const ColorBands bands = colors.Choose(largest);
     const auto last = static_cast<double>(bands.Colors.size() - 1);
     const double scale = (last + 1.0) / (bands.Last - bands.First);
-    this->Colors.resize(this->Degrees.size());
-    for (std::size_t t = 0; t < this->Colors.size(); ++t)
+    for (vtkIdType t = begin; t < end; ++t)
     {
-      const double value = colors.ByFlipCount ? this->Counts[t] : this->Degrees[t];
+      const double value = this->Counts.empty() ? this->Degrees[t] : this->Counts[t];
       const double band = std::clamp((value - bands.First) * scale, 0.0, last);
       this->Colors[t] =
         std::isnan(value) ? bands.OfNaN : bands.Colors[static_cast<std::size_t>(band)];

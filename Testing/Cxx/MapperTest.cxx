@@ -496,7 +496,7 @@ TEST(ZeroCopy, CellsThatStayAreDrawnToo)
   EXPECT_EQ(views.Sharing.GetMapper()->GetNumberOfTriangles(), 3);
   views.Sharing.GetActor()->VisibilityOff();
   views.Sharing.Window->Render();
-  EXPECT_GT(Compare(before, views.Sharing.GetPicture()), 0.1);
+  EXPECT_GT(Compare(before, views.Sharing.GetPicture()), 0.02);
 }
 
 TEST(ZeroCopyFallback, AnObstacleIsTold)
