@@ -107,6 +107,28 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
     });
 }
 
+void RequireValidIds(vtkPolyData* mesh, const InputFile& file)
+{
+  vtkIdType cell = 0;
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  for (vtkCellArray* cells :
+    { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() })
+  {
+    ForEachCell(cells,
+      [&](vtkIdType size, const vtkIdType* ids)
+      {
+        const vtkIdType* const bad =
+          std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
+        if (bad != ids + size)
+        {
+          file.Fail("cell " + std::to_string(cell) + " names point " + std::to_string(*bad) +
+            ", but there are " + Counted(points, "point") + ", numbered from 0");
+        }
+        ++cell;
+      });
+  }
+}
+
 /// Whether the last line of a .vtk or an .obj is complete: if it is cut off, the file may be
 /// readable, but wrong. The other formats have an end, or a length that the reader checks.
 bool IsEnded(const std::string& path, MeshFormat format)
@@ -230,11 +252,13 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
   const ReadingLimits limits(static_cast<double>(file.GetBytes().size()));
   try
   {
-    return format == MeshFormat::VTK ? ReadLegacy(file, messages)
-      : format == MeshFormat::VTP    ? ReadXml(file, messages)
-      : format == MeshFormat::PLY    ? ReadPly(file)
-      : format == MeshFormat::STL    ? ReadStl(file)
-                                     : ReadObj(file);
+    FileMesh read = format == MeshFormat::VTK ? ReadLegacy(file, messages)
+      : format == MeshFormat::VTP             ? ReadXml(file, messages)
+      : format == MeshFormat::PLY             ? ReadPly(file)
+      : format == MeshFormat::STL             ? ReadStl(file)
+                                              : ReadObj(file);
+    RequireValidIds(read.Mesh, file);
+    return read;
   }
   catch (const std::bad_alloc&)
   {
