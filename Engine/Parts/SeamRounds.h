@@ -47,18 +47,10 @@ public:
   SeamTest Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group);
 
 private:
-  /// One of the two triangles of a seam edge.
-  struct Side
-  {
-    PointPair Ends; ///< Keys of the ends of the edge.
-    std::int32_t Rank; ///< The rank that has the triangle.
-    bool IsToTest; ///< The edge is tested if this is true of one of its sides.
-    SeamTriangle Seam;
-  };
-
   void Update(PartMesh& mesh, PieceGroup& group);
 
-  std::vector<Side> Sides; ///< Sorted by edge, then by rank.
+  /// Sorted by edge, then by rank. An edge is tested if one of its triangles is to be tested.
+  std::vector<SeamTriangle> Sides;
 };
 
 /// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
