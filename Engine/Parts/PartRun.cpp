@@ -29,8 +29,6 @@ namespace
 /// The share of the time until the first test of edges between ranks, about.
 constexpr double FirstShare = 0.8;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
 /// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
 /// are made at most.
 constexpr std::int64_t MostRounds = 1000;

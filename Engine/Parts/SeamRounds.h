@@ -95,15 +95,13 @@ public:
 
   /// Whether no edge is left to be judged.
   bool AreDone() const { return this->Next.empty(); }
-  /// The triangles whose edges will be judged next.
-  const std::vector<std::int64_t>& GetNext() const { return this->Next; }
 
-  /// Judges the edges of GetNext() and flips the bad ones, but changes each triangle at most once.
-  /// Triangles that have changed are the next ones.
+  /// Judges the edges of these triangles and flips the bad ones, but changes each triangle at most
+  /// once. Triangles that have changed are the next ones.
   /// @returns the record of the iteration, without its number and the smallest angle.
   IterationRecord Iterate();
 
-  /// Whether an edge of GetNext() is bad and may flip.
+  /// Whether an edge of them is bad and may flip.
   bool HasBad();
 
   /// Judges the edge that is opposite to both corners.
