@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviceMemory.h"
 
-#include "CudaError.h"
+#include "CudaContext.h"
 #include "FlipError.h"
 
 #include <cuda.h>
