@@ -9,18 +9,17 @@
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <new>
@@ -234,10 +233,8 @@ MeshFormat FormatOf(const std::string& path)
   static const std::map<std::string, MeshFormat> formats = { { ".vtk", MeshFormat::VTK },
     { ".vtp", MeshFormat::VTP }, { ".ply", MeshFormat::PLY }, { ".stl", MeshFormat::STL },
     { ".obj", MeshFormat::OBJ } };
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  const auto found = formats.find(extension);
+  const auto found = formats.find(
+    vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path)));
   if (found == formats.end())
   {
     throw CommandError(ExitCode::WrongUsage,
@@ -325,33 +322,31 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   using Arrays = std::vector<vtkAbstractArray*>;
   const Arrays ofPoints = isPly ? ArraysOfPly(mesh, true) : isObj ? ArraysOfObj(mesh) : Arrays();
   const Arrays ofCells = isPly ? ArraysOfPly(mesh, false) : Arrays();
-  std::vector<std::string> losses = { LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0),
-    LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()) };
+  std::string list;
+  const auto add = [&list](const std::string& loss)
+  { list += (list.empty() || loss.empty() ? "" : ", ") + loss; };
+  add(LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0));
+  add(LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()));
   if (isStl)
   {
     const PointLosses points(mesh);
-    losses.push_back(LostCount("unused points", points.Unused));
+    add(LostCount("unused points", points.Unused));
     if (points.LargestMove > 0.0)
     {
       std::array<char, 32> move{};
       std::snprintf(move.data(), move.size(), "%.2g", points.LargestMove);
-      losses.push_back("double precision of the points (coordinates change by up to " +
+      add("double precision of the points (coordinates change by up to " +
         std::string(move.data()) +
         (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
-  losses.push_back(LostArrays("point data", mesh->GetPointData(), ofPoints));
-  losses.push_back(LostArrays("cell data", mesh->GetCellData(), ofCells));
+  add(LostArrays("point data", mesh->GetPointData(), ofPoints));
+  add(LostArrays("cell data", mesh->GetCellData(), ofCells));
   if (isPly && mesh->GetNumberOfLines() > 0 && mesh->GetCellData()->GetNumberOfArrays() > 0)
   {
-    losses.push_back("cell data of lines");
+    add("cell data of lines");
   }
-  losses.push_back(LostArrays("field data", mesh->GetFieldData(), {}));
-  std::string list;
-  for (const std::string& loss : losses)
-  {
-    list += (list.empty() || loss.empty() ? "" : ", ") + loss;
-  }
+  add(LostArrays("field data", mesh->GetFieldData(), {}));
   return list;
 }
 
