@@ -177,7 +177,7 @@ public:
   /// @param devices CUDA's numbers of the GPUs, which share the mesh; -1: the current one.
   /// @param threads the number of CPU threads, for conversions of copied data.
   CudaBackend(const std::vector<int>& devices, int threads)
-    : Context(ResolveDevices(devices)),
+    : Context(LeaseContext(ResolveDevices(devices))),
       Threads(threads)
   {
   }

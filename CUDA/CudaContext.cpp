@@ -251,33 +251,23 @@ CurrentDevice::~CurrentDevice()
   }
 }
 
-ContextLease::ContextLease(const std::vector<int>& devices)
-  : Context(IdleContexts::Get().Take(devices))
+ContextLease LeaseContext(const std::vector<int>& devices)
 {
-  if (!this->Context)
-  {
-    this->Context.reset(new CudaContext(devices));
-  }
+  std::unique_ptr<CudaContext> idle = IdleContexts::Get().Take(devices);
+  return ContextLease(idle ? idle.release() : new CudaContext(devices));
 }
 
-ContextLease::ContextLease(ContextLease&&) noexcept = default;
-
-/// Waits for all GPUs, also after an exception between Fork and Join. A context in which something
-/// failed is not kept for the next run.
-ContextLease::~ContextLease()
+void ContextReturn::operator()(CudaContext* context) const noexcept
 {
-  if (!this->Context)
-  {
-    return;
-  }
-  bool isGood = cudaStreamSynchronize(this->Context->Stream) == cudaSuccess;
-  for (const DeviceStreams& other : this->Context->Others)
+  std::unique_ptr<CudaContext> returned(context);
+  bool isGood = cudaStreamSynchronize(context->Stream) == cudaSuccess;
+  for (const DeviceStreams& other : context->Others)
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
   if (isGood)
   {
-    IdleContexts::Get().Give(std::move(this->Context));
+    IdleContexts::Get().Give(std::move(returned));
   }
 }
 

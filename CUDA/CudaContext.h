@@ -158,21 +158,16 @@ private:
   int Previous = -1;
 };
 
-/// A context for one run. Kept afterwards for the next run, unless something failed in it.
-class ContextLease
+/// Waits for all GPUs, also after an exception between Fork and Join, and keeps the context for the
+/// next run, unless something failed in it.
+struct ContextReturn
 {
-public:
-  explicit ContextLease(const std::vector<int>& devices);
-  ~ContextLease();
-  ContextLease(ContextLease&&) noexcept;
-  ContextLease& operator=(ContextLease&&) = delete;
-
-  CudaContext& operator*() const { return *this->Context; }
-  CudaContext* operator->() const { return this->Context.get(); }
-
-private:
-  std::unique_ptr<CudaContext> Context;
+  void operator()(CudaContext* context) const noexcept;
 };
+
+/// A context for one run.
+using ContextLease = std::unique_ptr<CudaContext, ContextReturn>;
+ContextLease LeaseContext(const std::vector<int>& devices);
 
 }
 
