@@ -131,33 +131,35 @@ std::string_view Trimmed(std::string_view word)
 
 }
 
-TextLines::TextLines(const InputFile& file, char comment)
-  : File(file),
-    Comment(comment)
+TextLines::TextLines(const InputFile& file, bool isObj)
+  : Rest(file.GetBytes()),
+    File(file),
+    IsObj(isObj)
 {
   const std::string_view mark = "\xEF\xBB\xBF";
-  this->Here = file.GetBytes().substr(0, mark.size()) == mark ? mark.size() : 0;
+  this->Rest.remove_prefix(this->Rest.substr(0, mark.size()) == mark ? mark.size() : 0);
 }
 
 bool TextLines::Next()
 {
   this->Words.clear();
   bool isContinued = false;
-  while ((this->Words.empty() || isContinued) && this->Here < this->File.GetBytes().size())
+  while ((this->Words.empty() || isContinued) && !this->Rest.empty())
   {
-    const std::string_view rest = this->GetRest();
+    const std::string_view rest = this->Rest;
     const auto end = std::find_if(rest.begin(), rest.end(), IsLineEnd);
     std::string_view line = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
-    const bool isPair = rest.substr(line.size(), 2) == "\r\n";
-    this->Here += line.size() + (end == rest.end() ? 0 : isPair ? 2 : 1);
+    const std::size_t ending = rest.substr(line.size(), 2) == "\r\n" ? 2 : 1;
+    this->Rest.remove_prefix(std::min(line.size() + ending, rest.size()));
     ++this->Line;
-    line = line.substr(0, line.find(this->Comment));
-    while (this->Continues && !line.empty() && IsBlank(line.back()))
+    if (this->IsObj)
     {
-      line.remove_suffix(1);
+      line = line.substr(0, line.find('#'));
+      const std::size_t last = line.find_last_not_of(" \t\v\f");
+      isContinued = last != line.npos && line[last] == '\\';
+      line = isContinued ? line.substr(0, last) : line;
     }
-    isContinued = this->Continues && !line.empty() && line.back() == '\\';
-    this->Split(line.substr(0, line.size() - (isContinued ? 1 : 0)));
+    this->Split(line);
   }
   return !this->Words.empty();
 }
@@ -205,7 +207,7 @@ void TextLines::FailOn(std::string_view word, const char* problem) const
   std::string text(word.substr(0, longest));
   std::replace_if(
     text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
-  this->Fail("'" + text + (word.size() > longest ? "...'" : "'") + problem);
+  this->Fail("'" + text + "'" + problem);
 }
 
 }
