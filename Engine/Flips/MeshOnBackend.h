@@ -257,6 +257,10 @@ private:
     bool byDivision, const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
+    if constexpr (BackendT::IsOnHost) // a step may take seconds
+    {
+      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
+    }
     StripPoints<Real> sorted;
     {
       const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;
@@ -288,6 +292,10 @@ private:
       mesh = BuildPointMesh(std::move(sorted), this->Backend);
     }
     progress.Reach(Plane, BuildStep::Fixed);
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll(nullptr);
+    }
     const MeshSurvey survey = SurveyPlaces(mesh.Points, this->Backend);
     this->Mesh = std::move(mesh.Edges);
     this->Order.VertexOfRank = std::move(mesh.Points.Ids);

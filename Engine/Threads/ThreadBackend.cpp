@@ -200,17 +200,50 @@ std::string ThreadBackend::GetName() const
   return "Threads: " + std::to_string(this->Threads->Size);
 }
 
-void ThreadBackend::ForTasks(
-  std::int64_t count, const std::function<void(std::int64_t)>& work) const
+namespace
 {
-  if (count > 1 && this->Threads->Size > 1)
-  {
-    this->Threads->Run(count, work);
-    return;
-  }
+void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
+{
   for (std::int64_t task = 0; task < count; ++task)
   {
     work(task);
+  }
+}
+}
+
+void ThreadBackend::SetPoll(std::function<void()> poll)
+{
+  this->Poll = std::move(poll);
+  this->Poller = std::this_thread::get_id();
+  this->LastPoll = std::chrono::steady_clock::now();
+}
+
+void ThreadBackend::TakePoll() const
+{
+  constexpr std::chrono::milliseconds Pause(50);
+  const auto now = std::chrono::steady_clock::now();
+  if (std::this_thread::get_id() == this->Poller && now - this->LastPoll >= Pause)
+  {
+    this->LastPoll = now;
+    this->Poll();
+  }
+}
+
+void ThreadBackend::ForTasks(
+  std::int64_t count, const std::function<void(std::int64_t)>& work) const
+{
+  if (this->Poll)
+  {
+    const auto polled = [&](std::int64_t task)
+    {
+      work(task);
+      this->TakePoll();
+    };
+    this->Threads->Size > 1 ? this->Threads->Run(count, polled) : RunHere(count, polled);
+  }
+  else
+  {
+    count > 1 && this->Threads->Size > 1 ? this->Threads->Run(count, work) : RunHere(count, work);
   }
 }
 

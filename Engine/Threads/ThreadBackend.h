@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -67,6 +68,10 @@ public:
   /// Calls work(task) for task = 0 .. count - 1 and returns when all are done. Rethrows an
   /// exception of a call.
   void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const;
+
+  /// From now on, calls `poll` on this thread between the tasks that it works on, at most every
+  /// twentieth of a second. It may throw, which ends the tasks. Null: no more.
+  void SetPoll(std::function<void()> poll);
 
   /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
   template <typename Work>
@@ -244,6 +249,13 @@ public:
   static constexpr std::int64_t DefaultGrain = 16384;
 
 private:
+  /// Runs the poll where that is due.
+  void TakePoll() const;
+
+  std::function<void()> Poll;
+  std::thread::id Poller;
+  mutable std::chrono::steady_clock::time_point LastPoll; ///< Only used by the poller.
+
   /// Items between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 32;
 
