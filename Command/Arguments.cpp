@@ -10,11 +10,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -26,10 +29,16 @@ template <typename Kind>
 void AddChoice(CLI::App& app, const std::string& name, Kind& value,
   const std::map<std::string, Kind>& choices, const std::string& help)
 {
+  std::string names;
+  for (const auto& [word, kind] : choices)
+  {
+    names += (names.empty() ? "{" : ",") + word;
+  }
   app
     .add_option_function<std::string>(
       name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
-    ->check(CLI::IsMember(choices));
+    ->type_name(names + "}")
+    ->check(CLI::IsMember(choices).description(""));
 }
 
 /// Unlike CLI::Range, refuses NaN.
@@ -88,11 +97,13 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
   app
     .add_option("--feature-angle", flip.FeatureAngle,
       "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]")
+    ->type_name("DEGREES")
     ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
   app
     .add_option("--tolerance", flip.Tolerance,
       "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as "
       "much as the rounding of its points can explain [-1]")
+    ->type_name("RADIANS")
     ->check(Within(-1.0, -1.0, "automatic (-1)") |
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
   AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
@@ -103,20 +114,27 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
 
 void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 {
+  app.add_flag("--merge-points", arguments.MergePoints,
+    "First join points of the input at the same place, as in a file that lists the corners of "
+    "each triangle. Points that no cell uses go");
   app
     .add_option("--constraints", arguments.Constraints,
       "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
       "it has the same points; otherwise points are matched by their coordinates. In the plane, "
       "edges that the input does not have are inserted by flips")
+    ->type_name("FILE")
     ->check(FileName());
-  app.add_flag("!--no-insert-constraints", arguments.InsertConstraints,
+  app.add_flag_callback(
+    "--no-insert-constraints", [&arguments] { arguments.InsertConstraints = false; },
     "Do not insert edges of --constraints");
   app.add_flag(
     "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
   app.add_flag(
-    "--ignore-lines", arguments.IgnoreLines, "Do not fix edges along lines of the input");
-  app.add_option("--region-array", arguments.RegionArray,
-    "A cell array of the input: edges between cells of different values stay");
+    "--ignore-lines", arguments.IgnoreLines, "Do not keep edges along lines of the input");
+  app
+    .add_option("--region-array", arguments.RegionArray,
+      "A cell array of the input: edges between cells of different values stay")
+    ->type_name("NAME");
 }
 
 /// @returns what is wrong with a list of GPUs, or an empty text.
@@ -156,6 +174,7 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     .add_option("--devices", arguments.Devices,
       "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
       "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
+    ->type_name("LIST")
     ->check(FindFaultOfDevices);
   app
     .add_option("--pieces", arguments.Flip.NumberOfPieces,
@@ -172,8 +191,10 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk, .vtp and .ply)");
   app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)")
+    ->type_name("FILE")
     ->check(FileName());
   app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)")
+    ->type_name("FILE")
     ->check(FileName());
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
@@ -185,6 +206,41 @@ void CheckDistinct(const std::string& first, const std::string& second)
   {
     throw CommandError(ExitCode::WrongUsage, second + ": the same file is given for two purposes");
   }
+}
+
+/// How many letters to add, drop or replace to make one word of the other.
+std::size_t CountEdits(const std::string& from, const std::string& to)
+{
+  std::vector<std::size_t> edits(to.size() + 1); // to its beginnings
+  std::iota(edits.begin(), edits.end(), std::size_t(0));
+  for (const char letter : from)
+  {
+    std::size_t before = edits[0]++;
+    for (std::size_t i = 0; i < to.size(); ++i)
+    {
+      const std::size_t replaced = before + (letter == to[i] ? 0 : 1);
+      before = edits[i + 1];
+      edits[i + 1] = std::min({ replaced, edits[i] + 1, edits[i + 1] + 1 });
+    }
+  }
+  return edits.back();
+}
+
+/// "; did you mean --geometry?" if a word that is no option is nearly one.
+std::string SuggestOption(const CLI::App& app)
+{
+  for (const std::string& word : app.remaining())
+  {
+    for (const CLI::Option* option : app.get_options())
+    {
+      const std::string name = option->get_name();
+      if (word.rfind("--", 0) == 0 && CountEdits(word.substr(0, word.find('=')), name) <= 2)
+      {
+        return "; did you mean " + name + "?";
+      }
+    }
+  }
+  return "";
 }
 
 /// Checks that involve more than one option.
@@ -227,6 +283,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips. Points never move.\n"
                "Files: .vtk .vtp .ply .stl .obj, by extension.",
     "delaunay-flip");
+  app.get_formatter()->label("REQUIRED", "");
   app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
   app.footer(
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
@@ -234,9 +291,11 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
   app.add_option("INPUT", arguments.Input, "The mesh to read: .vtk, .vtp, .ply, .stl or .obj")
+    ->type_name("")
     ->required()
     ->check(FileName());
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")
+    ->type_name("")
     ->required()
     ->check(FileName());
   AddMethodOptions(app, arguments.Flip);
@@ -253,7 +312,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   }
   catch (const CLI::ParseError& error)
   {
-    PrintError(std::string(error.what()) + " (delaunay-flip --help shows the usage)");
+    PrintError(error.what() + SuggestOption(app) + " (delaunay-flip --help shows the usage)");
     return static_cast<int>(ExitCode::WrongUsage);
   }
   return std::nullopt;

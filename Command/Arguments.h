@@ -22,6 +22,7 @@ struct Arguments
   MeshFormat InputFormat = MeshFormat::VTK;
   MeshFormat OutputFormat = MeshFormat::VTK;
   FlipOptions Flip;
+  bool MergePoints = false; ///< Of the input, at equal places.
   bool IgnoreLines = false;
   bool InsertLines = false;
   std::string Constraints; ///< File; empty: none.

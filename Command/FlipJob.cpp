@@ -14,6 +14,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkStaticCleanPolyData.h>
 
 #include <sys/resource.h>
 
@@ -110,8 +111,10 @@ std::string WithOptions(const std::string& message)
 {
   static const std::regex region("\\bRegionArray\\b");
   static const std::regex tolerance("\\bTolerance\\b");
-  return std::regex_replace(
-    std::regex_replace(message, region, "--region-array"), tolerance, "--tolerance");
+  static const std::regex merge("merge points that lie at the same place");
+  std::string text = std::regex_replace(message, region, "--region-array");
+  text = std::regex_replace(text, tolerance, "--tolerance");
+  return std::regex_replace(text, merge, "--merge-points joins those that lie at the same place");
 }
 
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
@@ -121,7 +124,7 @@ void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
   static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
     iterations == 0 ? "finding edges"
                     : "iteration " + std::to_string(iterations) + ", " +
-        std::to_string(filter->GetTotalFlips()) + " flips");
+        Counted(filter->GetTotalFlips(), "flip"));
 }
 
 /// The work from reading to the report, one function per step.
@@ -143,6 +146,10 @@ public:
     {
       this->Constraints =
         this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat);
+    }
+    if (this->Settings.MergePoints)
+    {
+      this->MergePoints();
     }
     this->Run.ReadSeconds = SecondsSince(start);
     if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
@@ -233,6 +240,20 @@ private:
     return file.Mesh;
   }
 
+  /// Joins points of the input at the same place.
+  void MergePoints()
+  {
+    vtkNew<vtkStaticCleanPolyData> clean;
+    clean->SetInputData(this->Input);
+    clean->ConvertLinesToPointsOff();
+    clean->ConvertPolysToLinesOff();
+    clean->ConvertStripsToPolysOff();
+    clean->Update();
+    this->Note(this->Settings.Input + ": of " + Counted(this->Input->GetNumberOfPoints(), "point") +
+      " " + std::to_string(clean->GetOutput()->GetNumberOfPoints()) + " are left after merging");
+    this->Input = clean->GetOutput();
+  }
+
   void Warn(const std::string& warning)
   {
     PrintWarning(warning);
@@ -263,10 +284,12 @@ private:
   {
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
+    this->Run.Summary = this->Filter->GetSummary();
     if (report.Triangles == 0)
     {
       // The filter had nothing to do.
       report.Points = this->Input->GetNumberOfPoints();
+      this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
     }

@@ -21,6 +21,8 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["boundary_edges"] = flip.Edges.Boundary;
   json["fixed_edges"] = flip.Edges.Fixed;
   json["non_manifold_edges"] = flip.Edges.NonManifold;
+  json["feature_edges"] = flip.Edges.Feature;
+  json["region_edges"] = flip.Edges.Region;
   json["constraint_edges"] = flip.Edges.Constraint;
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
@@ -74,62 +76,6 @@ void WriteCsv(const FlipReport& flip, std::ostream& stream)
 namespace
 {
 
-/// 1234567 as 1,234,567.
-std::string Grouped(std::int64_t number)
-{
-  std::string digits = std::to_string(number);
-  for (std::size_t end = digits.size(); end > 3; end -= 3)
-  {
-    digits.insert(end - 3, ",");
-  }
-  return digits;
-}
-
-std::string Count(std::int64_t number, const std::string& singular)
-{
-  return Grouped(number) + " " + singular + (number == 1 ? "" : "s");
-}
-
-std::string Degrees(double angle)
-{
-  std::ostringstream text;
-  text << std::setprecision(4) << angle;
-  return angle == angle ? text.str() : "none";
-}
-
-/// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
-std::string DescribeLeft(const FlipReport& flip)
-{
-  const std::string left = Grouped(flip.NonDelaunayAfter);
-  const std::int64_t blocked = flip.BlockedByShape + flip.BlockedByEdge;
-  std::string reasons;
-  if (flip.BlockedByEdge > 0)
-  {
-    reasons = Grouped(flip.BlockedByEdge) + " would duplicate an edge";
-  }
-  if (flip.BlockedByShape > 0)
-  {
-    reasons += (reasons.empty() ? "" : ", ") + Grouped(flip.BlockedByShape) + " would fold";
-  }
-  return blocked > 0 ? left + " (" + Grouped(blocked) + " blocked: " + reasons + ")" : left;
-}
-
-/// A line of the summary, or nothing if there are no constraints.
-std::string DescribeConstraints(const FlipReport& flip)
-{
-  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
-  {
-    return {};
-  }
-  std::string text = "constraints     " + Count(flip.Edges.Constraint, "edge") + " fixed";
-  if (flip.InsertedConstraints > 0)
-  {
-    text += ", " + Grouped(flip.InsertedConstraints) + " inserted by " +
-      Count(flip.ConstraintFlips, "flip");
-  }
-  return text + ", " + Grouped(flip.UnmatchedConstraints) + " not in the mesh\n";
-}
-
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -141,22 +87,19 @@ std::string Seconds(double seconds)
 
 void WriteSummary(const RunReport& run, std::ostream& stream)
 {
+  constexpr std::size_t Column = 16;
+  std::istringstream lines(run.Summary);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    stream << std::left << std::setw(Column) << line.substr(0, colon) << line.substr(colon + 2)
+           << '\n';
+  }
   const FlipReport& flip = run.Flip;
-  stream << "mesh            " << Count(flip.Points, "point") << ", "
-         << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
-         << Grouped(flip.Edges.Fixed) << " fixed)\n"
-         << "geometry        " << ToString(flip.GeometryUsed)
-         << (flip.GeometryReason.empty() ? "" : ": ") << flip.GeometryReason << '\n'
-         << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
-         << " -> " << DescribeLeft(flip) << '\n'
-         << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
-         << Degrees(flip.MinimumAngleAfter) << " degrees\n"
-         << "flips           " << Grouped(flip.TotalFlips) << " in "
-         << Count(static_cast<std::int64_t>(flip.Iterations.size()), "iteration") << ", "
-         << ToString(flip.StopReason) << '\n'
-         << "time            read " << Seconds(run.ReadSeconds) << ", edges "
+  stream << "time            read " << Seconds(run.ReadSeconds) << ", edges "
          << Seconds(flip.BuildSeconds) << ", flips " << Seconds(flip.FlipSeconds) << ", write "
-         << Seconds(run.WriteSeconds) << " (" << flip.Backend << ")\n";
+         << Seconds(run.WriteSeconds) << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
+         << '\n';
 }
 
 }

@@ -66,6 +66,18 @@ void AppendValue(Value value, std::string& key)
   }
 }
 
+/// E.g. "it has \"Side\", \"Material\"".
+std::string ListNames(vtkCellData* data)
+{
+  std::string names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    const char* name = data->GetAbstractArray(i)->GetName();
+    names += std::string(i > 0 ? ", \"" : "it has \"") + (name ? name : "") + '"';
+  }
+  return names.empty() ? "it has none" : names;
+}
+
 struct VisitTuples
 {
   template <typename ArrayT, typename Visit>
@@ -135,7 +147,8 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
   vtkAbstractArray* array = this->Mesh->GetCellData()->GetAbstractArray(name.c_str());
   if (!array)
   {
-    throw InvalidOptions("RegionArray: the input has no cell array named \"" + name + "\".");
+    throw InvalidOptions("RegionArray: the input has no cell array named \"" + name + "\"; " +
+      ListNames(this->Mesh->GetCellData()) + ".");
   }
   if (array->GetNumberOfTuples() != this->Mesh->GetNumberOfCells())
   {

@@ -71,6 +71,9 @@ public:
   /// more edges that are unmatched.
   std::int64_t GetNumberOfUnmatchedConstraints() const { return this->Constraints.Unmatched; }
 
+  /// See ConstraintEdges.
+  const std::string& GetFirstStranger() const { return this->Constraints.FirstStranger; }
+
   /// Views of arrays of the mesh or of this bridge, never of an output.
   TriangleMesh GetMesh() const;
 

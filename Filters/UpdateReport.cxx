@@ -15,8 +15,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iomanip>
 #include <limits>
 #include <new>
+#include <sstream>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -240,6 +243,122 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, boo
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+
+/// "1,234,567 points".
+std::string Count(std::int64_t number, const std::string& singular)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t end = text.size(); end > 3; end -= 3)
+  {
+    text.insert(end - 3, ",");
+  }
+  return text + (singular.empty() ? "" : " ") + singular +
+    (number == 1 || singular.empty() ? "" : "s");
+}
+
+std::string Degrees(double angle)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << angle;
+  return angle == angle ? text.str() : "none";
+}
+
+/// "156 (boundary 156)", by what edges are kept, which may be several things.
+std::string DescribeKept(const EdgeCounts& edges)
+{
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] :
+    { std::make_pair("boundary", edges.Boundary), { "non-manifold", edges.NonManifold },
+      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
+      { "constraints", edges.Constraint }, { "regions", edges.Region } })
+  {
+    if (count > 0)
+    {
+      kinds.push_back(kind + (" " + Count(count, "")));
+    }
+  }
+  std::string text;
+  for (const std::string& kind : kinds)
+  {
+    text += (text.empty() ? " (" : ", ") + kind;
+  }
+  return Count(edges.Fixed, "") + text + (text.empty() ? "" : ")");
+}
+
+/// What to change if more than a tenth of the inner edges stay because the user wants it so.
+std::string Advise(const EdgeCounts& edges)
+{
+  const std::int64_t inner = edges.Edges - edges.Boundary;
+  const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
+  if (10 * kept <= inner)
+  {
+    return "";
+  }
+  const bool areLines = edges.Constraint > edges.Feature && edges.Constraint > edges.Region;
+  const bool areBent = edges.Feature > edges.Region && !areLines;
+  return "hint: " + std::to_string(100 * kept / inner) + " % of the inner edges are kept; " +
+    (areLines     ? "with fewer constraints"
+        : areBent ? "with a larger feature angle"
+                  : "with fewer regions") +
+    " more can flip\n";
+}
+
+/// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
+std::string DescribeLeft(const FlipReport& flip)
+{
+  const std::int64_t blocked = flip.BlockedByShape + flip.BlockedByEdge;
+  std::string reasons;
+  if (flip.BlockedByEdge > 0)
+  {
+    reasons = Count(flip.BlockedByEdge, "") + " would duplicate an edge";
+  }
+  if (flip.BlockedByShape > 0)
+  {
+    reasons += (reasons.empty() ? "" : ", ") + Count(flip.BlockedByShape, "") + " would fold";
+  }
+  return Count(flip.NonDelaunayAfter, "") +
+    (blocked > 0 ? " (" + Count(blocked, "") + " blocked: " + reasons + ")" : "");
+}
+
+/// A line, or nothing if there are no constraints.
+std::string DescribeConstraints(const FlipReport& flip)
+{
+  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
+  {
+    return {};
+  }
+  std::string text = "constraints: " + Count(flip.Edges.Constraint, "edge") + " kept";
+  if (flip.InsertedConstraints > 0)
+  {
+    text += ", " + Count(flip.InsertedConstraints, "") + " inserted by " +
+      Count(flip.ConstraintFlips, "flip");
+  }
+  return text + ", " + Count(flip.UnmatchedConstraints, "") + " not in the mesh\n";
+}
+
+}
+
+std::string Summarize(const UpdateReport& report)
+{
+  if (report.Triangles == 0)
+  {
+    return "";
+  }
+  const std::string reason = report.GeometryReason;
+  return "mesh: " + Count(report.Points, "point") + ", " + Count(report.Triangles, "triangle") +
+    ", " + Count(report.Edges.Edges, "edge") + "\nkept edges: " + DescribeKept(report.Edges) +
+    "\n" + Advise(report.Edges) + "geometry: " + report.GetGeometryName() +
+    (reason.empty() ? "" : ": " + reason) + "\n" + DescribeConstraints(report) +
+    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " + DescribeLeft(report) +
+    "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
+    Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
+    " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
+    ToString(report.StopReason) + "\n";
+}
+
+//------------------------------------------------------------------------------
 void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data)
 {
   const auto add = [&](auto* array, const char* name, auto member)
@@ -279,6 +398,7 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   // The totals first: ParaView lists no field data when the first array is empty.
   add(vtkNew<vtkIntArray>().Get(), "Converged", report.Converged() ? 1 : 0);
   addText("StopReason", ToString(report.StopReason));
+  addText("Summary", Summarize(report));
   addCount("TotalFlips", report.TotalFlips);
   addCount("NonDelaunayEdges", report.NonDelaunayAfter);
   addCount("BlockedByShape", report.BlockedByShape);

@@ -76,6 +76,9 @@ struct UpdateSummary
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
 
+/// What was done, in lines of a title, ": " and a text; "" before an update and without triangles.
+std::string Summarize(const UpdateReport& report);
+
 /// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
 /// the same names.
 /// @param prefix of their names.

@@ -257,6 +257,8 @@ const char* vtkDelaunayFlip::GetGeometryReason() const
   return this->Report->GeometryReason.c_str();
 }
 
+const char* vtkDelaunayFlip::GetSummary() const { return this->Summary.c_str(); }
+
 const char* vtkDelaunayFlip::GetBackendUsed() const { return this->Report->Backend.c_str(); }
 
 const FlipReport& vtkDelaunayFlip::GetReport() const { return *this->Report; }

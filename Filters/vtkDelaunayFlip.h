@@ -556,6 +556,14 @@ public:
   const char* GetGeometryReason() const;
 
   /**
+   * What the last update did, for people: a line each for the mesh, the edges that were kept and by
+   * what, the geometry and why, the bad edges and the smallest angle (degrees) before and after,
+   * and the flips. Each line is a title, ": " and a text. After an error "failed: " and the reason;
+   * "" before the first update and for a mesh without triangles.
+   */
+  const char* GetSummary() const;
+
+  /**
    * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:
    * NVIDIA H200" if blocks differ. "" before the first update, after an error and for a mesh
    * without triangles.
@@ -700,6 +708,7 @@ private:
   int Failure = FAILURE_NONE;
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
+  std::string Summary;
   bool HasExecuted = false;
   bool IsAtWork = false; ///< An update is running.
   bool CanContinue = true; ///< Whether another live update can change the mesh.

@@ -180,6 +180,7 @@ void vtkDelaunayFlip::Publish(const UpdateSummary& summary)
   this->Failure = summary.Failure;
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
+  this->Summary = this->Failure ? this->StopReasonText + "\n" : Summarize(*this->Report);
   this->SetErrorCode(
     this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
   if (this->Failure && !this->IsSilent)

@@ -285,6 +285,8 @@ _ANSWERS = {
     lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
     "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
     "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
+    "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
+    else update.totals.summarize(),
     "GetBackendUsed": lambda update: update.totals.texts["backend"],
     "GetFailure": lambda update: int(update.failure),
     "GetErrorMessage": lambda update: update.error_message,

@@ -197,7 +197,8 @@ if hasattr(pyvista, "register_dataset_accessor"):
 def _require_mesh(name, mesh):
     if not isinstance(mesh, pyvista.PolyData):
         raise TypeError(f"{name} must be a pyvista.PolyData, not {type(mesh).__name__}; of grids and "
-                        "images, mesh.extract_surface().triangulate() makes one")
+                        "images, mesh.extract_surface().triangulate() makes one; of heights in an "
+                        "image, first mesh.warp_by_scalar() makes terrain")
     return mesh
 
 
@@ -215,7 +216,9 @@ class _Run:
                  for name in _FLAGS if name in options}
         regions = options.pop("region_array", None) or ""
         if regions and regions not in mesh.cell_data:
-            raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r}")
+            listed = ", ".join(map(repr, mesh.cell_data)) or "none"
+            raise InvalidOptions(
+                f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
         self._input = MeshInput(mesh, constraints, Settings(**flags, region_array=regions))
         self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
         self.session = self._input.open(**options)
