@@ -45,7 +45,7 @@ class Report:
     stop_reason: str  #: "converged", "iteration limit", "aborted", "running" or "not started".
     geometry_used: str  #: "planar", "planar-xy" or "surface".
     geometry_reason: str  #: Why.
-    backend: str  #: E.g. "Threads: 8" or "CUDA: NVIDIA H200".
+    backend: str  #: E.g. ``"Threads: 8"`` or ``"CUDA: NVIDIA H200"``.
     fallback: str  #: Why the CPU replaced a GPU; "" if it did not.
     tolerance: str  #: "automatic", the requested value, or "none".
     defects: str  #: What was wrong with the mesh, as a sentence; "" if nothing.
