@@ -409,8 +409,8 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
     TriangleArray(static_cast<const std::int64_t*>(ids.data()), mesh.Triangles.Count);
   FindSmallestAngles(mesh, geometry, threads, after.data(), MakePart(progress, 0.5, 1.0));
   const auto triangleOf = [this](vtkIdType polygon) { return this->Slots.GetTriangle(polygon); };
-  AddTriangleArray("vtkDelaunayFlipAngleBefore", before, NaN, triangleOf, output);
-  AddTriangleArray("vtkDelaunayFlipAngleAfter", after, NaN, triangleOf, output);
+  AddTriangleArray("Smallest angle before (degrees)", before, NaN, triangleOf, output);
+  AddTriangleArray("Smallest angle after (degrees)", after, NaN, triangleOf, output);
 }
 
 //------------------------------------------------------------------------------

@@ -86,7 +86,7 @@ public:
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
 
-  /// Adds vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter to the cells of such an output.
+  /// Adds the smallest angles before and after to the cells of such an output.
   /// @throws RunAborted; then there is neither of them.
   void StoreAngles(const FlipSession& session, int threads, const ProgressObserver& progress,
     vtkPolyData* output) const;

@@ -366,8 +366,8 @@ public:
 
   ///@{
   /**
-   * Add the cell arrays vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter (double): the
-   * smallest angle of each triangle in degrees, 0 to 60, in space or, with PLANAR_XY, in the
+   * Add the cell arrays "Smallest angle before (degrees)" and "Smallest angle after (degrees)"
+   * (double): the smallest angle of each triangle, 0 to 60, in space or, with PLANAR_XY, in the
    * projection. Before is the angle of the triangle that was in the same place in the input, after
    * polygons were split. 0 for triangles without area; NaN if a coordinate is NaN or infinite, and
    * for cells that are not triangles. An aborted update leaves them out. Default off.

@@ -42,7 +42,7 @@ def flip(command, folder, mesh, options):
     mesh = reader.GetOutput()
     return (vtk_to_numpy(mesh.GetPoints().GetData()).astype(float),
             vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3),
-            vtk_to_numpy(mesh.GetCellData().GetArray("vtkDelaunayFlipAngleAfter")))
+            vtk_to_numpy(mesh.GetCellData().GetArray("Smallest angle after (degrees)")))
 
 
 def read_road(folder):

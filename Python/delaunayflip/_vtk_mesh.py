@@ -283,8 +283,8 @@ class MeshInput:
             yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
         if angles:
             used = session.report.geometry_used
-            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
-                yield "vtkDelaunayFlipAngle" + name, self._spread(
+            for when, triangles in (("before", self.slots.triangles), ("after", session.triangles)):
+                yield f"Smallest angle {when} (degrees)", self._spread(
                     smallest_angles(self.points, triangles, geometry=used), numpy.nan)
 
     def _spread(self, values, elsewhere):

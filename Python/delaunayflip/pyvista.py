@@ -29,7 +29,7 @@ from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
-         "scalar_bar_args": {"title": "Smallest angle (degrees)"}}
+         "scalar_bar_args": {"title": "Smallest angle (degrees)\n", "fmt": "%.0f"}}  # \n: above the labels
 _FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
@@ -59,7 +59,7 @@ def flip(
         mesh: Any PolyData; it is not changed.
         constraints: Lines and polygons whose edges stay, and are inserted where the mesh is planar.
         flip_counts: Add the cell array vtkDelaunayFlipCount.
-        quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
+        quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
             backend, threads, device, devices, pieces and track_quality as for delaunayflip.flip;
             region_array: a cell array, edges between its values stay; lines_as_constraints,

@@ -131,13 +131,14 @@ class Options(CommandTest):
             self.assertAlmostEqual(after, 2 * math.degrees(math.atan(1 / 2)))
         self.succeed(path, "out.ply", "--quality")
         self.succeed("out.ply", "again.vtp")
-        self.assertEqual(self.angles("again.vtp"), [before, after])
+        self.assertEqual(self.angles("again.vtp", "_"), [before, after])
         self.fail_with(2, path, "out.obj", "--quality", naming=["--quality", ".vtp"])
 
-    def angles(self, name):
-        """The smallest values of the arrays that --quality adds."""
+    def angles(self, name, blank=" "):
+        """The smallest values of the arrays that --quality adds. Names in a .ply have no blanks."""
         data = read_mesh(self.path(name)).GetCellData()
-        arrays = [data.GetArray("vtkDelaunayFlipAngle" + when) for when in ("Before", "After")]
+        arrays = [data.GetArray(f"Smallest angle {when} (degrees)".replace(" ", blank))
+                  for when in ("before", "after")]
         return [array.GetRange()[0] for array in arrays if array]
 
     def test_feature_angle(self):
