@@ -16,8 +16,6 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <vector>
 
 namespace delaunayflip
 {
@@ -208,33 +206,17 @@ void CheckDistinct(const std::string& first, const std::string& second)
   }
 }
 
-/// How many letters to add, drop or replace to make one word of the other.
-std::size_t CountEdits(const std::string& from, const std::string& to)
-{
-  std::vector<std::size_t> edits(to.size() + 1); // to its beginnings
-  std::iota(edits.begin(), edits.end(), std::size_t(0));
-  for (const char letter : from)
-  {
-    std::size_t before = edits[0]++;
-    for (std::size_t i = 0; i < to.size(); ++i)
-    {
-      const std::size_t replaced = before + (letter == to[i] ? 0 : 1);
-      before = edits[i + 1];
-      edits[i + 1] = std::min({ replaced, edits[i] + 1, edits[i + 1] + 1 });
-    }
-  }
-  return edits.back();
-}
-
-/// "; did you mean --geometry?" if a word that is no option is nearly one.
+/// "; did you mean --geometry?" if a word that is no option begins like one.
 std::string SuggestOption(const CLI::App& app)
 {
+  constexpr std::ptrdiff_t Alike = 5; // letters, with the two dashes
   for (const std::string& word : app.remaining())
   {
     for (const CLI::Option* option : app.get_options())
     {
       const std::string name = option->get_name();
-      if (word.rfind("--", 0) == 0 && CountEdits(word.substr(0, word.find('=')), name) <= 2)
+      const auto end = std::mismatch(word.begin(), word.end(), name.begin(), name.end()).first;
+      if (name.rfind("--", 0) == 0 && end - word.begin() >= Alike)
       {
         return "; did you mean " + name + "?";
       }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <exception>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <sstream>
@@ -265,26 +266,15 @@ std::string Degrees(double angle)
   return angle == angle ? text.str() : "none";
 }
 
-/// "156 (boundary 156)", by what edges are kept, which may be several things.
-std::string DescribeKept(const EdgeCounts& edges)
+/// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
+std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)
 {
-  std::vector<std::string> kinds;
-  for (const auto& [kind, count] :
-    { std::make_pair("boundary", edges.Boundary), { "non-manifold", edges.NonManifold },
-      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
-      { "constraints", edges.Constraint }, { "regions", edges.Region } })
-  {
-    if (count > 0)
-    {
-      kinds.push_back(kind + (" " + Count(count, "")));
-    }
-  }
   std::string text;
-  for (const std::string& kind : kinds)
+  for (const auto& [kind, count] : kinds)
   {
-    text += (text.empty() ? " (" : ", ") + kind;
+    text += count > 0 ? (text.empty() ? " (" : ", ") + Count(count, "") + " " + kind : "";
   }
-  return Count(edges.Fixed, "") + text + (text.empty() ? "" : ")");
+  return text + (text.empty() ? "" : ")");
 }
 
 /// What to change if more than a tenth of the inner edges stay because the user wants it so.
@@ -296,30 +286,12 @@ std::string Advise(const EdgeCounts& edges)
   {
     return "";
   }
-  const bool areLines = edges.Constraint > edges.Feature && edges.Constraint > edges.Region;
-  const bool areBent = edges.Feature > edges.Region && !areLines;
-  return "hint: " + std::to_string(100 * kept / inner) + " % of the inner edges are kept; " +
-    (areLines     ? "with fewer constraints"
-        : areBent ? "with a larger feature angle"
-                  : "with fewer regions") +
-    " more can flip\n";
-}
-
-/// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
-std::string DescribeLeft(const FlipReport& flip)
-{
-  const std::int64_t blocked = flip.BlockedByShape + flip.BlockedByEdge;
-  std::string reasons;
-  if (flip.BlockedByEdge > 0)
-  {
-    reasons = Count(flip.BlockedByEdge, "") + " would duplicate an edge";
-  }
-  if (flip.BlockedByShape > 0)
-  {
-    reasons += (reasons.empty() ? "" : ", ") + Count(flip.BlockedByShape, "") + " would fold";
-  }
-  return Count(flip.NonDelaunayAfter, "") +
-    (blocked > 0 ? " (" + Count(blocked, "") + " blocked: " + reasons + ")" : "");
+  const std::pair<std::int64_t, const char*> remedies[] = { { edges.Region, "fewer regions" },
+    { edges.Feature, "a larger feature angle" }, { edges.Constraint, "fewer constraints" } };
+  const auto most = std::max_element(std::begin(remedies), std::end(remedies),
+    [](const auto& one, const auto& other) { return one.first < other.first; });
+  return "hint: " + std::to_string(100 * kept / inner) + " % of the inner edges are kept; with " +
+    most->second + " more can flip\n";
 }
 
 /// A line, or nothing if there are no constraints.
@@ -346,12 +318,19 @@ std::string Summarize(const UpdateReport& report)
   {
     return "";
   }
-  const std::string reason = report.GeometryReason;
+  const EdgeCounts& edges = report.Edges;
+  const std::string& reason = report.GeometryReason;
   return "mesh: " + Count(report.Points, "point") + ", " + Count(report.Triangles, "triangle") +
-    ", " + Count(report.Edges.Edges, "edge") + "\nkept edges: " + DescribeKept(report.Edges) +
-    "\n" + Advise(report.Edges) + "geometry: " + report.GetGeometryName() +
-    (reason.empty() ? "" : ": " + reason) + "\n" + DescribeConstraints(report) +
-    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " + DescribeLeft(report) +
+    ", " + Count(edges.Edges, "edge") + "\nkept edges: " + Count(edges.Fixed, "") +
+    List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
+      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
+      { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
+    "\n" + Advise(edges) + "geometry: " + report.GetGeometryName() + (reason.empty() ? "" : ": ") +
+    reason + "\n" + DescribeConstraints(report) +
+    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
+    Count(report.NonDelaunayAfter, "") +
+    List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
+      { "blocked: would fold", report.BlockedByShape } }) +
     "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
     Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
     " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +

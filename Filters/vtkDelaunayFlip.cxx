@@ -289,12 +289,5 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "Paused: " << this->Paused << "\n";
-  os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
-  os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
-  os << indent << "NumberOfNonDelaunayEdges: " << this->GetNumberOfNonDelaunayEdges() << "\n";
-  os << indent << "NumberOfEdgesBlockedByShape: " << this->GetNumberOfEdgesBlockedByShape() << "\n";
-  os << indent << "NumberOfEdgesBlockedByEdge: " << this->GetNumberOfEdgesBlockedByEdge() << "\n";
-  os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
-  os << indent << "GeometryUsed: " << this->GetGeometryUsedAsString() << "\n";
-  os << indent << "GeometryReason: " << this->GetGeometryReason() << "\n";
+  os << indent << "Summary:\n" << this->Summary;
 }

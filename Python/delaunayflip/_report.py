@@ -26,6 +26,8 @@ COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
 _KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
           "wrongly wound": "wrongly_wound_edges", "feature angle": "feature_edges",
           "constraints": "constraint_edges", "regions": "region_edges"}
+_BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
+            "blocked: would fold": "blocked_by_shape"}
 _SUMMED = {*COUNTS.values(), *_KINDS.values(), "number_of_points", "number_of_triangles", "edges",
            "non_delaunay_before"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
@@ -153,37 +155,36 @@ class Totals:
         if not self.has_triangles:
             return ""
         n, reason, iterations = self.counts, self.texts["geometry_reason"], len(self.iterations)
-        kinds = ", ".join(f"{kind} {n[name]:,}" for kind, name in _KINDS.items() if n[name])
-        reasons = ", ".join(f"{n[name]:,} would {what}" for name, what in (
-            ("blocked_by_edge", "duplicate an edge"), ("blocked_by_shape", "fold")) if n[name])
-        blocked = n["blocked_by_edge"] + n["blocked_by_shape"]
         angles = [f"{angle:.4g}" if self.has_angles and not numpy.isnan(angle) else "none"
                   for angle in (self.minimum_angle_before, self.minimum_angle_after)]
         lines = [
             f"mesh: {_count(n['number_of_points'], 'point')}, "
             f"{_count(n['number_of_triangles'], 'triangle')}, {_count(n['edges'], 'edge')}",
-            f"kept edges: {n['fixed_edges']:,}" + (f" ({kinds})" if kinds else ""),
+            f"kept edges: {n['fixed_edges']:,}" + self._list(_KINDS),
             self._advise(),
             f"geometry: {self.geometry_used}" + (f": {reason}" if reason else ""),
             self._describe_constraints(),
             f"bad edges: {n['non_delaunay_before']:,} -> {n['non_delaunay_after']:,}"
-            + (f" ({blocked:,} blocked: {reasons})" if blocked else ""),
+            + self._list(_BLOCKED),
             f"smallest angle: {angles[0]} -> {angles[1]} degrees",
             f"flips: {n['total_flips']:,} in {_count(iterations, 'iteration')}, {self.stop_reason}"]
         return "".join(line + "\n" for line in lines if line)
 
+    def _list(self, kinds):
+        """" (1,000 boundary, 6 constraints)"; kinds of which there are none are left out."""
+        texts = [f"{self.counts[name]:,} {kind}" for kind, name in kinds.items() if self.counts[name]]
+        return f" ({', '.join(texts)})" if texts else ""
+
     def _advise(self):
         n = self.counts
         inner = n["edges"] - n["boundary_edges"]
-        kept = (n["fixed_edges"] - n["boundary_edges"] - n["non_manifold_edges"]
-                - n["wrongly_wound_edges"])
+        kept = n["fixed_edges"] + inner - n["edges"] - n["non_manifold_edges"] - n["wrongly_wound_edges"]
         if 10 * kept <= inner:
             return ""
-        most = max(("region_edges", "feature_edges", "constraint_edges"), key=n.get)
-        change = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
-                  "constraint_edges": "fewer constraints"}[most]
-        return (f"hint: {100 * kept // inner} % of the inner edges are kept; with {change} more can "
-                "flip")
+        remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
+                    "constraint_edges": "fewer constraints"}
+        return (f"hint: {100 * kept // inner} % of the inner edges are kept; with "
+                f"{remedies[max(remedies, key=n.get)]} more can flip")
 
     def _describe_constraints(self):
         n = self.counts

@@ -140,15 +140,10 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         return "vtkDelaunayFlip"
 
     def __str__(self):
-        names = [item.name for item in _PROPERTIES]
-        names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
-                  "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge"]
-        values = ((name, getattr(self, "Get" + name)()) for name in names)
+        values = ((item.name, self._values[item.name]) for item in _PROPERTIES)
         lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
                  for name, value in values]
-        lines += [f"  StopReason: {self.GetStopReasonAsString()}",
-                  f"  GeometryUsed: {self.GetGeometryUsedAsString()}",
-                  f"  GeometryReason: {self.GetGeometryReason()}"]
+        lines += ["  Summary:", *self.GetSummary().splitlines()]
         return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
 
     def SetInputData(self, *port_and_data):

@@ -113,7 +113,7 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
       filter->GetGeometryReason() },
     { "Backend", filter->GetReport().Backend, filter->GetBackendUsed() },
     { "Summary",
-      "mesh: 8 points, 6 triangles, 13 edges\nkept edges: 8 (boundary 8)\ngeometry: planar: all "
+      "mesh: 8 points, 6 triangles, 13 edges\nkept edges: 8 (8 boundary)\ngeometry: planar: all "
       "points lie in one plane; the feature angle has no effect\nbad edges: 1 -> 0\nsmallest "
       "angle: 1.909 -> 4.764 degrees\nflips: 9 in 5 iterations, converged\n",
       filter->GetSummary() }

@@ -268,6 +268,8 @@ class DebianPackage(Packing):
             self.assertIn(library, needed)
         self.run_command(["dpkg-query", "-W", *(part.split()[0] for part in needed.split(","))])
         self.run_command(["dpkg-deb", "-x", package, self.folder])
+        for path in ("man/man1/delaunay-flip.1", "bash-completion/completions/delaunay-flip"):
+            self.assertTrue(os.path.exists(self.path(f"usr/share/{path}")), path)
         self.expect_that_it_works(self.path("usr"))
 
 
