@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
+#include "UpdateReport.h"
+
 #include <nlohmann/json.hpp>
 
 #include <iomanip>
@@ -27,6 +29,15 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
   json["constraint_flips"] = flip.ConstraintFlips;
+  if (run.IsFromPoints)
+  {
+    const PointCounts& counts = flip.FromPoints;
+    json["from_points"] = { { "not_finite", counts.NotFinite }, { "repeated", counts.Repeated },
+      { "too_near", counts.TooNear }, { "segment_edges", counts.SegmentEdges },
+      { "refused_segments", counts.RefusedSegments }, { "crossings", counts.Crossings },
+      { "largest_shift", counts.LargestShift }, { "outside_triangles", counts.OutsideTriangles },
+      { "large_triangles", counts.LargeTriangles } };
+  }
   json["geometry"] = ToString(flip.GeometryUsed);
   json["geometry_reason"] = flip.GeometryReason;
   json["tolerance"] = flip.Tolerance;
@@ -76,6 +87,33 @@ void WriteCsv(const FlipReport& flip, std::ostream& stream)
 namespace
 {
 
+/// The lines of the summary that only a mesh from points has.
+std::string DescribePoints(const FlipReport& flip)
+{
+  const PointCounts& counts = flip.FromPoints;
+  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
+  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
+  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
+  std::string points = Count(flip.Points - unused) + " used";
+  points = add(points, counts.Repeated, "repeated");
+  points = add(points, counts.TooNear, "too near to another");
+  points = add(points, counts.NotFinite, "not finite");
+  std::string text = "points          " + points + '\n';
+  if (counts.SegmentEdges + counts.RefusedSegments > 0)
+  {
+    std::string segments = Count(counts.SegmentEdges, "edge");
+    segments = add(segments, counts.RefusedSegments, "refused");
+    text += "segments        " + segments +
+      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
+  }
+  if (counts.OutsideTriangles + counts.LargeTriangles > 0)
+  {
+    text += "removed         " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
+      Count(counts.LargeTriangles) + " too large\n";
+  }
+  return text;
+}
+
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -92,8 +130,16 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
   for (std::string line; std::getline(lines, line);)
   {
     const std::size_t colon = line.find(": ");
-    stream << std::left << std::setw(Column) << line.substr(0, colon) << line.substr(colon + 2)
-           << '\n';
+    const std::string title = line.substr(0, colon);
+    // Of points, the triangles that flips begin with are not the user's.
+    if (!run.IsFromPoints || (title != "geometry" && title != "bad edges"))
+    {
+      stream << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
+    }
+    if (run.IsFromPoints && title == "mesh")
+    {
+      stream << DescribePoints(run.Flip);
+    }
   }
   const FlipReport& flip = run.Flip;
   stream << "time            read " << Seconds(run.ReadSeconds) << ", edges "

@@ -18,6 +18,7 @@ namespace delaunayflip
 /// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
+  bool IsFromPoints = false;
   FlipReport Flip;
   std::string Summary; ///< The filter's: lines of a title, ": " and a text.
   double ReadSeconds = 0.0;

@@ -125,6 +125,13 @@ void UpdateReport::Add(const UpdateReport& other)
       &Sum::TotalBlocked, &Sum::NonDelaunayBefore, &Sum::NonDelaunayAfter, &Sum::BlockedByShape,
       &Sum::BlockedByEdge });
   AddMembers<Sum, double>(*this, other, { &Sum::BuildSeconds, &Sum::FlipSeconds });
+  using Found = PointCounts;
+  AddMembers(this->FromPoints, other.FromPoints,
+    { &Found::NotFinite, &Found::Repeated, &Found::TooNear, &Found::SegmentEdges,
+      &Found::RefusedSegments, &Found::Crossings, &Found::OutsideTriangles,
+      &Found::LargeTriangles });
+  this->FromPoints.LargestShift =
+    std::max(this->FromPoints.LargestShift, other.FromPoints.LargestShift);
   using Reason = StopReasonKind;
   for (const Reason worse :
     { Reason::Aborted, Reason::IterationLimit, Reason::Running, Reason::Converged })
@@ -244,10 +251,6 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, boo
 }
 
 //------------------------------------------------------------------------------
-namespace
-{
-
-/// "1,234,567 points".
 std::string Count(std::int64_t number, const std::string& singular)
 {
   std::string text = std::to_string(number);
@@ -258,6 +261,9 @@ std::string Count(std::int64_t number, const std::string& singular)
   return text + (singular.empty() ? "" : " ") + singular +
     (number == 1 || singular.empty() ? "" : "s");
 }
+
+namespace
+{
 
 std::string Degrees(double angle)
 {
@@ -278,11 +284,13 @@ std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kin
 }
 
 /// What to change if more than a tenth of the inner edges stay because the user wants it so.
-std::string Advise(const EdgeCounts& edges)
+std::string Advise(const FlipReport& report)
 {
+  const EdgeCounts& edges = report.Edges;
   const std::int64_t inner = edges.Edges - edges.Boundary;
   const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
-  if (10 * kept <= inner)
+  const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
+  if (10 * kept <= inner || isFromPoints)
   {
     return "";
   }
@@ -325,7 +333,7 @@ std::string Summarize(const UpdateReport& report)
     List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
       { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
       { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
-    "\n" + Advise(edges) + "geometry: " + report.GetGeometryName() + (reason.empty() ? "" : ": ") +
+    "\n" + Advise(report) + "geometry: " + report.GetGeometryName() + (reason.empty() ? "" : ": ") +
     reason + "\n" + DescribeConstraints(report) +
     "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
     Count(report.NonDelaunayAfter, "") +
@@ -361,21 +369,30 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
   add(vtkNew<vtkDoubleArray>().Get(), "Seconds", &IterationRecord::Seconds);
 }
 
+namespace
+{
+
+const std::string Prefix = "DelaunayFlip:";
+
+template <typename ArrayT, typename Value>
+void AddValue(const char* name, const Value& value, vtkFieldData* data)
+{
+  vtkNew<ArrayT> array;
+  array->SetName((Prefix + name).c_str());
+  array->InsertNextValue(value);
+  data->AddArray(array);
+}
+
+}
+
 void AddFieldData(const UpdateReport& report, vtkFieldData* data)
 {
-  const std::string prefix = "DelaunayFlip:";
-  const auto add = [&](auto* array, const char* name, const auto& value)
-  {
-    array->SetName((prefix + name).c_str());
-    array->InsertNextValue(value);
-    data->AddArray(array);
-  };
   const auto addText = [&](const char* name, const std::string& text)
-  { add(vtkNew<vtkStringArray>().Get(), name, text); };
+  { AddValue<vtkStringArray>(name, text, data); };
   const auto addCount = [&](const char* name, std::int64_t count)
-  { add(vtkNew<vtkIdTypeArray>().Get(), name, count); };
+  { AddValue<vtkIdTypeArray>(name, count, data); };
   // The totals first: ParaView lists no field data when the first array is empty.
-  add(vtkNew<vtkIntArray>().Get(), "Converged", report.Converged() ? 1 : 0);
+  AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
   addText("StopReason", ToString(report.StopReason));
   addText("Summary", Summarize(report));
   addCount("TotalFlips", report.TotalFlips);
@@ -392,7 +409,22 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   addText("GeometryReason", report.GeometryReason);
   addText("Tolerance", report.Tolerance);
   addText("Backend", report.Backend);
-  AddIterationColumns(report, prefix, data);
+  AddIterationColumns(report, Prefix, data);
+}
+
+void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)
+{
+  const auto add = [&](const char* name, std::int64_t count)
+  { AddValue<vtkIdTypeArray>(name, count, data); };
+  add("PointsNotFinite", counts.NotFinite);
+  add("RepeatedPoints", counts.Repeated);
+  add("PointsTooNear", counts.TooNear);
+  add("SegmentEdges", counts.SegmentEdges);
+  add("RefusedSegments", counts.RefusedSegments);
+  add("CrossingPoints", counts.Crossings);
+  add("OutsideTriangles", counts.OutsideTriangles);
+  add("LargeTriangles", counts.LargeTriangles);
+  AddValue<vtkDoubleArray>("LargestShift", counts.LargestShift, data);
 }
 
 }

@@ -76,6 +76,9 @@ struct UpdateSummary
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
 
+/// E.g. "1,234,567 points"; the number alone without a noun.
+DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& singular = "");
+
 /// What was done, in lines of a title, ": " and a text; "" before an update and without triangles.
 std::string Summarize(const UpdateReport& report);
 
@@ -87,6 +90,9 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
 /// Adds these columns, and one-tuple arrays that sum up the run, to the field data of a mesh, with
 /// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
 DELAUNAYFLIP_EXPORT void AddFieldData(const UpdateReport& report, vtkFieldData* data);
+
+/// The same for what is known of points.
+void AddPointFieldData(const PointCounts& counts, vtkFieldData* data);
 
 }
 

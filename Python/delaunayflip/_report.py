@@ -77,6 +77,15 @@ class Report:
     flip_seconds: float
     number_of_points: int = 0
     number_of_triangles: int = 0
+    points_not_finite: int = 0  #: Of a triangulation of points, as all that follow.
+    points_repeated: int = 0  #: Points at the place of one with a lower id.
+    points_too_near: int = 0  #: Points within the tolerance of one with a lower id.
+    segment_edges: int = 0  #: Edges that segments have become.
+    segments_refused: int = 0  #: They cross earlier ones, or an end is not finite.
+    crossings: int = 0  #: Points added where segments cross.
+    largest_shift: float = 0.0  #: How far rounding has moved one of these at most.
+    triangles_outside: int = 0  #: Removed outside the outline and in holes.
+    triangles_large: int = 0  #: Removed by alpha and longest_edge.
 
     @property
     def converged(self) -> bool:
@@ -179,7 +188,8 @@ class Totals:
         n = self.counts
         inner = n["edges"] - n["boundary_edges"]
         kept = n["fixed_edges"] + inner - n["edges"] - n["non_manifold_edges"] - n["wrongly_wound_edges"]
-        if 10 * kept <= inner:
+        is_from_points = self.texts["geometry_reason"].startswith("points are triangulated")
+        if 10 * kept <= inner or is_from_points:
             return ""
         remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
                     "constraint_edges": "fewer constraints"}
