@@ -189,8 +189,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     app.get_option(name)->needs(fromPoints);
   }
   for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--tolerance",
-         "--tie-rule", "--no-insert-constraints", "--ignore-lines", "--region-array", "--devices",
-         "--pieces", "--quality" })
+         "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
+         "--region-array", "--devices", "--pieces", "--quality" })
   {
     app.get_option(name)->excludes(fromPoints);
   }

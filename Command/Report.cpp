@@ -131,8 +131,9 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
   {
     const std::size_t colon = line.find(": ");
     const std::string title = line.substr(0, colon);
-    // Of points, the triangles that flips begin with are not the user's.
-    if (!run.IsFromPoints || (title != "geometry" && title != "bad edges"))
+    // Points have lines of their own, and the triangles that flips begin with are not the user's.
+    if (!run.IsFromPoints ||
+      (title != "geometry" && title != "constraints" && title != "bad edges"))
     {
       stream << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
     }

@@ -161,7 +161,7 @@ class Totals:
 
     def summarize(self):
         """What was done, in lines of a title, ": " and a text; "" without triangles."""
-        if not self.has_triangles:
+        if not self.counts["number_of_triangles"]:
             return ""
         n, reason, iterations = self.counts, self.texts["geometry_reason"], len(self.iterations)
         angles = [f"{angle:.4g}" if self.has_angles and not numpy.isnan(angle) else "none"
