@@ -37,4 +37,12 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-vtk9")
 set(delaunayflip_texts "${CMAKE_INSTALL_DATAROOTDIR}/doc/delaunayflip")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${delaunayflip_texts}" RENAME copyright)
 install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${delaunayflip_texts}")
+if(TARGET delaunay-flip)
+  execute_process(COMMAND sed -nE -f "${CMAKE_CURRENT_LIST_DIR}/man_page.sed"
+    "${PROJECT_SOURCE_DIR}/Documentation/reference/command.md"
+    OUTPUT_FILE "${PROJECT_BINARY_DIR}/delaunay-flip.1")
+  install(FILES "${PROJECT_BINARY_DIR}/delaunay-flip.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${PROJECT_SOURCE_DIR}/Command/delaunay-flip.bash" RENAME delaunay-flip
+    DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions")
+endif()
 include(CPack)

@@ -67,7 +67,19 @@ if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
   set(CMAKE_CUDA_ARCHITECTURES 75)
 endif()
 enable_language(CUDA)
-if(delaunayflip_choose_architectures)
+option(DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE
+  "Build the CUDA backend for the GPUs that are here alone; without any for Turing, and newer through PTX"
+  ${DELAUNAYFLIP_WHEEL})
+if(delaunayflip_choose_architectures AND DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE)
+  execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader
+    OUTPUT_VARIABLE delaunayflip_gpus ERROR_QUIET)
+  string(REGEX MATCHALL "[0-9]+\\.[0-9]" delaunayflip_gpus "${delaunayflip_gpus}")
+  list(REMOVE_DUPLICATES delaunayflip_gpus)
+  list(TRANSFORM delaunayflip_gpus REPLACE "\\." "")
+  if(delaunayflip_gpus)
+    set(CMAKE_CUDA_ARCHITECTURES ${delaunayflip_gpus})
+  endif()
+elseif(delaunayflip_choose_architectures)
   # Every generation from Turing on that the toolkit knows, newer ones through PTX. The "all-major"
   # of toolkits before 13 begins earlier.
   if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 13 OR CMAKE_VERSION VERSION_LESS 3.23)

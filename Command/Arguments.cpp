@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -22,14 +23,30 @@ namespace delaunayflip
 namespace
 {
 
+/// Help that says of an option what it takes, and not how it goes with others.
+class PlainFormatter : public CLI::Formatter
+{
+  std::string make_option_opts(const CLI::Option* option) const override
+  {
+    const std::string type = option->get_type_name();
+    return (type.empty() ? "" : " ") + type;
+  }
+};
+
 template <typename Kind>
 void AddChoice(CLI::App& app, const std::string& name, Kind& value,
   const std::map<std::string, Kind>& choices, const std::string& help)
 {
+  std::string names;
+  for (const auto& [word, kind] : choices)
+  {
+    names += (names.empty() ? "{" : ",") + word;
+  }
   app
     .add_option_function<std::string>(
       name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
-    ->check(CLI::IsMember(choices));
+    ->type_name(names + "}")
+    ->check(CLI::IsMember(choices).description(""));
 }
 
 /// Unlike CLI::Range, refuses NaN.
@@ -88,11 +105,13 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
   app
     .add_option("--feature-angle", flip.FeatureAngle,
       "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]")
+    ->type_name("DEGREES")
     ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
   app
     .add_option("--tolerance", flip.Tolerance,
       "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as "
       "much as the rounding of its points can explain [-1]")
+    ->type_name("RADIANS")
     ->check(Within(-1.0, -1.0, "automatic (-1)") |
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
   AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
@@ -103,20 +122,27 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
 
 void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 {
+  app.add_flag("--merge-points", arguments.MergePoints,
+    "First join points of the input at the same place, as in a file that lists the corners of "
+    "each triangle. Points that no cell uses go");
   app
     .add_option("--constraints", arguments.Constraints,
       "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
       "it has the same points; otherwise points are matched by their coordinates. In the plane, "
       "edges that the input does not have are inserted by flips")
+    ->type_name("FILE")
     ->check(FileName());
-  app.add_flag("!--no-insert-constraints", arguments.InsertConstraints,
+  app.add_flag_callback(
+    "--no-insert-constraints", [&arguments] { arguments.InsertConstraints = false; },
     "Do not insert edges of --constraints");
   app.add_flag(
     "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
   app.add_flag(
-    "--ignore-lines", arguments.IgnoreLines, "Do not fix edges along lines of the input");
-  app.add_option("--region-array", arguments.RegionArray,
-    "A cell array of the input: edges between cells of different values stay");
+    "--ignore-lines", arguments.IgnoreLines, "Do not keep edges along lines of the input");
+  app
+    .add_option("--region-array", arguments.RegionArray,
+      "A cell array of the input: edges between cells of different values stay")
+    ->type_name("NAME");
 }
 
 void AddPointOptions(CLI::App& app, Arguments& arguments)
@@ -128,10 +154,12 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--outline", arguments.Outline,
       "A mesh file whose polygons and closed lines are rings: what is outside of all is removed")
+    ->type_name("FILE")
     ->check(FileName());
   app
     .add_option("--holes", arguments.Holes,
       "A mesh file whose polygons and closed lines are rings: what is inside is removed")
+    ->type_name("FILE")
     ->check(FileName());
   app.add_flag("--split-crossings", arguments.Flip.SplitCrossings,
     "Add a point where segments cross. Else one that crosses an earlier one is left out");
@@ -139,14 +167,17 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--alpha", arguments.Flip.Alpha,
       "Remove triangles whose circumcircle has a larger radius; 0: none [0]")
+    ->type_name("RADIUS")
     ->check(length);
   app
     .add_option("--longest-edge", arguments.Flip.LongestEdge,
       "Remove triangles that have a longer edge; 0: none [0]")
+    ->type_name("LENGTH")
     ->check(length);
   app
     .add_option("--point-tolerance", arguments.Flip.PointTolerance,
       "Leave out points nearer than this to one before them; 0: those at the same place [0]")
+    ->type_name("LENGTH")
     ->check(length);
   AddChoice<bool>(app, "--projection", arguments.InBestPlane,
     { { "xy", false }, { "plane", true } },
@@ -158,8 +189,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     app.get_option(name)->needs(fromPoints);
   }
   for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--tolerance",
-         "--tie-rule", "--no-insert-constraints", "--ignore-lines", "--region-array", "--devices",
-         "--pieces", "--quality" })
+         "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
+         "--region-array", "--devices", "--pieces", "--quality" })
   {
     app.get_option(name)->excludes(fromPoints);
   }
@@ -202,6 +233,7 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     .add_option("--devices", arguments.Devices,
       "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
       "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
+    ->type_name("LIST")
     ->check(FindFaultOfDevices);
   app
     .add_option("--pieces", arguments.Flip.NumberOfPieces,
@@ -218,8 +250,10 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk, .vtp and .ply)");
   app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)")
+    ->type_name("FILE")
     ->check(FileName());
   app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)")
+    ->type_name("FILE")
     ->check(FileName());
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
@@ -231,6 +265,25 @@ void CheckDistinct(const std::string& first, const std::string& second)
   {
     throw CommandError(ExitCode::WrongUsage, second + ": the same file is given for two purposes");
   }
+}
+
+/// "; did you mean --geometry?" if a word that is no option begins like one.
+std::string SuggestOption(const CLI::App& app)
+{
+  constexpr std::ptrdiff_t Alike = 5; // letters, with the two dashes
+  for (const std::string& word : app.remaining())
+  {
+    for (const CLI::Option* option : app.get_options())
+    {
+      const std::string name = option->get_name();
+      const auto end = std::mismatch(word.begin(), word.end(), name.begin(), name.end()).first;
+      if (name.rfind("--", 0) == 0 && end - word.begin() >= Alike)
+      {
+        return "; did you mean " + name + "?";
+      }
+    }
+  }
+  return "";
 }
 
 /// Checks that files can be read or written as what they are given for.
@@ -291,6 +344,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points also\n"
     ".xyz .csv .txt.",
     "delaunay-flip");
+  app.formatter(std::make_shared<PlainFormatter>());
   app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
   app.footer(
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
@@ -298,9 +352,11 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
   app.add_option("INPUT", arguments.Input, "The mesh or the points to read")
+    ->type_name("")
     ->required()
     ->check(FileName());
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")
+    ->type_name("")
     ->required()
     ->check(FileName());
   AddMethodOptions(app, arguments.Flip);
@@ -318,7 +374,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   }
   catch (const CLI::ParseError& error)
   {
-    PrintError(std::string(error.what()) + " (delaunay-flip --help shows the usage)");
+    PrintError(error.what() + SuggestOption(app) + " (delaunay-flip --help shows the usage)");
     return static_cast<int>(ExitCode::WrongUsage);
   }
   return std::nullopt;

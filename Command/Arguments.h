@@ -22,6 +22,7 @@ struct Arguments
   MeshFormat InputFormat = MeshFormat::VTK;
   MeshFormat OutputFormat = MeshFormat::VTK;
   PointOptions Flip;
+  bool MergePoints = false; ///< Of the input, at equal places.
   bool FromPoints = false;
   bool InBestPlane = false; ///< Of points: else in x and y.
   std::string Outline; ///< Of points: a file; empty: none.

@@ -20,6 +20,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolygon.h>
 #include <vtkSMPTools.h>
+#include <vtkStaticCleanPolyData.h>
 
 #include <sys/resource.h>
 
@@ -138,8 +139,10 @@ std::string WithOptions(const std::string& message)
 {
   static const std::regex region("\\bRegionArray\\b");
   static const std::regex tolerance("\\bTolerance\\b");
-  return std::regex_replace(
-    std::regex_replace(message, region, "--region-array"), tolerance, "--tolerance");
+  static const std::regex merge("merge points that lie at the same place");
+  std::string text = std::regex_replace(message, region, "--region-array");
+  text = std::regex_replace(text, tolerance, "--tolerance");
+  return std::regex_replace(text, merge, "--merge-points joins those that lie at the same place");
 }
 
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
@@ -149,7 +152,7 @@ void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
   static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
     iterations == 0 ? "finding edges"
                     : "iteration " + std::to_string(iterations) + ", " +
-        std::to_string(filter->GetTotalFlips()) + " flips");
+        Counted(filter->GetTotalFlips(), "flip"));
 }
 
 enum class SegmentKind
@@ -236,6 +239,10 @@ public:
     else if (!this->Settings.Constraints.empty())
     {
       this->Segments = this->ReadFile(this->Settings.Constraints);
+    }
+    if (this->Settings.MergePoints)
+    {
+      this->MergePoints();
     }
     this->Run.ReadSeconds = SecondsSince(start);
     const bool hasTriangles =
@@ -340,6 +347,20 @@ private:
     return file.Mesh;
   }
 
+  /// Joins points of the input at the same place.
+  void MergePoints()
+  {
+    vtkNew<vtkStaticCleanPolyData> clean;
+    clean->SetInputData(this->Input);
+    clean->ConvertLinesToPointsOff();
+    clean->ConvertPolysToLinesOff();
+    clean->ConvertStripsToPolysOff();
+    clean->Update();
+    this->Note(this->Settings.Input + ": of " + Counted(this->Input->GetNumberOfPoints(), "point") +
+      " " + std::to_string(clean->GetOutput()->GetNumberOfPoints()) + " are left after merging");
+    this->Input = clean->GetOutput();
+  }
+
   /// Of points: breaklines and rings, as one mesh.
   void ReadSegments()
   {
@@ -426,8 +447,10 @@ private:
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
     report.Points = this->Filter->GetOutput()->GetNumberOfPoints(); // with those that were added
+    this->Run.Summary = this->Filter->GetSummary();
     if (report.Triangles == 0)
     {
+      this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
     }

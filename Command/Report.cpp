@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
+#include "UpdateReport.h"
+
 #include <nlohmann/json.hpp>
 
 #include <iomanip>
@@ -21,6 +23,8 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["boundary_edges"] = flip.Edges.Boundary;
   json["fixed_edges"] = flip.Edges.Fixed;
   json["non_manifold_edges"] = flip.Edges.NonManifold;
+  json["feature_edges"] = flip.Edges.Feature;
+  json["region_edges"] = flip.Edges.Region;
   json["constraint_edges"] = flip.Edges.Constraint;
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
@@ -83,70 +87,14 @@ void WriteCsv(const FlipReport& flip, std::ostream& stream)
 namespace
 {
 
-/// 1234567 as 1,234,567.
-std::string Grouped(std::int64_t number)
-{
-  std::string digits = std::to_string(number);
-  for (std::size_t end = digits.size(); end > 3; end -= 3)
-  {
-    digits.insert(end - 3, ",");
-  }
-  return digits;
-}
-
-std::string Count(std::int64_t number, const std::string& singular)
-{
-  return Grouped(number) + " " + singular + (number == 1 ? "" : "s");
-}
-
-std::string Degrees(double angle)
-{
-  std::ostringstream text;
-  text << std::setprecision(4) << angle;
-  return angle == angle ? text.str() : "none";
-}
-
-/// E.g. "272 (272 blocked: 234 would duplicate an edge, 38 would fold)".
-std::string DescribeLeft(const FlipReport& flip)
-{
-  const std::string left = Grouped(flip.NonDelaunayAfter);
-  const std::int64_t blocked = flip.BlockedByShape + flip.BlockedByEdge;
-  std::string reasons;
-  if (flip.BlockedByEdge > 0)
-  {
-    reasons = Grouped(flip.BlockedByEdge) + " would duplicate an edge";
-  }
-  if (flip.BlockedByShape > 0)
-  {
-    reasons += (reasons.empty() ? "" : ", ") + Grouped(flip.BlockedByShape) + " would fold";
-  }
-  return blocked > 0 ? left + " (" + Grouped(blocked) + " blocked: " + reasons + ")" : left;
-}
-
-/// A line of the summary, or nothing if there are no constraints.
-std::string DescribeConstraints(const FlipReport& flip)
-{
-  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
-  {
-    return {};
-  }
-  std::string text = "constraints     " + Count(flip.Edges.Constraint, "edge") + " fixed";
-  if (flip.InsertedConstraints > 0)
-  {
-    text += ", " + Grouped(flip.InsertedConstraints) + " inserted by " +
-      Count(flip.ConstraintFlips, "flip");
-  }
-  return text + ", " + Grouped(flip.UnmatchedConstraints) + " not in the mesh\n";
-}
-
 /// The lines of the summary that only a mesh from points has.
 std::string DescribePoints(const FlipReport& flip)
 {
   const PointCounts& counts = flip.FromPoints;
   const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
-  { return count > 0 ? text + ", " + Grouped(count) + " " + what : text; };
+  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
   const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
-  std::string points = Grouped(flip.Points - unused) + " used";
+  std::string points = Count(flip.Points - unused) + " used";
   points = add(points, counts.Repeated, "repeated");
   points = add(points, counts.TooNear, "too near to another");
   points = add(points, counts.NotFinite, "not finite");
@@ -161,7 +109,7 @@ std::string DescribePoints(const FlipReport& flip)
   if (counts.OutsideTriangles + counts.LargeTriangles > 0)
   {
     text += "removed         " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
-      Grouped(counts.LargeTriangles) + " too large\n";
+      Count(counts.LargeTriangles) + " too large\n";
   }
   return text;
 }
@@ -177,30 +125,28 @@ std::string Seconds(double seconds)
 
 void WriteSummary(const RunReport& run, std::ostream& stream)
 {
+  constexpr std::size_t Column = 16;
+  std::istringstream lines(run.Summary);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    const std::string title = line.substr(0, colon);
+    // Points have lines of their own, and the triangles that flips begin with are not the user's.
+    if (!run.IsFromPoints ||
+      (title != "geometry" && title != "constraints" && title != "bad edges"))
+    {
+      stream << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
+    }
+    if (run.IsFromPoints && title == "mesh")
+    {
+      stream << DescribePoints(run.Flip);
+    }
+  }
   const FlipReport& flip = run.Flip;
-  stream << "mesh            " << Count(flip.Points, "point") << ", "
-         << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
-         << Grouped(flip.Edges.Fixed) << " fixed)\n";
-  if (run.IsFromPoints)
-  {
-    stream << DescribePoints(flip) << "smallest angle  " << Degrees(flip.MinimumAngleAfter)
-           << " degrees\n";
-  }
-  else
-  {
-    stream << "geometry        " << ToString(flip.GeometryUsed)
-           << (flip.GeometryReason.empty() ? "" : ": ") << flip.GeometryReason << '\n'
-           << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
-           << " -> " << DescribeLeft(flip) << '\n'
-           << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
-           << Degrees(flip.MinimumAngleAfter) << " degrees\n";
-  }
-  stream << "flips           " << Grouped(flip.TotalFlips) << " in "
-         << Count(static_cast<std::int64_t>(flip.Iterations.size()), "iteration") << ", "
-         << ToString(flip.StopReason) << '\n'
-         << "time            read " << Seconds(run.ReadSeconds) << ", edges "
+  stream << "time            read " << Seconds(run.ReadSeconds) << ", edges "
          << Seconds(flip.BuildSeconds) << ", flips " << Seconds(flip.FlipSeconds) << ", write "
-         << Seconds(run.WriteSeconds) << " (" << flip.Backend << ")\n";
+         << Seconds(run.WriteSeconds) << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
+         << '\n';
 }
 
 }

@@ -20,6 +20,7 @@ struct RunReport
 {
   bool IsFromPoints = false;
   FlipReport Flip;
+  std::string Summary; ///< The filter's: lines of a title, ": " and a text.
   double ReadSeconds = 0.0;
   double WriteSeconds = 0.0;
   std::vector<std::string> Warnings;
@@ -31,7 +32,7 @@ void WriteJson(const RunReport& run, std::ostream& stream);
 /// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
 void WriteCsv(const FlipReport& flip, std::ostream& stream);
 
-/// A summary in a few lines of text.
+/// The summary and the times, in two columns.
 void WriteSummary(const RunReport& run, std::ostream& stream);
 
 }

@@ -20,7 +20,24 @@ def read_headers(folder):
     xml = os.path.join(folder, "xml")
     for path in glob.glob(os.path.join(xml, "class*.xml")):
         name_groups(path)
+    fill_headers(xml)
     return xml
+
+
+def fill_headers(folder):
+    """Doxygen describes functions and enumerations with their namespace; this moves them to their
+    headers."""
+    space = ET.parse(os.path.join(folder, "namespacedelaunayflip.xml"))
+    for path in glob.glob(os.path.join(folder, "*_8h.xml")):
+        tree = ET.parse(path)
+        header = tree.find("compounddef")
+        for inner in header.findall("innernamespace"):
+            header.remove(inner)
+        for section in space.iter("sectiondef"):
+            part = ET.SubElement(header, "sectiondef", kind=section.get("kind"))
+            part.extend(member for member in section.iter("memberdef") if member.find("location").get(
+                "file") == header.find("location").get("file"))
+        tree.write(path)
 
 
 def name_groups(path):

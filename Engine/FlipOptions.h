@@ -51,8 +51,9 @@ enum class TieRuleKind
 /// Where the flips run.
 enum class BackendKind
 {
-  Auto, ///< A GPU if there is one and the mesh has at least SmallestMeshForCuda triangles
-  ///< (CudaDevice.h). Otherwise, or if the GPU fails, CPU threads.
+  /// A GPU if there is one and the mesh has at least SmallestMeshForCuda triangles (CudaDevice.h).
+  /// Otherwise, or if the GPU fails, CPU threads.
+  Auto,
   CUDA, ///< A GPU; throws BackendUnavailable if there is none or it fails.
   Threads ///< CPU threads.
 };

@@ -84,10 +84,10 @@ struct FlipReport
   std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
-  std::string GeometryReason; ///< Why it was used, in words; also says if
-  ///< FlipOptions::FeatureAngle has no effect.
-  std::string Tolerance; ///< "automatic", the value (e.g. "1e-09"), or "none" if the in-circle
-  ///< predicate decides.
+  /// Why it was used, in words; also says if FlipOptions::FeatureAngle has no effect.
+  std::string GeometryReason;
+  /// "automatic", the value (e.g. "1e-09"), or "none" if the in-circle predicate decides.
+  std::string Tolerance;
   std::string Backend; ///< E.g. "Threads: 8" or "CUDA: NVIDIA H200".
   std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
 

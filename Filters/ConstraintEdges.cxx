@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iomanip>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -191,6 +193,19 @@ void AddCrowdedEdges(std::vector<PointPair>& crowded, const std::vector<std::int
     (std::unique(found.begin(), found.end()) - found.begin());
 }
 
+/// E.g. "from (0, 0, 0) to (1, 2.5, 0)".
+std::string DescribeEdge(const PointArray& points, std::int64_t from, std::int64_t to)
+{
+  std::ostringstream text;
+  text << std::setprecision(points.Floats ? 7 : 10);
+  for (const std::int64_t end : { from, to })
+  {
+    text << (end == from ? "from (" : " to (") << points.Get(end, 0) << ", " << points.Get(end, 1)
+         << ", " << points.Get(end, 2) << ')';
+  }
+  return text.str();
+}
+
 /// Finds, for edges between points of another dataset, the edges of the mesh at the same places.
 ///
 /// Coordinates are compared in the lower of the two precisions: float constraints match the double
@@ -204,10 +219,12 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   const PointArray& mesh = source.Points;
   PointPlaces places(others.Floats != nullptr || mesh.Floats != nullptr);
   std::vector<std::int64_t> placeOfOther(others.Count, PointPlaces::None);
+  std::vector<std::int64_t> otherAt; // the first at each place
   const auto number = [&](std::int64_t point)
   {
     std::int64_t& place = placeOfOther[point];
     place = place == PointPlaces::None ? places.Add(others, point) : place;
+    otherAt.resize(places.GetNumberOfPlaces(), point);
     return place;
   };
   std::vector<PointPair> wanted; // of places
@@ -250,6 +267,10 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   for (const PointPair& pair : wanted)
   {
     const std::int64_t points = pointsAt[pair[0]] * pointsAt[pair[1]];
+    if (points == 0 && edges.FirstStranger.empty())
+    {
+      edges.FirstStranger = DescribeEdge(others, otherAt[pair[0]], otherAt[pair[1]]);
+    }
     edges.Unmatched += points == 0 ? 1 : 0;
     if (points == 1)
     {

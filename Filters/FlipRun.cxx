@@ -222,7 +222,13 @@ FlipReport FlipRun::GetReport() const
   else if (const std::int64_t count = bridge.GetNumberOfUnmatchedConstraints())
   {
     report.UnmatchedConstraints += count;
-    report.Defects.push_back({ "constraint edges of the second input that the mesh does not have",
+    const std::string& stranger = bridge.GetFirstStranger();
+    report.Defects.push_back({ "constraint edges of the second input that the mesh does not have" +
+        (stranger.empty()
+            ? ""
+            : ": ends are not points of the mesh (coordinates must be equal, not just "
+              "close), first " +
+              stranger),
       count, {}, DefectIds::Points });
   }
   bridge.NumberCells(report.Defects);

@@ -66,6 +66,18 @@ void AppendValue(Value value, std::string& key)
   }
 }
 
+/// E.g. "it has \"Side\", \"Material\"".
+std::string ListNames(vtkCellData* data)
+{
+  std::string names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    const char* name = data->GetAbstractArray(i)->GetName();
+    names += std::string(i > 0 ? ", \"" : "it has \"") + (name ? name : "") + '"';
+  }
+  return names.empty() ? "it has none" : names;
+}
+
 struct VisitTuples
 {
   template <typename ArrayT, typename Visit>
@@ -173,7 +185,8 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
   vtkAbstractArray* array = this->Mesh->GetCellData()->GetAbstractArray(name.c_str());
   if (!array)
   {
-    throw InvalidOptions("RegionArray: the input has no cell array named \"" + name + "\".");
+    throw InvalidOptions("RegionArray: the input has no cell array named \"" + name + "\"; " +
+      ListNames(this->Mesh->GetCellData()) + ".");
   }
   if (array->GetNumberOfTuples() != this->Mesh->GetNumberOfCells())
   {
@@ -393,8 +406,8 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
     TriangleArray(static_cast<const std::int64_t*>(ids.data()), mesh.Triangles.Count);
   FindSmallestAngles(mesh, geometry, threads, after.data(), MakePart(progress, 0.5, 1.0));
   const auto triangleOf = [this](vtkIdType polygon) { return this->Slots.GetTriangle(polygon); };
-  AddTriangleArray("vtkDelaunayFlipAngleBefore", before, NaN, triangleOf, output);
-  AddTriangleArray("vtkDelaunayFlipAngleAfter", after, NaN, triangleOf, output);
+  AddTriangleArray("Smallest angle before (degrees)", before, NaN, triangleOf, output);
+  AddTriangleArray("Smallest angle after (degrees)", after, NaN, triangleOf, output);
 }
 
 //------------------------------------------------------------------------------

@@ -71,6 +71,9 @@ public:
   /// more edges that are unmatched.
   std::int64_t GetNumberOfUnmatchedConstraints() const { return this->Constraints.Unmatched; }
 
+  /// See ConstraintEdges.
+  const std::string& GetFirstStranger() const { return this->Constraints.FirstStranger; }
+
   /// Views of arrays of the mesh or of this bridge, never of an output.
   TriangleMesh GetMesh() const;
 
@@ -83,7 +86,7 @@ public:
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
 
-  /// Adds vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter to the cells of such an output.
+  /// Adds the smallest angles before and after to the cells of such an output.
   /// @throws RunAborted; then there is neither of them.
   void StoreAngles(const FlipSession& session, int threads, const ProgressObserver& progress,
     vtkPolyData* output) const;

@@ -15,8 +15,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iomanip>
+#include <iterator>
 #include <limits>
 #include <new>
+#include <sstream>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -247,6 +251,101 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, boo
 }
 
 //------------------------------------------------------------------------------
+std::string Count(std::int64_t number, const std::string& singular)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t end = text.size(); end > 3; end -= 3)
+  {
+    text.insert(end - 3, ",");
+  }
+  return text + (singular.empty() ? "" : " ") + singular +
+    (number == 1 || singular.empty() ? "" : "s");
+}
+
+namespace
+{
+
+std::string Degrees(double angle)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << angle;
+  return angle == angle ? text.str() : "none";
+}
+
+/// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
+std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)
+{
+  std::string text;
+  for (const auto& [kind, count] : kinds)
+  {
+    text += count > 0 ? (text.empty() ? " (" : ", ") + Count(count, "") + " " + kind : "";
+  }
+  return text + (text.empty() ? "" : ")");
+}
+
+/// What to change if more than a tenth of the inner edges stay because the user wants it so.
+std::string Advise(const FlipReport& report)
+{
+  const EdgeCounts& edges = report.Edges;
+  const std::int64_t inner = edges.Edges - edges.Boundary;
+  const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
+  const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
+  if (10 * kept <= inner || isFromPoints)
+  {
+    return "";
+  }
+  const std::pair<std::int64_t, const char*> remedies[] = { { edges.Region, "fewer regions" },
+    { edges.Feature, "a larger feature angle" }, { edges.Constraint, "fewer constraints" } };
+  const auto most = std::max_element(std::begin(remedies), std::end(remedies),
+    [](const auto& one, const auto& other) { return one.first < other.first; });
+  return "hint: " + std::to_string(100 * kept / inner) + " % of the inner edges are kept; with " +
+    most->second + " more can flip\n";
+}
+
+/// A line, or nothing if there are no constraints.
+std::string DescribeConstraints(const FlipReport& flip)
+{
+  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
+  {
+    return {};
+  }
+  std::string text = "constraints: " + Count(flip.Edges.Constraint, "edge") + " kept";
+  if (flip.InsertedConstraints > 0)
+  {
+    text += ", " + Count(flip.InsertedConstraints, "") + " inserted by " +
+      Count(flip.ConstraintFlips, "flip");
+  }
+  return text + ", " + Count(flip.UnmatchedConstraints, "") + " not in the mesh\n";
+}
+
+}
+
+std::string Summarize(const UpdateReport& report)
+{
+  if (report.Triangles == 0)
+  {
+    return "";
+  }
+  const EdgeCounts& edges = report.Edges;
+  const std::string& reason = report.GeometryReason;
+  return "mesh: " + Count(report.Points, "point") + ", " + Count(report.Triangles, "triangle") +
+    ", " + Count(edges.Edges, "edge") + "\nkept edges: " + Count(edges.Fixed, "") +
+    List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
+      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
+      { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
+    "\n" + Advise(report) + "geometry: " + report.GetGeometryName() + (reason.empty() ? "" : ": ") +
+    reason + "\n" + DescribeConstraints(report) +
+    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
+    Count(report.NonDelaunayAfter, "") +
+    List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
+      { "blocked: would fold", report.BlockedByShape } }) +
+    "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
+    Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
+    " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
+    ToString(report.StopReason) + "\n";
+}
+
+//------------------------------------------------------------------------------
 void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data)
 {
   const auto add = [&](auto* array, const char* name, auto member)
@@ -295,6 +394,7 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   // The totals first: ParaView lists no field data when the first array is empty.
   AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
   addText("StopReason", ToString(report.StopReason));
+  addText("Summary", Summarize(report));
   addCount("TotalFlips", report.TotalFlips);
   addCount("NonDelaunayEdges", report.NonDelaunayAfter);
   addCount("BlockedByShape", report.BlockedByShape);

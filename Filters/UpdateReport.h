@@ -76,6 +76,12 @@ struct UpdateSummary
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
 
+/// E.g. "1,234,567 points"; the number alone without a noun.
+DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& singular = "");
+
+/// What was done, in lines of a title, ": " and a text; "" before an update and without triangles.
+std::string Summarize(const UpdateReport& report);
+
 /// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
 /// the same names.
 /// @param prefix of their names.

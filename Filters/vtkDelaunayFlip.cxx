@@ -167,8 +167,4 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TrackQuality: " << this->TrackQuality << "\n";
   os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
   os << indent << "GenerateQuality: " << this->GenerateQuality << "\n";
-  os << indent << "NumberOfEdgesBlockedByShape: " << this->GetNumberOfEdgesBlockedByShape() << "\n";
-  os << indent << "NumberOfEdgesBlockedByEdge: " << this->GetNumberOfEdgesBlockedByEdge() << "\n";
-  os << indent << "GeometryUsed: " << this->GetGeometryUsedAsString() << "\n";
-  os << indent << "GeometryReason: " << this->GetGeometryReason() << "\n";
 }

@@ -27,8 +27,8 @@
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
- * Converged, StopReason, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByEdge, FixedEdges,
- * NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, InsertedConstraintEdges,
+ * Converged, StopReason, Summary, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByEdge,
+ * FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, InsertedConstraintEdges,
  * ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic", the value, or "none" if
  * the in-circle predicate decides) and Backend. In the field data each name begins with
  * "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short names pass.
@@ -73,12 +73,12 @@
  * partition, and all results, are those of the whole mesh.
  *
  * @par References
- * C. Navarro, N. Hitschfeld, E. Scheihing: "A GPU-based method for generating quasi-Delaunay
- * triangulations based on edge-flips", GRAPP 2013 (the parallel method).
- * C. L. Lawson: "Software for C1 surface interpolation", in Mathematical Software III, 1977 (edge
- * flips end in the Delaunay triangulation).
- * J. R. Shewchuk: "Adaptive precision floating-point arithmetic and fast robust geometric
- * predicates", Discrete & Computational Geometry 18, 1997.
+ * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay
+ *   triangulations based on edge-flips, GRAPP 2013 (the parallel method).
+ * - C. L. Lawson: Software for C1 surface interpolation, in Mathematical Software III, 1977 (edge
+ *   flips end in the Delaunay triangulation).
+ * - J. R. Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric
+ *   predicates, Discrete & Computational Geometry 18, 1997.
  *
  * @sa
  * vtkDelaunayFlipPoints vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
@@ -307,8 +307,8 @@ public:
 
   ///@{
   /**
-   * Add the cell arrays vtkDelaunayFlipAngleBefore and vtkDelaunayFlipAngleAfter (double): the
-   * smallest angle of each triangle in degrees, 0 to 60, in space or, with PLANAR_XY, in the
+   * Add the cell arrays "Smallest angle before (degrees)" and "Smallest angle after (degrees)"
+   * (double): the smallest angle of each triangle, 0 to 60, in space or, with PLANAR_XY, in the
    * projection. Before is the angle of the triangle that was in the same place in the input, after
    * polygons were split. 0 for triangles without area; NaN if a coordinate is NaN or infinite, and
    * for cells that are not triangles. An aborted update leaves them out. Default off.

@@ -283,6 +283,8 @@ const char* vtkDelaunayFlipAlgorithm::GetStopReasonAsString() const
 
 const char* vtkDelaunayFlipAlgorithm::GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 
+const char* vtkDelaunayFlipAlgorithm::GetSummary() const { return this->Summary.c_str(); }
+
 const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
 {
   return this->Report->Backend.c_str();
@@ -370,6 +372,7 @@ void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
   this->Failure = summary.Failure;
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
+  this->Summary = this->Failure ? this->StopReasonText + "\n" : Summarize(*this->Report);
   this->SetErrorCode(
     this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
   if (this->Failure && !this->IsSilent)
@@ -514,8 +517,5 @@ void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "Paused: " << this->Paused << "\n";
-  os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
-  os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
-  os << indent << "NumberOfNonDelaunayEdges: " << this->GetNumberOfNonDelaunayEdges() << "\n";
-  os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
+  os << indent << "Summary:\n" << this->Summary;
 }

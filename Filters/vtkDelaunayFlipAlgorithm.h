@@ -214,6 +214,14 @@ public:
   ///@}
 
   /**
+   * What the last update did, for people: a line each for the mesh, the edges that were kept and by
+   * what, the geometry and why, the bad edges and the smallest angle (degrees) before and after,
+   * and the flips. Each line is a title, ": " and a text. After an error "failed: " and the reason;
+   * "" before the first update and for a mesh without triangles.
+   */
+  const char* GetSummary() const;
+
+  /**
    * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:
    * NVIDIA H200" if blocks differ. "" before the first update, after an error and for a mesh
    * without triangles.
@@ -358,6 +366,7 @@ private:
 
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
+  std::string Summary;
   // What the next update does, by the state of a live run:
   //
   //   Run   Next          the next update

@@ -235,7 +235,7 @@ public:
   {
     TriangleMesh mesh = this->Bridge.GetMesh();
     vtkNew<vtkDoubleArray> first; // of the slots that this rank had
-    first->SetName("vtkDelaunayFlipAngleBefore");
+    first->SetName("Smallest angle before (degrees)");
     first->SetNumberOfTuples(mesh.Triangles.Count);
     FindSmallestAngles(mesh, geometry, threads, first->GetPointer(0), {});
     vtkNew<vtkCellData> given, brought;
@@ -253,7 +253,7 @@ public:
     mesh.Triangles =
       TriangleArray(this->Flipped.Triangles.data(), static_cast<std::int64_t>(angles.size()));
     FindSmallestAngles(mesh, geometry, threads, angles.data(), {});
-    this->AddArray("vtkDelaunayFlipAngleAfter", angles, NaN, output);
+    this->AddArray("Smallest angle after (degrees)", angles, NaN, output);
   }
 
 private:

@@ -7,6 +7,7 @@
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
 #include "pqPropertyWidget.h"
+#include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
 #include "pqView.h"
 #include "vtkCommand.h"
@@ -15,16 +16,17 @@
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSettings.h"
 #include "vtkSMTrace.h"
-#include "vtkVariant.h"
 
 #if __has_include("vtkPVRepresentedArrayListSettings.h")
 #include "vtkPVRepresentedArrayListSettings.h"
 #define DELAUNAYFLIP_CAN_HIDE_ARRAYS
 #endif
 
+#include <QAbstractScrollArea>
 #include <QComboBox>
-#include <QFormLayout>
+#include <QFile>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -34,6 +36,7 @@
 #include <QVBoxLayout>
 #include <QVector>
 
+#include <algorithm>
 #include <string>
 
 namespace
@@ -129,50 +132,70 @@ private:
   QPushButton* Pause;
 };
 
-/// A group of information properties, shown as plain text beside their names. The text can be
-/// selected and copied, but not edited. Advanced properties are not shown: they are for scripts.
-class Results : public pqPropertyWidget
+/// What the last update did, as a table of text that can be selected and copied, but not edited.
+class Summary : public pqPropertyWidget
 {
   Q_OBJECT
 
 public:
-  Results(vtkSMProxy* smproxy, vtkSMPropertyGroup* group, QWidget* parentWidget)
-    : pqPropertyWidget(smproxy, parentWidget)
+  Summary(vtkSMProxy* smproxy, QWidget* parentWidget)
+    : pqPropertyWidget(smproxy, parentWidget),
+      Text(new QLabel(this))
   {
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
-    for (unsigned int i = 0; i < group->GetNumberOfProperties(); ++i)
-    {
-      vtkSMProperty* smproperty = group->GetProperty(i);
-      if (QString(smproperty->GetPanelVisibility()) != "advanced")
-      {
-        auto* value = new QLabel(this);
-        value->setObjectName(smproxy->GetPropertyName(smproperty));
-        value->setToolTip(pqPropertyWidget::getTooltip(smproperty));
-        value->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        value->setWordWrap(true);
-        pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(refresh()));
-        form->addRow(smproperty->GetXMLLabel(), value);
-        form->labelForField(value)->setToolTip(value->toolTip());
-        this->Values.append(value);
-      }
-    }
+    vtkSMProperty* smproperty = smproxy->GetProperty("Summary");
+    auto* box = new QVBoxLayout(this);
+    box->setContentsMargins(0, 0, 0, 0);
+    box->addWidget(this->Text);
+    this->Text->setObjectName("Summary");
+    this->Text->setToolTip(pqPropertyWidget::getTooltip(smproperty));
+    this->Text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    this->Text->setWordWrap(true);
+    pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(refresh()));
     this->refresh();
   }
 
 private Q_SLOTS:
   void refresh()
   {
-    for (QLabel* value : this->Values)
+    const auto read = [this](const char* name)
+    { return QString(vtkSMPropertyHelper(this->proxy(), name, true).GetAsString()); };
+    const QString text = read("Summary") + "where: " + read("BackendUsed");
+    QString table;
+    for (const QString& line : text.split('\n'))
     {
-      const vtkSMPropertyHelper helper(this->proxy(), value->objectName().toUtf8().data());
-      const bool isKnown = helper.GetNumberOfElements() > 0;
-      value->setText(isKnown ? QString::fromStdString(helper.GetAsVariant(0).ToString()) : "");
+      const int colon = line.indexOf(": ");
+      if (colon > 0)
+      {
+        table += "<tr><td><i>" + line.left(colon).toHtmlEscaped().replace(" ", "&nbsp;") +
+          "&nbsp;</i></td><td>" + line.mid(colon + 2).toHtmlEscaped() + "</td></tr>";
+      }
     }
+    const bool isKnown = text.indexOf('\n') > 0; // before the first update it is empty
+    this->Text->setText(isKnown ? "<table>" + table + "</table>" : QString());
+    this->fit();
   }
 
 private:
-  QList<QLabel*> Values; ///< Labels, whose object names are those of the properties.
+  void resizeEvent(QResizeEvent*) override { this->fit(); }
+
+  /// Breaks lines where the panel ends, which may be narrower than its widgets.
+  void fit()
+  {
+    QWidget* ancestor = this->parentWidget();
+    while (ancestor && !qobject_cast<QAbstractScrollArea*>(ancestor))
+    {
+      ancestor = ancestor->parentWidget();
+    }
+    if (ancestor)
+    {
+      QWidget* visible = static_cast<QAbstractScrollArea*>(ancestor)->viewport();
+      const int width = visible->width() - this->mapTo(visible, QPoint(0, 0)).x();
+      this->Text->setMaximumWidth(width);
+      this->Text->setMinimumHeight(this->Text->heightForWidth(std::min(width, this->width())));
+    }
+  }
+
+  QLabel* Text;
 };
 
 /// A list of the sources of polygonal data for an optional input, and "(none)". Unlike ParaView's
@@ -307,8 +330,22 @@ private:
 
 void pqDelaunayFlipClient::startup()
 {
+  QFile colors(":/DelaunayFlip/AngleColors.json");
+  colors.open(QIODevice::ReadOnly);
+  constexpr double Priority = 0.5; // below what the user chooses
+  vtkSMSettings::GetInstance()->AddCollectionFromString(colors.readAll().toStdString(), Priority);
   QObject::connect(
     GetModel(), &pqServerManagerModel::dataUpdated, this, &pqDelaunayFlipClient::refresh);
+  QObject::connect(GetModel(), &pqServerManagerModel::representationAdded, this,
+    [](pqRepresentation* shown)
+    {
+      vtkSMProxy* source = vtkSMPropertyHelper(shown->getProxy(), "Input", true).GetAsProxy();
+      if (source && std::string("DelaunayFlipStatistics") == source->GetXMLName())
+      {
+        vtkSMPropertyHelper(shown->getProxy(), "Justification", true).Set(0); // left, not centred
+        shown->getProxy()->UpdateVTKObjects();
+      }
+    });
 #ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
   // ParaView replaces all expressions when the user edits or loads settings.
   this->Observer = vtkPVRepresentedArrayListSettings::GetInstance()->AddObserver(
@@ -384,8 +421,8 @@ pqPropertyWidget* pqDelaunayFlipClient::createWidgetForPropertyGroup(
 {
   const QString type = group->GetPanelWidget();
   return type == "DelaunayFlipLiveControls" ? new LiveControls(proxy, parentWidget)
-    : type == "DelaunayFlipResults"
-    ? static_cast<pqPropertyWidget*>(new Results(proxy, group, parentWidget))
+    : type == "DelaunayFlipSummary"
+    ? static_cast<pqPropertyWidget*>(new Summary(proxy, parentWidget))
     : nullptr;
 }
 

@@ -33,7 +33,8 @@ unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER CMAKE_CUDA_COMPILER_
 [ -d /tools ] || python3 -m venv /tools
 pip install --quiet --disable-pip-version-check "$@"
 rm -rf /built
-pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw
+pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw \
+  --config-settings=cmake.define.DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE=OFF
 auditwheel show /built/raw/*.whl
 auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
 # oneTBB's licence goes with its library.

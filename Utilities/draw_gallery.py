@@ -41,7 +41,7 @@ def run(command, folder, file, options):
     reader.SetFileName(output)
     reader.Update()
     mesh = reader.GetOutput()
-    angles = mesh.GetCellData().GetArray("vtkDelaunayFlipAngleAfter")
+    angles = mesh.GetCellData().GetArray("Smallest angle after (degrees)")
     return (vtk_to_numpy(mesh.GetPoints().GetData()).astype(float),
             vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3),
             vtk_to_numpy(angles) if angles else None)

@@ -11,6 +11,8 @@ import os
 from ClientTesting import FOLDER, Panel, QtCore, QtWidgets, idle, load_plugin, play
 from paraview import simple
 
+NAME = "Smallest angle after (degrees)"
+
 
 def arrange(client):
     """A window in which the Properties panel has room for all properties of the filter."""
@@ -26,15 +28,11 @@ def show_mesh(source):
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground, view.Background = 0, [1, 1, 1]
     display = simple.GetDisplayProperties(source, view)
-    display.Representation = "Surface With Edges"
     display.EdgeColor = [0.1, 0.1, 0.1]
-    simple.ColorBy(display, ("CELLS", "vtkDelaunayFlipCount"))
-    colors = simple.GetColorTransferFunction("vtkDelaunayFlipCount")
-    colors.ApplyPreset("Inferno (matplotlib)", True)
-    colors.InvertTransferFunction()
-    colors.RescaleTransferFunction(0, 30)
-    colors.AutomaticRescaleRangeMode = "Never"
-    display.SetScalarBarVisibility(view, False)
+    display.SetScalarBarVisibility(view, True)
+    bar = simple.GetScalarBar(simple.GetColorTransferFunction(NAME), view)
+    bar.TitleColor = bar.LabelColor = [0, 0, 0]
+    bar.RangeLabelFormat, bar.WindowLocation = "%.0f", "Upper Right Corner"
 
 
 def look_at_mesh(view, zoom):
@@ -55,10 +53,12 @@ def apply(client, **properties):
     client.choose("Delaunay Flip", "Delaunay Flip")
     yield lambda: simple.GetActiveSource().GetXMLName() == "DelaunayFlip"
     flip = simple.GetActiveSource()
-    flip.Geometry, flip.GenerateFlipCount = "Planar XY", 1
+    flip.Geometry, flip.GenerateQuality = "Planar XY", 1
     for name, value in properties.items():
         setattr(flip, name, value)
     client.apply()
+    yield idle(0.3)
+    client.color_by(NAME)
     yield idle(0.3)
 
 

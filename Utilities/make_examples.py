@@ -11,11 +11,16 @@ outline of the survey, and pond.vtk. The same arguments give the same files.
 """
 import argparse
 import os
+import sys
 
-import numpy as np
-from make_terrain import EASTING, NORTHING, fractal_field, make_terrain, sample
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+try:
+    import numpy as np
+    from make_terrain import EASTING, NORTHING, fractal_field, make_terrain, sample
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+except ImportError as missing:
+    sys.exit(f"{missing}. The examples need NumPy and VTK for this Python: pip install numpy vtk, or on "
+             "Debian python3-numpy and python3-vtk9 with /usr/bin/python3.")
 
 VTK_HEADER = "# vtk DataFile Version 3.0\n{}\nASCII\nDATASET POLYDATA\nPOINTS {} double\n"
 

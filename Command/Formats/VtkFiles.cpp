@@ -46,9 +46,10 @@ namespace
 
 [[noreturn]] void FailOnType(const InputFile& file, const std::string& type)
 {
-  file.Fail("holds " + type.substr(0, 40) +
-    ", not a surface mesh (PolyData); ParaView's Extract Surface (vtkDataSetSurfaceFilter) "
-    "extracts one");
+  const bool isImage = type == "STRUCTURED_POINTS" || type == "ImageData";
+  file.Fail("holds " + type.substr(0, 40) + ", not a surface mesh (PolyData); ParaView's " +
+    (isImage ? "Warp By Scalar makes terrain of an image of heights, and " : "") +
+    "Extract Surface (vtkDataSetSurfaceFilter) extracts one");
 }
 
 /// Runs a reader. Any message of its means that a part of the file is missing.

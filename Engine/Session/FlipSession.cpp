@@ -138,6 +138,7 @@ struct FlipSession::Work
   void Keep(const IterationCounts& counts, double seconds);
   double MeasureAngle();
   void MeasureEnd();
+  void ListDefects();
   void ReportPoints();
 
   CallerMesh Mesh; ///< Empty in a session from points.
@@ -246,6 +247,7 @@ try
   this->Load();
   this->Report = this->Loaded->GetInputReport();
   this->Insertion.AddTo(this->Report);
+  this->ListDefects();
   const GeometryKind geometry = this->Report.GeometryUsed;
   this->Building.Reach(geometry, BuildStep::Prepared);
   this->Report.MinimumAngleBefore = this->MeasureAngle();
@@ -521,8 +523,7 @@ void FlipSession::Work::MeasureEnd()
   }
   this->Report.MinimumAngleAfter = this->MeasureAngle();
   this->IsMeasured = true;
-  this->Report.Defects = this->Loaded->GetInputReport().Defects;
-  AddDefects(this->Insertion.GetRefused(), this->Report.Defects);
+  this->ListDefects();
   if (this->Cloud)
   {
     this->ReportPoints();
@@ -536,6 +537,21 @@ void FlipSession::Work::MeasureEnd()
     {
       this->Report.Defects.push_back(turned);
     }
+  }
+}
+
+/// Those of the input, without what flips have caused.
+void FlipSession::Work::ListDefects()
+{
+  FlipReport& report = this->Report;
+  report.Defects = this->Loaded->GetInputReport().Defects;
+  AddDefects(this->Insertion.GetRefused(), report.Defects);
+  const EdgeCounts& edges = report.Edges;
+  if (!this->Cloud && report.Triangles > 1 && edges.Edges > 0 && edges.Boundary == edges.Edges)
+  {
+    report.Defects.push_back({ "triangles of which no two share an edge, so that none can flip: "
+                               "merge points that lie at the same place",
+      report.Triangles, {}, DefectIds::Points });
   }
 }
 

@@ -7,6 +7,7 @@
 
 /* Flips the long diagonal of a quad by the C interface. Build it with
  *   cc flip_arrays.c -I PREFIX/include/delaunayflip -L PREFIX/lib -ldelaunayflip
+ * or, with PREFIX in CMAKE_PREFIX_PATH, by CMake in this folder.
  */
 
 static int32_t PrintProgress(double share, void* user)
@@ -44,8 +45,8 @@ int main(void)
     fprintf(stderr, "%s\n", delaunayflip_error_message());
     return 1;
   }
-  printf("%lld flips, smallest angle %.1f -> %.1f degrees\n", (long long)report.total_flips,
-    report.minimum_angle_before, report.minimum_angle_after);
+  printf("%lld flip%s, smallest angle %.1f -> %.1f degrees\n", (long long)report.total_flips,
+    report.total_flips == 1 ? "" : "s", report.minimum_angle_before, report.minimum_angle_after);
   printf("%d %d %d, %d %d %d\n", triangles[0], triangles[1], triangles[2], triangles[3],
     triangles[4], triangles[5]);
   return 0;

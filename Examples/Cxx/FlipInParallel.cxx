@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Usage: mpirun -n RANKS FlipInParallel OUTPUT.pvtp [INPUT.vtp]
+/// Usage: mpirun -n RANKS FlipInParallel OUTPUT.pvtp [INPUT.vtp] [--planar-xy]
 ///
 /// Divides a mesh (default: a generated bad one) among the ranks, flips it as one, and writes the
 /// pieces: OUTPUT.pvtp and a .vtp for each rank. Triangles have the number of their rank as array
-/// "piece". Exit status: 0 done; 2 wrong usage; 3 a file cannot be read or written.
+/// "piece". --planar-xy: judge edges by x and y alone, for terrain. Exit status: 0 done; 2 wrong
+/// usage; 3 a file cannot be read or written.
 
 #include "BadMesh.h"
 
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace
@@ -117,18 +119,30 @@ bool Write(vtkPolyData* piece, const char* file, vtkMultiProcessController* cont
 
 int Run(int argc, char** argv, vtkMultiProcessController* controller)
 {
-  if (argc < 2 || argc > 3)
-  {
-    std::cerr << "usage: mpirun -n RANKS " << argv[0] << " OUTPUT.pvtp [INPUT.vtp]\n";
-    return 2;
-  }
   const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
-  const vtkSmartPointer<vtkPolyData> mesh = argc == 3 ? ReadMesh(argv[2]) : MakeBadMesh();
+  std::vector<std::string> files(argv + 1, argv + argc);
+  const auto terrain = std::find(files.begin(), files.end(), "--planar-xy");
+  const bool isTerrain = terrain != files.end();
+  files.erase(terrain, isTerrain ? terrain + 1 : terrain);
+  if (files.empty() || files.size() > 2 || files[0][0] == '-')
+  {
+    if (rank == 0)
+    {
+      std::cerr << "usage: mpirun -n RANKS " << argv[0]
+                << " OUTPUT.pvtp [INPUT.vtp] [--planar-xy]\nDivides a mesh among the ranks, flips "
+                   "it as one, and writes the pieces.\n";
+    }
+    return files.size() == 1 && files[0] == "--help" ? 0 : 2;
+  }
+  const vtkSmartPointer<vtkPolyData> mesh =
+    files.size() == 2 ? ReadMesh(files[1].c_str()) : MakeBadMesh();
   if (mesh->GetNumberOfCells() == 0)
   {
     return 3; // the reader has said why
   }
   vtkNew<vtkPDelaunayFlip> flip;
+  flip->SetGeometry(
+    isTerrain ? vtkPDelaunayFlip::GEOMETRY_PLANAR_XY : vtkPDelaunayFlip::GEOMETRY_AUTO);
   flip->SetInputData(CutPiece(mesh, rank, ranks));
   flip->UpdatePiece(rank, ranks, 0);
   NameRank(flip->GetOutput(), rank);
@@ -137,7 +151,7 @@ int Run(int argc, char** argv, vtkMultiProcessController* controller)
     std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfRounds() << " rounds on "
               << ranks << " ranks, " << flip->GetNumberOfNonDelaunayEdges() << " bad edges left\n";
   }
-  return Write(flip->GetOutput(), argv[1], controller) ? 0 : 3;
+  return Write(flip->GetOutput(), files[0].c_str(), controller) ? 0 : 3;
 }
 
 }

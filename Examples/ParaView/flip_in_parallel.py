@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Divides a mesh among the ranks of pvbatch, flips it as one, and writes the pieces.
 
-usage: mpirun -n RANKS pvbatch flip_in_parallel.py MESH OUTPUT.pvtp
+usage: mpirun -n RANKS pvbatch flip_in_parallel.py MESH OUTPUT.pvtp [--planar-xy]
 
+--planar-xy: judge edges by x and y alone, for terrain.
 The plugin is found by PV_PLUGIN_PATH. Only the first rank runs this script; the others do what it
 asks of them.
 """
@@ -14,11 +15,12 @@ from paraview import simple
 
 
 def main():
-    if len(sys.argv) != 3:
+    is_terrain = sys.argv[3:] == ["--planar-xy"]
+    if len(sys.argv) != 3 + is_terrain:
         sys.exit(__doc__)
     mesh = simple.OpenDataFile(sys.argv[1])
     pieces = simple.RedistributeDataSet(Input=mesh)
-    flip = simple.DelaunayFlip(Input=pieces)
+    flip = simple.DelaunayFlip(Input=pieces, Geometry="Planar XY" if is_terrain else "Auto")
     flip.UpdatePipeline()
     flip.SMProxy.UpdatePipelineInformation()
     if flip.StopReason != "converged":

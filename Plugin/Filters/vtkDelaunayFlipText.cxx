@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipText.h"
 
-#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -11,10 +10,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
-#include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <limits>
 #include <string>
 
 vtkStandardNewMacro(vtkDelaunayFlipText);
@@ -22,46 +18,31 @@ vtkStandardNewMacro(vtkDelaunayFlipText);
 namespace
 {
 
-vtkAbstractArray* FindArray(vtkFieldData* data, const std::string& name)
+/// Breaks long lines at blanks, for a view of usual width.
+std::string Wrap(const std::string& text)
 {
-  return data->GetAbstractArray(("DelaunayFlip:" + name).c_str());
-}
-
-/// The last value of an array; NaN if there is none.
-double GetLast(vtkFieldData* data, const std::string& name)
-{
-  auto* array = vtkDataArray::SafeDownCast(FindArray(data, name));
-  const vtkIdType count = array ? array->GetNumberOfTuples() : 0;
-  return count > 0 ? array->GetTuple1(count - 1) : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// 1234567 -> "1,234,567"; NaN, which means no iteration -> "0".
-std::string Group(double number)
-{
-  std::string text = std::isnan(number) ? "0" : std::to_string(std::llround(number));
-  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
+  constexpr std::size_t Width = 60;
+  std::string wrapped;
+  std::size_t column = 0, blank = std::string::npos;
+  for (const char letter : text)
   {
-    text.insert(static_cast<std::size_t>(i), ",");
+    wrapped += letter;
+    column = letter == '\n' ? 0 : column + 1;
+    blank = letter == ' ' ? wrapped.size() - 1 : (column == 0 ? std::string::npos : blank);
+    if (column > Width && blank != std::string::npos)
+    {
+      wrapped.replace(blank, 1, "\n    ");
+      column = wrapped.size() - blank - 1;
+      blank = std::string::npos;
+    }
   }
-  return text;
+  return wrapped;
 }
 
 std::string Describe(vtkFieldData* data)
 {
-  auto* reason = vtkStringArray::SafeDownCast(FindArray(data, "StopReason"));
-  if (!reason)
-  {
-    return "no statistics: not a mesh of Delaunay Flip";
-  }
-  char angle[64] = "";
-  const double degrees = GetLast(data, "MinimumAngle");
-  if (!std::isnan(degrees))
-  {
-    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", degrees);
-  }
-  return "iteration " + Group(GetLast(data, "Iteration")) + ", " + reason->GetValue(0) + "\n" +
-    Group(GetLast(data, "TotalFlips")) + " flips, " + Group(GetLast(data, "NonDelaunayEdges")) +
-    " bad edges left" + angle;
+  auto* summary = vtkStringArray::SafeDownCast(data->GetAbstractArray("DelaunayFlip:Summary"));
+  return summary ? Wrap(summary->GetValue(0)) : "no statistics: not a mesh of Delaunay Flip";
 }
 
 }

@@ -22,6 +22,14 @@ COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
+#: Kinds of kept edges, in words.
+_KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
+          "wrongly wound": "wrongly_wound_edges", "feature angle": "feature_edges",
+          "constraints": "constraint_edges", "regions": "region_edges"}
+_BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
+            "blocked: would fold": "blocked_by_shape"}
+_SUMMED = {*COUNTS.values(), *_KINDS.values(), "number_of_points", "number_of_triangles", "edges",
+           "non_delaunay_before"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
@@ -39,7 +47,7 @@ class Report:
     stop_reason: str  #: "converged", "iteration limit", "aborted", "running" or "not started".
     geometry_used: str  #: "planar", "planar-xy" or "surface".
     geometry_reason: str  #: Why.
-    backend: str  #: E.g. "Threads: 8" or "CUDA: NVIDIA H200".
+    backend: str  #: E.g. ``"Threads: 8"`` or ``"CUDA: NVIDIA H200"``.
     fallback: str  #: Why the CPU replaced a GPU; "" if it did not.
     tolerance: str  #: "automatic", the requested value, or "none".
     defects: str  #: What was wrong with the mesh, as a sentence; "" if nothing.
@@ -104,11 +112,11 @@ class Totals:
 
     def __init__(self, stop_reason="not started"):
         self.stop_reason = stop_reason
-        self.counts = dict.fromkeys(COUNTS.values(), 0)
+        self.counts = dict.fromkeys(_SUMMED, 0)
         self.texts = dict.fromkeys(TEXTS.values(), "")
         self.geometry_used = "auto"
         self.iterations = numpy.empty(0, dtype=ITERATION)
-        self.minimum_angle_after = numpy.inf
+        self.minimum_angle_before = self.minimum_angle_after = numpy.inf
         self.has_triangles = False
         self.has_angles = False  #: Some triangle has no coordinate that is NaN.
 
@@ -122,6 +130,7 @@ class Totals:
         totals.texts = {name: getattr(report, name) for name in totals.texts}
         totals.geometry_used = report.geometry_used
         totals.iterations = session.iterations
+        totals.minimum_angle_before = report.minimum_angle_before
         totals.minimum_angle_after = report.minimum_angle_after
         totals.has_triangles = True
         totals.has_angles = not numpy.isnan(report.minimum_angle_before)
@@ -144,11 +153,58 @@ class Totals:
         elif other.geometry_used not in ("auto", self.geometry_used):
             self.geometry_used = "mixed"
         if other.has_angles:
-            self.minimum_angle_after = numpy.minimum(
-                self.minimum_angle_after, other.minimum_angle_after)
+            for name in ("minimum_angle_before", "minimum_angle_after"):
+                setattr(self, name, numpy.minimum(getattr(self, name), getattr(other, name)))
         self.has_triangles = self.has_triangles or other.has_triangles
         self.has_angles = self.has_angles or other.has_angles
         self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
+
+    def summarize(self):
+        """What was done, in lines of a title, ": " and a text; "" without triangles."""
+        if not self.counts["number_of_triangles"]:
+            return ""
+        n, reason, iterations = self.counts, self.texts["geometry_reason"], len(self.iterations)
+        angles = [f"{angle:.4g}" if self.has_angles and not numpy.isnan(angle) else "none"
+                  for angle in (self.minimum_angle_before, self.minimum_angle_after)]
+        lines = [
+            f"mesh: {_count(n['number_of_points'], 'point')}, "
+            f"{_count(n['number_of_triangles'], 'triangle')}, {_count(n['edges'], 'edge')}",
+            f"kept edges: {n['fixed_edges']:,}" + self._list(_KINDS),
+            self._advise(),
+            f"geometry: {self.geometry_used}" + (f": {reason}" if reason else ""),
+            self._describe_constraints(),
+            f"bad edges: {n['non_delaunay_before']:,} -> {n['non_delaunay_after']:,}"
+            + self._list(_BLOCKED),
+            f"smallest angle: {angles[0]} -> {angles[1]} degrees",
+            f"flips: {n['total_flips']:,} in {_count(iterations, 'iteration')}, {self.stop_reason}"]
+        return "".join(line + "\n" for line in lines if line)
+
+    def _list(self, kinds):
+        """" (1,000 boundary, 6 constraints)"; kinds of which there are none are left out."""
+        texts = [f"{self.counts[name]:,} {kind}" for kind, name in kinds.items() if self.counts[name]]
+        return f" ({', '.join(texts)})" if texts else ""
+
+    def _advise(self):
+        n = self.counts
+        inner = n["edges"] - n["boundary_edges"]
+        kept = n["fixed_edges"] + inner - n["edges"] - n["non_manifold_edges"] - n["wrongly_wound_edges"]
+        is_from_points = self.texts["geometry_reason"].startswith("points are triangulated")
+        if 10 * kept <= inner or is_from_points:
+            return ""
+        remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
+                    "constraint_edges": "fewer constraints"}
+        return (f"hint: {100 * kept // inner} % of the inner edges are kept; with "
+                f"{remedies[max(remedies, key=n.get)]} more can flip")
+
+    def _describe_constraints(self):
+        n = self.counts
+        if n["constraint_edges"] + n["unmatched_constraints"] == 0:
+            return ""
+        inserted = n["inserted_constraints"]
+        return (f"constraints: {_count(n['constraint_edges'], 'edge')} kept"
+                + (f", {inserted:,} inserted by {_count(n['constraint_flips'], 'flip')}"
+                   if inserted else "")
+                + f", {n['unmatched_constraints']:,} not in the mesh")
 
     def list_columns(self):
         """(name, values) with a value per iteration."""
@@ -160,12 +216,17 @@ class Totals:
         when the first array is empty."""
         yield "Converged", numpy.int32(self.converged)
         yield "StopReason", self.stop_reason
+        yield "Summary", self.summarize()
         for name, count in COUNTS.items():
             yield name, self.counts[count]
         yield "GeometryUsed", self.geometry_used
         for name, text in TEXTS.items():
             yield name, self.texts[text]
         yield from self.list_columns()
+
+
+def _count(number, singular):
+    return f"{number:,} {singular}" + ("" if number == 1 else "s")
 
 
 def _join_iterations(a, b):

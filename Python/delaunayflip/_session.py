@@ -252,7 +252,7 @@ def flip(
     """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
-    safely stay and are counted. The same input gives the same bits, on any threads or GPUs.
+    safely stay and are counted. The result is identical on any threads or GPUs.
 
     Args:
         points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.

@@ -192,18 +192,20 @@ class Constraints:
     Attributes:
         pairs: (k, 2) int64, unique, in the order given, the smaller id of each pair first.
         to_insert: (k,) whether a pair is to be inserted if the mesh does not have it.
-        unmatched: how many edges of the second input end at no point of the mesh.
+        unmatched: how many edges of the second input the mesh does not have.
+        first_stranger: where the first of them is that ends at no point of the mesh; "" if none.
     """
 
     def __init__(self, surface, others, settings, triangles):
-        pairs, flags, self.unmatched, points = [], [], 0, surface.points
+        pairs, flags, points = [], [], surface.points
+        self.unmatched, self.first_stranger = 0, ""
         if settings.lines_as_constraints:
             lines = surface.read("Lines", "line, cell")
             lines.require_points(len(points))
             pairs.append(_drop_points(list_pairs(lines, False)))
             flags.append(numpy.full(len(pairs[-1]), settings.insert_lines))
         if others is not None:
-            found, self.unmatched = _find_others(others, points, triangles)
+            found, self.unmatched, self.first_stranger = _find_others(others, points, triangles)
             pairs.append(found)
             flags.append(numpy.full(len(found), settings.insert_constraints))
         self.pairs, self.to_insert = _unite(pairs, flags, max(len(points), 1))
@@ -242,7 +244,7 @@ def _unite(pairs, flags, count):
 
 
 def _find_others(others, points, triangles):
-    """The pairs of the second input, and how many of its edges end at no point of the mesh."""
+    """The pairs of the second input, and `unmatched` and `first_stranger` of Constraints."""
     other_points = others.points
     has_same_bits = (other_points.dtype == points.dtype and len(other_points) == len(points)
                      and other_points.tobytes() == points.tobytes())
@@ -253,7 +255,7 @@ def _find_others(others, points, triangles):
         cells.require_points(len(points if is_by_id else other_points))
         pairs.append(list_pairs(cells, are_closed=kind == "Polys"))
     pairs = numpy.concatenate(pairs)
-    return (_drop_points(pairs), 0) if is_by_id else _match_places(
+    return (_drop_points(pairs), 0, "") if is_by_id else _match_places(
         pairs, other_points, points, triangles)
 
 
@@ -289,7 +291,20 @@ def _match_places(pairs, other_points, points, triangles):
     single = _drop_points(first[wanted[matches == 1]])
     crowded, found = _find_crowded(wanted[matches > 1], places, triangles, size)
     unmatched = int((matches == 0).sum()) + int((matches > 1).sum()) - found
-    return numpy.concatenate([single, crowded]), unmatched
+    stranger = ""
+    if (matches == 0).any():
+        stranger = _describe_edge(other_points, other_places, wanted[matches == 0][0], pairs)
+    return numpy.concatenate([single, crowded]), unmatched, stranger
+
+
+def _describe_edge(points, places, wanted, pairs):
+    """E.g. "from (0, 0, 0) to (1, 2.5, 0)": the first points of the pairs at the two wanted places."""
+    pairs = _drop_points(pairs)
+    first = sorted(numpy.flatnonzero(places[pairs.ravel()] == place)[0] for place in wanted)
+    digits = 7 if points.dtype == numpy.float32 else 10
+    ends = ["(" + ", ".join(f"{x:.{digits}g}" for x in points[end].tolist()) + ")"
+            for end in pairs.ravel()[first]]
+    return f"from {ends[0]} to {ends[1]}"
 
 
 def _find_crowded(wanted, places, triangles, size):

@@ -141,11 +141,10 @@ class Filter(VTKPythonAlgorithmBase):
         return self.name
 
     def __str__(self):
-        names = [item.name for item in self.properties]
-        names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges", "StopReasonAsString"]
-        values = ((name, getattr(self, "Get" + name)()) for name in names)
-        lines = [f"  {name.replace('AsString', '')}: {int(value) if isinstance(value, bool) else value}"
+        values = ((item.name, self._values[item.name]) for item in self.properties)
+        lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
                  for name, value in values]
+        lines += ["  Summary:", *self.GetSummary().splitlines()]
         return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
 
     def SetInputData(self, *port_and_data):
@@ -274,6 +273,8 @@ _COMMON_ANSWERS = {
     "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
     else _library.STOP_REASONS.index(update.totals.stop_reason),
     "GetStopReasonAsString": _get_stop_reason,
+    "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
+    else update.totals.summarize(),
     "GetBackendUsed": lambda update: update.totals.texts["backend"],
     "GetFailure": lambda update: int(update.failure),
     "GetErrorMessage": lambda update: update.error_message,

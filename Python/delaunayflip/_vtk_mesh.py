@@ -92,7 +92,11 @@ class Vtk:
         """
         array = mesh.GetCellData().GetAbstractArray(name)
         if array is None:
-            raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}".')
+            data = mesh.GetCellData()
+            names = [data.GetAbstractArray(i).GetName() for i in range(data.GetNumberOfArrays())]
+            listed = ", ".join(f'"{one or ""}"' for one in names) or "none"
+            raise InvalidOptions(
+                f'RegionArray: the input has no cell array named "{name}"; it has {listed}.')
         if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
             raise InvalidOptions(
                 f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
@@ -161,8 +165,11 @@ class MeshInput:
     def _list_defects(self):
         """Texts of a warning about the input's constraints and arrays."""
         mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
+        stranger = self.constraints.first_stranger
         texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
-                 "mesh does not have"] if count else []
+                 "mesh does not have" + (stranger and ": ends are not points of the mesh (coordinates "
+                                         f"must be equal, not just close), first {stranger}")
+                 ] if count else []
         texts += describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
         texts += describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                  passed if self.slots.in_place else "left out")
@@ -274,8 +281,8 @@ class MeshInput:
             yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
         if angles:
             used = session.report.geometry_used
-            for name, triangles in (("Before", self.slots.triangles), ("After", session.triangles)):
-                yield "vtkDelaunayFlipAngle" + name, self._spread(
+            for when, triangles in (("before", self.slots.triangles), ("after", session.triangles)):
+                yield f"Smallest angle {when} (degrees)", self._spread(
                     smallest_angles(self.points, triangles, geometry=used), numpy.nan)
 
     def _spread(self, values, elsewhere):

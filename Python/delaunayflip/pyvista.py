@@ -31,7 +31,7 @@ from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
-         "scalar_bar_args": {"title": "Smallest angle (degrees)"}}
+         "scalar_bar_args": {"title": "Smallest angle (degrees)\n", "fmt": "%.0f"}}  # \n: above the labels
 _FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
@@ -61,7 +61,7 @@ def flip(
         mesh: Any PolyData; it is not changed.
         constraints: Lines and polygons whose edges stay, and are inserted where the mesh is planar.
         flip_counts: Add the cell array vtkDelaunayFlipCount.
-        quality: Add vtkDelaunayFlipAngleBefore and ...After, the smallest angles in degrees.
+        quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
             backend, threads, device, devices, pieces and track_quality as for delaunayflip.flip;
             region_array: a cell array, edges between its values stay; lines_as_constraints,
@@ -243,7 +243,8 @@ if hasattr(pyvista, "register_dataset_accessor"):
 def _require_mesh(name, mesh):
     if not isinstance(mesh, pyvista.PolyData):
         raise TypeError(f"{name} must be a pyvista.PolyData, not {type(mesh).__name__}; of grids and "
-                        "images, mesh.extract_surface().triangulate() makes one")
+                        "images, mesh.extract_surface().triangulate() makes one; of heights in an "
+                        "image, first mesh.warp_by_scalar() makes terrain")
     return mesh
 
 
@@ -261,7 +262,9 @@ class _Run:
                  for name in _FLAGS if name in options}
         regions = options.pop("region_array", None) or ""
         if regions and regions not in mesh.cell_data:
-            raise InvalidOptions(f"region_array: the mesh has no cell array {regions!r}")
+            listed = ", ".join(map(repr, mesh.cell_data)) or "none"
+            raise InvalidOptions(
+                f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
         self._input = MeshInput(mesh, constraints, Settings(**flags, region_array=regions))
         self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
         self.session = self._input.open(**options)

@@ -11,6 +11,7 @@ from CommandTesting import (
     CommandTest,
     bumpy_grid,
     make_mesh,
+    points_of,
     random_insertion,
     read_mesh,
     triangle_set,
@@ -63,7 +64,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh), 0)
         path = self.path("in.vtk")
         result = self.succeed(path, "out.vtk", "--insert-lines")
-        self.assertIn("1 edge fixed, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
+        self.assertIn("1 edge kept, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
         self.assertTrue(self.has_edge(0, 2))
 
     def test_constraints_that_cannot_be_inserted_are_named(self):
@@ -71,8 +72,31 @@ class Options(CommandTest):
         path = write_mesh(mesh, self.path("in.vtk"))
         lines = write_mesh(make_mesh(KITE, [], [(1, 3), (2, 0)]), self.path("lines.vtk"))
         result = self.succeed(path, "out.vtk", "--constraints", lines)
-        self.assertIn("1 edge fixed, 1 not in the mesh", result.stdout)
+        self.assertIn("1 edge kept, 1 not in the mesh", result.stdout)
         self.assertIn("crosses edges that stay (first: 0-2)", result.stderr)
+
+    def test_constraints_beside_the_mesh(self):
+        """The message says why they do not match, and where the first is."""
+        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
+        beside = [(-2, 0, 0), (0, 1, 0), (0, 1.5, 0), (2, 0, 0)]
+        lines = write_mesh(make_mesh(beside, [], [(0, 1), (3, 2), (2, 0)]), self.path("lines.vtk"))
+        self.assertIn("2 constraint edges of the second input that the mesh does not have: ends are "
+                      "not points of the mesh (coordinates must be equal, not just close), first "
+                      "from (0, 1.5, 0) to (2, 0, 0)\n",
+                      self.succeed(path, "out.vtk", "--constraints", lines).stderr)
+
+    def test_merged_points(self):
+        """Triangles that share no points cannot flip, which a warning says, until these are merged."""
+        corners = [KITE[i] for cell in KITE_CELLS for i in cell]
+        path = write_mesh(make_mesh(corners, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
+        told = self.succeed(path, "out.vtk").stderr
+        self.assertEqual(told.count("\n"), 1, told)
+        self.assertIn("warning: 2 triangles of which no two share an edge", told)
+        self.assertIn("--merge-points", told)
+        result = self.succeed(path, "out.vtk", "--merge-points")
+        self.assertIn("in.vtk: of 6 points 4 are left after merging\n", result.stderr)
+        self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
+        self.assertEqual(len(points_of(read_mesh(self.path("out.vtk")))), 4)
 
     def test_bad_constraints(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
@@ -94,7 +118,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh), 1)
         self.assertEqual(self.flips(mesh, "--region-array", "Rock"), 0)
         path = self.path("in.vtk")
-        self.fail_with(2, path, "out.vtk", "--region-array", "Sand", naming=["Sand"])
+        self.fail_with(2, path, "out.vtk", "--region-array", "Sand", naming=["Sand", 'it has "Rock"'])
 
     def test_quality(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
@@ -107,13 +131,14 @@ class Options(CommandTest):
             self.assertAlmostEqual(after, 2 * math.degrees(math.atan(1 / 2)))
         self.succeed(path, "out.ply", "--quality")
         self.succeed("out.ply", "again.vtp")
-        self.assertEqual(self.angles("again.vtp"), [before, after])
+        self.assertEqual(self.angles("again.vtp", "_"), [before, after])
         self.fail_with(2, path, "out.obj", "--quality", naming=["--quality", ".vtp"])
 
-    def angles(self, name):
-        """The smallest values of the arrays that --quality adds."""
+    def angles(self, name, blank=" "):
+        """The smallest values of the arrays that --quality adds. Names in a .ply have no blanks."""
         data = read_mesh(self.path(name)).GetCellData()
-        arrays = [data.GetArray("vtkDelaunayFlipAngle" + when) for when in ("Before", "After")]
+        arrays = [data.GetArray(f"Smallest angle {when} (degrees)".replace(" ", blank))
+                  for when in ("before", "after")]
         return [array.GetRange()[0] for array in arrays if array]
 
     def test_feature_angle(self):

@@ -201,7 +201,7 @@ class Results(PointTest):
             self.write("in.xyz", text)
             mesh, result = self.triangulate("in.xyz")
             self.assertEqual(triangles_of(mesh), [])
-            self.assertIn("0 triangles", result.stdout)
+            self.assertIn("no triangles", result.stdout)
 
     def test_plane(self):
         """Points of the plane x = 3."""
@@ -327,7 +327,7 @@ class Usage(PointTest):
             ["--geometry", "planar"], ["--criterion", "in-circle"], ["--feature-angle", 30],
             ["--tolerance", 0], ["--tie-rule", "keep"], ["--no-insert-constraints"],
             ["--ignore-lines"], ["--region-array", "a"], ["--devices", "all"], ["--pieces", 2],
-            ["--quality"],
+            ["--quality"], ["--merge-points"],
         ):
             self.fail_with(2, "in.xyz", "out.vtk", "--from-points", *option,
                            naming=[option[0], "excludes --from-points"])

@@ -22,7 +22,7 @@ from CommandTesting import (
 
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
-    *("constraint_edges", "unmatched_constraint_edges"),
+    *("feature_edges", "region_edges", "constraint_edges", "unmatched_constraint_edges"),
     *("inserted_constraint_edges", "constraint_flips"),
     *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
@@ -157,7 +157,8 @@ class Summary(CommandTest):
     def test_numbers(self):
         text = self.succeed(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk").stdout
         for words in (
-            "8 points, 6 triangles, 13 edges (8 fixed)\n",
+            "mesh            8 points, 6 triangles, 13 edges\n",
+            "kept edges      8 (8 boundary)\n",
             "geometry        planar: all points lie in one plane; the feature angle has no effect\n",
             "bad edges       1 -> 0",
             "9 in 5 iterations, converged",
@@ -166,7 +167,7 @@ class Summary(CommandTest):
             self.assertIn(words, text)
         self.assertRegex(text, r"smallest angle  [\d.]+ -> [\d.]+ degrees")
         self.assertRegex(text, r"time            read [\d.]+ s, edges [\d.]+ s, flips [\d.]+ s")
-        self.assertLessEqual(len(text.splitlines()), 8)
+        self.assertLessEqual(len(text.splitlines()), 9)
 
     def test_why_edges_are_left(self):
         """A tetrahedron, in which every flip would duplicate an edge, beside a folded sheet."""
@@ -176,8 +177,25 @@ class Summary(CommandTest):
         text = self.succeed(
             write_mesh(make_mesh(points, triangles), self.path("in.vtk")), "out.vtk",
             "--geometry", "surface", "--feature-angle", 180).stdout
-        self.assertIn("bad edges       2 -> 2 (2 blocked: 1 would duplicate an edge, "
-                      "1 would fold)\n", text)
+        self.assertIn("bad edges       2 -> 2 (1 blocked: would duplicate an edge, "
+                      "1 blocked: would fold)\n", text)
+
+    def test_what_keeps_many_edges(self):
+        """A hint follows if more than a tenth of the inner edges is kept on request."""
+        path = write_mesh(bumpy_grid(12, 3), self.path("in.vtk"))
+        for angle, share in ((1, r"9\d|100"), (180, None)):
+            text = self.succeed(path, "out.vtk", "--geometry", "surface", "--feature-angle", angle).stdout
+            hint = re.search(r"hint +(\d+) % of the inner edges are kept; with a larger feature angle", text)
+            self.assertEqual(hint is not None, share is not None, text)
+            self.assertTrue(hint is None or re.fullmatch(share, hint[1]), text)
+        text = self.succeed(path, "out.vtk", "--constraints", path).stdout
+        self.assertIn("100 % of the inner edges are kept; with fewer constraints", text)
+
+    def test_no_triangles(self):
+        path = write_mesh(make_mesh([(0, 0, 0)], []), self.path("in.vtk"))
+        text = self.succeed(path, "out.vtk").stdout
+        self.assertRegex(text, r"^mesh            1 point, no triangles\ntime .* s\nwrote  ")
+
 
 class Messages(CommandTest):
     def test_steep_height_field(self):

@@ -192,6 +192,9 @@ class LostByVtk(BadFileTest):
             "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
         )
         self.refuse("grid.vtk", "UNSTRUCTURED_GRID", "Extract Surface")
+        self.write("image.vtk", "# vtk DataFile Version 3.0\nheights\nASCII\nDATASET STRUCTURED_POINTS\n"
+                   "DIMENSIONS 2 2 1\nORIGIN 0 0 0\nSPACING 1 1 1\n")
+        self.refuse("image.vtk", "STRUCTURED_POINTS", "Warp By Scalar")
 
     def test_other_xml_type(self):
         self.write(

@@ -69,6 +69,20 @@ TEST(DirtyInput, DelaunayMeshesComeBackBitForBit)
   }
 }
 
+/// What a caller may think converged: nothing was flipped because nothing can be.
+TEST(DirtyInput, TrianglesWithPointsOfTheirOwnAreReported)
+{
+  const std::vector<double> points = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 };
+  const auto describe = [&](const std::vector<std::int32_t>& triangles) {
+    return DescribeDefects(FlipDirty({ points, triangles }, GeometryKind::Auto).Report.Defects);
+  };
+  EXPECT_EQ("2 triangles of which no two share an edge, so that none can flip: merge points that "
+            "lie at the same place",
+    describe({ 0, 1, 2, 3, 4, 5 }));
+  EXPECT_EQ("", describe({ 0, 1, 2 }));
+  EXPECT_EQ("", describe({ 0, 1, 2, 1, 4, 2 }));
+}
+
 /// Some points are NaN or infinite: no flip touches their triangles, and all others become
 /// Delaunay.
 TEST(DirtyInput, NonFinitePointsStayAndTheRestIsProcessed)

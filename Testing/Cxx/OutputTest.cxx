@@ -52,7 +52,7 @@ const double AngleBefore = std::atan(1.0 / 3.0) * Degrees, AngleAfter = 2.0 * An
 
 void ExpectAngles(vtkPolyData* mesh, const char* when, const std::vector<double>& expected)
 {
-  const std::string name = std::string("vtkDelaunayFlipAngle") + when;
+  const std::string name = std::string("Smallest angle ") + when + " (degrees)";
   auto* angles = vtkDoubleArray::SafeDownCast(mesh->GetCellData()->GetArray(name.c_str()));
   ASSERT_NE(angles, nullptr) << name;
   ASSERT_EQ(angles->GetNumberOfTuples(), static_cast<vtkIdType>(expected.size()));
@@ -165,8 +165,8 @@ TEST(Output, AnglesPerTriangle)
   EXPECT_EQ(RunCleanly(filter)->GetCellData()->GetNumberOfArrays(), 1);
   filter->GenerateQualityOn();
   auto output = RunCleanly(filter);
-  ExpectAngles(output, "Before", { NAN, NAN, AngleBefore, AngleBefore });
-  ExpectAngles(output, "After", { NAN, NAN, AngleAfter, AngleAfter });
+  ExpectAngles(output, "before", { NAN, NAN, AngleBefore, AngleBefore });
+  ExpectAngles(output, "after", { NAN, NAN, AngleAfter, AngleAfter });
 
   // The rhombus as a quad, a degenerate triangle, one with a NaN, and a cell of two points.
   const Points points = { { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { 9, 0, 0 },
@@ -174,19 +174,19 @@ TEST(Output, AnglesPerTriangle)
   WatchedFilter mixed(MakeMesh(points, { { 0, 1, 2, 3 }, { 4, 5, 6 }, { 5, 6, 7 }, { 4, 5 } }));
   mixed->GenerateQualityOn();
   mixed->SetGeometryToPlanarXY();
-  ExpectAngles(mixed.Run(), "Before", { AngleBefore, AngleBefore, 0, NAN, NAN });
-  ExpectAngles(mixed.Run(), "After", { AngleAfter, AngleAfter, 0, NAN, NAN });
+  ExpectAngles(mixed.Run(), "before", { AngleBefore, AngleBefore, 0, NAN, NAN });
+  ExpectAngles(mixed.Run(), "after", { AngleAfter, AngleAfter, 0, NAN, NAN });
   mixed->TriangulateOff();
-  ExpectAngles(mixed.Run(), "After", { NAN, 0, NAN, NAN });
+  ExpectAngles(mixed.Run(), "after", { NAN, 0, NAN, NAN });
 
   auto terrain = MakeRhombus(); // whose angles are those of its projection
   terrain->GetPoints()->SetPoint(1, 0, -1, 50);
   filter->SetInputData(terrain);
   filter->SetGeometryToPlanarXY();
   output = RunCleanly(filter);
-  ExpectAngles(output, "Before", { AngleBefore, AngleBefore });
+  ExpectAngles(output, "before", { AngleBefore, AngleBefore });
   EXPECT_DOUBLE_EQ(filter->GetReport().MinimumAngleAfter,
-    output->GetCellData()->GetArray("vtkDelaunayFlipAngleAfter")->GetRange()[0]);
+    output->GetCellData()->GetArray("Smallest angle after (degrees)")->GetRange()[0]);
 }
 
 TEST(Output, GlobalIdsBecomePedigreeIdsWhereACellIsSplit)

@@ -91,6 +91,7 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
   EXPECT_STREQ(filter->GetErrorMessage(), "");
   EXPECT_STREQ(filter->GetBackendUsed(), "");
   EXPECT_STREQ(filter->GetGeometryReason(), "");
+  EXPECT_STREQ(filter->GetSummary(), "");
   auto output = RunCleanly(filter);
   EXPECT_EQ(filter->GetNumberOfIterations(), 5);
   EXPECT_EQ(filter->GetReport().Edges.Edges, 13);
@@ -110,7 +111,12 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
     { "GeometryUsed", "planar", filter->GetGeometryUsedAsString() },
     { "GeometryReason", "all points lie in one plane; the feature angle has no effect",
       filter->GetGeometryReason() },
-    { "Backend", filter->GetReport().Backend, filter->GetBackendUsed() }
+    { "Backend", filter->GetReport().Backend, filter->GetBackendUsed() },
+    { "Summary",
+      "mesh: 8 points, 6 triangles, 13 edges\nkept edges: 8 (8 boundary)\ngeometry: planar: all "
+      "points lie in one plane; the feature angle has no effect\nbad edges: 1 -> 0\nsmallest "
+      "angle: 1.909 -> 4.764 degrees\nflips: 9 in 5 iterations, converged\n",
+      filter->GetSummary() }
   };
   for (const auto& [name, text, readBack] : texts)
   {

@@ -18,7 +18,8 @@ from pages import ROOT, blocks, list_pages, read, snippets
 
 BIN = os.path.join(os.environ["DELAUNAYFLIP_BUILD"], "bin")
 TIME = re.compile(r"^(time|wrote) .*\n", re.MULTILINE)
-OPTION = re.compile(r"^ +(?:-\w, *)?(--[\w-]+)", re.MULTILINE)
+ARGUMENT = re.compile(r"^ +((?:-\w, *)?-?-?\w\S*(?: [A-Z{]\S*)?)\s{2,}(\S.*(?:\n {20,}\S.*)*)$",
+                      re.MULTILINE)
 NUMBER = re.compile(r"\d[\d,]*\.?\d*")
 
 # A live view is closed at the end of its run.
@@ -75,11 +76,27 @@ class Shell(Examples):
                 self.assertLess(abs(one - other), 0.05 * one, printed)
 
     def test_help(self):
-        """The page on the command has the options that --help prints; versions of CLI11 differ in the
-        layout."""
-        (text,) = snippets("text", "Documentation/reference/command.md")
+        """The table of the page on the command, from which its man page is made, is what --help prints;
+        versions of CLI11 differ in the layout."""
         printed = self.run_in_folder("delaunay-flip", "--help")
-        self.assertEqual(OPTION.findall(text), OPTION.findall(printed))
+        rows = ["| `{}` | {} |".format(name.replace(" --", "--"), " ".join(text.split()))
+                for name, text in ARGUMENT.findall(printed)]
+        page = read("Documentation/reference/command.md").splitlines()
+        self.assertEqual([line for line in page if line.startswith("| `")], rows, "\n".join(rows))
+
+    def test_man_page_and_completion(self):
+        build = os.environ["DELAUNAYFLIP_BUILD"]
+        with open(os.path.join(build, "delaunay-flip.1"), encoding="utf-8") as file:
+            self.assertIn("\n.TP\n.B \\-\\-report FILE\nWrite a summary of the run (JSON)\n", file.read())
+        for words, choices in (("--geom", "--geometry"), ("--geometry pl", "planar planar-xy"),
+                               ("--constraints ro", "road.vtk"), ("pla", "plate.vtk")):
+            *before, word = ("delaunay-flip " + words).split()
+            printed = self.run_in_folder("bash", "-c", f"""
+                source {ROOT}/Command/delaunay-flip.bash
+                COMP_WORDS=({' '.join(before)} {word}) COMP_CWORD={len(before)}
+                _delaunay_flip delaunay-flip {word} {before[-1]}
+                echo "${{COMPREPLY[@]}}" """)
+            self.assertEqual(printed.split(), choices.split())
 
 
 class Python(Examples):

@@ -7,7 +7,7 @@ import os
 import re
 import unittest
 
-from pages import ROOT, anchors, links, list_pages, read
+from pages import FENCE, ROOT, anchors, links, list_pages, read
 
 TOCTREE = re.compile(r"^```\{toctree\}\n(?:^:[^\n]*\n)*(.*?)^```$", re.DOTALL | re.MULTILINE)
 
@@ -42,6 +42,15 @@ class Links(unittest.TestCase):
         for folder, _, names in os.walk(f"{ROOT}/Documentation/images"):
             for name in names:
                 self.assertIn(os.path.relpath(os.path.join(folder, name), ROOT), used)
+
+
+class Text(unittest.TestCase):
+
+    def test_no_line_is_a_comment(self):
+        """The site leaves out lines that begin with %."""
+        for page in list_pages():
+            with self.subTest(page):
+                self.assertNotRegex(FENCE.sub("", read(page)), r"(?m)^ *%")
 
 
 class Messages(unittest.TestCase):

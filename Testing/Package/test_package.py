@@ -20,7 +20,6 @@ from pages import ROOT, read, snippets
 
 CMAKE = os.environ["DELAUNAYFLIP_CMAKE"]
 EXAMPLE = f"{ROOT}/Examples/Cxx/FlipArrays.cpp"
-C_EXAMPLE = f"{ROOT}/Examples/C/flip_arrays.c"
 HEAD = "cmake_minimum_required(VERSION 3.22)\nproject(Consumer LANGUAGES CXX)\n"
 NO_VTK = "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON"
 CPACK = os.path.join(os.path.dirname(CMAKE), "cpack")
@@ -130,15 +129,8 @@ target_link_libraries(headers PRIVATE DelaunayFlip::Engine)
 
     def test_c_program(self):
         """It links libdelaunayflip alone: no C++, no oneTBB, no VTK."""
-        self.write("CMakeLists.txt", f"""
-cmake_minimum_required(VERSION 3.22)
-project(Consumer LANGUAGES C)
-find_package(DelaunayFlip 0.1 REQUIRED COMPONENTS C)
-add_executable(consumer "{C_EXAMPLE}")
-target_link_libraries(consumer PRIVATE DelaunayFlip::C)
-""")
-        self.build(NO_VTK, "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
-        self.assertIn("1 flips", self.run_program("consumer"))
+        self.build(NO_VTK, "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON", source=f"{ROOT}/Examples/C")
+        self.assertIn("1 flip,", self.run_program("flip-arrays-c"))
 
 
 class Modules(Consumer):
@@ -276,6 +268,8 @@ class DebianPackage(Packing):
             self.assertIn(library, needed)
         self.run_command(["dpkg-query", "-W", *(part.split()[0] for part in needed.split(","))])
         self.run_command(["dpkg-deb", "-x", package, self.folder])
+        for path in ("man/man1/delaunay-flip.1", "bash-completion/completions/delaunay-flip"):
+            self.assertTrue(os.path.exists(self.path(f"usr/share/{path}")), path)
         self.expect_that_it_works(self.path("usr"))
 
 

@@ -153,7 +153,8 @@ class Wheel(unittest.TestCase):
             names = set(archive.namelist())
         sources = {f"delaunayflip/{path.name}"
                    for path in pathlib.Path(ROOT, "Python", "delaunayflip").glob("*.py")}
-        sources |= {"delaunayflip/py.typed", "delaunayflip/libdelaunayflip.so.1",
+        sources |= {"delaunayflip/py.typed", "delaunayflip/plugin/DelaunayFlip.py",
+                    "delaunayflip/AngleColors.json", "delaunayflip/libdelaunayflip.so.1",
                     "delaunayflip/DelaunayFlip.xml"}
         package = {name for name in names if name.startswith("delaunayflip/")}
         self.assertEqual(package, sources)

@@ -65,6 +65,12 @@ class Client:
         """Clicks Apply."""
         self.window.findChild(QtWidgets.QPushButton, "Accept").click()
 
+    def color_by(self, name):
+        """Chooses an array in the toolbar."""
+        choices = next(choices for choices in self.window.findChildren(QtWidgets.QComboBox, "Variables")
+                       if choices.isVisible())
+        choices.setCurrentIndex(choices.findText(name))
+
     def save_picture(self, name):
         """A picture of the whole window, in FOLDER."""
         path = os.path.join(FOLDER, name)

@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filter Delaunay Flip for ParaView, without compiling: a plugin in Python.
 
-In ParaView choose Tools > Manage Plugins > Load New and this file, or in pvpython
+Start ParaView with PV_PLUGIN_PATH=.../delaunayflip/plugin, choose Tools > Manage Plugins > Load New
+and this file, or in pvpython
 
     from paraview.simple import LoadPlugin
-    LoadPlugin(".../delaunayflip/paraview_plugin.py", remote=False, ns=globals())
+    LoadPlugin(".../delaunayflip/plugin/DelaunayFlip.py", remote=False, ns=globals())
 
-It has the properties of the plugin in C++, but not its chart, its text in the view, its widgets and
-its live updates: all flips are made at once. Partitions of a dataset, and the pieces of a server
+It has the properties of the plugin in C++, but not its chart, its text in the view and its live
+updates: all flips are made at once. Partitions of a dataset, and the pieces of a server
 with several processes, are flipped one by one: edges between them stay, with a warning, and the
 statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh. Each
 plugin can read the state files of the other, but only one of the two can be loaded.
 
-The file is not called paraview.py, because ParaView imports a plugin under its name, which would
-then hide ParaView's own module.
+It has a folder of its own, because ParaView loads all files of a folder in PV_PLUGIN_PATH.
 """
 import itertools
 import pathlib
@@ -22,11 +22,12 @@ import sys
 from xml.etree import ElementTree
 
 # ParaView loads only this file; the package may be where ParaView does not search for packages.
-_FOLDER = pathlib.Path(__file__).resolve().parent
+_FOLDER = pathlib.Path(__file__).resolve().parent.parent
 if str(_FOLDER.parent) not in sys.path:
     sys.path.append(str(_FOLDER.parent))
 
 from paraview import servermanager
+from paraview.modules.vtkRemotingServerManager import vtkSMSettings
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkVersion
@@ -53,11 +54,18 @@ def _require_no_other():
             "start ParaView without it to use this one in Python.")
 
 
+def _find(name):
+    """A file of the plugin in C++: in the package, or where its sources are."""
+    return next(path for path in (_FOLDER / name, _FOLDER.parents[1] / "Plugin" / name) if path.exists())
+
+
 def _read_properties():
     """The XML of the C++ plugin's properties, without the parts that need its libraries."""
-    (proxy,) = ElementTree.parse(_FOLDER / "DelaunayFlip.xml").iter("SourceProxy")
+    (proxy,) = ElementTree.parse(_find("DelaunayFlip.xml")).iter("SourceProxy")
     for element in proxy.iter():
-        if element.get("panel_widget", "").startswith("DelaunayFlip"):
+        if element.get("panel_widget", "") == "DelaunayFlipSourceList":
+            element.set("panel_widget", "input_selector")
+        elif element.get("panel_widget", "").startswith("DelaunayFlip"):
             del element.attrib["panel_widget"]
     hints = proxy.find("Hints")
     hints.remove(hints.find("LiveSource"))
@@ -142,19 +150,13 @@ def _get_corners(data, cell):
 
 
 _require_no_other()
+vtkSMSettings.GetInstance().AddCollectionFromString(_find("AngleColors.json").read_text(), 0.5)
 
 
 @smproxy.filter(name="DelaunayFlip", label="Delaunay Flip", support_reload=False)
 @smproperty.xml(_read_properties())
 class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView, which accepts any surface."""
-
-    # Properties of ParaView that only the class for several processes has in C++.
-    def GetNumberOfRounds(self):
-        return 0
-
-    def GetNumberOfMovedTriangles(self):
-        return 0
 
     def FillInputPortInformation(self, port, info):
         result = super().FillInputPortInformation(port, info)
