@@ -154,7 +154,7 @@ class Wheel(unittest.TestCase):
         sources = {f"delaunayflip/{path.name}"
                    for path in pathlib.Path(ROOT, "Python", "delaunayflip").glob("*.py")}
         sources |= {"delaunayflip/py.typed", "delaunayflip/libdelaunayflip.so.1",
-                    "delaunayflip/DelaunayFlip.xml"}
+                    "delaunayflip/DelaunayFlip.xml", "delaunayflip/DelaunayFromPoints.xml"}
         package = {name for name in names if name.startswith("delaunayflip/")}
         self.assertEqual(package, sources)
         others = {name for name in names - package if ".dist-info/" not in name}
