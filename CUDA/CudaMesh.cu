@@ -117,7 +117,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   std::vector<int> devices = { options.Device };
   if (!options.Devices.empty())
   {
-    const auto most = static_cast<std::size_t>(mesh.Triangles.Count / GetSmallestShare());
+    const auto most = static_cast<std::size_t>(mesh.Triangles.Count / SmallestShare);
     devices = options.Devices;
     devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
   }

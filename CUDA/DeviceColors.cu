@@ -78,32 +78,16 @@ struct Extremes
   }
 };
 
-/// A backend on the GPU that has an array; it is current meanwhile.
-class BackendOf
+/// A backend on the GPU that has an array.
+CudaBackend MakeBackend(const void* memory)
 {
-public:
-  explicit BackendOf(const void* memory)
-    : Backend({ RequireDevice(memory) }, 1),
-      Current(this->Backend.MakeCurrent())
+  const int device = FindDeviceOf(memory);
+  if (device < 0)
   {
+    throw InvalidOptions("the array for colours is not in the memory of a GPU");
   }
-  const CudaBackend* operator->() const { return &this->Backend; }
-  const CudaBackend& operator*() const { return this->Backend; }
-
-private:
-  static int RequireDevice(const void* memory)
-  {
-    const int device = FindDeviceOf(memory);
-    if (device < 0)
-    {
-      throw InvalidOptions("the array for colours is not in the memory of a GPU");
-    }
-    return device;
-  }
-
-  CudaBackend Backend;
-  std::unique_ptr<DeviceScope> Current;
-};
+  return CudaBackend({ device }, 1);
+}
 
 template <typename T>
 void Color(const T* values, std::int64_t count, const ColorBands& bands, std::uint32_t* colors,
@@ -113,13 +97,14 @@ void Color(const T* values, std::int64_t count, const ColorBands& bands, std::ui
   {
     return;
   }
-  const BackendOf backend(colors);
+  const CudaBackend backend = MakeBackend(colors);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
   Array<std::uint32_t> memory;
-  const ColorTable table = MakeColorTable(bands, *backend, memory);
-  backend->WaitFor(stream);
-  backend->ForEach(count,
+  const ColorTable table = MakeColorTable(bands, backend, memory);
+  backend.WaitFor(stream);
+  backend.ForEach(count,
     [=] __device__(std::int64_t i) { colors[i] = table.Find(static_cast<double>(values[i])); });
-  backend->Synchronize();
+  backend.Synchronize();
 }
 }
 
@@ -129,19 +114,20 @@ ValueRange FindSmallestAngles(const DeviceMesh& mesh, GeometryKind geometry, flo
   {
     return Extremes().Get();
   }
-  const BackendOf backend(degrees);
+  const CudaBackend backend = MakeBackend(degrees);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
   DeviceMesh plain;
   plain.Points = mesh.Points;
   plain.Triangles = mesh.Triangles;
   plain.Stream = mesh.Stream;
-  const LocalDeviceMesh local = backend->Localize(plain);
+  const LocalDeviceMesh local = backend.Localize(plain);
   const TriangleMesh view = local.View();
   const auto measure = [=] __device__(std::int64_t t, Extremes & found)
   {
     degrees[t] = static_cast<float>(FindSmallestAngle(view, geometry, t));
     found.Add(degrees[t]);
   };
-  return backend->Sum<Extremes>(view.Triangles.Count, measure).Get();
+  return backend.Sum<Extremes>(view.Triangles.Count, measure).Get();
 }
 
 ValueRange FindRange(const std::int32_t* values, std::int64_t count, const DeviceStream& stream)
@@ -150,10 +136,11 @@ ValueRange FindRange(const std::int32_t* values, std::int64_t count, const Devic
   {
     return Extremes().Get();
   }
-  const BackendOf backend(values);
-  backend->WaitFor(stream);
+  const CudaBackend backend = MakeBackend(values);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  backend.WaitFor(stream);
   return backend
-    ->Sum<Extremes>(count,
+    .Sum<Extremes>(count,
       [=] __device__(std::int64_t i, Extremes & found)
       { found.Add(static_cast<float>(values[i])); })
     .Get();

@@ -202,23 +202,32 @@ bool vtkDelaunayFlipAlgorithm::Advance()
   const bool continues = this->LiveUpdate && this->CanContinue;
   if (continues)
   {
-    this->IsStepAsked = true;
+    this->Next = NextUpdate::StepAndStore;
     this->Modified();
   }
   return continues;
 }
 
-/// The executive takes the output for current after any update, so one that withheld the mesh must
-/// be followed by a modification.
+/// The executive empties the output, and takes it for current after any update.
 bool vtkDelaunayFlipAlgorithm::AdvanceSession()
 {
-  this->Advance();
-  this->WithholdsMesh = true;
-  const bool works = this->GetExecutive()->Update(0) != 0;
-  this->WithholdsMesh = false;
-  if (this->MeshIsWithheld)
+  auto* output = vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+  vtkNew<vtkPolyData> last;
+  if (output)
   {
+    last->ShallowCopy(output);
+  }
+  this->Advance();
+  this->Next = NextUpdate::Step;
+  const bool works = this->GetExecutive()->Update(0) != 0;
+  if (this->Next == NextUpdate::Store)
+  {
+    output->ShallowCopy(last);
     this->Modified();
+  }
+  else
+  {
+    this->Next = NextUpdate::StepAndStore;
   }
   return works;
 }
@@ -228,16 +237,11 @@ const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
   return this->Run ? &this->Run->GetSession() : nullptr;
 }
 
-bool vtkDelaunayFlipAlgorithm::StoreMesh(vtkPolyData* mesh) const
-{
-  return this->Run && this->Run->Store(mesh);
-}
-
 void vtkDelaunayFlipAlgorithm::Restart()
 {
   this->Run.reset();
   this->CanContinue = true;
-  this->MeshIsWithheld = false;
+  this->Next = NextUpdate::StepAndStore;
   this->Modified();
 }
 
@@ -356,7 +360,7 @@ void vtkDelaunayFlipAlgorithm::DiscardRun()
 {
   this->Run.reset();
   this->CanContinue = false;
-  this->MeshIsWithheld = false;
+  this->Next = NextUpdate::StepAndStore;
   *this->Report = UpdateReport();
 }
 
@@ -441,8 +445,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
 {
   std::unique_ptr<UpdateRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
-  const bool isAsked = std::exchange(this->IsStepAsked, false);
-  const bool wasWithheld = std::exchange(this->MeshIsWithheld, false);
+  const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
   if (!this->HasWork(mesh))
   {
@@ -462,7 +465,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
     }
     const bool isSame = this->ContinueOrStart(run, mesh, others, isLive);
     *this->Report = UpdateReport(run->GetReport());
-    const bool storesOnly = isSame && wasWithheld && !isAsked;
+    const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
     if (!storesOnly && !run->IsStopped())
     {
@@ -478,8 +481,9 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
         ? AdvanceFor(session, Seconds, observer, run->GetProgress())
         : session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
     }
-    this->MeshIsWithheld = isSame && !storesOnly && this->WithholdsMesh;
-    const bool isWhole = this->MeshIsWithheld || run->Store(output);
+    const bool isWithheld = isSame && asked == NextUpdate::Step;
+    this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;
+    const bool isWhole = isWithheld || run->Store(output);
     // Not before: a GPU may fail while its result is fetched.
     *this->Report = UpdateReport(run->GetReport());
     this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;

@@ -256,23 +256,19 @@ public:
    * For C++ callers that draw a live run from the memory of a GPU, where the mesh is already.
    *
    * AdvanceSession() makes the next step of a live run, as Advance() and an update do, but leaves
-   * the mesh where it is if the run is that of the last update. Then GetMeshIsWithheld() is true,
-   * and output port 0 has no cells until the filter is updated again, by whatever is connected to
-   * it; that update makes no step. Port 1 and all results are those of the step.
-   * AdvanceSession() returns false if the executive failed.
+   * output port 0 as it was if the run is that of the last update. Then GetMeshIsWithheld() is
+   * true, and the next update, by whatever is connected to the port, puts the mesh out and makes no
+   * step. Port 1 and all results are those of the step. AdvanceSession() returns false if the
+   * executive failed.
    *
    * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
    * failed. It is valid until the next update. Its triangles are the polygons of the output, in
    * their order, if the input has no other polygons than triangles and no strips.
-   *
-   * StoreMesh() writes the mesh as it is now, without an update; it returns false, and writes
-   * nothing, if there is no session.
    */
 #ifndef __VTK_WRAP__
   bool AdvanceSession();
-  bool GetMeshIsWithheld() const { return this->MeshIsWithheld; }
+  bool GetMeshIsWithheld() const { return this->Next == NextUpdate::Store; }
   const delaunayflip::FlipSession* GetSession() const;
-  bool StoreMesh(vtkPolyData* mesh) const;
 #endif
   ///@}
 
@@ -353,14 +349,26 @@ private:
   void DiscardRun();
   void Publish(const delaunayflip::UpdateSummary& summary);
 
+  enum class NextUpdate
+  {
+    StepAndStore,
+    Step,
+    Store
+  };
+
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
+  // What the next update does, by the state of a live run:
+  //
+  //   Run   Next          the next update
+  //   null  StepAndStore  begins a run
+  //   set   StepAndStore  makes a step, if the run can go on, and puts the mesh out
+  //   set   Step          only within AdvanceSession(): makes a step and puts nothing out
+  //   set   Store         puts the mesh of the last AdvanceSession() out, without a step
   bool HasExecuted = false;
   bool IsAtWork = false; ///< An update is running.
-  bool CanContinue = true; ///< Whether another live update can change the mesh.
-  bool IsStepAsked = false; ///< Advance() was called since the last update.
-  bool WithholdsMesh = false; ///< An update need not write the mesh.
-  bool MeshIsWithheld = false; ///< The last update did not write it.
+  bool CanContinue = true; ///< Whether another step can change the mesh.
+  NextUpdate Next = NextUpdate::StepAndStore;
   std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Null without LiveUpdate.
   /// During an update that of the current mesh, afterwards the sum over all meshes.
   std::unique_ptr<delaunayflip::UpdateReport> Report;

@@ -5,6 +5,8 @@
 #include "EdgeFlip.h"
 #include "FlipRules.h"
 
+#include <algorithm>
+
 namespace delaunayflip
 {
 
@@ -38,23 +40,30 @@ PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
     }
     path = FindPath(this->Mesh, this->Fans, from, to);
   }
-  if (path.Result != PathResult::Found)
+  if (path.Result == PathResult::Found && !this->Flip(path))
   {
-    return path.Result;
+    return PathResult::Overlaps;
   }
-  for (Rim& rim : path.Segments)
+  if (path.Result == PathResult::Found)
   {
-    if (!this->Straighten(rim))
-    {
-      return PathResult::Overlaps;
-    }
+    this->Fix(path);
   }
+  return path.Result;
+}
+
+bool ConstraintFlips::Flip(ConstraintPath& path)
+{
+  return std::all_of(
+    path.Segments.begin(), path.Segments.end(), [this](Rim& rim) { return this->Straighten(rim); });
+}
+
+void ConstraintFlips::Fix(const ConstraintPath& path)
+{
   for (const Rim& rim : path.Segments)
   {
     this->Mesh.Edges.States[EdgeOf(rim.front())] = EdgeState::Fixed;
     this->Segments.push_back(rim.front());
   }
-  return PathResult::Found;
 }
 
 /// Cuts ears off the triangles that a segment of a constraint crosses until their rim is that
@@ -193,10 +202,13 @@ bool ConstraintFlips::TryFlip(EdgeId edge)
   this->Fans.NoteFlip(edge, quad, outer.PB, outer.QA);
   for (const HalfEdgeId side : { 2 * edge, outer.AP, outer.QA, outer.PB, outer.BQ })
   {
-    EdgeState& state = mesh.States[EdgeOf(side)];
-    state = state == EdgeState::Fixed ? state : EdgeState::Candidate;
+    EdgeState* state = &mesh.States[EdgeOf(side)]; // others may make it a candidate, too
+    if (AtomicLoad(state) != EdgeState::Fixed)
+    {
+      AtomicStore(state, EdgeState::Candidate);
+    }
   }
-  ++this->Flips;
+  __atomic_fetch_add(&this->Flips, 1, __ATOMIC_RELAXED);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_CONSTRAINTFLIPS_H
 #define DELAUNAYFLIP_CONSTRAINTFLIPS_H
 
+#include "Atomics.h"
 #include "ConstraintPath.h"
 #include "EdgeTable.h"
 
@@ -12,7 +13,7 @@
 namespace delaunayflip
 {
 
-/// Makes constraints edges of a mesh, one after the other, by flips of the edges that cross them.
+/// Makes constraints edges of a mesh, by flips of the edges that cross them.
 ///
 /// Each flip turns two triangles into two that turn to the same side, and makes no edge that
 /// exists. So whatever the mesh, it stays what it was; and where a constraint cannot be inserted,
@@ -28,11 +29,23 @@ public:
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
   PathResult Insert(VertexId from, VertexId to);
 
+  // The same in steps. Several threads may flip at a time for paths that have no triangle in
+  // common.
+
+  ConstraintPath Find(VertexId from, VertexId to) const
+  {
+    return FindPath(this->Mesh, this->Fans, from, to);
+  }
+  /// Makes each segment of a path one edge. @returns false where triangles overlap.
+  bool Flip(ConstraintPath& path);
+  /// Fixes the edges of a path, and adds them to GetSegments.
+  void Fix(const ConstraintPath& path);
+
   /// A side of each of the edges that constraints have become, in the order of insertion and from
   /// start to end. Flips do not change it.
   const std::vector<HalfEdgeId>& GetSegments() const { return this->Segments; }
 
-  std::int64_t GetNumberOfFlips() const { return this->Flips; }
+  std::int64_t GetNumberOfFlips() const { return AtomicLoad(&this->Flips); }
 
 private:
   using Rim = ConstraintPath::Rim;

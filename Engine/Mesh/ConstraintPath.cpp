@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintPath.h"
 
+#include "Atomics.h"
+
 #include <tuple>
 
 namespace delaunayflip
@@ -62,8 +64,12 @@ void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfE
 {
   for (const auto& [vertex, halfEdge] : { std::pair(quad.P, fromP), std::pair(quad.Q, fromQ) })
   {
+    // Flips elsewhere may read it meanwhile, but only one of them has this edge.
     HalfEdgeId& first = this->First[vertex];
-    first = EdgeOf(first) == edge ? halfEdge : first;
+    if (EdgeOf(AtomicLoad(&first)) == edge)
+    {
+      AtomicStore(&first, halfEdge);
+    }
     const auto [begin, end] = this->Others.equal_range(vertex);
     for (auto other = begin; other != end; ++other)
     {
@@ -214,6 +220,7 @@ private:
         const bool isRim = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
         return this->Fail(isRim ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
       }
+      this->Path.Crossed.push_back(crossed);
       const CornerId across = this->Mesh.FindAcross(crossed);
       const int turnAcross = this->Mesh.FindTurnAt(across);
       if (turnAcross != turn)

@@ -169,6 +169,7 @@ struct ConstraintPath
 
   PathResult Result = PathResult::Found;
   std::vector<Rim> Segments; ///< Where it was found.
+  std::vector<HalfEdgeId> Crossed; ///< Edges that it crosses.
   TriangleId Bar = NoTriangle; ///< Where it IsBarred.
 };
 

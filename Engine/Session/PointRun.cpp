@@ -3,9 +3,9 @@
 #include "PointRun.h"
 
 #include "CallerMesh.h"
-#include "ConstraintFlips.h"
 #include "FlipError.h"
 #include "InputChecks.h"
+#include "SegmentInsertion.h"
 #include "Strips.h"
 
 #include <algorithm>
@@ -279,37 +279,21 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
   {
     const std::vector<VertexId> placeOf = this->ListPlaces(view, mesh);
     this->RequireClosedRings(placeOf);
-    ConstraintFlips flips(view, view.NumberOfPlaces, view.NumberOfTriangles, nullptr);
+    const ThreadBackend backend(this->Options.NumberOfThreads);
+    SegmentInsertion insertion(view, backend);
     while (this->Taken < this->Segments.size() && isComplete)
     {
-      const Segment& segment = this->Segments[this->Taken++];
-      const VertexId from = placeOf[segment.From], to = placeOf[segment.To];
-      if (from == to && from != NoVertex)
-      {
-        continue;
-      }
-      const std::size_t first = flips.GetSegments().size();
-      const bool isIn = from != NoVertex && to != NoVertex && view.NumberOfTriangles > 0 &&
-        flips.Insert(from, to) == PathResult::Found;
-      if (!isIn)
-      {
-        this->Refused.push_back(segment);
-      }
-      VertexId at = from;
-      for (std::size_t i = first; i < flips.GetSegments().size(); ++i)
-      {
-        const HalfEdgeId side = flips.GetSegments()[i];
-        const bool isOnLeft = view.GetStart(side) == at;
-        at = isOnLeft ? view.GetEnd(side) : view.GetStart(side);
-        this->Edges.push_back({ side, segment.Ring, isOnLeft });
-      }
-      constexpr std::size_t SegmentsPerCall = 256;
-      isComplete = this->Taken % SegmentsPerCall != 0 || !observer || observer(0.0);
+      constexpr std::size_t SegmentsPerCall = 8192;
+      const std::size_t end = std::min(this->Segments.size(), this->Taken + SegmentsPerCall);
+      this->InsertBatch(view, placeOf, end, insertion);
+      isComplete = !observer || observer(0.0);
     }
-    this->Flips += flips.GetNumberOfFlips();
+    this->Flips += insertion.GetNumberOfFlips();
   };
   mesh.EditOnHost(insert);
   mesh.GetLoop().Restart();
+  std::sort(this->Refused.begin(), this->Refused.end(),
+    [](const Segment& a, const Segment& b) { return a.Number < b.Number; });
   const auto ofRing = std::find_if(this->Refused.begin(), this->Refused.end(),
     [](const Segment& segment) { return segment.Ring >= 0; });
   if (ofRing != this->Refused.end())
@@ -322,6 +306,44 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
   }
   this->Inserted = isComplete;
   return isComplete;
+}
+
+/// Inserts the segments from Taken to `end`.
+void PointRun::InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf,
+  std::size_t end, SegmentInsertion& insertion)
+{
+  std::vector<SegmentInsertion::Item> items;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = this->Taken; i < end; ++i)
+  {
+    const VertexId from = placeOf[this->Segments[i].From], to = placeOf[this->Segments[i].To];
+    if (from == NoVertex || to == NoVertex || view.NumberOfTriangles == 0)
+    {
+      this->Refused.push_back(this->Segments[i]);
+    }
+    else if (from != to)
+    {
+      items.push_back({ from, to });
+      numbers.push_back(i);
+    }
+  }
+  this->Taken = end;
+  insertion.Insert(items);
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    const Segment& segment = this->Segments[numbers[i]];
+    if (!items[i].IsIn)
+    {
+      this->Refused.push_back(segment);
+    }
+    VertexId at = items[i].From;
+    for (const HalfEdgeId side : items[i].Sides)
+    {
+      const bool isOnLeft = view.GetStart(side) == at;
+      at = isOnLeft ? view.GetEnd(side) : view.GetStart(side);
+      this->Edges.push_back({ side, segment.Ring, isOnLeft });
+    }
+  }
 }
 
 void PointRun::Finish(LoadedMesh& mesh)

@@ -16,6 +16,8 @@
 namespace delaunayflip
 {
 
+class SegmentInsertion;
+
 /// What a session from points does beside flips: it prepares points and segments, inserts segments,
 /// and removes triangles in the end.
 class PointRun
@@ -69,6 +71,8 @@ private:
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
   void RequireClosedRings(const std::vector<VertexId>& placeOf) const;
+  void InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf, std::size_t end,
+    SegmentInsertion& insertion);
   std::vector<VertexId> ListPlaces(const PointMeshView& view, const LoadedMesh& mesh) const;
 
   PointInput Caller;

@@ -156,20 +156,18 @@ def store_triangles(session, target, count):
     if kind not in ("int32", "int64"):
         raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "
                          "byte order that can be written")
-    name, stream = _find_way(target, functions)
-    _library.call(f"store_triangles{name}", session, address(target), TYPES[kind], *stream)
+    _store("store_triangles", session, target, functions, TYPES[kind])
 
 
 def store_flip_counts(session, counts):
     """Writes the flip counts of a session to an array that make_flip_counts has made."""
     functions, counts = _adapt(counts) if _is_on_device(counts) else (None, counts)
-    name, stream = _find_way(counts, functions)
-    _library.call(f"store_flip_counts{name}", session, address(counts), *stream)
+    _store("store_flip_counts", session, counts, functions)
 
 
-def _find_way(target, functions):
-    """How a function that stores values there ends, and its last arguments."""
-    return ("_on_device", [functions.get_stream(target)]) if functions else ("", [])
+def _store(name, session, target, functions, *types):
+    name, stream = (f"{name}_on_device", [functions.get_stream(target)]) if functions else (name, [])
+    _library.call(name, session, address(target), *types, *stream)
 
 
 class Mesh(_arrays.Mesh):
