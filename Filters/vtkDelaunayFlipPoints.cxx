@@ -389,10 +389,16 @@ int vtkDelaunayFlipPoints::RequestData(
 void vtkDelaunayFlipPoints::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary)
 {
-  if (block.Leaves.size() > 1 || (this->IsOtherPiece && block.Size > 0.0))
+  if (block.Leaves.size() > 1)
   {
-    throw InvalidMesh("the points are in several pieces; gather them in one dataset first, by "
+    throw InvalidMesh("the points are in several partitions; join them first, by "
                       "vtkAppendDataSets, or Merge Blocks in ParaView",
+      -1, -1);
+  }
+  if (this->IsOtherPiece && block.Size > 0.0)
+  {
+    throw InvalidMesh("points are on several ranks; gather them on the first one, by "
+                      "Redistribute DataSet with one partition in ParaView",
       -1, -1);
   }
   BlockLeaf& leaf = block.Leaves.front();

@@ -387,7 +387,7 @@ class SamePoints(unittest.TestCase):
         for kind in (CxxPoints, PythonPoints):
             told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
             told.filter.Update()
-            self.assertIn("gather them in one dataset first", told.errors[0])
+            self.assertIn("in several partitions; join them first", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):
