@@ -133,8 +133,8 @@ public:
       report.StopReason != StopReasonKind::Aborted)
     {
       report.Defects.push_back(
-        { "points that make no triangle: they have fewer than three places, or "
-          "all lie on one line",
+        { "points without a triangle: there are fewer than three places, or "
+          "all are on one line",
           report.Points, {}, DefectIds::Points });
     }
     return report;

@@ -338,7 +338,7 @@ class SamePoints(unittest.TestCase):
             told = self.expect_same(make_cloud(kind=kind))
             self.assertIn("points at the place of another one", told["warnings"][0])
         self.expect_same(make_cloud(), lambda points: points.SetMaximumIterations(1))
-        for count in (0, 2, 3):
+        for count in (0, 1, 2, 3):
             self.expect_same(make_cloud(count, seed=2))
 
     def test_segments(self):
