@@ -132,10 +132,9 @@ public:
     if (report.Triangles + counts.OutsideTriangles + counts.LargeTriangles == 0 &&
       report.StopReason != StopReasonKind::Aborted)
     {
-      report.Defects.push_back(
-        { "points without a triangle: there are fewer than three places, or "
-          "all are on one line",
-          report.Points, {}, DefectIds::Points });
+      report.Defects.push_back({ "points without a triangle: there are fewer than three places, or "
+                                 "all are on one line",
+        report.Points, {}, DefectIds::Points });
     }
     return report;
   }
