@@ -410,6 +410,10 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     return;
   }
   const bool areOfAll = segments.size() == 1 && segments.front().Place.empty();
+  if (!segments.empty() && !areOfAll && block.Place.empty())
+  {
+    throw InvalidOptions("the segments of a single dataset cannot be a composite dataset");
+  }
   vtkPolyData* others = nullptr;
   for (const MeshBlock& other : segments)
   {

@@ -71,6 +71,7 @@ class vtkDelaunayFlipPoints(Filter):
     input_type = "vtkPointSet"
     update_type = _PointUpdate
     no_mesh = "has no points of its own, passed unchanged"
+    no_composite = "the segments of a single dataset cannot be a composite dataset"
 
     def get_mesh(self, data):
         return data if isinstance(data, vtkPointSet) else None

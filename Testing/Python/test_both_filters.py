@@ -382,6 +382,8 @@ class SamePoints(unittest.TestCase):
             blocks.SetBlock(i, data)
         told = self.expect_same(blocks)
         self.assertIn("has no points of its own", told["warnings"][0])
+        told = self.expect_same(make_cloud(30), lambda points: points.SetInputDataObject(1, blocks))
+        self.assertIn("cannot be a composite dataset", told["errors"][0])
 
     def test_pieces_are_an_error(self):
         for kind in (CxxPoints, PythonPoints):
