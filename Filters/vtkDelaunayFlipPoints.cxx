@@ -132,10 +132,9 @@ public:
     if (report.Triangles + counts.OutsideTriangles + counts.LargeTriangles == 0 &&
       report.StopReason != StopReasonKind::Aborted)
     {
-      report.Defects.push_back(
-        { "points that make no triangle: they have fewer than three places, or "
-          "all lie on one line",
-          report.Points, {}, DefectIds::Points });
+      report.Defects.push_back({ "points without a triangle: there are fewer than three places, or "
+                                 "all are on one line",
+        report.Points, {}, DefectIds::Points });
     }
     return report;
   }
@@ -389,10 +388,16 @@ int vtkDelaunayFlipPoints::RequestData(
 void vtkDelaunayFlipPoints::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary)
 {
-  if (block.Leaves.size() > 1 || (this->IsOtherPiece && block.Size > 0.0))
+  if (block.Leaves.size() > 1)
   {
-    throw InvalidMesh("the points are in several pieces; gather them in one dataset first, by "
+    throw InvalidMesh("the points are in several partitions; join them first, by "
                       "vtkAppendDataSets, or Merge Blocks in ParaView",
+      -1, -1);
+  }
+  if (this->IsOtherPiece && block.Size > 0.0)
+  {
+    throw InvalidMesh("points are on several ranks; gather them on the first one, by "
+                      "Redistribute DataSet with one partition in ParaView",
       -1, -1);
   }
   BlockLeaf& leaf = block.Leaves.front();
@@ -405,6 +410,10 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     return;
   }
   const bool areOfAll = segments.size() == 1 && segments.front().Place.empty();
+  if (!segments.empty() && !areOfAll && block.Place.empty())
+  {
+    throw InvalidOptions("the segments of a single dataset cannot be a composite dataset");
+  }
   vtkPolyData* others = nullptr;
   for (const MeshBlock& other : segments)
   {

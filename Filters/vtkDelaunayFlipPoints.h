@@ -43,7 +43,7 @@
  * the second one. A segment through points is split there. One that overlaps an earlier one is no
  * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
  * ones; with SplitCrossings both are split where they cross. If a segment of a polygon is refused,
- * the update fails, and the error names the polygon.
+ * the update fails, and the error names the polygon: the number of its ring is its cell id.
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
@@ -68,7 +68,8 @@
  * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
  * same structure, and its blocks apply block by block; any other applies to all. Points in several
- * partitions of one dataset, or on several ranks, are an error: gather them first.
+ * partitions of one dataset are an error: join them first. So are points on several ranks, except
+ * on the first one: gather them there.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to

@@ -121,6 +121,7 @@ class Filter(VTKPythonAlgorithmBase):
     name = "vtkDelaunayFlip"  #: The class in C++.
     input_type = "vtkPolyData"
     no_mesh = "not a surface, passed unchanged"
+    no_composite = "the constraints of a single mesh cannot be a composite dataset"
     properties = ()
     update_type = Update
 

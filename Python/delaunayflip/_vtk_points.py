@@ -11,8 +11,8 @@ from ._vtk_cloud import OUTLINES, Cloud
 from ._vtk_filter import Filter, Property, finish
 from ._vtk_update import Failure, Update
 
-_IN_PIECES = ("the points are in several pieces; gather them in one dataset first, by "
-              "vtkAppendDataSets, or Merge Blocks in ParaView")
+_IN_PARTITIONS = ("the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
+                  "Blocks in ParaView")
 
 
 class _PointUpdate(Update):
@@ -26,7 +26,7 @@ class _PointUpdate(Update):
     def _flip_leaf(self, leaf, segments):
         if leaf.is_partition and leaf.data.GetNumberOfPoints():
             if leaf.place[:-1] in self._datasets:
-                self.fail((Failure.MESH, _IN_PIECES), leaf.name)
+                self.fail((Failure.MESH, _IN_PARTITIONS), leaf.name)
                 return vtkPolyData()
             self._datasets.add(leaf.place[:-1])
         return super()._flip_leaf(leaf, segments)
@@ -41,7 +41,7 @@ class _PointUpdate(Update):
     def _flip(self, data, segments, output):
         filter_ = self._filter
         if self._pieces > 1 and data.GetNumberOfPoints():
-            raise InvalidMesh(_IN_PIECES)
+            raise InvalidMesh("points on several ranks; gather them on one process first")
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
             self._pass_after_abort(data, output)
             self.totals.stop_reason = "aborted" if data.GetNumberOfPoints() else "converged"
@@ -71,6 +71,7 @@ class vtkDelaunayFlipPoints(Filter):
     input_type = "vtkPointSet"
     update_type = _PointUpdate
     no_mesh = "has no points of its own, passed unchanged"
+    no_composite = "the segments of a single dataset cannot be a composite dataset"
 
     def get_mesh(self, data):
         return data if isinstance(data, vtkPointSet) else None

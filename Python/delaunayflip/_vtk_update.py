@@ -88,9 +88,7 @@ class Update:
         except Exception as error:
             mesh, trouble = None, explain(error)
         if constraints is not None and not isinstance(constraints, vtkPolyData) and mesh is not None:
-            mesh = None
-            trouble = (Failure.OPTIONS,
-                       "the constraints of a single mesh cannot be a composite dataset")
+            mesh, trouble = None, (Failure.OPTIONS, self._filter.no_composite)
         if mesh is None:
             self.fail(trouble)
             output.Initialize()

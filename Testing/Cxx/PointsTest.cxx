@@ -172,7 +172,7 @@ TEST(FromPoints, DegenerateInput)
   };
   const std::vector<Case> cases = {
     { { { 0, 0, 0 }, { 1, 0, 0 } }, 0, "fewer than three places" },
-    { { { 0, 0, 0 }, { 1, 1, 9 }, { 2, 2, 0 }, { 3, 3, 0 } }, 0, "4 points that make no triangle" },
+    { { { 0, 0, 0 }, { 1, 1, 9 }, { 2, 2, 0 }, { 3, 3, 0 } }, 0, "4 points without a triangle" },
     { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 7 } }, 1,
       "1 point at the place of another one" },
     { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { Inf, 0, 0 } }, 1, "NaN or infinite" },
@@ -448,12 +448,12 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   PointsFilter several(parts);
   several->Update();
   ASSERT_EQ(several.GetErrors().size(), 1u);
-  ExpectHolds(several.GetErrors()[0], "gather them in one dataset first");
+  ExpectHolds(several.GetErrors()[0], "the points are in several partitions; join them first");
   EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
   PointsFilter piece(ToMesh(MakeCloud(10)));
   piece->UpdatePiece(1, 2, 0);
   ASSERT_EQ(piece.GetErrors().size(), 1u);
-  ExpectHolds(piece.GetErrors()[0], "gather them in one dataset first");
+  ExpectHolds(piece.GetErrors()[0], "gather them on the first one");
 }
 
 TEST(FromPoints, Abort)

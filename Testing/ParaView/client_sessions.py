@@ -323,6 +323,24 @@ def use_statistics(client):
     expect(read_view() == "no statistics: not a mesh of Delaunay Flip", read_view())
 
 
+def use_points(client):
+    """Delaunay From Points: its panel, and the first triangles that become the Delaunay mesh."""
+    client.window.resize(1200, 1000)
+    points = yield from start_filter(client, read_mesh("cloud.vtp"), "Delaunay From Points")
+    panel, renders = Panel(client), []
+    panel.click("LiveUpdate")
+    client.apply()
+    simple.GetActiveView().GetRenderWindow().AddObserver(
+        "EndEvent", lambda *_: renders.append(points.NumberOfIterations))
+    yield has_converged(points)
+    yield idle(0.5)
+    expect(len(set(renders)) > points.NumberOfIterations // 2, f"rendered: {renders}")
+    panel.write("Alpha", "0.03")
+    client.apply()
+    yield lambda: points.GetDataInformation().GetNumberOfCells() < 1900
+    client.save_picture("points.png")
+
+
 def session(client):
     load_plugin()
     yield from globals()[os.environ["DELAUNAYFLIP_SESSION"]](client)

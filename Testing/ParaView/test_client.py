@@ -14,6 +14,7 @@ import sys
 import unittest
 
 from PluginTesting import PluginTest, main, make_fan, make_line
+from test_points import make_cloud
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 125
@@ -41,6 +42,7 @@ class Client(PluginTest):
         self.save(make_fan(14))
         self.save(make_fan(30), "long.vtp")  # 17 iterations
         self.save(make_line(make_fan(30), 15, 29), "lines.vtp")
+        self.save(make_cloud(1000), "cloud.vtp")
         environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder,
                            DELAUNAYFLIP_SESSION=session)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
@@ -55,7 +57,8 @@ class Client(PluginTest):
         return client.stdout
 
     def test_sessions(self):
-        for session in ("use_filter", "use_panel", "use_chart", "use_statistics"):
+        for session in ("use_filter", "use_panel", "use_chart", "use_statistics",
+                        "use_points"):
             with self.subTest(session):
                 self.assertNotRegex(self.play(session), "ERR[|]|WARN[|]|warning:")
 

@@ -78,7 +78,7 @@ class Points(PluginTest):
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
         _, text = self.apply(self.read(line))
-        self.assertIn("points that make no triangle", text)
+        self.assertIn("points without a triangle", text)
         wrong = self.read(make_data(KITE, (), [(0, 1, 3, 2)]), "wrong.vtp")
         points, text = self.apply(self.read(make_data(KITE)), Segments=wrong)
         self.assertIn("ring 0", text)

@@ -338,7 +338,7 @@ class SamePoints(unittest.TestCase):
             told = self.expect_same(make_cloud(kind=kind))
             self.assertIn("points at the place of another one", told["warnings"][0])
         self.expect_same(make_cloud(), lambda points: points.SetMaximumIterations(1))
-        for count in (0, 2, 3):
+        for count in (0, 1, 2, 3):
             self.expect_same(make_cloud(count, seed=2))
 
     def test_segments(self):
@@ -382,12 +382,14 @@ class SamePoints(unittest.TestCase):
             blocks.SetBlock(i, data)
         told = self.expect_same(blocks)
         self.assertIn("has no points of its own", told["warnings"][0])
+        told = self.expect_same(make_cloud(30), lambda points: points.SetInputDataObject(1, blocks))
+        self.assertIn("cannot be a composite dataset", told["errors"][0])
 
     def test_pieces_are_an_error(self):
         for kind in (CxxPoints, PythonPoints):
             told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
             told.filter.Update()
-            self.assertIn("gather them in one dataset first", told.errors[0])
+            self.assertIn("in several partitions; join them first", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter Delaunay Flip for ParaView, without compiling: a plugin in Python.
+"""Delaunay Flip and Delaunay From Points for ParaView, without compiling: a plugin in Python.
 
 Start ParaView with PV_PLUGIN_PATH=.../delaunayflip/plugin, choose Tools > Manage Plugins > Load New
 and this file, or in pvpython
@@ -8,11 +8,11 @@ and this file, or in pvpython
     from paraview.simple import LoadPlugin
     LoadPlugin(".../delaunayflip/plugin/DelaunayFlip.py", remote=False, ns=globals())
 
-It has the properties of the plugin in C++, but not its chart, its text in the view and its live
-updates: all flips are made at once. Partitions of a dataset, and the pieces of a server
-with several processes, are flipped one by one: edges between them stay, with a warning, and the
-statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh. Each
-plugin can read the state files of the other, but only one of the two can be loaded.
+It has the properties of the plugin in C++, but not its chart, its text in the view, its live updates
+and the projection of points: all flips are made at once. Partitions of a dataset, and the pieces of a
+server with several processes, are flipped one by one: edges between them stay, with a warning, and
+the statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh.
+Each plugin can read the state files of the other, but only one of the two can be loaded.
 
 It has a folder of its own, because ParaView loads all files of a folder in PV_PLUGIN_PATH.
 """
@@ -39,6 +39,7 @@ from vtkmodules.vtkCommonDataModel import (
 import delaunayflip
 from delaunayflip._vtk_filter import vtkDelaunayFlip
 from delaunayflip._vtk_mesh import vtk_of
+from delaunayflip._vtk_points import vtkDelaunayFlipPoints
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
@@ -59,17 +60,20 @@ def _find(name):
     return next(path for path in (_FOLDER / name, _FOLDER.parents[1] / "Plugin" / name) if path.exists())
 
 
-def _read_properties():
-    """The XML of the C++ plugin's properties, without the parts that need its libraries."""
-    (proxy,) = ElementTree.parse(_find("DelaunayFlip.xml")).iter("SourceProxy")
+def _read_properties(file, left_out=None):
+    """The XML of the C++ plugin's properties, without the parts that need its libraries, and without
+    one property."""
+    (proxy,) = ElementTree.parse(_find(file)).iter("SourceProxy")
     for element in proxy.iter():
+        for child in [child for child in element if left_out and child.get("name") == left_out]:
+            element.remove(child)
         if element.get("panel_widget", "") == "DelaunayFlipSourceList":
             element.set("panel_widget", "input_selector")
         elif element.get("panel_widget", "").startswith("DelaunayFlip"):
             del element.attrib["panel_widget"]
     hints = proxy.find("Hints")
     hints.remove(hints.find("LiveSource"))
-    del hints.find("ShowInMenu").attrib["icon"]
+    hints.find("ShowInMenu").attrib.pop("icon", None)
     return "".join(ElementTree.tostring(element, encoding="unicode") for element in proxy)
 
 
@@ -154,7 +158,7 @@ vtkSMSettings.GetInstance().AddCollectionFromString(_find("AngleColors.json").re
 
 
 @smproxy.filter(name="DelaunayFlip", label="Delaunay Flip", support_reload=False)
-@smproperty.xml(_read_properties())
+@smproperty.xml(_read_properties("DelaunayFlip.xml"))
 class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView, which accepts any surface."""
 
@@ -173,3 +177,9 @@ class DelaunayFlip(vtkDelaunayFlip):
 
     def GetNumberOfMovedTriangles(self):
         return 0
+
+
+@smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
+@smproperty.xml(_read_properties("DelaunayFromPoints.xml", left_out="Projection"))
+class DelaunayFromPoints(vtkDelaunayFlipPoints):
+    """vtkDelaunayFlipPoints for ParaView."""
