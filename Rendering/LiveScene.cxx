@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveScene.h"
 
+#include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
 
 #include "vtkActor.h"
@@ -17,6 +18,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -25,6 +29,9 @@ namespace
 {
 
 constexpr int FontSize = 14;
+
+constexpr const char* KeyHelp = "space: run/pause   n: next step   b: begin again   "
+                                "k: colours   g: edges   i: statistics   d: drawing   q: quit";
 
 using Color = std::array<double, 3>;
 
@@ -54,6 +61,98 @@ int GetViewAxis(const double* bounds)
   return isFlat(2) ? 2 : isFlat(1) ? 1 : isFlat(0) ? 0 : 2;
 }
 
+/// 1234567 -> "1,234,567"
+std::string Group(vtkIdType number)
+{
+  std::string text = std::to_string(number);
+  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
+  {
+    text.insert(static_cast<std::size_t>(i), ",");
+  }
+  return text;
+}
+
+/// 2, "flip" -> "2 flips"
+std::string Count(vtkIdType number, const std::string& things)
+{
+  return Group(number) + " " + things + (number == 1 ? "" : "s");
+}
+
+std::string DescribeCounts(vtkDelaunayFlip* filter)
+{
+  return Count(filter->GetTotalFlips(), "flip") + ", " +
+    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+}
+
+/// Breaks a text into lines that fit into a window.
+std::string Wrap(const std::string& text)
+{
+  constexpr std::size_t width = 60; // characters
+  std::istringstream words(text);
+  std::string wrapped;
+  std::string word;
+  for (std::size_t begin = 0; words >> word; wrapped += word)
+  {
+    const bool fits = wrapped.size() - begin + 1 + word.size() <= width;
+    wrapped += wrapped.empty() ? "" : fits ? " " : "\n";
+    begin = fits ? begin : wrapped.size();
+  }
+  return wrapped;
+}
+
+std::string DescribeState(const LiveStatus& status)
+{
+  switch (status.State)
+  {
+    case LiveState::Failed:
+    {
+      // If the filter's source failed, the filter itself has no message.
+      const std::string reason = status.Filter->GetErrorMessage();
+      return Wrap("failed: " + (reason.empty() ? "no input" : reason));
+    }
+    case LiveState::Converged:
+      return "converged";
+    case LiveState::Limited:
+      return "iteration limit";
+    case LiveState::Aborted:
+      return "aborted";
+    default:
+      return status.IsRunning ? "running" : "paused";
+  }
+}
+
+/// After a failure the filter has no counts, so the text says which frame is shown instead.
+std::string DescribeMesh(const LiveStatus& status)
+{
+  const std::string state = DescribeState(status);
+  const std::string triangles = Count(status.Triangles, "triangle");
+  if (status.State == LiveState::Failed)
+  {
+    return state + "\nthe mesh of frame " + Group(status.Frame);
+  }
+  if (status.Frame == 0)
+  {
+    return "input, " + state + "\n" + triangles;
+  }
+  if (!vtkPolyData::SafeDownCast(status.Filter->GetOutputDataObject(0)))
+  {
+    return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
+  }
+  return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
+    DescribeCounts(status.Filter);
+}
+
+std::string DescribeStatus(const LiveStatus& status)
+{
+  char angle[64] = "";
+  if (!std::isnan(status.SmallestAngle))
+  {
+    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", status.SmallestAngle);
+  }
+  const std::string drawing = status.Drawing.empty() ? "" : "\n" + Wrap(status.Drawing);
+  return DescribeMesh(status) + angle + drawing;
+}
+
 }
 
 LiveScene::LiveScene()
@@ -80,6 +179,7 @@ LiveScene::LiveScene()
   this->Status->SetPosition(0.02, 0.985);
   this->Keys->GetTextProperty()->SetJustificationToCentered();
   this->Keys->SetPosition(0.5, 0.015);
+  this->Keys->SetInput(KeyHelp);
 }
 
 LiveScene::~LiveScene() { this->Leave(); }
@@ -190,19 +290,18 @@ bool LiveScene::GetEdgeVisibility() const
   return this->Actor->GetProperty()->GetEdgeVisibility() != 0;
 }
 
-void LiveScene::SetStatus(const std::string& text, bool isError)
+void LiveScene::SetStatus(const LiveStatus& status)
 {
   const Color& red = IsDark(this->Renderer) ? LightRed : DarkRed;
-  this->Status->SetInput(text.c_str());
-  this->Status->SetVisibility(!text.empty());
-  Paint(this->Status->GetTextProperty(), isError ? red.data() : this->Ink);
+  this->Status->SetInput(DescribeStatus(status).c_str());
+  this->Status->VisibilityOn();
+  Paint(
+    this->Status->GetTextProperty(), status.State == LiveState::Failed ? red.data() : this->Ink);
 }
 
-void LiveScene::SetKeys(const std::string& text)
-{
-  this->Keys->SetInput(text.c_str());
-  this->Keys->SetVisibility(!text.empty());
-}
+void LiveScene::HideStatus() { this->Status->VisibilityOff(); }
+
+void LiveScene::SetKeyVisibility(bool visible) { this->Keys->SetVisibility(visible); }
 
 void LiveScene::Draw()
 {

@@ -10,7 +10,6 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -134,38 +133,22 @@ void main()
 }
 )";
 
-/// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
-/// with VTK 9.6 a line stays.
-vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
-{
-  const vtkIdType before = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
-  const vtkIdType count = mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips();
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
-  surface->SetPoints(mesh->GetPoints());
-  surface->SetPolys(mesh->GetPolys());
-  surface->SetStrips(mesh->GetStrips());
-  surface->GetCellData()->CopyAllOn();
-  surface->GetCellData()->CopyAllocate(mesh->GetCellData(), count);
-  surface->GetCellData()->CopyData(mesh->GetCellData(), 0, count, before);
-  return surface;
-}
-
-/// The faces of a mesh as triangles with their cell data: a copy that shares arrays where it can.
+/// A copy of a mesh, which shares arrays, if its polygons are triangles, as in outputs of the
+/// filter. Otherwise one in which polygons and strips are split into triangles.
 vtkSmartPointer<vtkPolyData> MakeFaces(vtkPolyData* mesh)
 {
   auto faces = vtkSmartPointer<vtkPolyData>::New();
-  const vtkIdType triangles = mesh ? mesh->GetNumberOfPolys() : 0;
-  if (mesh && mesh->GetNumberOfCells() == triangles &&
-    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0)) // as in outputs of the filter
+  if (mesh)
   {
     faces->ShallowCopy(mesh);
   }
-  else if (mesh)
+  const vtkIdType size = faces->GetPolys()->IsHomogeneous(); // 0: there are none
+  if (faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
   {
     vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(TakeSurface(mesh));
+    split->SetInputData(faces);
     split->Update();
-    faces->ShallowCopy(split->GetOutput());
+    return split->GetOutput();
   }
   return faces;
 }
@@ -193,47 +176,31 @@ TriangleArray ViewTriangles(vtkPolyData* faces)
     : TriangleArray(static_cast<const std::int64_t*>(first), faces->GetNumberOfPolys());
 }
 
-using Color = std::array<double, 3>;
-
-/// Fills the table, for 0 to `largest`, with twelve bands of colours interpolated between `stops`.
-void FillTable(vtkLookupTable* table, const std::vector<Color>& stops, double largest)
+/// Fills the table, for flip counts or angles, with twelve bands between a few colours.
+void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
 {
   constexpr int bands = 12;
-  vtkNew<vtkColorTransferFunction> function;
-  for (std::size_t i = 0; i < stops.size(); ++i)
-  {
-    const double x = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
-    function->AddRGBPoint(x, stops[i][0], stops[i][1], stops[i][2]);
-  }
+  using Colors = std::vector<std::array<double, 3>>;
+  // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
+  const Colors colors = byFlipCount
+    ? Colors{ { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 },
+        { 0.46, 0.32, 0.66 }, { 0.25, 0.0, 0.49 } }
+    : Colors{ { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 },
+        { 0.82, 0.90, 0.94 }, { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } };
   table->SetNumberOfTableValues(bands);
   for (int i = 0; i < bands; ++i)
   {
-    const double* rgb = function->GetColor(static_cast<double>(i) / (bands - 1));
+    const double place = static_cast<double>(i) / (bands - 1) * (colors.size() - 1.0);
+    const std::size_t low = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+    double rgb[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      rgb[k] = colors[low][k] + (place - low) * (colors[low + 1][k] - colors[low][k]);
+    }
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
-  table->SetRange(0.0, largest);
-}
-
-/// The table for flip counts or angles.
-void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
-{
-  if (byFlipCount)
-  {
-    // From nearly white to dark violet. The range is 0 to the largest count, rounded up to a
-    // multiple of four for whole labels at its quarters, and at least 12.
-    FillTable(table,
-      { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
-        { 0.25, 0.0, 0.49 } },
-      4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
-  }
-  else
-  {
-    // 0 to 60 degrees in steps of five: from red for slivers to blue for equilateral triangles.
-    FillTable(table,
-      { { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 }, { 0.82, 0.90, 0.94 },
-        { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } },
-      60.0);
-  }
+  // The largest count is rounded up to a multiple of four for whole labels at its quarters.
+  table->SetRange(0.0, byFlipCount ? 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0) : 60.0);
 }
 
 ColorBands GetBands(vtkLookupTable* table)
@@ -275,7 +242,7 @@ struct vtkDelaunayFlipMapper::Parts
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
   vtkSmartPointer<vtkDataArray> Points; ///< As float or double.
   vtkMTimeType PointsTime = 0;
-  double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  vtkBoundingBox Box; ///< Of the points that triangles use.
   double Center[3] = { 0.0, 0.0, 0.0 };
   double Unit = 1.0; ///< Of places in the shader.
 
@@ -345,24 +312,19 @@ void vtkDelaunayFlipMapper::Parts::ReadPoints()
       areUsed[id] = 1;
     }
   }
-  vtkMath::UninitializeBounds(this->Bounds);
-  vtkBoundingBox box;
+  this->Box.Reset();
   for (std::int64_t i = 0; i < places.Count; ++i)
   {
     if (areUsed[i])
     {
-      box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
+      this->Box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
     }
   }
   const vtkMTimeType time = points ? points->GetMTime() : 0;
-  if (box.IsValid())
+  if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
   {
-    box.GetBounds(this->Bounds);
-  }
-  if (std::exchange(this->PointsTime, time) != time && box.IsValid())
-  {
-    box.GetCenter(this->Center);
-    const double half = 0.5 * box.GetDiagonalLength();
+    this->Box.GetCenter(this->Center);
+    const double half = 0.5 * this->Box.GetDiagonalLength();
     this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
   }
 }
@@ -514,7 +476,9 @@ FilledMesh vtkDelaunayFlipMapper::Parts::DescribeMesh(vtkLookupTable* table)
     return GetBands(table);
   };
   vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
-  return { this->FindSession(), ViewTriangles(this->Faces), FindValues<vtkIntArray>(counts),
+  const int* flips = FindValues<vtkIntArray>(counts);
+  const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
+  return { this->FindSession(), ViewTriangles(this->Faces), flips ? flips + first : nullptr,
     ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
 }
 
@@ -645,7 +609,11 @@ void vtkDelaunayFlipMapper::ReadInput()
 void vtkDelaunayFlipMapper::ComputeBounds()
 {
   this->ReadInput();
-  std::copy_n(this->Own->Bounds, 6, this->Bounds);
+  vtkMath::UninitializeBounds(this->Bounds);
+  if (this->Own->Box.IsValid())
+  {
+    this->Own->Box.GetBounds(this->Bounds);
+  }
 }
 
 /// Brings everything that is drawn up to date, in the current context of a window. After a failure
