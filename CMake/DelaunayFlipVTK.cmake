@@ -39,7 +39,7 @@ if(TARGET VTK::glad) # since VTK 9.4
 endif()
 
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
-set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
+set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel CommonTransforms) # what users need
 option(DELAUNAYFLIP_BUILD_PARALLEL "Build the filter for many ranks, where VTK has ParallelCore" ON)
 set(DELAUNAYFLIP_PARALLEL OFF) # whether it is built
 if(DELAUNAYFLIP_BUILD_PARALLEL AND TARGET VTK::ParallelCore)

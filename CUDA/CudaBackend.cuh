@@ -5,7 +5,6 @@
 
 #include "Array.h"
 #include "CudaContext.h"
-#include "CudaError.h"
 #include "DeviceMesh.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
@@ -178,7 +177,7 @@ public:
   /// @param devices CUDA's numbers of the GPUs, which share the mesh; -1: the current one.
   /// @param threads the number of CPU threads, for conversions of copied data.
   CudaBackend(const std::vector<int>& devices, int threads)
-    : Context(ResolveDevices(devices)),
+    : Context(LeaseContext(ResolveDevices(devices))),
       Threads(threads)
   {
   }
@@ -433,10 +432,15 @@ public:
   template <typename LaunchKernel>
   void Launch(const LaunchKernel& launch) const
   {
+    this->Launch(this->GetStream(), launch);
+  }
+  template <typename LaunchKernel>
+  static void Launch(cudaStream_t stream, const LaunchKernel& launch)
+  {
     CallCuda("start a kernel",
       [&]
       {
-        launch(this->GetStream());
+        launch(stream);
         return cudaGetLastError();
       });
   }
@@ -447,25 +451,21 @@ public:
   template <typename LaunchPart>
   void LaunchOnEach(int parts, const LaunchPart& launch) const
   {
-    if (parts == 1)
+    if (parts > 1)
     {
-      this->Launch([&](cudaStream_t stream) { launch(stream, 0); });
-      return;
+      this->Context->Fork();
     }
-    this->Context->Fork();
     this->Launch([&](cudaStream_t stream) { launch(stream, 0); });
     for (int part = 1; part < parts; ++part)
     {
       const DeviceStreams& other = this->Context->Others[part - 1];
       const CurrentDevice current(other.Device);
-      CallCuda("start a kernel",
-        [&]
-        {
-          launch(other.Stream, part);
-          return cudaGetLastError();
-        });
+      Launch(other.Stream, [&](cudaStream_t stream) { launch(stream, part); });
     }
-    this->Context->Join();
+    if (parts > 1)
+    {
+      this->Context->Join();
+    }
   }
 
   /// Calls launch(stream, items, part), which launches a kernel, for the items of every GPU.

@@ -4,18 +4,73 @@
 
 #include "Array.h"
 #include "CudaDevice.h"
-#include "CudaError.h"
 #include "DeviceMemory.h"
+#include "FlipError.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <new>
+#include <string>
 #include <vector>
 
 namespace delaunayflip
 {
 
+namespace
+{
+std::atomic<std::int64_t> NumberOfCalls{ 0 };
+std::atomic<std::int64_t> FailingCall{ -1 };
+std::atomic<cudaError_t> InjectedError{ cudaSuccess };
+
+/// Advice about errors that users may encounter.
+std::string Advise(cudaError_t error)
+{
+  switch (error)
+  {
+    case cudaErrorMemoryAllocation:
+      return "; the mesh is too large for the free memory of the GPU, unless it is flipped in "
+             "pieces";
+    case cudaErrorNoDevice:
+      return "; does this machine have an NVIDIA GPU?";
+    case cudaErrorInvalidDevice:
+      return "; CUDA numbers the GPUs of a machine from 0";
+    case cudaErrorInsufficientDriver:
+      return HasCudaDriver() ? "; update NVIDIA's driver" : "; no NVIDIA driver is installed";
+    case cudaErrorNoKernelImageForDevice:
+      return "; this build has no code for this GPU, set CMAKE_CUDA_ARCHITECTURES";
+    default:
+      return "";
+  }
+}
+}
+
+bool HasCudaDriver()
+{
+  int version = 0;
+  return cudaDriverGetVersion(&version) == cudaSuccess && version > 0;
+}
+
+void ThrowCudaError(cudaError_t error, const char* action)
+{
+  cudaGetLastError();
+  throw BackendUnavailable(
+    std::string("CUDA could not ") + action + ": " + cudaGetErrorString(error) + Advise(error));
+}
+
+void InjectCudaError(std::int64_t calls, cudaError_t error)
+{
+  InjectedError = error;
+  FailingCall = calls > 0 ? NumberOfCalls + calls : -1;
+}
+
+cudaError_t BeginCudaCall()
+{
+  return ++NumberOfCalls == FailingCall ? InjectedError.load() : cudaSuccess;
+}
+
+//------------------------------------------------------------------------------
 namespace
 {
 /// Contexts that no run uses. Never destroyed: at the end of the process the driver may already be
@@ -167,14 +222,9 @@ void CudaContext::LetWait(cudaStream_t stream, cudaStream_t other, cudaEvent_t e
 
 void CudaContext::Fork() const
 {
-  if (this->Others.empty())
-  {
-    return;
-  }
-  CallCuda("record an event", cudaEventRecord, this->StreamDone, this->Stream);
   for (const DeviceStreams& other : this->Others)
   {
-    CallCuda("wait for an event", cudaStreamWaitEvent, other.Stream, this->StreamDone, 0);
+    LetWait(other.Stream, this->Stream, this->StreamDone);
   }
 }
 
@@ -201,33 +251,23 @@ CurrentDevice::~CurrentDevice()
   }
 }
 
-ContextLease::ContextLease(const std::vector<int>& devices)
-  : Context(IdleContexts::Get().Take(devices))
+ContextLease LeaseContext(const std::vector<int>& devices)
 {
-  if (!this->Context)
-  {
-    this->Context.reset(new CudaContext(devices));
-  }
+  std::unique_ptr<CudaContext> idle = IdleContexts::Get().Take(devices);
+  return ContextLease(idle ? idle.release() : new CudaContext(devices));
 }
 
-ContextLease::ContextLease(ContextLease&&) noexcept = default;
-
-/// Waits for all GPUs, also after an exception between Fork and Join. A context in which something
-/// failed is not kept for the next run.
-ContextLease::~ContextLease()
+void ContextReturn::operator()(CudaContext* context) const noexcept
 {
-  if (!this->Context)
-  {
-    return;
-  }
-  bool isGood = cudaStreamSynchronize(this->Context->Stream) == cudaSuccess;
-  for (const DeviceStreams& other : this->Context->Others)
+  std::unique_ptr<CudaContext> returned(context);
+  bool isGood = cudaStreamSynchronize(context->Stream) == cudaSuccess;
+  for (const DeviceStreams& other : context->Others)
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
   if (isGood)
   {
-    IdleContexts::Get().Give(std::move(this->Context));
+    IdleContexts::Get().Give(std::move(returned));
   }
 }
 

@@ -4,19 +4,52 @@
 #define DELAUNAYFLIP_CUDACONTEXT_H
 
 #include "Array.h"
-#include "CudaError.h"
 #include "DeviceMemory.h"
 #include "LoadedMesh.h"
 
 #include <cuda_runtime_api.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace delaunayflip
 {
+
+// Errors of the CUDA runtime as exceptions.
+
+/// Throws a BackendUnavailable that says what was tried and why it failed. Clears the runtime's
+/// last error, so that no other code sees it.
+[[noreturn]] void ThrowCudaError(cudaError_t error, const char* action);
+
+/// Whether a driver is installed, of any version. Never throws.
+bool HasCudaDriver();
+
+/// For tests: the `calls`-th call of CallCuda from now on (1: the next) is not made but fails with
+/// `error`; 0 cancels this.
+void InjectCudaError(std::int64_t calls, cudaError_t error);
+
+/// Counts a call. @returns the error that it must fail with, or cudaSuccess.
+cudaError_t BeginCudaCall();
+
+/// Makes a call of the CUDA runtime: of one of its functions with arguments, or of a function that
+/// launches a kernel and returns cudaGetLastError().
+/// @param action what it does, for the message, e.g. "allocate memory".
+/// @throws BackendUnavailable.
+template <typename Call, typename... Arguments>
+void CallCuda(const char* action, const Call& call, const Arguments&... arguments)
+{
+  const cudaError_t injected = BeginCudaCall();
+  const cudaError_t error = injected == cudaSuccess ? call(arguments...) : injected;
+  if (error != cudaSuccess)
+  {
+    ThrowCudaError(error, action);
+  }
+}
+
+//------------------------------------------------------------------------------
 
 /// What the CUDA runtime has made, owned.
 template <typename T, cudaError_t (*Destroy)(T*)>
@@ -125,21 +158,16 @@ private:
   int Previous = -1;
 };
 
-/// A context for one run. Kept afterwards for the next run, unless something failed in it.
-class ContextLease
+/// Waits for all GPUs, also after an exception between Fork and Join, and keeps the context for the
+/// next run, unless something failed in it.
+struct ContextReturn
 {
-public:
-  explicit ContextLease(const std::vector<int>& devices);
-  ~ContextLease();
-  ContextLease(ContextLease&&) noexcept;
-  ContextLease& operator=(ContextLease&&) = delete;
-
-  CudaContext& operator*() const { return *this->Context; }
-  CudaContext* operator->() const { return this->Context.get(); }
-
-private:
-  std::unique_ptr<CudaContext> Context;
+  void operator()(CudaContext* context) const noexcept;
 };
+
+/// A context for one run.
+using ContextLease = std::unique_ptr<CudaContext, ContextReturn>;
+ContextLease LeaseContext(const std::vector<int>& devices);
 
 }
 

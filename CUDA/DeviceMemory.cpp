@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviceMemory.h"
 
-#include "CudaError.h"
+#include "CudaContext.h"
 #include "FlipError.h"
 
 #include <cuda.h>
@@ -201,16 +201,6 @@ SharedMemory::SharedMemory(std::vector<int> devices, DeviceMemory& small)
 }
 
 SharedMemory::~SharedMemory() { this->ReleaseIdle(); }
-
-namespace
-{
-// With fewer triangles per GPU, the smallest arrays with a value per edge, the bits, would be on
-// one GPU, and the others would wait for it.
-std::int64_t smallestShare = 12000000;
-}
-
-std::int64_t GetSmallestShare() { return smallestShare; }
-void SetSmallestShare(std::int64_t triangles) { smallestShare = triangles; }
 
 bool SharedMemory::IsSmall(std::size_t bytes) const
 {

@@ -71,10 +71,10 @@ void* AllocateOrRelease(const Allocate& allocate)
   }
 }
 
-/// The fewest triangles per GPU for which GPUs share a mesh; smaller meshes stay on one GPU.
-std::int64_t GetSmallestShare();
-/// For tests.
-void SetSmallestShare(std::int64_t triangles);
+/// The fewest triangles per GPU for which GPUs share a mesh; smaller meshes stay on one GPU. With
+/// fewer, the smallest arrays with a value per edge, the bits, would be on one GPU, and the others
+/// would wait for it. Only tests change it.
+inline std::int64_t SmallestShare = 12000000;
 
 /// Memory of several GPUs that all of them can access. An array has one range of addresses, with
 /// an equal part of it on each GPU, in their order: what belongs to the same part of the mesh is on

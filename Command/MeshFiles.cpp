@@ -9,18 +9,17 @@
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <new>
@@ -105,6 +104,28 @@ void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what
       }
       ++cell;
     });
+}
+
+void RequireValidIds(vtkPolyData* mesh, const InputFile& file)
+{
+  vtkIdType cell = 0;
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  for (vtkCellArray* cells :
+    { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() })
+  {
+    ForEachCell(cells,
+      [&](vtkIdType size, const vtkIdType* ids)
+      {
+        const vtkIdType* const bad =
+          std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
+        if (bad != ids + size)
+        {
+          file.Fail("cell " + std::to_string(cell) + " names point " + std::to_string(*bad) +
+            ", but there are " + Counted(points, "point") + ", numbered from 0");
+        }
+        ++cell;
+      });
+  }
 }
 
 /// Whether the last line of a .vtk or an .obj is complete: if it is cut off, the file may be
@@ -211,15 +232,16 @@ MeshFormat FormatOf(const std::string& path)
 {
   static const std::map<std::string, MeshFormat> formats = { { ".vtk", MeshFormat::VTK },
     { ".vtp", MeshFormat::VTP }, { ".ply", MeshFormat::PLY }, { ".stl", MeshFormat::STL },
-    { ".obj", MeshFormat::OBJ } };
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  const auto found = formats.find(extension);
+    { ".obj", MeshFormat::OBJ }, { ".xyz", MeshFormat::Points }, { ".csv", MeshFormat::Points },
+    { ".txt", MeshFormat::Points } };
+  const auto found = formats.find(
+    vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path)));
   if (found == formats.end())
   {
     throw CommandError(ExitCode::WrongUsage,
-      path + ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj");
+      path +
+        ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
+        ".xyz, .csv and .txt");
   }
   return found->second;
 }
@@ -230,11 +252,14 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
   const ReadingLimits limits(static_cast<double>(file.GetBytes().size()));
   try
   {
-    return format == MeshFormat::VTK ? ReadLegacy(file, messages)
-      : format == MeshFormat::VTP    ? ReadXml(file, messages)
-      : format == MeshFormat::PLY    ? ReadPly(file)
-      : format == MeshFormat::STL    ? ReadStl(file)
-                                     : ReadObj(file);
+    FileMesh read = format == MeshFormat::VTK ? ReadLegacy(file, messages)
+      : format == MeshFormat::VTP             ? ReadXml(file, messages)
+      : format == MeshFormat::PLY             ? ReadPly(file)
+      : format == MeshFormat::STL             ? ReadStl(file)
+      : format == MeshFormat::OBJ             ? ReadObj(file)
+                                              : ReadPoints(file);
+    RequireValidIds(read.Mesh, file);
+    return read;
   }
   catch (const std::bad_alloc&)
   {
@@ -270,6 +295,8 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
       case MeshFormat::OBJ:
         WriteObj(mesh, path);
         break;
+      case MeshFormat::Points:
+        return; // the command line does not allow it
     }
     const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format, messages).Mesh;
     if (IsEnded(path, format) && mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
@@ -301,33 +328,31 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   using Arrays = std::vector<vtkAbstractArray*>;
   const Arrays ofPoints = isPly ? ArraysOfPly(mesh, true) : isObj ? ArraysOfObj(mesh) : Arrays();
   const Arrays ofCells = isPly ? ArraysOfPly(mesh, false) : Arrays();
-  std::vector<std::string> losses = { LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0),
-    LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()) };
+  std::string list;
+  const auto add = [&list](const std::string& loss)
+  { list += (list.empty() || loss.empty() ? "" : ", ") + loss; };
+  add(LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0));
+  add(LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()));
   if (isStl)
   {
     const PointLosses points(mesh);
-    losses.push_back(LostCount("unused points", points.Unused));
+    add(LostCount("unused points", points.Unused));
     if (points.LargestMove > 0.0)
     {
       std::array<char, 32> move{};
       std::snprintf(move.data(), move.size(), "%.2g", points.LargestMove);
-      losses.push_back("double precision of the points (coordinates change by up to " +
+      add("double precision of the points (coordinates change by up to " +
         std::string(move.data()) +
         (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
-  losses.push_back(LostArrays("point data", mesh->GetPointData(), ofPoints));
-  losses.push_back(LostArrays("cell data", mesh->GetCellData(), ofCells));
+  add(LostArrays("point data", mesh->GetPointData(), ofPoints));
+  add(LostArrays("cell data", mesh->GetCellData(), ofCells));
   if (isPly && mesh->GetNumberOfLines() > 0 && mesh->GetCellData()->GetNumberOfArrays() > 0)
   {
-    losses.push_back("cell data of lines");
+    add("cell data of lines");
   }
-  losses.push_back(LostArrays("field data", mesh->GetFieldData(), {}));
-  std::string list;
-  for (const std::string& loss : losses)
-  {
-    list += (list.empty() || loss.empty() ? "" : ", ") + loss;
-  }
+  add(LostArrays("field data", mesh->GetFieldData(), {}));
   return list;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipReport.h"
 
+#include <cstddef>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -11,38 +12,27 @@
 namespace delaunayflip
 {
 
+namespace
+{
+template <typename Kind, std::size_t Size>
+const char* GetName(const char* const (&names)[Size], Kind kind)
+{
+  const auto i = static_cast<std::size_t>(kind);
+  return i < Size ? names[i] : "unknown";
+}
+}
+
 const char* ToString(StopReasonKind reason)
 {
-  switch (reason)
-  {
-    case StopReasonKind::NotStarted:
-      return "not started";
-    case StopReasonKind::Converged:
-      return "converged";
-    case StopReasonKind::IterationLimit:
-      return "iteration limit";
-    case StopReasonKind::Aborted:
-      return "aborted";
-    case StopReasonKind::Running:
-      return "running";
-  }
-  return "unknown";
+  constexpr const char* Names[] = { "not started", "converged", "iteration limit", "aborted",
+    "running" };
+  return GetName(Names, reason);
 }
 
 const char* ToString(GeometryKind geometry)
 {
-  switch (geometry)
-  {
-    case GeometryKind::Auto:
-      return "auto";
-    case GeometryKind::Planar:
-      return "planar";
-    case GeometryKind::PlanarXY:
-      return "planar-xy";
-    case GeometryKind::Surface:
-      return "surface";
-  }
-  return "unknown";
+  constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface" };
+  return GetName(Names, geometry);
 }
 
 std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)

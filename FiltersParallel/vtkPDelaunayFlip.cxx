@@ -53,7 +53,7 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
       message.Put(number);
     }
     message.Put(block.Name);
-    message.Put(block.Cells);
+    message.Put(block.Size);
   }
   std::map<std::vector<std::int64_t>, MeshBlock> shared;
   for (Message& one : group.Gather(message.Bytes))
@@ -68,7 +68,7 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
       const std::string name = packet.GetText();
       MeshBlock& block =
         shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
-      block.Cells += packet.Get<double>();
+      block.Size += packet.Get<double>();
     }
   }
   for (const MeshBlock& block : own)
@@ -135,7 +135,7 @@ std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
         { "InsertConstraints", write(request.Settings.InsertConstraints) },
         { "GenerateFlipCount", write(request.WantsFlipCounts) },
         { "GenerateQuality", write(request.WantsAngles) } });
-    blocks = ShareBlocks(ListMeshBlocks(input), told);
+    blocks = ShareBlocks(ListMeshBlocks(input, vtkDataObject::CELL), told);
   };
   RunTogether(*this->Group, std::ref(share));
   return blocks;

@@ -30,8 +30,8 @@ namespace
 
 constexpr int FontSize = 14;
 
-constexpr const char* KeyHelp = "space: run/pause   n: next step   b: begin again   "
-                                "k: colours   g: edges   i: statistics   d: drawing   q: quit";
+constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
+                                "k: colours, g: edges, i: statistics, d: drawing, q: quit";
 
 using Color = std::array<double, 3>;
 
@@ -84,10 +84,9 @@ std::string DescribeCounts(vtkDelaunayFlip* filter)
     Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
 }
 
-/// Breaks a text into lines that fit into a window.
-std::string Wrap(const std::string& text)
+/// Breaks a text into lines of so many characters.
+std::string Wrap(const std::string& text, std::size_t width = 60)
 {
-  constexpr std::size_t width = 60; // characters
   std::istringstream words(text);
   std::string wrapped;
   std::string word;
@@ -179,7 +178,6 @@ LiveScene::LiveScene()
   this->Status->SetPosition(0.02, 0.985);
   this->Keys->GetTextProperty()->SetJustificationToCentered();
   this->Keys->SetPosition(0.5, 0.015);
-  this->Keys->SetInput(KeyHelp);
 }
 
 LiveScene::~LiveScene() { this->Leave(); }
@@ -262,9 +260,11 @@ void LiveScene::SetColorBy(int what)
 
 void LiveScene::ShowScale(const char* title)
 {
-  // Above the line of keys, if there is one, and as high as the labels need.
+  // Above the lines of keys, if there are any, and as high as the labels need.
   const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
-  const double lines = this->Keys->GetVisibility() ? 2.0 : 0.4;
+  const std::string keys = this->Keys->GetVisibility() ? this->Keys->GetInput() : "";
+  const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
+  const double lines = keys.empty() ? 0.4 : 2.0 + more;
   this->Scale->SetPosition(0.2, lines * FontSize / height);
   this->Scale->SetHeight(3.6 * FontSize / height);
   this->Scale->SetTitle(title);
@@ -301,7 +301,14 @@ void LiveScene::SetStatus(const LiveStatus& status)
 
 void LiveScene::HideStatus() { this->Status->VisibilityOff(); }
 
-void LiveScene::SetKeyVisibility(bool visible) { this->Keys->SetVisibility(visible); }
+/// In as many lines as the width of the renderer needs.
+void LiveScene::SetKeyVisibility(bool visible)
+{
+  constexpr int characterWidth = 8; // pixels
+  const auto width = static_cast<std::size_t>(this->Renderer->GetSize()[0] / characterWidth);
+  this->Keys->SetInput(Wrap(KeyHelp, width).c_str());
+  this->Keys->SetVisibility(visible);
+}
 
 void LiveScene::Draw()
 {

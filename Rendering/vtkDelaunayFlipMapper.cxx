@@ -268,240 +268,226 @@ struct vtkDelaunayFlipMapper::Parts
   bool HasWarned = false;
   double TableKind = -2.0; ///< What the table was filled for: a largest count, or -1 for angles.
 
-  const FlipSession* FindSession() const;
-  void ReadPoints();
-  void MakeBuffers(vtkOpenGLRenderWindow* window);
-  void MakeBuffer(BufferName name, vtkOpenGLBufferObject::ObjectType type, GLenum target,
-    std::int64_t count, GLenum format);
-  void UploadPoints();
-  void Release(vtkWindow* window);
-  void ChooseFiller(bool allowsDevice);
-  void Abandon(const std::exception& error);
-  FilledMesh DescribeMesh(vtkLookupTable* table);
-  void Draw(vtkShaderProgram* program);
-};
-
-//------------------------------------------------------------------------------
-/// The session whose triangles are the faces; or null.
-const FlipSession* vtkDelaunayFlipMapper::Parts::FindSession() const
-{
-  const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
-  const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
-  return fits ? session : nullptr;
-}
-
-/// Points that no triangle uses do not matter. The mesh may be one that no filter has checked.
-void vtkDelaunayFlipMapper::Parts::ReadPoints()
-{
-  vtkPoints* points = this->Faces->GetPoints();
-  this->Points = points ? points->GetData() : vtkSmartPointer<vtkDoubleArray>::New().Get();
-  if (!vtkFloatArray::FastDownCast(this->Points) && !vtkDoubleArray::FastDownCast(this->Points))
+  /// The session whose triangles are the faces; or null.
+  const FlipSession* FindSession() const
   {
-    auto doubles = vtkSmartPointer<vtkDoubleArray>::New();
-    doubles->DeepCopy(this->Points);
-    this->Points = doubles;
+    const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
+    const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
+    return fits ? session : nullptr;
   }
-  const PointArray places = ViewPoints(this->Points);
-  const TriangleArray triangles = ViewTriangles(this->Faces);
-  std::vector<char> areUsed(static_cast<std::size_t>(places.Count));
-  for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
+
+  /// Points that no triangle uses do not matter. The mesh may be one that no filter has checked.
+  void ReadPoints()
   {
-    const std::int64_t id = triangles.Get(i / 3, static_cast<int>(i % 3));
-    if (id >= 0 && id < places.Count)
+    vtkPoints* points = this->Faces->GetPoints();
+    this->Points = points ? points->GetData() : vtkSmartPointer<vtkDoubleArray>::New().Get();
+    if (!vtkFloatArray::FastDownCast(this->Points) && !vtkDoubleArray::FastDownCast(this->Points))
     {
-      areUsed[id] = 1;
+      auto doubles = vtkSmartPointer<vtkDoubleArray>::New();
+      doubles->DeepCopy(this->Points);
+      this->Points = doubles;
     }
-  }
-  this->Box.Reset();
-  for (std::int64_t i = 0; i < places.Count; ++i)
-  {
-    if (areUsed[i])
+    const PointArray places = ViewPoints(this->Points);
+    const TriangleArray triangles = ViewTriangles(this->Faces);
+    std::vector<char> areUsed(static_cast<std::size_t>(places.Count));
+    for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
     {
-      this->Box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
-    }
-  }
-  const vtkMTimeType time = points ? points->GetMTime() : 0;
-  if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
-  {
-    this->Box.GetCenter(this->Center);
-    const double half = 0.5 * this->Box.GetDiagonalLength();
-    this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
-  }
-}
-
-/// Keeps those that there are, if they have the right sizes.
-void vtkDelaunayFlipMapper::Parts::MakeBuffers(vtkOpenGLRenderWindow* window)
-{
-  const std::int64_t count = this->Faces->GetNumberOfPolys();
-  const std::int64_t points = this->Points->GetNumberOfTuples();
-  if (this->HasBuffers && this->Window == window && count == this->Count &&
-    points == this->PointCount)
-  {
-    return;
-  }
-  this->Release(this->Window);
-  window->MakeCurrent();
-  this->HasBuffers = true;
-  this->Window = window;
-  this->Count = count;
-  this->PointCount = points;
-  using Buffer = vtkOpenGLBufferObject;
-  this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
-  this->MakeBuffer(
-    Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
-  this->MakeBuffer(Colors, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_RGBA8);
-}
-
-/// Every value has four bytes.
-void vtkDelaunayFlipMapper::Parts::MakeBuffer(BufferName name,
-  vtkOpenGLBufferObject::ObjectType type, GLenum target, std::int64_t count, GLenum format)
-{
-  vtkOpenGLBufferObject* buffer = this->Buffers[name];
-  buffer->GenerateBuffer(type);
-  buffer->Bind();
-  glBufferData(target, static_cast<GLsizeiptr>(4 * count), nullptr, GL_DYNAMIC_DRAW);
-  buffer->Release();
-  vtkTextureObject* texture = this->Textures[name];
-  texture->SetContext(this->Window);
-  texture->SetInternalFormat(format);
-  texture->CreateTextureBuffer(static_cast<unsigned int>(count), name == Colors ? 4 : 1,
-    name == Colors ? VTK_UNSIGNED_CHAR : VTK_FLOAT, buffer);
-}
-
-void vtkDelaunayFlipMapper::Parts::UploadPoints()
-{
-  if (std::exchange(this->UploadTime, this->PointsTime) == this->PointsTime)
-  {
-    return;
-  }
-  std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
-  const PointArray points = ViewPoints(this->Points);
-  vtkSMPTools::For(0, this->PointCount,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
+      const std::int64_t id = triangles.Get(i / 3, static_cast<int>(i % 3));
+      if (id >= 0 && id < places.Count)
       {
-        const double x = points.Get(i / 3, static_cast<int>(i % 3)) - this->Center[i % 3];
-        places[i] = static_cast<float>(x / this->Unit);
+        areUsed[id] = 1;
       }
-    });
-  this->Buffers[Places]->Upload(places, vtkOpenGLBufferObject::ArrayBuffer);
-}
-
-/// Needs the window's context only if it is given.
-void vtkDelaunayFlipMapper::Parts::Release(vtkWindow* window)
-{
-  if (!std::exchange(this->HasBuffers, false))
-  {
-    return;
-  }
-  if (window)
-  {
-    window->MakeCurrent();
-  }
-  this->Filler.reset();
-  for (const int name : { Places, Corners, Colors })
-  {
-    this->Textures[name]->ReleaseGraphicsResources(window);
-    this->Buffers[name]->ReleaseGraphicsResources();
-  }
-  this->Array->ReleaseGraphicsResources();
-  this->Obstacle = NoRun;
-  this->UploadTime = 0;
-  this->IsBehind = true;
-  this->MayTryDevice = true;
-}
-
-//------------------------------------------------------------------------------
-/// CUDA is tried once for every mesh that the host has got. After a failure of the filter its
-/// session is gone, but the mesh in the buffers stays.
-void vtkDelaunayFlipMapper::Parts::ChooseFiller(bool allowsDevice)
-{
-  const DrawnBuffers buffers{ static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()),
-    static_cast<unsigned int>(this->Buffers[Colors]->GetHandle()), this->Count };
-  const bool isOnDevice = this->Obstacle.empty();
-  const bool hasSession = this->FindSession() != nullptr;
-  const bool hasOther = this->Filter && this->Filter->GetSession();
-  if (this->Filter && !hasOther && this->Filler)
-  {
-    return;
-  }
-  if (!hasSession || !allowsDevice)
-  {
-    this->Obstacle = hasSession ? "ZeroCopy is off"
-      : hasOther                ? "the mesh has other cells than triangles"
-                                : NoRun;
-    this->MayTryDevice = true;
-    this->Filler = isOnDevice ? nullptr : std::move(this->Filler);
-  }
-  else if (!isOnDevice && std::exchange(this->MayTryDevice, false))
-  {
-    try
+    }
+    this->Box.Reset();
+    for (std::int64_t i = 0; i < places.Count; ++i)
     {
-      this->Filler = DeviceFillerMaker(this->Filter, buffers);
-      this->Obstacle.clear();
+      if (areUsed[i])
+      {
+        this->Box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
+      }
+    }
+    const vtkMTimeType time = points ? points->GetMTime() : 0;
+    if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
+    {
+      this->Box.GetCenter(this->Center);
+      const double half = 0.5 * this->Box.GetDiagonalLength();
+      this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
+    }
+  }
+
+  /// Keeps those that there are, if they have the right sizes.
+  void MakeBuffers(vtkOpenGLRenderWindow* window)
+  {
+    const std::int64_t count = this->Faces->GetNumberOfPolys();
+    const std::int64_t points = this->Points->GetNumberOfTuples();
+    if (this->HasBuffers && this->Window == window && count == this->Count &&
+      points == this->PointCount)
+    {
+      return;
+    }
+    this->Release(this->Window);
+    window->MakeCurrent();
+    this->HasBuffers = true;
+    this->Window = window;
+    this->Count = count;
+    this->PointCount = points;
+    using Buffer = vtkOpenGLBufferObject;
+    this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
+    this->MakeBuffer(
+      Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
+    this->MakeBuffer(Colors, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_RGBA8);
+  }
+
+  /// Every value has four bytes.
+  void MakeBuffer(BufferName name, vtkOpenGLBufferObject::ObjectType type, GLenum target,
+    std::int64_t count, GLenum format)
+  {
+    vtkOpenGLBufferObject* buffer = this->Buffers[name];
+    buffer->GenerateBuffer(type);
+    buffer->Bind();
+    glBufferData(target, static_cast<GLsizeiptr>(4 * count), nullptr, GL_DYNAMIC_DRAW);
+    buffer->Release();
+    vtkTextureObject* texture = this->Textures[name];
+    texture->SetContext(this->Window);
+    texture->SetInternalFormat(format);
+    texture->CreateTextureBuffer(static_cast<unsigned int>(count), name == Colors ? 4 : 1,
+      name == Colors ? VTK_UNSIGNED_CHAR : VTK_FLOAT, buffer);
+  }
+
+  void UploadPoints()
+  {
+    if (std::exchange(this->UploadTime, this->PointsTime) == this->PointsTime)
+    {
+      return;
+    }
+    std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
+    const PointArray points = ViewPoints(this->Points);
+    vtkSMPTools::For(0, this->PointCount,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
+        {
+          const double x = points.Get(i / 3, static_cast<int>(i % 3)) - this->Center[i % 3];
+          places[i] = static_cast<float>(x / this->Unit);
+        }
+      });
+    this->Buffers[Places]->Upload(places, vtkOpenGLBufferObject::ArrayBuffer);
+  }
+
+  /// Needs the window's context only if it is given.
+  void Release(vtkWindow* window)
+  {
+    if (!std::exchange(this->HasBuffers, false))
+    {
+      return;
+    }
+    if (window)
+    {
+      window->MakeCurrent();
+    }
+    this->Filler.reset();
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->ReleaseGraphicsResources(window);
+      this->Buffers[name]->ReleaseGraphicsResources();
+    }
+    this->Array->ReleaseGraphicsResources();
+    this->Obstacle = NoRun;
+    this->UploadTime = 0;
+    this->IsBehind = true;
+    this->MayTryDevice = true;
+  }
+
+  /// CUDA is tried once for every mesh that the host has got. After a failure of the filter its
+  /// session is gone, but the mesh in the buffers stays.
+  void ChooseFiller(bool allowsDevice)
+  {
+    const DrawnBuffers buffers{ static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()),
+      static_cast<unsigned int>(this->Buffers[Colors]->GetHandle()), this->Count };
+    const bool isOnDevice = this->Obstacle.empty();
+    const bool hasSession = this->FindSession() != nullptr;
+    const bool hasOther = this->Filter && this->Filter->GetSession();
+    if (this->Filter && !hasOther && this->Filler)
+    {
+      return;
+    }
+    if (!hasSession || !allowsDevice)
+    {
+      this->Obstacle = hasSession ? "ZeroCopy is off"
+        : hasOther                ? "the mesh has other cells than triangles"
+                                  : NoRun;
+      this->MayTryDevice = true;
+      this->Filler = isOnDevice ? nullptr : std::move(this->Filler);
+    }
+    else if (!isOnDevice && std::exchange(this->MayTryDevice, false))
+    {
+      try
+      {
+        this->Filler = DeviceFillerMaker(this->Filter, buffers);
+        this->Obstacle.clear();
+        this->IsBehind = true;
+      }
+      catch (const std::exception& error)
+      {
+        this->Obstacle = error.what();
+      }
+    }
+    if (!this->Filler)
+    {
+      this->Filler = MakeHostFiller(this->Filter, buffers);
       this->IsBehind = true;
     }
-    catch (const std::exception& error)
-    {
-      this->Obstacle = error.what();
-    }
   }
-  if (!this->Filler)
+
+  /// Does without the filler that has failed.
+  void Abandon(const std::exception& error)
   {
-    this->Filler = MakeHostFiller(this->Filter, buffers);
+    this->Filler.reset();
+    this->Obstacle = error.what();
     this->IsBehind = true;
   }
-}
 
-/// Does without the filler that has failed.
-void vtkDelaunayFlipMapper::Parts::Abandon(const std::exception& error)
-{
-  this->Filler.reset();
-  this->Obstacle = error.what();
-  this->IsBehind = true;
-}
-
-FilledMesh vtkDelaunayFlipMapper::Parts::DescribeMesh(vtkLookupTable* table)
-{
-  // The table changes only if it must, since what is drawn with it is then drawn anew.
-  const auto choose = [this, table](double largestCount)
+  FilledMesh DescribeMesh(vtkLookupTable* table)
   {
-    this->LargestCount = std::max(this->LargestCount, largestCount);
-    const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
-    if (std::exchange(this->TableKind, kind) != kind)
+    // The table changes only if it must, since what is drawn with it is then drawn anew.
+    const auto choose = [this, table](double largestCount)
     {
-      FillTable(table, this->ByFlipCount, this->LargestCount);
-    }
-    return GetBands(table);
-  };
-  vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
-  const int* flips = FindValues<vtkIntArray>(counts);
-  const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
-  return { this->FindSession(), ViewTriangles(this->Faces), flips ? flips + first : nullptr,
-    ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
-}
+      this->LargestCount = std::max(this->LargestCount, largestCount);
+      const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
+      if (std::exchange(this->TableKind, kind) != kind)
+      {
+        FillTable(table, this->ByFlipCount, this->LargestCount);
+      }
+      return GetBands(table);
+    };
+    vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
+    const int* flips = FindValues<vtkIntArray>(counts);
+    const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
+    return { this->FindSession(), ViewTriangles(this->Faces), flips ? flips + first : nullptr,
+      ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
+  }
 
-void vtkDelaunayFlipMapper::Parts::Draw(vtkShaderProgram* program)
-{
-  this->Array->Bind();
-  this->Array->AddAttributeArray(
-    program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
-  this->Buffers[Corners]->Bind();
-  const char* const names[] = { "places", "corners", "colors" };
-  for (const int name : { Places, Corners, Colors })
+  void Draw(vtkShaderProgram* program)
   {
-    this->Textures[name]->Activate();
-    program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
+    this->Array->Bind();
+    this->Array->AddAttributeArray(
+      program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
+    this->Buffers[Corners]->Bind();
+    const char* const names[] = { "places", "corners", "colors" };
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->Activate();
+      program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
+    }
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->Deactivate();
+    }
+    this->Buffers[Corners]->Release();
+    this->Array->Release();
   }
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
-  for (const int name : { Places, Corners, Colors })
-  {
-    this->Textures[name]->Deactivate();
-  }
-  this->Buffers[Corners]->Release();
-  this->Array->Release();
-}
+};
 
 //------------------------------------------------------------------------------
 vtkStandardNewMacro(vtkDelaunayFlipMapper);

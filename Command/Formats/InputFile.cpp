@@ -114,42 +114,80 @@ bool IsBlank(char letter)
   return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f';
 }
 
+/// Without blanks around it, and without quotes around what is left.
+std::string_view Trimmed(std::string_view word)
+{
+  while (!word.empty() && IsBlank(word.front()))
+  {
+    word.remove_prefix(1);
+  }
+  while (!word.empty() && IsBlank(word.back()))
+  {
+    word.remove_suffix(1);
+  }
+  const bool isQuoted = word.size() > 1 && word.front() == '"' && word.back() == '"';
+  return isQuoted ? word.substr(1, word.size() - 2) : word;
 }
 
-TextLines::TextLines(const InputFile& file, char comment)
-  : File(file),
-    Comment(comment)
+}
+
+TextLines::TextLines(const InputFile& file, bool isObj)
+  : Rest(file.GetBytes()),
+    File(file),
+    IsObj(isObj)
 {
   const std::string_view mark = "\xEF\xBB\xBF";
-  this->Here = file.GetBytes().substr(0, mark.size()) == mark ? mark.size() : 0;
+  this->Rest.remove_prefix(this->Rest.substr(0, mark.size()) == mark ? mark.size() : 0);
 }
 
 bool TextLines::Next()
 {
   this->Words.clear();
   bool isContinued = false;
-  while ((this->Words.empty() || isContinued) && this->Here < this->File.GetBytes().size())
+  while ((this->Words.empty() || isContinued) && !this->Rest.empty())
   {
-    const std::string_view rest = this->GetRest();
+    const std::string_view rest = this->Rest;
     const auto end = std::find_if(rest.begin(), rest.end(), IsLineEnd);
     std::string_view line = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
-    const bool isPair = rest.substr(line.size(), 2) == "\r\n";
-    this->Here += line.size() + (end == rest.end() ? 0 : isPair ? 2 : 1);
+    const std::size_t ending = rest.substr(line.size(), 2) == "\r\n" ? 2 : 1;
+    this->Rest.remove_prefix(std::min(line.size() + ending, rest.size()));
     ++this->Line;
-    line = line.substr(0, line.find(this->Comment));
-    while (this->Continues && !line.empty() && IsBlank(line.back()))
+    if (this->IsObj)
     {
-      line.remove_suffix(1);
+      line = line.substr(0, line.find('#'));
+      const std::size_t last = line.find_last_not_of(" \t\v\f");
+      isContinued = last != line.npos && line[last] == '\\';
+      line = isContinued ? line.substr(0, last) : line;
     }
-    isContinued = this->Continues && !line.empty() && line.back() == '\\';
-    this->Split(line.substr(0, line.size() - (isContinued ? 1 : 0)));
+    this->Split(line);
   }
   return !this->Words.empty();
 }
 
+char TextLines::SeparateBy(std::string_view characters)
+{
+  const auto found = std::find_if(characters.begin(), characters.end(),
+    [this](char letter) { return this->Text.find(letter) != std::string_view::npos; });
+  this->Separator = found == characters.end() ? ' ' : *found;
+  this->Words.clear();
+  this->Split(this->Text);
+  return this->Separator;
+}
+
 void TextLines::Split(std::string_view line)
 {
+  this->Text = line;
   auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
+  if (this->Separator != ' ' && begin != line.end())
+  {
+    for (std::size_t start = 0; start <= line.size();)
+    {
+      const std::size_t end = std::min(line.find(this->Separator, start), line.size());
+      this->Words.push_back(Trimmed(line.substr(start, end - start)));
+      start = end + 1;
+    }
+    return;
+  }
   while (begin != line.end())
   {
     const auto end = std::find_if(begin, line.end(), IsBlank);
@@ -169,7 +207,7 @@ void TextLines::FailOn(std::string_view word, const char* problem) const
   std::string text(word.substr(0, longest));
   std::replace_if(
     text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
-  this->Fail("'" + text + (word.size() > longest ? "...'" : "'") + problem);
+  this->Fail("'" + text + "'" + problem);
 }
 
 }

@@ -48,15 +48,19 @@ private:
   std::string_view Bytes;
 };
 
-/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks.
+/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks,
+/// unless SeparateBy says otherwise.
 class TextLines
 {
 public:
-  /// Begins behind a byte order mark, if there is one. `comment` begins a comment.
-  explicit TextLines(const InputFile& file, char comment = '\n');
+  /// Begins behind a byte order mark, if there is one. In an .obj, # begins a comment, and a
+  /// backslash at the end of a line continues the line.
+  explicit TextLines(const InputFile& file, bool isObj = false);
 
-  /// After this call, a backslash at the end of a line continues the line.
-  void ContinueLines() { this->Continues = true; }
+  /// From this line on, words are separated by the first of these characters that this line has, if
+  /// it has one. Then words may be empty, and quotes around them are removed. Returns the
+  /// character, or a blank.
+  char SeparateBy(std::string_view characters);
 
   /// Reads the next line that is not empty. Returns false if there is none.
   bool Next();
@@ -64,14 +68,14 @@ public:
   /// The words of the line.
   std::vector<std::string_view> Words;
 
+  /// The bytes after this line.
+  std::string_view Rest;
+
   /// A word of the line as a number, read as by std::from_chars and rounded correctly; NaN and
   /// infinity are numbers.
   /// @throws CommandError (BadFile) where it is missing, no number, or too large for the type.
   template <typename T>
   T Number(std::size_t place) const;
-
-  /// The bytes after this line.
-  std::string_view GetRest() const { return this->File.GetBytes().substr(this->Here); }
 
   /// @throws CommandError (BadFile): the file, the number of this line and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
@@ -82,17 +86,17 @@ public:
 private:
   void Split(std::string_view line);
 
+  std::string_view Text; ///< The last one that was split.
   const InputFile& File;
-  std::size_t Here = 0;
   std::size_t Line = 0;
-  char Comment;
-  bool Continues = false;
+  bool IsObj;
+  char Separator = ' '; ///< Or a blank: any blanks.
 };
 
 template <typename T>
 T TextLines::Number(std::size_t place) const
 {
-  if (place >= this->Words.size())
+  if (place >= this->Words.size() || this->Words[place].empty())
   {
     this->Fail("a number is missing");
   }
@@ -103,25 +107,21 @@ T TextLines::Number(std::size_t place) const
   const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
   if (last != end || error == std::errc::invalid_argument)
   {
-    this->FailOn(
-      word, std::is_floating_point_v<T> ? " is not a number" : " is not an integer of its range");
+    this->FailOn(word, " is not a number of its type");
   }
-  if (error == std::errc())
-  {
-    return value;
-  }
-  if constexpr (std::is_floating_point_v<T>)
+  if (error == std::errc::result_out_of_range)
   {
     // Numbers below the smallest of the type are rounded, which std::from_chars does not do.
     const std::string text(word);
-    value = std::is_same_v<T, float> ? std::strtof(text.c_str(), nullptr)
-                                     : static_cast<T>(std::strtod(text.c_str(), nullptr));
-    if (!std::isinf(value))
+    const double rounded = std::is_same_v<T, float> ? std::strtof(text.c_str(), nullptr)
+                                                    : std::strtod(text.c_str(), nullptr);
+    if (!std::is_floating_point_v<T> || std::isinf(rounded))
     {
-      return value;
+      this->FailOn(word, " is out of range");
     }
+    value = static_cast<T>(rounded);
   }
-  this->FailOn(word, " is out of range");
+  return value;
 }
 
 }

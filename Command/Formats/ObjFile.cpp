@@ -29,7 +29,17 @@ namespace
 /// The numbers of a vertex, its texture coordinates and its normal, from 0; -1 for none.
 using Corner = std::array<std::int64_t, 3>;
 
-constexpr std::array<int, 3> Components = { 3, 2, 3 };
+/// The numbers of a line v, vt or vn.
+struct ObjVector
+{
+  const char* Keyword;
+  std::size_t Fewest; ///< How many there must be; the others are 0.
+  int Components;
+  const char* Others; ///< What more numbers are.
+};
+
+constexpr ObjVector Vectors[] = { { "v", 3, 3, "weights" },
+  { "vt", 1, 2, "third coordinates of vt" }, { "vn", 3, 3, "further coordinates of vn" } };
 
 vtkSmartPointer<vtkDoubleArray> MakeVectors(
   const char* name, const std::vector<double>& values, int components)
@@ -47,19 +57,18 @@ class ObjReader
 public:
   explicit ObjReader(const InputFile& file)
     : File(file),
-      Lines(file, '#')
+      Lines(file, true)
   {
-    TextLines all(file, '#'); // indices may refer to later lines
-    all.ContinueLines();
-    while (all.Next())
+    for (TextLines all(file, true); all.Next();) // indices may refer to later lines
     {
-      const std::string_view keyword = all.Words[0];
-      ++this->Sizes[keyword == "v" ? 0 : keyword == "vt" ? 1 : keyword == "vn" ? 2 : 3];
+      for (std::size_t kind = 0; kind < this->Sizes.size(); ++kind)
+      {
+        this->Sizes[kind] += all.Words[0] == Vectors[kind].Keyword ? 1 : 0;
+      }
     }
-    this->Lines.ContinueLines();
     while (this->Lines.Next())
     {
-      this->ReadLine();
+      this->ReadLine(std::string(this->Lines.Words[0]));
     }
   }
 
@@ -86,78 +95,61 @@ public:
     std::string list;
     for (const auto& [what, count] : this->LeftOut)
     {
-      list += (list.empty() ? "" : ", ") + what + " (" + std::to_string(count) + ")";
+      list += (list.empty() ? ": left out " : ", ") + what + " (" + std::to_string(count) + ")";
     }
     if (!list.empty())
     {
-      result.Warnings.push_back(this->File.GetName() + ": left out " + list);
+      result.Warnings.push_back(this->File.GetName() + list);
     }
     return result;
   }
 
 private:
-  void ReadLine()
+  void ReadLine(const std::string& keyword)
   {
-    const std::string keyword(this->Lines.Words[0]);
-    if (keyword == "v")
+    for (std::size_t kind = 0; kind < this->Values.size(); ++kind)
     {
-      this->ReadVertex();
-    }
-    else if (keyword == "vt" || keyword == "vn")
-    {
-      const bool isTexture = keyword == "vt";
-      for (std::size_t i = 1; i <= 3; ++i)
+      if (keyword == Vectors[kind].Keyword)
       {
-        const bool isGiven = !isTexture || i == 1 || i < this->Lines.Words.size();
-        const double value = isGiven ? this->Lines.Number<double>(i) : 0.0;
-        if (!isTexture || i < 3)
-        {
-          this->Values[isTexture ? 1 : 2].push_back(value);
-        }
-        else if (value != 0.0)
-        {
-          ++this->LeftOut["third coordinates of vt"];
-        }
+        return this->ReadVector(Vectors[kind], this->Values[kind]);
       }
     }
-    else if (keyword == "p" || keyword == "l" || keyword == "f")
+    if (keyword == "p" || keyword == "l" || keyword == "f")
     {
-      this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
+      return this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
     }
-    else
+    if (!std::all_of(keyword.begin(), keyword.end(),
+          [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
     {
-      const bool isWord = std::all_of(keyword.begin(), keyword.end(),
-        [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; });
-      if (!isWord)
-      {
-        this->Lines.Fail("not a line of an OBJ file");
-      }
-      ++this->LeftOut[keyword];
+      this->Lines.Fail("not a line of an OBJ file");
     }
+    ++this->LeftOut[keyword];
   }
 
-  /// x y z, then perhaps a weight, then perhaps a color.
-  void ReadVertex()
+  /// A vertex may have a weight after its coordinates, and then a color.
+  void ReadVector(const ObjVector& kind, std::vector<double>& values)
   {
     const std::size_t count = this->Lines.Words.size() - 1;
-    if (count < 3 || count == 5 || count > 7)
+    const std::size_t components = static_cast<std::size_t>(kind.Components);
+    const bool isVertex = &values == &this->Values[0];
+    if (isVertex && (count == 5 || count > 7))
     {
       this->Lines.Fail("a vertex has three coordinates, perhaps a weight, and perhaps a color");
     }
-    for (std::size_t i = 1; i <= count; ++i)
+    for (std::size_t i = 0; i < std::max(count, components); ++i)
     {
-      const auto value = this->Lines.Number<double>(i);
-      if (i <= 3)
+      const double value = i < count || i < kind.Fewest ? this->Lines.Number<double>(i + 1) : 0.0;
+      if (i < components)
       {
-        this->Values[0].push_back(value);
+        values.push_back(value);
       }
-      else if (count >= 6 && i > count - 3)
+      else if (isVertex && count >= 6 && i + 3 >= count)
       {
         this->Colors.push_back(value);
       }
-      else
+      else if (isVertex || value != 0.0)
       {
-        ++this->LeftOut["weights"];
+        ++this->LeftOut[kind.Others];
       }
     }
   }
@@ -186,30 +178,32 @@ private:
   Corner ReadCorner(std::string_view word)
   {
     Corner corner = { -1, -1, -1 };
-    const char* here = word.data();
-    const char* const end = here + word.size();
+    std::string_view rest = word;
     for (std::size_t kind = 0; kind < corner.size(); ++kind)
     {
-      const auto seen = static_cast<std::int64_t>(this->Values[kind].size()) / Components[kind];
+      const std::string_view text = rest.substr(0, rest.find('/'));
+      const auto seen =
+        static_cast<std::int64_t>(this->Values[kind].size()) / Vectors[kind].Components;
       std::int64_t index = 0;
-      const auto [next, error] = std::from_chars(here, end, index);
-      const bool isLeftOut = kind > 0 && (here == end || *here == '/');
-      if (!isLeftOut && (error != std::errc() || (next != end && *next != '/')))
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+      if (kind == 0 || !text.empty())
       {
-        break;
+        if (error != std::errc() || end != text.data() + text.size())
+        {
+          break;
+        }
+        // In the file, index 1 is the first element, and -1 the last one before this line.
+        if (index == 0 || index < -seen || index > this->Sizes[kind])
+        {
+          this->Lines.Fail("index " + std::to_string(index) + " is out of range");
+        }
+        corner[kind] = index < 0 ? seen + index : index - 1;
       }
-      // In the file, index 1 is the first element, and -1 the last one before this line.
-      if (!isLeftOut && (index == 0 || index < -seen || index > this->Sizes[kind]))
-      {
-        this->Lines.Fail("index " + std::to_string(index) + " is out of range");
-      }
-      corner[kind] = isLeftOut ? -1 : index < 0 ? seen + index : index - 1;
-      here = isLeftOut ? here : next;
-      if (here == end)
+      if (text.size() == rest.size())
       {
         return corner;
       }
-      ++here; // the slash
+      rest.remove_prefix(text.size() + 1); // and the slash
     }
     this->Lines.FailOn(word, " is not an index");
   }
@@ -219,7 +213,7 @@ private:
   vtkSmartPointer<vtkDoubleArray> OfPoints(std::size_t kind, const char* name)
   {
     const std::vector<double>& values = this->Values[kind];
-    const int size = Components[kind];
+    const int size = Vectors[kind].Components;
     const auto points = static_cast<std::size_t>(this->Sizes[0]);
     std::vector<double> ofPoints(points * size);
     std::vector<bool> isKnown(points);
@@ -245,7 +239,7 @@ private:
 
   const InputFile& File;
   TextLines Lines;
-  std::array<std::int64_t, 4> Sizes = {}; ///< How many v, vt, vn and other lines there are.
+  std::array<std::int64_t, 3> Sizes = {}; ///< How many v, vt and vn there are.
   std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.
   std::vector<double> Colors; ///< 3 each.
   std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Of one, two, and more points.

@@ -41,19 +41,23 @@ constexpr PlyType Types[] = { { "char", "int8", VTK_SIGNED_CHAR },
 
 using Names = std::vector<std::string>;
 
+constexpr int NoAttribute = -1;
+
 /// Properties that together are an array.
 struct PlyGroup
 {
-  const char* Array;
+  std::string Array;
   Names Properties;
   int Attribute; ///< What the array is for VTK.
 };
 
-const char* const PointsName = "x y z"; // no property can have it
+const char* const PointsName = "x y z"; // no property can have these two names
+const char* const EdgesName = "vertex1 vertex2";
 
 /// Larger groups first.
 const PlyGroup Groups[] = {
-  { PointsName, { "x", "y", "z" }, vtkDataSetAttributes::VECTORS },
+  { PointsName, { "x", "y", "z" }, NoAttribute },
+  { EdgesName, { "vertex1", "vertex2" }, NoAttribute },
   { "Normals", { "nx", "ny", "nz" }, vtkDataSetAttributes::NORMALS },
   { "RGBA", { "red", "green", "blue", "alpha" }, vtkDataSetAttributes::SCALARS },
   { "RGB", { "red", "green", "blue" }, vtkDataSetAttributes::SCALARS },
@@ -63,43 +67,15 @@ const PlyGroup Groups[] = {
   { "TCoords", { "texture_u", "texture_v" }, vtkDataSetAttributes::TCOORDS },
 };
 
-/// Replaces arrays of one component by the arrays of their groups.
-void JoinGroups(vtkDataSetAttributes* data)
-{
-  for (const PlyGroup& group : Groups)
-  {
-    const bool isThere = std::all_of(group.Properties.begin(), group.Properties.end(),
-      [data](const std::string& name) { return data->HasArray(name.c_str()); });
-    if (!isThere || data->HasArray(group.Array))
-    {
-      continue;
-    }
-    const int first = data->GetArray(group.Properties[0].c_str())->GetDataType();
-    const bool isUniform = std::all_of(group.Properties.begin(), group.Properties.end(),
-      [&](const std::string& name)
-      { return data->GetArray(name.c_str())->GetDataType() == first; });
-    const bool keepsType = isUniform && (group.Array != PointsName || first == VTK_FLOAT);
-    const auto joined =
-      vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? first : VTK_DOUBLE));
-    joined->SetName(group.Array);
-    joined->SetNumberOfComponents(static_cast<int>(group.Properties.size()));
-    joined->SetNumberOfTuples(data->GetNumberOfTuples());
-    for (std::size_t i = 0; i < group.Properties.size(); ++i)
-    {
-      const char* const name = group.Properties[i].c_str();
-      joined->CopyComponent(static_cast<int>(i), data->GetArray(name), 0);
-      data->RemoveArray(name);
-    }
-    data->AddArray(joined);
-    data->SetActiveAttribute(group.Array, group.Attribute);
-  }
-}
-
 struct PlyProperty
 {
   std::string Name;
   int Type;
   int CountType; ///< Of a list, the type of its length; else VTK_VOID.
+  vtkDataArray* Array = nullptr; ///< Receives the values of a scalar property.
+  int Component = 0;
+
+  bool IsList() const { return this->CountType != VTK_VOID; }
 };
 
 struct PlyElement
@@ -108,6 +84,63 @@ struct PlyElement
   std::int64_t Count;
   std::vector<PlyProperty> Properties;
 };
+
+template <typename Thing>
+Thing* Find(std::vector<Thing>& things, const std::string& name)
+{
+  const auto found = std::find_if(
+    things.begin(), things.end(), [&name](const Thing& thing) { return thing.Name == name; });
+  return found != things.end() ? &*found : nullptr;
+}
+
+/// Makes arrays of `size` tuples for the scalar properties of an element: one for each group that
+/// is complete, and one for each other property.
+void AddArrays(PlyElement& element, std::int64_t size, vtkDataSetAttributes* data)
+{
+  std::vector<PlyGroup> groups(std::begin(Groups), std::end(Groups));
+  for (const PlyProperty& property : element.Properties)
+  {
+    groups.push_back({ property.Name, { property.Name }, NoAttribute });
+  }
+  for (const PlyGroup& group : groups)
+  {
+    std::vector<PlyProperty*> parts;
+    for (const std::string& name : group.Properties)
+    {
+      PlyProperty* const property = Find(element.Properties, name);
+      if (property && !property->Array && !property->IsList())
+      {
+        parts.push_back(property);
+      }
+    }
+    const bool isTaken = group.Properties.size() > 1 &&
+      (Find(element.Properties, group.Array) || data->HasArray(group.Array.c_str()));
+    if (isTaken || parts.size() < group.Properties.size())
+    {
+      continue;
+    }
+    const int type = parts.front()->Type;
+    const bool isUniform = std::all_of(
+      parts.begin(), parts.end(), [type](const PlyProperty* part) { return part->Type == type; });
+    const bool keepsType = isUniform && (group.Array != PointsName || type == VTK_FLOAT);
+    const auto array =
+      vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? type : VTK_DOUBLE));
+    array->SetName(group.Array.c_str());
+    array->SetNumberOfComponents(static_cast<int>(parts.size()));
+    array->SetNumberOfTuples(size);
+    array->Fill(0.0);
+    data->AddArray(array);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+      parts[i]->Array = array;
+      parts[i]->Component = static_cast<int>(i);
+    }
+    if (group.Attribute != NoAttribute)
+    {
+      data->SetActiveAttribute(group.Array.c_str(), group.Attribute);
+    }
+  }
+}
 
 class PlyReader
 {
@@ -121,15 +154,18 @@ public:
   FileMesh Read()
   {
     this->ReadHeader();
-    for (const PlyElement& element : this->Elements)
+    for (PlyElement& element : this->Elements)
     {
-      this->ReadElement(element);
+      if (element.Count > 0 || element.Name == "vertex")
+      {
+        this->ReadElement(element);
+      }
     }
-    const std::string_view rest = this->IsText ? this->Lines.GetRest() : this->Rest;
-    if (!rest.empty() && (!this->IsText || this->Lines.Next()))
+    const std::size_t rest = this->Lines.Rest.size();
+    if (rest > 0 && (!this->IsText || this->Lines.Next()))
     {
-      this->Warn("left out " + Counted(static_cast<std::int64_t>(rest.size()), "byte") +
-        " after its last element");
+      this->Warn(
+        "left out " + Counted(static_cast<std::int64_t>(rest), "byte") + " after its last element");
     }
     if (!this->Result.Mesh->GetPoints())
     {
@@ -160,7 +196,7 @@ private:
       else if (keyword == "element")
       {
         const auto count = this->Lines.Number<std::int64_t>(2);
-        if (count < 0 || HasName(this->Elements, this->Word(1)))
+        if (count < 0 || Find(this->Elements, this->Word(1)))
         {
           this->Lines.Fail("a negative number of elements, or a second definition of them");
         }
@@ -172,8 +208,7 @@ private:
         const std::size_t type = isList ? 3 : 1;
         const int countType = isList ? this->TypeAt(2) : VTK_VOID;
         auto& properties = this->Elements.back().Properties;
-        if (countType == VTK_FLOAT || countType == VTK_DOUBLE ||
-          HasName(properties, this->Word(type + 1)))
+        if (countType >= VTK_FLOAT || Find(properties, this->Word(type + 1)))
         {
           this->Lines.Fail("a list whose length is no integer, or a second property of this name");
         }
@@ -191,8 +226,6 @@ private:
     {
       this->File.Fail("unknown format '" + format + "' in its header");
     }
-    this->Rest = this->Lines.GetRest();
-    this->Vertices = this->CountOf("vertex");
   }
 
   std::string Word(std::size_t place) const
@@ -213,195 +246,133 @@ private:
     this->Lines.Fail("unknown type of a property");
   }
 
-  template <typename Things>
-  static bool HasName(const Things& things, const std::string& name)
+  void ReadElement(PlyElement& element)
   {
-    return std::any_of(
-      things.begin(), things.end(), [&name](const auto& thing) { return thing.Name == name; });
-  }
-
-  std::int64_t CountOf(const std::string& name) const
-  {
-    std::int64_t count = 0;
-    for (const PlyElement& element : this->Elements)
-    {
-      count += element.Name == name ? element.Count : 0;
-    }
-    return count;
-  }
-
-  static bool IsIndexList(const PlyElement& element, const PlyProperty& property)
-  {
-    return element.Name == "face" && property.CountType != VTK_VOID && property.Type < VTK_FLOAT &&
-      (property.Name == "vertex_indices" || property.Name == "vertex_index");
-  }
-
-  void ReadElement(const PlyElement& element)
-  {
-    const bool isFace = element.Name == "face";
-    const bool isVertex = element.Name == "vertex";
-    const bool isKnown = isFace || isVertex || element.Name == "edge";
-    if (element.Count == 0 && !isVertex)
-    {
-      return;
-    }
     // A value takes a byte at least.
-    const std::size_t bytes = this->IsText ? this->Lines.GetRest().size() : this->Rest.size();
     const std::size_t values = std::max<std::size_t>(element.Properties.size(), 1);
-    if (static_cast<std::size_t>(element.Count) > bytes / values)
+    if (static_cast<std::size_t>(element.Count) > this->Lines.Rest.size() / values)
     {
       this->File.Fail("its header says 'element " + element.Name + " " +
         std::to_string(element.Count) + "', too many for the " +
-        Counted(static_cast<std::int64_t>(bytes), "byte") + " left (truncated or corrupt)");
+        Counted(static_cast<std::int64_t>(this->Lines.Rest.size()), "byte") +
+        " left (truncated or corrupt)");
     }
-    this->Element = element.Name;
-    const std::int64_t before = isFace ? this->CountOf("edge") : 0; // cell data begin with lines
-    const vtkNew<vtkCellData> data;
-    std::vector<vtkSmartPointer<vtkDataArray>> columns(element.Properties.size()); // null for lists
-    int indexLists = 0;
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    const bool isFace = element.Name == "face";
+    const bool isKnown = isFace || element.Name == "vertex" || element.Name == "edge";
+    const PlyProperty* corners = nullptr;
+    for (const PlyProperty& property : element.Properties)
     {
-      const PlyProperty& property = element.Properties[i];
-      if (property.CountType == VTK_VOID)
-      {
-        columns[i] = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(property.Type));
-        columns[i]->SetName(property.Name.c_str());
-        columns[i]->SetNumberOfTuples(before + element.Count);
-        columns[i]->Fill(0.0);
-        data->AddArray(columns[i]);
-      }
-      else if (IsIndexList(element, property))
-      {
-        ++indexLists;
-      }
-      else if (isKnown)
-      {
-        this->Warn("left out the lists " + property.Name + " of the element " + element.Name);
-      }
-      else
+      if (property.IsList() && !isKnown)
       {
         this->File.Fail("holds '" + element.Name +
           "', which may hold polygons; known elements are vertex, face and edge");
       }
+      if (isFace && property.IsList() && property.Type < VTK_FLOAT && !corners &&
+        (property.Name == "vertex_indices" || property.Name == "vertex_index"))
+      {
+        corners = &property;
+      }
+      else if (property.IsList())
+      {
+        this->Warn("left out the lists " + property.Name + " of the element " + element.Name);
+      }
     }
-    if (isFace && indexLists != 1)
+    if (isFace && !corners)
     {
-      this->File.Fail("its element face needs one list of vertex_indices");
+      this->File.Fail("its element face needs a list of vertex_indices");
     }
     if (!isKnown)
     {
       this->Warn("left out " + Counted(element.Count, "element") + " of the unknown type '" +
         element.Name + "'");
     }
-    this->ReadRows(element, columns, before);
-    if (element.Name == "edge")
-    {
-      this->TakeEdges(data);
-      return;
-    }
-    JoinGroups(data);
-    if (isVertex && data->HasArray(PointsName))
-    {
-      const vtkNew<vtkPoints> points;
-      points->SetData(data->GetArray(PointsName));
-      data->RemoveArray(PointsName);
-      this->Result.Mesh->SetPoints(points);
-      this->Result.Mesh->GetPointData()->ShallowCopy(data);
-    }
-    else if (isFace)
-    {
-      this->Result.Mesh->GetCellData()->ShallowCopy(data);
-    }
-  }
-
-  void ReadRows(const PlyElement& element,
-    const std::vector<vtkSmartPointer<vtkDataArray>>& columns, std::int64_t before)
-  {
-    const vtkNew<vtkCellArray> polys;
-    for (this->Row = 0; this->Row < element.Count; ++this->Row)
+    const PlyElement* const edges = isFace ? Find(this->Elements, "edge") : nullptr;
+    const std::int64_t before = edges ? edges->Count : 0; // cell data begin with lines
+    const vtkNew<vtkCellData> data;
+    AddArrays(element, before + element.Count, data);
+    for (std::int64_t row = 0; row < element.Count; ++row)
     {
       this->Place = 0;
-      if (this->IsText && !this->Lines.Next())
+      if (this->IsText)
       {
-        this->Fail("the file ends here (truncated or corrupt)");
+        this->Lines.Next(); // without words where the file ends
       }
-      for (std::size_t i = 0; i < columns.size(); ++i)
+      for (const PlyProperty& property : element.Properties)
       {
-        const PlyProperty& property = element.Properties[i];
-        if (columns[i])
+        if (property.Array)
         {
-          columns[i]->SetComponent(before + this->Row, 0, this->Next(property.Type));
+          property.Array->SetComponent(before + row, property.Component, this->Next(property.Type));
         }
         else
         {
-          this->ReadList(property, IsIndexList(element, property) ? polys.Get() : nullptr);
+          this->ReadList(property, &property == corners);
         }
       }
       if (this->IsText && this->Place < this->Lines.Words.size())
       {
-        this->Fail("more values than the header says");
+        this->Lines.Fail("more values than the header says");
       }
     }
-    if (element.Name == "face")
-    {
-      this->Result.Mesh->SetPolys(polys);
-    }
+    this->Take(element.Name, data);
   }
 
-  void ReadList(const PlyProperty& list, vtkCellArray* cells)
+  void ReadList(const PlyProperty& list, bool isPolygon)
   {
     const auto length = static_cast<std::int64_t>(this->Next(list.CountType));
-    const std::size_t left =
-      this->IsText ? this->Lines.Words.size() - this->Place : this->Rest.size();
-    if (length < 0 || static_cast<std::size_t>(length) > left)
+    if (static_cast<std::uint64_t>(length) > this->File.GetBytes().size())
     {
-      this->Fail("a list of length " + std::to_string(length) + ", but the values end before");
+      this->File.Fail("a list of length " + std::to_string(length) + " (corrupt)");
     }
-    if (cells)
+    if (isPolygon)
     {
-      cells->InsertNextCell(static_cast<int>(length));
+      this->Polygons->InsertNextCell(static_cast<int>(length));
     }
     for (std::int64_t i = 0; i < length; ++i)
     {
       const double item = this->Next(list.Type);
-      if (cells)
+      if (isPolygon)
       {
-        cells->InsertCellPoint(this->RequireVertex(item));
+        this->Polygons->InsertCellPoint(static_cast<vtkIdType>(item));
       }
     }
   }
 
-  /// An edge is two scalar properties.
-  void TakeEdges(vtkDataSetAttributes* data)
+  /// Takes an element that has been read.
+  void Take(const std::string& name, vtkDataSetAttributes* data)
   {
-    vtkDataArray* const ends[] = { data->GetArray("vertex1"), data->GetArray("vertex2") };
-    if (!ends[0] || !ends[1])
+    vtkPolyData* const mesh = this->Result.Mesh;
+    if (name == "vertex" && data->HasArray(PointsName))
     {
-      this->File.Fail("its edges have no vertex1 and vertex2");
+      const vtkNew<vtkPoints> points;
+      points->SetData(data->GetArray(PointsName));
+      mesh->SetPoints(points);
+      data->RemoveArray(PointsName);
+      mesh->GetPointData()->ShallowCopy(data);
     }
-    const vtkNew<vtkCellArray> lines;
-    this->Lines.Words.clear(); // an error is not in the last line
-    for (this->Row = 0; this->Row < ends[0]->GetNumberOfTuples(); ++this->Row)
+    else if (name == "face")
     {
-      lines->InsertNextCell(2);
-      lines->InsertCellPoint(this->RequireVertex(ends[0]->GetTuple1(this->Row)));
-      lines->InsertCellPoint(this->RequireVertex(ends[1]->GetTuple1(this->Row)));
+      mesh->SetPolys(this->Polygons);
+      mesh->GetCellData()->ShallowCopy(data);
     }
-    this->Result.Mesh->SetLines(lines);
-    if (data->GetNumberOfArrays() > 2)
+    else if (name == "edge")
     {
-      this->Warn("left out the other properties of its edges");
+      vtkDataArray* const ends = data->GetArray(EdgesName);
+      if (!ends)
+      {
+        this->File.Fail("its edges have no vertex1 and vertex2");
+      }
+      const vtkNew<vtkCellArray> lines;
+      for (vtkIdType edge = 0; edge < ends->GetNumberOfTuples(); ++edge)
+      {
+        lines->InsertNextCell({ static_cast<vtkIdType>(ends->GetComponent(edge, 0)),
+          static_cast<vtkIdType>(ends->GetComponent(edge, 1)) });
+      }
+      mesh->SetLines(lines);
+      if (data->GetNumberOfArrays() > 1)
+      {
+        this->Warn("left out the other properties of its edges");
+      }
     }
-  }
-
-  vtkIdType RequireVertex(double number) const
-  {
-    if (!(number >= 0 && number < static_cast<double>(this->Vertices)))
-    {
-      this->Fail("vertex " + std::to_string(static_cast<std::int64_t>(number)) +
-        " is out of range; the number of vertices is " + std::to_string(this->Vertices));
-    }
-    return static_cast<vtkIdType>(number);
   }
 
   /// A double holds all numbers of a .ply.
@@ -423,12 +394,12 @@ private:
     }
     T value;
     char bytes[sizeof(T)];
-    if (this->Rest.size() < sizeof(T))
+    if (this->Lines.Rest.size() < sizeof(T))
     {
-      this->Fail("the file ends here (truncated or corrupt)");
+      this->File.Fail("ends before its last value (truncated or corrupt)");
     }
-    std::memcpy(bytes, this->Rest.data(), sizeof(T));
-    this->Rest.remove_prefix(sizeof(T));
+    std::memcpy(bytes, this->Lines.Rest.data(), sizeof(T));
+    this->Lines.Rest.remove_prefix(sizeof(T));
     if (this->IsSwapped)
     {
       std::reverse(bytes, bytes + sizeof(T));
@@ -437,30 +408,18 @@ private:
     return value;
   }
 
-  [[noreturn]] void Fail(const std::string& reason) const
-  {
-    if (this->IsText && !this->Lines.Words.empty())
-    {
-      this->Lines.Fail(reason);
-    }
-    this->File.Fail(this->Element + " " + std::to_string(this->Row) + ": " + reason);
-  }
-
   void Warn(const std::string& warning)
   {
     this->Result.Warnings.push_back(this->File.GetName() + ": " + warning);
   }
 
   const InputFile& File;
-  TextLines Lines; ///< The header; if the values are text, these too.
-  std::string_view Rest; ///< Binary values that are not read yet.
+  TextLines Lines; ///< The header, and the values behind it, which may be binary.
   bool IsText = false;
   bool IsSwapped = false;
   std::vector<PlyElement> Elements;
-  std::int64_t Vertices = 0;
-  std::string Element; ///< The kind being read.
-  std::int64_t Row = 0; ///< Its number.
-  std::size_t Place = 0; ///< Of the next word in this row.
+  vtkNew<vtkCellArray> Polygons;
+  std::size_t Place = 0; ///< Of the next word in a line of values.
   FileMesh Result;
 };
 
@@ -504,10 +463,10 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
   for (const PlyGroup& group : Groups)
   {
     const bool isColor = group.Attribute == vtkDataSetAttributes::SCALARS;
-    const bool isActive = array == data->GetAbstractAttribute(group.Attribute) &&
+    const bool isActive = group.Attribute != NoAttribute &&
+      array == data->GetAbstractAttribute(group.Attribute) &&
       (!isColor || array->GetDataType() == VTK_UNSIGNED_CHAR);
-    if (group.Properties.size() == components && group.Array != PointsName &&
-      (isActive || (isColor && name == group.Array)))
+    if (group.Properties.size() == components && (isActive || (isColor && name == group.Array)))
     {
       return group.Properties;
     }
@@ -523,14 +482,24 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
   return names;
 }
 
-/// The properties for the arrays of points or cells. Leaves out arrays that a .ply cannot hold:
-/// strings, too large integers, and those whose names are `taken` or used by an earlier array.
-std::vector<PlyColumn> PlanColumns(vtkDataSetAttributes* data, vtkIdType size, Names taken)
+/// The properties of vertices or faces. Leaves out arrays that a .ply cannot hold: strings, too
+/// large integers, and those whose names are used by an earlier array, coordinates or indices.
+std::vector<PlyColumn> PlanColumns(vtkPolyData* mesh, bool ofPoints)
 {
   std::vector<PlyColumn> columns;
+  Names taken = ofPoints ? Names{ "x", "y", "z" } : Names{ "vertex_indices", "vertex_index" };
+  vtkDataArray* const coordinates = mesh->GetPoints()->GetData();
+  const int real = coordinates->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
+  for (int axis = 0; axis < 3 && ofPoints; ++axis)
+  {
+    columns.push_back({ taken[static_cast<std::size_t>(axis)], real, coordinates, axis });
+  }
+  vtkDataSetAttributes* const data =
+    mesh->GetAttributes(ofPoints ? vtkPolyData::POINT : vtkPolyData::CELL);
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkDataArray* const array = data->GetArray(index);
+    const vtkIdType size = ofPoints ? mesh->GetNumberOfPoints() : mesh->GetNumberOfCells();
     const int type = array && array->GetNumberOfTuples() >= size ? TypeFor(array) : VTK_VOID;
     const Names names = type == VTK_VOID ? Names() : PropertyNames(data, array);
     const bool isTaken =
@@ -542,17 +511,6 @@ std::vector<PlyColumn> PlanColumns(vtkDataSetAttributes* data, vtkIdType size, N
     }
   }
   return columns;
-}
-
-std::vector<PlyColumn> PlanVertices(vtkPolyData* mesh)
-{
-  return PlanColumns(mesh->GetPointData(), mesh->GetNumberOfPoints(), { "x", "y", "z" });
-}
-
-std::vector<PlyColumn> PlanFaces(vtkPolyData* mesh)
-{
-  return PlanColumns(
-    mesh->GetCellData(), mesh->GetNumberOfCells(), { "vertex_indices", "vertex_index" });
 }
 
 void WriteProperties(std::ostream& out, const std::vector<PlyColumn>& columns)
@@ -592,13 +550,8 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   {
     throw CommandError(ExitCode::BadFile, "more points than this file format can number");
   }
-  vtkDataArray* const coordinates = mesh->GetPoints()->GetData();
-  const int type = coordinates->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
-  std::vector<PlyColumn> vertices = { { "x", type, coordinates, 0 }, { "y", type, coordinates, 1 },
-    { "z", type, coordinates, 2 } };
-  const std::vector<PlyColumn> ofPoints = PlanVertices(mesh);
-  vertices.insert(vertices.end(), ofPoints.begin(), ofPoints.end());
-  const std::vector<PlyColumn> faces = PlanFaces(mesh);
+  const std::vector<PlyColumn> vertices = PlanColumns(mesh, true);
+  const std::vector<PlyColumn> faces = PlanColumns(mesh, false);
   const bool isShort = mesh->GetPolys()->GetMaxCellSize() < 256;
   std::vector<std::int32_t> edges; // two points each
   ForEachCell(mesh->GetLines(),
@@ -649,7 +602,7 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
 std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh, bool ofPoints)
 {
   std::vector<vtkAbstractArray*> arrays;
-  for (const PlyColumn& column : ofPoints ? PlanVertices(mesh) : PlanFaces(mesh))
+  for (const PlyColumn& column : PlanColumns(mesh, ofPoints))
   {
     arrays.push_back(column.Array);
   }

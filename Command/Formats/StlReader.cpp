@@ -46,33 +46,32 @@ class CornerMesh
 public:
   explicit CornerMesh(int type) { this->Points->SetDataType(type); }
 
-  void Add(const double* place)
+  void Add(std::array<double, 3> place)
   {
     Bits bits;
-    for (std::size_t axis = 0; axis < bits.size(); ++axis)
+    for (double& value : place)
     {
-      const double value = place[axis] == 0.0 ? 0.0 : place[axis]; // also for -0
-      std::memcpy(&bits[axis], &value, sizeof(value));
+      value += 0.0; // -0 becomes 0
     }
+    std::memcpy(bits.data(), place.data(), sizeof(bits));
     const auto [known, isNew] = this->Known.try_emplace(bits, this->Points->GetNumberOfPoints());
     if (isNew)
     {
-      this->Points->InsertNextPoint(place);
+      this->Points->InsertNextPoint(place.data());
     }
-    this->Triangle[this->Corners++ % 3] = known->second;
-    if (this->Corners % 3 == 0)
+    if (this->Corners++ % 3 == 0)
     {
-      this->Triangles->InsertNextCell(3, this->Triangle.data());
+      this->Triangles->InsertNextCell(3);
     }
+    this->Triangles->InsertCellPoint(known->second);
   }
 
-  std::int64_t Corners = 0;
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Triangles;
 
 private:
   std::unordered_map<Bits, vtkIdType, BitsHash> Known;
-  std::array<vtkIdType, 3> Triangle = {};
+  std::int64_t Corners = 0;
 };
 
 /// @returns whether some bytes of attributes are not 0.
@@ -85,8 +84,7 @@ bool ReadBinary(std::string_view bytes, CornerMesh& mesh)
     std::memcpy(numbers.data(), bytes.data() + begin, sizeof(numbers));
     for (std::size_t corner = 3; corner < numbers.size(); corner += 3)
     {
-      const double place[] = { numbers[corner], numbers[corner + 1], numbers[corner + 2] };
-      mesh.Add(place);
+      mesh.Add({ numbers[corner], numbers[corner + 1], numbers[corner + 2] });
     }
     hasAttributes =
       hasAttributes || bytes.substr(begin + sizeof(numbers), 2) != std::string_view("\0\0", 2);
@@ -97,40 +95,31 @@ bool ReadBinary(std::string_view bytes, CornerMesh& mesh)
 /// @returns how many solids there are.
 int ReadText(const InputFile& file, CornerMesh& mesh)
 {
+  constexpr const char* Facet[] = { "facet", "outer", "vertex", "vertex", "vertex", "endloop",
+    "endfacet" };
   TextLines lines(file);
   int solids = 0;
-  int facets = 0;
   bool isOpen = false;
+  std::size_t place = 0; // in a facet
   while (lines.Next())
   {
     std::string keyword(lines.Words[0]);
     std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::tolower);
-    const bool isWhole = mesh.Corners == 3 * facets;
-    if (keyword == "vertex")
-    {
-      const double place[] = { lines.Number<double>(1), lines.Number<double>(2),
-        lines.Number<double>(3) };
-      if (isWhole)
-      {
-        lines.Fail("a vertex outside a facet, or a fourth one");
-      }
-      mesh.Add(place);
-    }
-    else if (keyword == "facet" && isOpen && isWhole)
-    {
-      ++facets;
-    }
-    else if ((keyword == "solid" || keyword == "endsolid") && isOpen != (keyword == "solid") &&
-      isWhole)
+    if (place == 0 && keyword == (isOpen ? "endsolid" : "solid"))
     {
       isOpen = !isOpen;
       solids += isOpen ? 1 : 0;
+      continue;
     }
-    else if (keyword != "outer" && (keyword != "endloop" || !isWhole) &&
-      (keyword != "endfacet" || !isWhole))
+    if (!isOpen || keyword != Facet[place])
     {
       lines.Fail("not a line of an STL file, or out of place, or a facet without three vertices");
     }
+    if (keyword == "vertex")
+    {
+      mesh.Add({ lines.Number<double>(1), lines.Number<double>(2), lines.Number<double>(3) });
+    }
+    place = (place + 1) % std::size(Facet);
   }
   if (isOpen || solids == 0)
   {

@@ -281,25 +281,22 @@ void PrepareForXml(vtkFieldData* data)
     vtkAbstractArray* const array = data->GetAbstractArray(index);
     const std::string name = array->GetName() ? array->GetName() : "";
     auto* const strings = vtkStringArray::SafeDownCast(array);
+    bool hasZero = false;
     for (vtkIdType i = 0; strings && i < strings->GetNumberOfValues(); ++i)
     {
-      if (strings->GetValue(i).find('\0') != std::string::npos)
-      {
-        throw CommandError(ExitCode::BadFile,
-          "a string of the array '" + name +
-            "' contains a zero byte, which this file format cannot hold; a .vtk can hold it");
-      }
+      hasZero = hasZero || strings->GetValue(i).find('\0') != std::string::npos;
     }
     const int type = array->GetDataType();
     const bool canBeIds =
       type == VTK_INT || type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE;
-    if (attributes && !canBeIds &&
-      (array == attributes->GetPedigreeIds() || array == attributes->GetGlobalIds()))
+    const bool areIds =
+      attributes && (array == attributes->GetPedigreeIds() || array == attributes->GetGlobalIds());
+    if (hasZero || (areIds && !canBeIds))
     {
       throw CommandError(ExitCode::BadFile,
-        "the ids '" + name +
-          "' are not signed integers of 32 or 64 bits, as this file format needs; a .vtk can hold "
-          "them");
+        "the array '" + name + "' has " +
+          (hasZero ? "a string with a zero byte" : "ids that are not integers with a sign") +
+          ", which this file format cannot hold; a .vtk can hold it");
     }
     if (auto* const numbers = vtkDataArray::SafeDownCast(array))
     {

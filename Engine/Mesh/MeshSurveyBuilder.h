@@ -194,14 +194,11 @@ void SurveyPoints(
   }
 }
 
-/// @throws InvalidMesh for an id that is not a point; InvalidOptions for GeometryKind::Planar if
-/// the points lie in no plane.
+/// All but the ids of triangles, when it is known which points are used.
 template <typename Backend>
-MeshSurvey BuildMeshSurvey(const MeshInput& input, GeometryKind requested, const Backend& backend)
+void SurveyPointsAndGeometry(
+  MeshSurvey& survey, const MeshInput& input, GeometryKind requested, const Backend& backend)
 {
-  MeshSurvey survey;
-  survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
-  SurveyTriangleIds(survey, input, backend);
   SurveyPoints(survey, input, requested, backend);
   GeometryChoice<Backend>(input, survey, backend).Choose(requested);
   if (survey.Geometry != requested && survey.Geometry == GeometryKind::PlanarXY &&
@@ -210,6 +207,17 @@ MeshSurvey BuildMeshSurvey(const MeshInput& input, GeometryKind requested, const
     SurveyPoints(survey, input, survey.Geometry, backend); // z no longer matters
   }
   ResolveRange(survey);
+}
+
+/// @throws InvalidMesh for an id that is not a point; InvalidOptions for GeometryKind::Planar if
+/// the points lie in no plane.
+template <typename Backend>
+MeshSurvey BuildMeshSurvey(const MeshInput& input, GeometryKind requested, const Backend& backend)
+{
+  MeshSurvey survey;
+  survey.Uses = backend.template MakeArray<PointUse>(input.Local.Points.Count);
+  SurveyTriangleIds(survey, input, backend);
+  SurveyPointsAndGeometry(survey, input, requested, backend);
   return survey;
 }
 

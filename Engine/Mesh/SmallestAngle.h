@@ -35,7 +35,18 @@ struct LargestValue
   }
 };
 
-/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle, in the coordinates of a rule.
+/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle in space or, if `isFlat`, over x and y.
+DELAUNAYFLIP_HOST_DEVICE inline double MeasureSquaredCotangent(
+  const Vector3& a, const Vector3& b, const Vector3& c, bool isFlat, CoordinateRange range)
+{
+  const double largest =
+    isFlat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
+  // A triangle seems to have no area also if the squares of its lengths vanish.
+  return largest == INFINITY || IsWide(range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
+                                                       : largest;
+}
+
+/// The same in the coordinates of a rule.
 template <typename Rule>
 struct AngleSurvey
 {
@@ -56,14 +67,7 @@ struct AngleSurvey
     const Vector3 a = ToPosition(this->Decision.Get(v[0]));
     const Vector3 b = ToPosition(this->Decision.Get(v[1]));
     const Vector3 c = ToPosition(this->Decision.Get(v[2]));
-    double largest =
-      Rule::Flat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
-    // A triangle seems to have no area also if the squares of its lengths vanish.
-    if (largest == INFINITY || IsWide(this->Range, a, b, c))
-    {
-      largest = LargestSquaredCotangentWide(a, b, c);
-    }
-    sum += { largest };
+    sum += { MeasureSquaredCotangent(a, b, c, Rule::Flat, this->Range) };
   }
 
 private:

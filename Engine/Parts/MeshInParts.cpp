@@ -56,25 +56,14 @@ SubMesh::SubMesh(
 {
   const TriangleArray& triangles = mesh.Triangles;
   const std::int64_t count = this->GetNumberOfTriangles();
-  this->Engine.ForEach(count,
-    [&](std::int64_t i)
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        this->PointIds.Add(triangles.Get(this->Slots[i], slot));
-      }
-    });
+  ForEachCorner(count, this->Engine,
+    [&](std::int64_t i, int slot) { this->PointIds.Add(triangles.Get(this->Slots[i], slot)); });
   this->PointIds.Number(this->Engine);
   CheckMeshSize(count, this->PointIds.GetSize());
   this->Ids = this->Engine.MakeArray<std::int32_t>(3 * count);
-  this->Engine.ForEach(count,
-    [&](std::int64_t i)
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        this->Ids[3 * i + slot] = this->PointIds.GetNumber(triangles.Get(this->Slots[i], slot));
-      }
-    });
+  ForEachCorner(count, this->Engine,
+    [&](std::int64_t i, int slot)
+    { this->Ids[3 * i + slot] = this->PointIds.GetNumber(triangles.Get(this->Slots[i], slot)); });
   const PointArray& points = this->Whole.Points;
   const std::int64_t size = this->PointIds.GetSize();
   this->PointOf = this->Engine.MakeArray<std::int64_t>(size);
@@ -135,18 +124,6 @@ TriangleMesh SubMesh::View(bool withLabels) const
   mesh.Regions = withLabels && this->Whole.Regions ? this->Regions.Data() : nullptr;
   mesh.FrozenTriangles = withLabels && this->Whole.FrozenTriangles ? this->Frozen.Data() : nullptr;
   return mesh;
-}
-
-void SubMesh::Store(const MutableTriangleArray& triangles) const
-{
-  this->Engine.ForEach(this->GetNumberOfTriangles(),
-    [&](std::int64_t i)
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        triangles.Set(this->Slots[i], slot, this->GetPoint(i, slot));
-      }
-    });
 }
 
 //------------------------------------------------------------------------------
@@ -253,14 +230,8 @@ void CopyTriangles(
 {
   if (from.Data() != to.Data())
   {
-    threads.ForEach(from.Count,
-      [&](std::int64_t t)
-      {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          to.Set(t, slot, from.Get(t, slot));
-        }
-      });
+    ForEachCorner(
+      from.Count, threads, [&](std::int64_t t, int slot) { to.Set(t, slot, from.Get(t, slot)); });
   }
 }
 
@@ -368,24 +339,15 @@ PointSet MeshInParts::FindSeamPoints() const
   PointSet seam(this->Mesh.Points.Count, this->Threads);
   Array<unsigned char> partOfPoint =
     this->Threads.MakeArray<unsigned char>(this->Mesh.Points.Count);
-  const auto forEachCorner = [&](const auto& work)
-  {
-    this->Threads.ForEach(triangles.Count,
-      [&](std::int64_t t)
-      {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          work(triangles.Get(t, slot), this->PartOf[t]);
-        }
-      });
-  };
   // Whichever of its parts a point keeps, it differs from another one of them.
-  forEachCorner(
-    [&](std::int64_t point, unsigned char part) { AtomicStore(partOfPoint.Data() + point, part); });
-  forEachCorner(
-    [&](std::int64_t point, unsigned char part)
+  ForEachCorner(triangles.Count, this->Threads,
+    [&](std::int64_t t, int slot)
+    { AtomicStore(partOfPoint.Data() + triangles.Get(t, slot), this->PartOf[t]); });
+  ForEachCorner(triangles.Count, this->Threads,
+    [&](std::int64_t t, int slot)
     {
-      if (partOfPoint[point] != part)
+      const std::int64_t point = triangles.Get(t, slot);
+      if (partOfPoint[point] != this->PartOf[t])
       {
         seam.Add(point);
       }
@@ -404,15 +366,12 @@ PointSet MeshInParts::FindPointsAround(const PointSet& points) const
 {
   const TriangleArray& triangles = this->Mesh.Triangles;
   PointSet around(this->Mesh.Points.Count, this->Threads);
-  this->Threads.ForEach(triangles.Count,
-    [&](std::int64_t t)
+  ForEachCorner(triangles.Count, this->Threads,
+    [&](std::int64_t t, int slot)
     {
       if (points.Touches(triangles, t))
       {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          around.Add(triangles.Get(t, slot));
-        }
+        around.Add(triangles.Get(t, slot));
       }
     });
   return around;

@@ -110,6 +110,19 @@ std::vector<std::int64_t> ListNumbers(
   return Join(lists);
 }
 
+/// Calls work(triangle, slot) for the corners of `count` triangles, in several threads.
+template <typename Work>
+void ForEachCorner(std::int64_t count, const ThreadBackend& backend, const Work& work)
+{
+  backend.ForEach(count,
+    [&](std::int64_t t)
+    {
+      work(t, 0);
+      work(t, 1);
+      work(t, 2);
+    });
+}
+
 /// Some triangles of a mesh as a mesh of its own, with its own numbers of points. Triangles and
 /// points keep their order.
 class SubMesh
@@ -157,7 +170,12 @@ public:
     return MutableTriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
   }
   /// Writes the triangles into their slots of the mesh.
-  void Store(const MutableTriangleArray& triangles) const;
+  void Store(const MutableTriangleArray& triangles) const
+  {
+    ForEachCorner(this->GetNumberOfTriangles(), this->Engine,
+      [&](std::int64_t t, int slot)
+      { triangles.Set(this->Slots[t], slot, this->GetPoint(t, slot)); });
+  }
 
 private:
   const TriangleMesh& Whole;

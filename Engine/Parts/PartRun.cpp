@@ -29,8 +29,6 @@ namespace
 /// The share of the time until the first test of edges between ranks, about.
 constexpr double FirstShare = 0.8;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
 /// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
 /// are made at most.
 constexpr std::int64_t MostRounds = 1000;
@@ -92,7 +90,18 @@ public:
     const PartTriangles& triangles = this->Mesh.Triangles;
     const std::int64_t first = this->Origins.Firsts[this->Job.Group.GetRank()];
     const std::int64_t count = this->Job.Piece.Mesh.Triangles.Count;
-    this->StoreFirst(flipped, count);
+    flipped.Clear();
+    flipped.AreFloats = this->Job.Survey.IsFloat;
+    // With room for the triangles that have come: to append them would else copy the whole arrays.
+    flipped.Triangles.reserve(3 * triangles.size());
+    flipped.FlipCounts.reserve(triangles.size());
+    flipped.Triangles.resize(3 * count);
+    flipped.FlipCounts.resize(count);
+    if (this->First)
+    {
+      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
+      this->First->StoreFlipCounts(flipped.FlipCounts.data());
+    }
     std::vector<std::int64_t> own, others;
     this->FindTriangles(flipped.GoneTriangles, own, others);
 
@@ -141,23 +150,6 @@ public:
   }
 
 private:
-  /// Stores the triangles of the first flips in their slots, or makes room for all.
-  void StoreFirst(FlippedPiece& flipped, std::int64_t count) const
-  {
-    flipped.Clear();
-    flipped.AreFloats = this->Job.Survey.IsFloat;
-    // With room for the triangles that have come: to append them would else copy the whole arrays.
-    flipped.Triangles.reserve(3 * this->Mesh.Triangles.size());
-    flipped.FlipCounts.reserve(this->Mesh.Triangles.size());
-    flipped.Triangles.resize(3 * count);
-    flipped.FlipCounts.resize(count);
-    if (this->First)
-    {
-      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
-      this->First->StoreFlipCounts(flipped.FlipCounts.data());
-    }
-  }
-
   /// Finds the listed triangles that are here: the rank's own, and others by their origins.
   /// @param gone receives the slots of own ones that have left.
   void FindTriangles(std::vector<std::int64_t>& gone, std::vector<std::int64_t>& own,

@@ -96,24 +96,6 @@ void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
   }
 }
 
-/// BuildMeshSurvey without what is known: ids are valid, and which points are used.
-MeshSurvey SurveyAll(const TriangleMesh& mesh, GeometryKind requested, const GroupBackend& backend)
-{
-  const MeshInput input{ mesh, mesh };
-  MeshSurvey survey;
-  survey.Uses = backend.MakeArray<PointUse>(mesh.Points.Count);
-  std::transform(backend.Keys.Used.begin(), backend.Keys.Used.end(), survey.Uses.Data(),
-    [](unsigned char isUsed) { return isUsed != 0 ? PointUse::Used : PointUse::Unused; });
-  SurveyPoints(survey, input, requested, backend);
-  GeometryChoice<GroupBackend>(input, survey, backend).Choose(requested);
-  if (survey.Geometry != requested && survey.NonFinitePoints.Count > 0)
-  {
-    SurveyPoints(survey, input, survey.Geometry, backend); // z may no longer matter
-  }
-  ResolveRange(survey);
-  return survey;
-}
-
 }
 
 void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group)
@@ -158,24 +140,16 @@ std::vector<Defect> PartSurvey::ListDefects() const
   return defects;
 }
 
-double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey)
-{
-  const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
-  const Vector3 a{ x[0][0], x[0][1], isFlat ? 0.0 : x[0][2] };
-  const Vector3 b{ x[1][0], x[1][1], isFlat ? 0.0 : x[1][2] };
-  const Vector3 c{ x[2][0], x[2][1], isFlat ? 0.0 : x[2][2] };
-  const double usual =
-    isFlat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
-  return usual == INFINITY || IsWide(survey.Range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
-                                                            : usual;
-}
-
 PartSurvey SurveyParts(
   const MeshPiece& piece, const PointKeys& keys, const FlipOptions& options, PieceGroup& group)
 {
   const GroupBackend backend(options.NumberOfThreads, keys, group);
   const TriangleMesh& mesh = piece.Mesh;
-  MeshSurvey found = SurveyAll(mesh, options.Geometry, backend);
+  MeshSurvey found; // ids are valid, and it is known which points are used
+  found.Uses = backend.MakeArray<PointUse>(mesh.Points.Count);
+  std::transform(keys.Used.begin(), keys.Used.end(), found.Uses.Data(),
+    [](unsigned char isUsed) { return isUsed != 0 ? PointUse::Used : PointUse::Unused; });
+  SurveyPointsAndGeometry(found, MeshInput{ mesh, mesh }, options.Geometry, backend);
   CheckTieRule(options, found.Geometry);
   const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
   PartSurvey survey(std::move(found), SumOverRanks(group, doubles) == 0);
@@ -252,36 +226,27 @@ struct StarTurnStep
 struct Wedge
 {
   std::int64_t Key; ///< Of the point.
-  double Apex[2], First[2], Last[2];
+  PlanePoint Apex, First, Last;
 
   bool IsAt(const Wedge& other) const
   {
-    return this->Apex[0] == other.Apex[0] && this->Apex[1] == other.Apex[1];
+    return this->Apex.U == other.Apex.U && this->Apex.V == other.Apex.V;
   }
   /// Whether the direction to a place lies in the wedge. That to First does, that to Last does not.
-  bool Covers(const double (&place)[2]) const
+  bool Covers(const PlanePoint& place) const
   {
-    const int afterFirst = this->FindTurn(this->First, place);
-    return afterFirst == 0 ? this->IsUpper(this->First) == this->IsUpper(place)
-                           : afterFirst > 0 && this->FindTurn(place, this->Last) > 0;
+    const int afterFirst = FindOrientation(this->Apex, this->First, place);
+    return afterFirst == 0
+      ? StarSurvey::IsUpper(this->Apex, this->First) == StarSurvey::IsUpper(this->Apex, place)
+      : afterFirst > 0 && FindOrientation(this->Apex, place, this->Last) > 0;
   }
   /// The order of wedges around a point, by their first directions.
   bool IsBefore(const Wedge& other) const
   {
-    const bool isUpper = this->IsUpper(this->First);
-    return isUpper == this->IsUpper(other.First) ? this->FindTurn(this->First, other.First) > 0
-                                                 : isUpper;
-  }
-
-private:
-  static PlanePoint Make(const double (&place)[2]) { return { place[0], place[1], 0.0 }; }
-  int FindTurn(const double (&a)[2], const double (&b)[2]) const
-  {
-    return FindOrientation(Make(this->Apex), Make(a), Make(b));
-  }
-  bool IsUpper(const double (&place)[2]) const
-  {
-    return StarSurvey::IsUpper(Make(this->Apex), Make(place));
+    const bool isUpper = StarSurvey::IsUpper(this->Apex, this->First);
+    return isUpper == StarSurvey::IsUpper(this->Apex, other.First)
+      ? FindOrientation(this->Apex, this->First, other.First) > 0
+      : isUpper;
   }
 };
 
@@ -305,17 +270,14 @@ RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PartSurvey& survey
       {
         continue;
       }
-      Wedge wedge{ keys.Keys[point], {}, {}, {} };
       const int first = (slot + (survey.Whole.Side > 0 ? 1 : 2)) % 3;
-      const auto place = [&](int corner, double(&at)[2])
+      const auto place = [&](int corner)
       {
-        const PlanePoint p = survey.Projection.Project(mesh.Points, mesh.Triangles.Get(t, corner));
-        at[0] = p.U;
-        at[1] = p.V;
+        PlanePoint p = survey.Projection.Project(mesh.Points, mesh.Triangles.Get(t, corner));
+        p.W = 0.0;
+        return p;
       };
-      place(slot, wedge.Apex);
-      place(first, wedge.First);
-      place(3 - slot - first, wedge.Last);
+      const Wedge wedge{ keys.Keys[point], place(slot), place(first), place(3 - slot - first) };
       const int home =
         keys.Shared[point] ? GetHome(ScatterBits(wedge.Key), group) : group.GetRank();
       toHome[home].push_back(wedge);

@@ -61,26 +61,26 @@ struct PartSurvey : MeshSurvey
   std::vector<Defect> ListDefects() const;
 };
 
-/// The squared cotangent of the smallest angle of a triangle, as defined in SmallestAngle.h.
-/// @param x the coordinates of its corners.
-double MeasureCotangent(const double (&x)[3][3], const PartSurvey& survey);
-
-/// The largest MeasureCotangent of `count` triangles; -INFINITY if there is none.
+/// The largest MeasureSquaredCotangent of `count` triangles; -INFINITY if there is none.
 /// @param get get(i, x) sets the coordinates of triangle i; it does not count if that returns
 /// false.
 template <typename Get>
 double FindLargestCotangent(
   std::int64_t count, const PartSurvey& survey, const ThreadBackend& threads, const Get& get)
 {
-  const LargestValue largest = threads.Sum<LargestValue>(count,
-    [&](std::int64_t i, LargestValue& sum)
+  const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
+  const auto measure = [&](std::int64_t i, LargestValue& sum)
+  {
+    double x[3][3];
+    const auto corner = [&](int slot) {
+      return Vector3{ x[slot][0], x[slot][1], isFlat ? 0.0 : x[slot][2] };
+    };
+    if (get(i, x))
     {
-      double x[3][3];
-      LargestValue one;
-      one.Value = get(i, x) ? MeasureCotangent(x, survey) : one.Value;
-      sum += one;
-    });
-  return largest.Value;
+      sum += { MeasureSquaredCotangent(corner(0), corner(1), corner(2), isFlat, survey.Range) };
+    }
+  };
+  return threads.Sum<LargestValue>(count, measure).Value;
 }
 
 /// Of some axes, the one along which items extend most.

@@ -81,7 +81,17 @@ public:
     this->Keys.Used.resize(this->Mesh.Points.Count);
     for (std::int64_t t = 0; t < this->Mesh.Triangles.Count; ++t)
     {
-      this->NoteTriangle(t);
+      const TriangleArray& triangles = this->Mesh.Triangles;
+      const std::int64_t ids[3] = { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) };
+      const std::uint64_t bits[3] = { ScatterBits(ids[0]), ScatterBits(ids[1]),
+        ScatterBits(ids[2]) };
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        this->Keys.Used[ids[slot]] = 1;
+        // In a closed fan every neighbour follows this corner once and precedes it once: the sum is
+        // 0.
+        this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
+      }
     }
     for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
     {
@@ -124,20 +134,6 @@ public:
   }
 
 private:
-  void NoteTriangle(std::int64_t t)
-  {
-    const TriangleArray& triangles = this->Mesh.Triangles;
-    const std::int64_t ids[3] = { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) };
-    const std::uint64_t bits[3] = { ScatterBits(ids[0]), ScatterBits(ids[1]), ScatterBits(ids[2]) };
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      this->Keys.Used[ids[slot]] = 1;
-      // In a closed fan every neighbour follows this corner once and precedes it once: the sum is
-      // 0.
-      this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
-    }
-  }
-
   /// Whether a point must be matched with points of other ranks: a triangle has it, or it is the
   /// end of a constraint.
   bool IsWanted(std::int64_t point) const

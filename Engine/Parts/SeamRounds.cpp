@@ -35,9 +35,9 @@ void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
   const RecordLists<SeamTriangle> news = ExchangeRecords(group, toHome);
 
   // Merges it with the sides that are known. One with a corner follows one without.
-  std::vector<Side> sides;
+  std::vector<SeamTriangle> sides;
   auto side = this->Sides.begin();
-  for (const RankedTriangle& one : SortByEdge(news))
+  for (const SeamTriangle& one : SortByEdge(news))
   {
     for (; side != this->Sides.end() && IsBefore(*side, one); ++side)
     {
@@ -47,9 +47,9 @@ void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
     {
       ++side;
     }
-    if (one.Seam->Corner != HasNone)
+    if (one.Corner != HasNone)
     {
-      sides.push_back({ one.Ends, one.Rank, true, *one.Seam });
+      sides.push_back(one);
     }
   }
   sides.insert(sides.end(), side, this->Sides.end());
@@ -62,18 +62,18 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   RecordLists<BadSeam> toRank(group.GetSize());
   std::int64_t bad = 0;
   std::int64_t blocked = 0;
-  const auto test = [&](Side& one, Side& other)
+  const auto test = [&](SeamTriangle& one, SeamTriangle& other)
   {
-    const EdgeState state = judge.Judge(one.Seam.Side, other.Seam.Side);
+    const EdgeState state = judge.Judge(one.Side, other.Side);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
     blocked += state == EdgeState::BlockedByShape ? 1 : 0;
     bad += state == EdgeState::Bad ? 1 : 0;
     for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
     {
-      const Side& own = i == 0 ? one : other;
-      BadSeam seam{ own.Seam.GetTriangle(), own.Ends,
-        MakePair(one.Seam.Opposite, other.Seam.Opposite), {}, i == 0 ? other.Rank : one.Rank };
-      std::copy_n(one.Seam.Side.Ends[0], 3, seam.Place);
+      const SeamTriangle& own = i == 0 ? one : other;
+      BadSeam seam{ own.GetTriangle(), own.Ends, MakePair(one.Opposite, other.Opposite), {},
+        i == 0 ? other.Rank : one.Rank };
+      std::copy_n(one.Side.Ends[0], 3, seam.Place);
       toRank[own.Rank].push_back(seam);
     }
   };
@@ -82,10 +82,10 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
     {
       for (std::size_t i = 1; i < this->Sides.size(); ++i)
       {
-        Side& one = this->Sides[i - 1];
-        Side& other = this->Sides[i];
+        SeamTriangle& one = this->Sides[i - 1];
+        SeamTriangle& other = this->Sides[i];
         if ((one.IsToTest || other.IsToTest) && one.Ends == other.Ends &&
-          one.Seam.Opposite != other.Seam.Opposite)
+          one.Opposite != other.Opposite)
         {
           test(one, other);
         }

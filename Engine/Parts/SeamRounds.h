@@ -47,18 +47,10 @@ public:
   SeamTest Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group);
 
 private:
-  /// One of the two triangles of a seam edge.
-  struct Side
-  {
-    PointPair Ends; ///< Keys of the ends of the edge.
-    std::int32_t Rank; ///< The rank that has the triangle.
-    bool IsToTest; ///< The edge is tested if this is true of one of its sides.
-    SeamTriangle Seam;
-  };
-
   void Update(PartMesh& mesh, PieceGroup& group);
 
-  std::vector<Side> Sides; ///< Sorted by edge, then by rank.
+  /// Sorted by edge, then by rank. An edge is tested if one of its triangles is to be tested.
+  std::vector<SeamTriangle> Sides;
 };
 
 /// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
@@ -103,15 +95,13 @@ public:
 
   /// Whether no edge is left to be judged.
   bool AreDone() const { return this->Next.empty(); }
-  /// The triangles whose edges will be judged next.
-  const std::vector<std::int64_t>& GetNext() const { return this->Next; }
 
-  /// Judges the edges of GetNext() and flips the bad ones, but changes each triangle at most once.
-  /// Triangles that have changed are the next ones.
+  /// Judges the edges of these triangles and flips the bad ones, but changes each triangle at most
+  /// once. Triangles that have changed are the next ones.
   /// @returns the record of the iteration, without its number and the smallest angle.
   IterationRecord Iterate();
 
-  /// Whether an edge of GetNext() is bad and may flip.
+  /// Whether an edge of them is bad and may flip.
   bool HasBad();
 
   /// Judges the edge that is opposite to both corners.

@@ -48,19 +48,21 @@ SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
   return seam;
 }
 
-std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
+std::vector<SeamTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
 {
-  std::vector<RankedTriangle> all;
+  std::vector<SeamTriangle> all;
   for (std::size_t rank = 0; rank < lists.size(); ++rank)
   {
     for (const SeamTriangle& seam : lists[rank])
     {
-      all.push_back({ seam.Ends, static_cast<int>(rank), &seam });
+      all.push_back(seam);
+      all.back().Rank = static_cast<std::int32_t>(rank);
+      all.back().IsToTest = true;
     }
   }
   std::sort(all.begin(), all.end(),
-    [](const RankedTriangle& a, const RankedTriangle& b)
-    { return IsBefore(a, b) || (!IsBefore(b, a) && a.Seam->Corner < b.Seam->Corner); });
+    [](const SeamTriangle& a, const SeamTriangle& b)
+    { return std::tie(a.Ends, a.Rank, a.Corner) < std::tie(b.Ends, b.Rank, b.Corner); });
   return all;
 }
 
@@ -133,8 +135,8 @@ struct SeamAnswer
 /// One edge: its triangles, by rank.
 struct SeamEdge
 {
-  const RankedTriangle* Begin;
-  const RankedTriangle* End;
+  const SeamTriangle* Begin;
+  const SeamTriangle* End;
   bool IsConstraint;
 
   bool IsOnOneRank() const { return this->Begin->Rank == (this->End - 1)->Rank; }
@@ -142,12 +144,12 @@ struct SeamEdge
   bool IsQuad() const
   {
     return this->End - this->Begin == 2 && !this->IsOnOneRank() &&
-      this->Begin[0].Seam->Opposite != this->Begin[1].Seam->Opposite;
+      this->Begin[0].Opposite != this->Begin[1].Opposite;
   }
   std::int64_t CountOn(int rank) const
   {
     return std::count_if(
-      this->Begin, this->End, [=](const RankedTriangle& one) { return one.Rank == rank; });
+      this->Begin, this->End, [=](const SeamTriangle& one) { return one.Rank == rank; });
   }
 };
 
@@ -165,18 +167,20 @@ std::vector<unsigned char> FindFixed(
   {
     return fixed;
   }
-  PointList points{ job.Survey.IsFloat, {}, {} };
+  std::vector<double> doubles;
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> regions;
   std::vector<unsigned char> frozen;
   for (const SeamQuad& quad : quads)
   {
     const auto first = static_cast<std::int64_t>(2 * frozen.size());
-    points.Add(quad[0]->Ends[0]);
-    points.Add(quad[0]->Ends[1]);
+    for (const auto& end : quad[0]->Ends)
+    {
+      doubles.insert(doubles.end(), end, end + 3);
+    }
     for (int i = 0; i < 2; ++i)
     {
-      points.Add(quad[i]->Opposite);
+      doubles.insert(doubles.end(), quad[i]->Opposite, quad[i]->Opposite + 3);
       const int start = quad[i]->RunsForward ? 0 : 1;
       ids.insert(ids.end(), { first + start, first + 1 - start, first + 2 + i });
       regions.push_back(quad[i]->Region);
@@ -184,7 +188,10 @@ std::vector<unsigned char> FindFixed(
     }
   }
   TriangleMesh mesh;
-  mesh.Points = points.View();
+  const std::vector<float> floats(doubles.begin(), doubles.end());
+  const auto points = static_cast<std::int64_t>(doubles.size()) / 3;
+  mesh.Points =
+    job.Survey.IsFloat ? PointArray(floats.data(), points) : PointArray(doubles.data(), points);
   mesh.Triangles = TriangleArray(ids.data(), static_cast<std::int64_t>(ids.size()) / 3);
   mesh.Regions = regions.data();
   mesh.FrozenTriangles = frozen.data();
@@ -220,14 +227,14 @@ public:
   /// @param seams, lists from every rank.
   void Judge(const RecordLists<SeamTriangle>& seams, const RecordLists<SharedConstraint>& lists)
   {
-    const std::vector<RankedTriangle> triangles = SortByEdge(seams);
+    const std::vector<SeamTriangle> triangles = SortByEdge(seams);
     const std::vector<SeamEdge> edges = this->FindEdges(triangles, lists);
     std::vector<SeamQuad> quads;
     for (const SeamEdge& edge : edges)
     {
       if (edge.IsQuad())
       {
-        quads.push_back({ &edge.Begin[0].Seam->Side, &edge.Begin[1].Seam->Side });
+        quads.push_back({ &edge.Begin[0].Side, &edge.Begin[1].Side });
       }
     }
     const std::vector<unsigned char> fixed = FindFixed(quads, this->Job, this->Counts.Edges);
@@ -245,8 +252,8 @@ public:
       {
         this->CountOther(edge);
       }
-      for (const RankedTriangle* one = edge.Begin;
-           one != edge.End && (isSpread || edge.IsConstraint); ++one)
+      for (const SeamTriangle* one = edge.Begin; one != edge.End && (isSpread || edge.IsConstraint);
+           ++one)
       {
         this->Answer(*one, true, !isSpread || edge.CountOn(one->Rank) == 2);
       }
@@ -260,7 +267,7 @@ public:
 private:
   /// Finds the edges, and which of the constraints they are. The other constraints are missing.
   std::vector<SeamEdge> FindEdges(
-    const std::vector<RankedTriangle>& triangles, const RecordLists<SharedConstraint>& lists)
+    const std::vector<SeamTriangle>& triangles, const RecordLists<SharedConstraint>& lists)
   {
     std::vector<SharedConstraint> constraints = Join(lists);
     // Of equal ones, one to be inserted comes first.
@@ -314,7 +321,7 @@ private:
     if (!stays)
     {
       ++this->Counts.Seams;
-      const EdgeState state = judge.Judge(edge.Begin[0].Seam->Side, edge.Begin[1].Seam->Side);
+      const EdgeState state = judge.Judge(edge.Begin[0].Side, edge.Begin[1].Side);
       this->Counts.NonDelaunay += state != EdgeState::Good ? 1 : 0;
     }
   }
@@ -330,13 +337,13 @@ private:
     all.Constraint = edge.IsConstraint ? 1 : 0;
     if (all.NonManifold == 0)
     {
-      const SeamSide& one = edge.Begin[0].Seam->Side;
-      const SeamSide& other = edge.Begin[1].Seam->Side;
+      const SeamSide& one = edge.Begin[0].Side;
+      const SeamSide& other = edge.Begin[1].Side;
       all.WronglyWound = one.RunsForward == other.RunsForward ? 1 : 0;
       all.Region = one.Region != other.Region ? 1 : 0;
     }
     AddCounts(this->Counts.Edges, all, 1);
-    for (const RankedTriangle* one = edge.Begin; one != edge.End; ++one)
+    for (const SeamTriangle* one = edge.Begin; one != edge.End; ++one)
     {
       if (one == edge.Begin || one->Rank != one[-1].Rank)
       {
@@ -347,13 +354,13 @@ private:
 
   /// What a rank counts of an edge of which others have triangles, too.
   /// @param first of its triangles.
-  EdgeCounts CountAlone(const RankedTriangle* first, std::int64_t size) const
+  EdgeCounts CountAlone(const SeamTriangle* first, std::int64_t size) const
   {
     EdgeCounts counts = MakeBoundary();
     if (size == 2)
     {
       counts = EdgeCounts();
-      FindFixed({ { &first[0].Seam->Side, &first[1].Seam->Side } }, this->Job, counts);
+      FindFixed({ { &first[0].Side, &first[1].Side } }, this->Job, counts);
       counts.Fixed = 1; // on this rank
       counts.Constraint = 1;
     }
@@ -372,10 +379,9 @@ private:
     return counts;
   }
 
-  void Answer(const RankedTriangle& one, bool isFixed, bool isToFix)
+  void Answer(const SeamTriangle& one, bool isFixed, bool isToFix)
   {
-    this->Answers[one.Rank].push_back(
-      { one.Seam->GetTriangle(), one.Seam->GetSlot(), isFixed, isToFix });
+    this->Answers[one.Rank].push_back({ one.GetTriangle(), one.GetSlot(), isFixed, isToFix });
   }
 
   const PartJob& Job;
@@ -536,8 +542,22 @@ void PartConstraints::Run()
   const bool isGuarded = this->Job.Survey.NeedsGuard() && this->Job.Group.GetSize() > 1;
   mesh.Whole.SharedPoints = isGuarded ? this->Mesh.GetShared().data() : nullptr;
   ConstraintInsertion insertion;
-  DoTogether(this->Job.Group, [&]() { insertion = this->Insert(mesh); });
-
+  FlipOptions options = this->Job.Options;
+  options.Geometry = this->Job.Survey.Geometry;
+  const auto insert = [&]()
+  {
+    try
+    {
+      insertion = ConstraintInsertion(mesh, options,
+        [this](double share)
+        { return !this->Job.Progress || this->Job.Progress(InsertionShare * share); });
+    }
+    catch (const RunAborted&)
+    {
+      this->IsAborted = true;
+    }
+  };
+  DoTogether(this->Job.Group, insert);
   const auto found = insertion.GetNumberInserted() +
     static_cast<std::int64_t>(insertion.GetRefused().size() + this->Seams.Missing.size());
   this->IsAborted =
@@ -552,24 +572,6 @@ void PartConstraints::Run()
   this->Keep(insertion, mesh);
   this->Share = InsertionShare;
   this->Seams = SurveySeams(this->Job, this->Piece, this->Mesh);
-}
-
-/// @returns nothing if an observer stops it.
-ConstraintInsertion PartConstraints::Insert(const TriangleMesh& mesh)
-{
-  FlipOptions options = this->Job.Options;
-  options.Geometry = this->Job.Survey.Geometry;
-  try
-  {
-    return ConstraintInsertion(mesh, options,
-      [this](double share)
-      { return !this->Job.Progress || this->Job.Progress(InsertionShare * share); });
-  }
-  catch (const RunAborted&)
-  {
-    this->IsAborted = true;
-    return ConstraintInsertion();
-  }
 }
 
 /// Counts what this rank has inserted and refused. The first rank counts constraints between shared

@@ -16,34 +16,11 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace delaunayflip
 {
-
-/// Coordinates of points, in the precision of the caller's coordinates.
-struct PointList
-{
-  void Add(const double (&x)[3])
-  {
-    for (const double coordinate : x)
-    {
-      this->IsFloat ? this->Floats.push_back(static_cast<float>(coordinate))
-                    : this->Doubles.push_back(coordinate);
-    }
-  }
-  PointArray View() const
-  {
-    const std::size_t size = this->IsFloat ? this->Floats.size() : this->Doubles.size();
-    const auto points = static_cast<std::int64_t>(size / 3);
-    return this->IsFloat ? PointArray(this->Floats.data(), points)
-                         : PointArray(this->Doubles.data(), points);
-  }
-
-  bool IsFloat;
-  std::vector<float> Floats;
-  std::vector<double> Doubles;
-};
 
 /// One of the two triangles of an edge, with all that decides whether the edge is fixed.
 struct SeamSide
@@ -66,6 +43,8 @@ struct SeamTriangle
   std::int64_t Opposite; ///< Key of the point opposite to the edge.
   std::int64_t Corner; ///< 3 * triangle + slot of the opposite point, on its rank.
   SeamSide Side;
+  std::int32_t Rank; ///< The rank that has it, as SortByEdge sets it.
+  bool IsToTest; ///< For SeamTester.
 
   std::int64_t GetTriangle() const { return this->Corner / 3; }
   int GetSlot() const { return static_cast<int>(this->Corner % 3); }
@@ -74,28 +53,14 @@ struct SeamTriangle
 /// The triangle, for its edge opposite to corner `slot`. Takes it as not frozen and in no region.
 SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t triangle, int slot);
 
-/// A SeamTriangle with the rank that has sent it.
-struct RankedTriangle
-{
-  PointPair Ends; ///< Seam->Ends.
-  int Rank;
-  const SeamTriangle* Seam;
-};
-
 /// Orders by edge, then by rank.
-template <typename First, typename Second>
-bool IsBefore(const First& a, const Second& b)
+inline bool IsBefore(const SeamTriangle& a, const SeamTriangle& b)
 {
-  if (a.Ends[0] != b.Ends[0])
-  {
-    return a.Ends[0] < b.Ends[0];
-  }
-  return a.Ends[1] != b.Ends[1] ? a.Ends[1] < b.Ends[1] : a.Rank < b.Rank;
+  return std::tie(a.Ends, a.Rank) < std::tie(b.Ends, b.Rank);
 }
 
-/// Sorts the triangles that all ranks have sent by edge, then by rank.
-/// @param lists must live as long as the result.
-std::vector<RankedTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
+/// The triangles that all ranks have sent, by edge, then by rank. All are to be tested.
+std::vector<SeamTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
 
 /// Judges single edges by the rules of the engine (FlipRules.h).
 class QuadJudge
@@ -180,7 +145,6 @@ public:
 
 private:
   void Run();
-  ConstraintInsertion Insert(const TriangleMesh& mesh);
   void Count(const ConstraintInsertion& insertion, std::vector<char> fates);
   void Keep(const ConstraintInsertion& insertion, const TriangleMesh& mesh);
 

@@ -54,39 +54,32 @@ struct OtherCornerStep
 class CornerPairing
 {
 public:
-  CornerPairing(EdgeMesh& mesh, std::int64_t vertices, const ThreadBackend& backend)
+  CornerPairing(EdgeMesh& mesh, const ThreadBackend& backend)
     : Triangles(mesh.Triangles.Data()),
-      NumberOfTriangles(mesh.NumberOfTriangles),
       Backend(backend)
   {
-    while ((vertices >> this->BucketBits) >= MostBuckets)
-    {
-      ++this->BucketBits;
-    }
-    this->Starts.assign((vertices >> this->BucketBits) + 2, 0);
-    this->CountCorners();
-  }
-
-  /// Whether no bucket has so many corners that one thread would still work on it long after the
-  /// others: one vertex may have most of the edges.
-  bool IsEven(std::uint32_t mostCorners = 1u << 20) const
-  {
-    return this->GetLargest(0, this->CountBuckets()) <= mostCorners;
   }
 
   /// Sets HalfEdges to the other corners, as OtherCornerStep expects.
-  PairSums Run()
+  /// @param corners by their buckets. Their order in one does not affect the result.
+  /// @param starts where buckets begin in these, and the end.
+  PairSums Run(const Array<CornerId>& corners, const std::vector<std::uint32_t>& starts) const
   {
-    this->DistributeCorners();
     return this->Backend.SumRanges<PairSums>(
-      this->CountBuckets(),
-      [this](std::int64_t begin, std::int64_t end)
+      static_cast<std::int64_t>(starts.size()) - 1,
+      [&](std::int64_t begin, std::int64_t end)
       {
         PairSums sums;
-        Scratch scratch(this->GetLargest(begin, end), this->Backend);
+        std::uint32_t largest = 0;
         for (std::int64_t bucket = begin; bucket < end; ++bucket)
         {
-          this->PairBucket(bucket, scratch, sums);
+          largest = std::max(largest, starts[bucket + 1] - starts[bucket]);
+        }
+        Scratch scratch(largest, this->Backend);
+        for (std::int64_t bucket = begin; bucket < end; ++bucket)
+        {
+          this->PairBucket(
+            corners.Data() + starts[bucket], starts[bucket + 1] - starts[bucket], scratch, sums);
         }
         return sums;
       },
@@ -94,7 +87,6 @@ public:
   }
 
 private:
-  static constexpr std::int64_t MostBuckets = 4096;
   static constexpr std::int64_t BucketsPerTask = 4;
   /// Corners between the request for a triangle and its use.
   static constexpr std::uint32_t PrefetchDistance = 32;
@@ -128,79 +120,9 @@ private:
     Array<std::uint32_t> Places;
   };
 
-  std::int64_t CountBuckets() const { return static_cast<std::int64_t>(this->Starts.size()) - 1; }
-
-  std::uint32_t GetBucket(const TriangleRecord& triangle, int slot) const
+  void PairBucket(
+    const CornerId* corners, std::uint32_t size, Scratch& scratch, PairSums& sums) const
   {
-    return std::min(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]) >>
-      this->BucketBits;
-  }
-
-  void CountCorners()
-  {
-    constexpr std::int64_t Grain = ThreadBackend::DefaultGrain;
-    this->CountsOfRange.resize((this->NumberOfTriangles + Grain - 1) / Grain);
-    this->Backend.ForRange(this->NumberOfTriangles,
-      [this](std::int64_t begin, std::int64_t end)
-      {
-        std::vector<std::uint32_t>& counts = this->CountsOfRange[begin / Grain];
-        counts.assign(this->Starts.size() - 1, 0);
-        for (std::int64_t t = begin; t < end; ++t)
-        {
-          for (int slot = 0; slot < 3; ++slot)
-          {
-            ++counts[this->GetBucket(this->Triangles[t], slot)];
-          }
-        }
-        for (std::size_t bucket = 0; bucket < counts.size(); ++bucket)
-        {
-          AtomicAdd(&this->Starts[bucket + 1], counts[bucket]);
-        }
-      });
-    for (std::size_t bucket = 1; bucket < this->Starts.size(); ++bucket)
-    {
-      this->Starts[bucket] += this->Starts[bucket - 1];
-    }
-  }
-
-  /// Lists the corners of every bucket. Their order does not affect the result.
-  void DistributeCorners()
-  {
-    this->Corners = this->Backend.MakeArray<CornerId>(this->Starts.back());
-    std::vector<std::uint32_t> ends(this->Starts.begin(), this->Starts.end() - 1);
-    this->Backend.ForRange(this->NumberOfTriangles,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        std::vector<std::uint32_t>& next = this->CountsOfRange[begin / ThreadBackend::DefaultGrain];
-        for (std::size_t bucket = 0; bucket < next.size(); ++bucket)
-        {
-          next[bucket] = AtomicAdd(&ends[bucket], next[bucket]);
-        }
-        for (std::int64_t t = begin; t < end; ++t)
-        {
-          for (int slot = 0; slot < 3; ++slot)
-          {
-            this->Corners[next[this->GetBucket(this->Triangles[t], slot)]++] =
-              MakeCorner(static_cast<TriangleId>(t), slot);
-          }
-        }
-      });
-  }
-
-  std::uint32_t GetLargest(std::int64_t firstBucket, std::int64_t lastBucket) const
-  {
-    std::uint32_t largest = 0;
-    for (std::int64_t bucket = firstBucket; bucket < lastBucket; ++bucket)
-    {
-      largest = std::max(largest, this->Starts[bucket + 1] - this->Starts[bucket]);
-    }
-    return largest;
-  }
-
-  void PairBucket(std::int64_t bucket, Scratch& scratch, PairSums& sums) const
-  {
-    const CornerId* corners = this->Corners.Data() + this->Starts[bucket];
-    const std::uint32_t size = this->Starts[bucket + 1] - this->Starts[bucket];
     this->EnterCorners(corners, size, scratch, sums);
     for (std::uint32_t i = 0; i < size; ++i)
     {
@@ -247,13 +169,7 @@ private:
   }
 
   TriangleRecord* Triangles;
-  std::int64_t NumberOfTriangles;
   const ThreadBackend& Backend;
-  int BucketBits = 9;
-  std::vector<std::uint32_t> Starts; ///< Where buckets begin in Corners, and the end.
-  std::vector<std::vector<std::uint32_t>>
-    CountsOfRange; ///< How many corners of each range buckets get.
-  Array<CornerId> Corners;
 };
 
 }

@@ -11,11 +11,6 @@
 #include <cstdint>
 #include <vector>
 
-#if defined(__SSE2__) && !defined(__SANITIZE_THREAD__)
-#define DELAUNAYFLIP_STATES_BY_SSE2
-#include <emmintrin.h>
-#endif
-
 /// @file
 /// The worklist of a range of edges: units of 1024 edges, with a flag for every unit that may
 /// contain work. A detection visits only flagged units, and finds its candidates by their states,
@@ -30,30 +25,8 @@ namespace delaunayflip
 
 constexpr std::int64_t StatesPerSet = 64;
 
-#if defined(DELAUNAYFLIP_STATES_BY_SSE2)
-
-/// Which of 64 states are wanted. Other threads may change states meanwhile whose bits the caller
-/// ignores.
-inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
-{
-  const __m128i first = _mm_set1_epi8(static_cast<char>(wanted.First));
-  const __m128i range = _mm_set1_epi8(
-    static_cast<char>(static_cast<int>(wanted.Last) - static_cast<int>(wanted.First)));
-  std::uint64_t set = 0;
-  for (int i = 0; i < 4; ++i)
-  {
-    const __m128i above =
-      _mm_sub_epi8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(states) + i), first);
-    const __m128i matches = _mm_cmpeq_epi8(_mm_min_epu8(above, range), above);
-    set |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(matches)))
-      << (16 * i);
-  }
-  return set;
-}
-
-#else
-
-/// The same, by the bytes of machine words.
+/// Which of 64 states are wanted, by the bytes of machine words. Other threads may change states
+/// meanwhile whose bits the caller ignores.
 inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
 {
   using Word __attribute__((may_alias)) = std::uint64_t;
@@ -73,8 +46,6 @@ inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
   }
   return set;
 }
-
-#endif
 
 //------------------------------------------------------------------------------
 

@@ -214,15 +214,37 @@ void ThreadBackend::ForTasks(
   }
 }
 
+/// Corners are distributed to buckets of vertices. A bucket must not have so many corners that one
+/// thread would still work on it long after the others: one vertex may have most of the edges.
 bool ThreadBackend::PairCorners(
   EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const
 {
-  CornerPairing pairing(mesh, vertices, *this);
-  if (!pairing.IsEven())
+  constexpr std::int64_t MostBuckets = 4096;
+  constexpr std::uint32_t MostCornersPerBucket = 1u << 20;
+  int bucketBits = 9;
+  while ((vertices >> bucketBits) >= MostBuckets)
+  {
+    ++bucketBits;
+  }
+  const TriangleRecord* triangles = mesh.Triangles.Data();
+  const std::int64_t size = 3 * mesh.NumberOfTriangles;
+  Array<CornerId> corners = this->MakeArray<CornerId>(size);
+  const std::vector<std::uint32_t> starts = this->PlaceByDigit(
+    size, static_cast<std::uint32_t>(vertices >> bucketBits) + 1,
+    [=](std::int64_t i)
+    {
+      const VertexId* points = triangles[i / 3].Vertices;
+      const int slot = static_cast<int>(i % 3);
+      return std::min(points[NextSlot(slot)], points[PreviousSlot(slot)]) >> bucketBits;
+    },
+    [&](std::int64_t i, std::uint32_t place)
+    { corners[place] = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)); },
+    MostCornersPerBucket);
+  if (starts.empty())
   {
     return false;
   }
-  sums = pairing.Run();
+  sums = CornerPairing(mesh, *this).Run(corners, starts);
   numbering = this->Count(mesh.NumberOfTriangles, OtherCornerStep{ mesh.Triangles.Data() });
   return true;
 }

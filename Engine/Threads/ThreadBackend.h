@@ -174,14 +174,14 @@ public:
     this->ForRange(size,
       [&](std::int64_t begin, std::int64_t end)
       { Loop(begin, end, keyOf, [&](std::int64_t i) { keys[i] = keyOf(i); }); });
-    this->PlaceByDigit<DigitBits>(
-      size, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
+    this->PlaceByDigit(
+      size, 1u << DigitBits, [&](std::int64_t i) { return keys[i] & ((1u << DigitBits) - 1); },
       [&](std::int64_t i, std::uint32_t place) {
         sorted[place] = { keys[i], static_cast<std::uint32_t>(i) };
       });
     Array<std::uint32_t> indices = std::move(keys);
-    this->PlaceByDigit<DigitBits>(
-      size, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
+    this->PlaceByDigit(
+      size, 1u << DigitBits, [&](std::int64_t i) { return sorted[i].Key >> DigitBits; },
       [&](std::int64_t i, std::uint32_t place) { indices[place] = sorted[i].Index; });
     return indices;
   }
@@ -281,42 +281,51 @@ private:
   }
 
   /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
-  /// i by digitOf(i), of DigitBits bits.
-  template <int DigitBits, typename DigitOf, typename Put>
-  void PlaceByDigit(std::int64_t size, const DigitOf& digitOf, const Put& put) const
+  /// i by digitOf(i), below `digits`.
+  /// @param most of one digit; if there are more, nothing is put.
+  /// @returns the first place of each digit, and the end; or nothing.
+  template <typename DigitOf, typename Put>
+  std::vector<std::uint32_t> PlaceByDigit(std::int64_t size, std::uint32_t digits,
+    const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
   {
-    constexpr std::uint32_t Digits = 1u << DigitBits;
     constexpr std::int64_t Grain = 1 << 17;
     const std::int64_t pieces = (size + Grain - 1) / Grain;
-    std::vector<std::uint32_t> starts(pieces * Digits, 0);
+    std::vector<std::uint32_t> starts(pieces * digits, 0);
     const auto count = [&](std::int64_t begin, std::int64_t end)
     {
-      std::uint32_t* counts = &starts[begin / Grain * Digits];
+      std::uint32_t* counts = &starts[begin / Grain * digits];
       for (std::int64_t i = begin; i < end; ++i)
       {
         ++counts[digitOf(i)];
       }
     };
     this->ForRange(size, count, Grain);
-    std::uint32_t start = 0;
-    for (std::uint32_t digit = 0; digit < Digits; ++digit)
+    std::vector<std::uint32_t> firsts(1, 0);
+    for (std::uint32_t digit = 0; digit < digits; ++digit)
     {
+      std::uint32_t start = firsts.back();
       for (std::int64_t piece = 0; piece < pieces; ++piece)
       {
-        const std::uint32_t items = starts[piece * Digits + digit];
-        starts[piece * Digits + digit] = start;
+        const std::uint32_t items = starts[piece * digits + digit];
+        starts[piece * digits + digit] = start;
         start += items;
       }
+      if (start - firsts.back() > most)
+      {
+        return {};
+      }
+      firsts.push_back(start);
     }
     const auto place = [&](std::int64_t begin, std::int64_t end)
     {
-      std::uint32_t* next = &starts[begin / Grain * Digits];
+      std::uint32_t* next = &starts[begin / Grain * digits];
       for (std::int64_t i = begin; i < end; ++i)
       {
         put(i, next[digitOf(i)]++);
       }
     };
     this->ForRange(size, place, Grain);
+    return firsts;
   }
 
   class Pool;

@@ -56,7 +56,7 @@ class Truncated(BadFileTest):
     def test_obj(self):
         """The format has no end mark, so only truncation within a line can be noticed."""
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1")
-        self.refuse("a.obj", "line 3", "three coordinates")
+        self.refuse("a.obj", "line 3", "number is missing")
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2")
         self.refuse("a.obj", "line 4", "3 corners")
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CudaError.h"
+#include "CudaContext.h"
 #include "DeviceColors.h"
 #include "FlipError.h"
 #include "GpuTestSupport.h"

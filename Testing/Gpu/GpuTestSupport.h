@@ -3,8 +3,8 @@
 #ifndef DELAUNAYFLIP_GPUTESTSUPPORT_H
 #define DELAUNAYFLIP_GPUTESTSUPPORT_H
 
+#include "CudaContext.h"
 #include "CudaDevice.h"
-#include "CudaError.h"
 #include "FlipTestSupport.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaContext.h"
 #include "CudaDevice.h"
-#include "CudaError.h"
 #include "TestDevice.h"
 
 #include <cuda_runtime_api.h>

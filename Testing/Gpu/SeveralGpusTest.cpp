@@ -60,8 +60,8 @@ TEST_F(DeviceTest, OneThatIsAbsentIsRefusedOrReplaced)
   this->Options.Backend = BackendKind::CUDA;
   this->Options.Device = CountDevices();
   EXPECT_THROW(Flip(this->Mesh.View(), this->Options), BackendUnavailable);
-  const std::int64_t smallest = GetSmallestShare();
-  SetSmallestShare(1); // so that a small mesh is shared
+  const std::int64_t smallest = SmallestShare;
+  SmallestShare = 1; // so that a small mesh is shared
   for (const int pieces : { 0, 5 })
   {
     FlipOptions several = MakeOptions(BackendKind::CUDA);
@@ -69,7 +69,7 @@ TEST_F(DeviceTest, OneThatIsAbsentIsRefusedOrReplaced)
     several.NumberOfPieces = pieces;
     EXPECT_THROW(Flip(this->Mesh.View(), several), FlipError);
   }
-  SetSmallestShare(smallest);
+  SmallestShare = smallest;
   this->Options.Backend = BackendKind::Auto;
   const FlipResult result = Flip(this->Mesh.View(), this->Options);
   EXPECT_TRUE(this->Expected.Triangles == result.Triangles);
@@ -96,12 +96,12 @@ protected:
     {
       GTEST_SKIP() << "GPUs 0 and 1 cannot do atomic operations in each other's memory";
     }
-    SetSmallestShare(1);
+    SmallestShare = 1;
   }
   void TearDown() override
   {
     GpuTest::TearDown();
-    SetSmallestShare(this->Smallest);
+    SmallestShare = this->Smallest;
   }
 
   static bool IsOnTwo(const FlipReport& report)
@@ -123,7 +123,7 @@ protected:
   }
 
 private:
-  std::int64_t Smallest = GetSmallestShare();
+  std::int64_t Smallest = SmallestShare;
 };
 
 TEST_F(SharedMeshTest, Plane)
@@ -181,9 +181,9 @@ TEST_F(SharedMeshTest, SmallMeshes)
     EXPECT_TRUE(expected.Triangles == Flip(mesh.View(), options).Triangles) << points;
   }
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(50000, 59);
-  SetSmallestShare(mesh.NumberOfTriangles() / 2);
+  SmallestShare = mesh.NumberOfTriangles() / 2;
   EXPECT_TRUE(IsOnTwo(Flip(mesh.View(), options).Report));
-  SetSmallestShare(mesh.NumberOfTriangles() / 2 + 1);
+  SmallestShare = mesh.NumberOfTriangles() / 2 + 1;
   EXPECT_FALSE(IsOnTwo(Flip(mesh.View(), options).Report));
 }
 

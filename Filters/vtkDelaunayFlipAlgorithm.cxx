@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The part of vtkDelaunayFlip that runs in an update.
-
-#include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipAlgorithm.h"
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
@@ -11,12 +9,16 @@
 #include "MeshBlocks.h"
 #include "UpdateReport.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkVersionMacros.h"
 #if defined(DELAUNAYFLIP_PARAVIEW)
@@ -25,11 +27,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
+#include <cstring>
 #include <string>
 #include <utility>
 
 using namespace delaunayflip;
+
+// The enumerators of the engine and of this class have the same values.
+static_assert(
+  static_cast<int>(BackendKind::Threads) == vtkDelaunayFlipAlgorithm::BACKEND_THREADS, "");
+static_assert(
+  static_cast<int>(StopReasonKind::Running) == vtkDelaunayFlipAlgorithm::STOP_REASON_RUNNING, "");
+
+static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 20,000");
 
 namespace
 {
@@ -100,7 +110,188 @@ vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 }
 
 //------------------------------------------------------------------------------
-int vtkDelaunayFlip::RequestData(
+vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
+  : SizeOfBlocks(vtkDataObject::CELL),
+    Report(new UpdateReport)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkDelaunayFlipAlgorithm::~vtkDelaunayFlipAlgorithm()
+{
+  this->Run.reset();
+  if (this->HasExecuted)
+  {
+    this->ReleaseDeviceMemory();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipAlgorithm::ReleaseDeviceMemory()
+{
+  try
+  {
+    ReleaseCudaMemory();
+  }
+  catch (...)
+  {
+    // The destructor calls this, so nothing may be thrown. Memory not released serves the next run.
+  }
+}
+
+vtkTable* vtkDelaunayFlipAlgorithm::GetIterations()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  this->Superclass::FillInputPortInformation(port, info);
+  // Otherwise the executive would run the filter once per block, and no sums could be made.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkDelaunayFlipAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkDelaunayFlipAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) && this->IsAtWork)
+  {
+    vtkErrorMacro("An observer asked for an update within an update.");
+    return 0;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+/// Port 0: composite data of the input's type, or a mesh.
+int vtkDelaunayFlipAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
+  const char* type = blocks ? blocks->GetClassName() : "vtkPolyData";
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (!output || std::strcmp(type, output->GetClassName()) != 0)
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(
+      blocks ? static_cast<vtkDataObject*>(blocks->NewInstance()) : vtkPolyData::New());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipAlgorithm::Advance()
+{
+  const bool continues = this->LiveUpdate && this->CanContinue;
+  if (continues)
+  {
+    this->Next = NextUpdate::StepAndStore;
+    this->Modified();
+  }
+  return continues;
+}
+
+/// The executive empties the output, and takes it for current after any update.
+bool vtkDelaunayFlipAlgorithm::AdvanceSession()
+{
+  auto* output = vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+  vtkNew<vtkPolyData> last;
+  if (output)
+  {
+    last->ShallowCopy(output);
+  }
+  this->Advance();
+  this->Next = NextUpdate::Step;
+  const bool works = this->GetExecutive()->Update(0) != 0;
+  if (this->Next == NextUpdate::Store)
+  {
+    output->ShallowCopy(last);
+    this->Modified();
+  }
+  else
+  {
+    this->Next = NextUpdate::StepAndStore;
+  }
+  return works;
+}
+
+const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
+{
+  return this->Run ? &this->Run->GetSession() : nullptr;
+}
+
+void vtkDelaunayFlipAlgorithm::Restart()
+{
+  this->Run.reset();
+  this->CanContinue = true;
+  this->Next = NextUpdate::StepAndStore;
+  this->Modified();
+}
+
+bool vtkDelaunayFlipAlgorithm::GetNeedsUpdate()
+{
+  const bool isUnderWay = this->Run && this->Report->StopReason == StopReasonKind::Running;
+  return isUnderWay && !this->Paused && this->Advance();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfIterations() const
+{
+  return static_cast<vtkIdType>(this->Report->Iterations.size());
+}
+
+vtkIdType vtkDelaunayFlipAlgorithm::GetTotalFlips() const { return this->Report->TotalFlips; }
+
+vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfNonDelaunayEdges() const
+{
+  return this->Report->NonDelaunayAfter;
+}
+
+bool vtkDelaunayFlipAlgorithm::GetConverged() const
+{
+  return this->Failure == FAILURE_NONE && this->Report->Converged();
+}
+
+int vtkDelaunayFlipAlgorithm::GetStopReason() const
+{
+  return this->Failure != FAILURE_NONE ? static_cast<int>(STOP_REASON_FAILED)
+                                       : static_cast<int>(this->Report->StopReason);
+}
+
+const char* vtkDelaunayFlipAlgorithm::GetStopReasonAsString() const
+{
+  return this->Failure != FAILURE_NONE ? this->StopReasonText.c_str()
+                                       : ToString(this->Report->StopReason);
+}
+
+const char* vtkDelaunayFlipAlgorithm::GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+
+const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
+{
+  return this->Report->Backend.c_str();
+}
+
+const FlipReport& vtkDelaunayFlipAlgorithm::GetReport() const { return *this->Report; }
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlipAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   // Observers may take them from the filter while it works.
@@ -117,20 +308,20 @@ int vtkDelaunayFlip::RequestData(
   try
   {
     const auto structure = Hold(input);
-    const auto constraints = Hold(vtkDataObject::GetData(inputVector[1]));
-    std::vector<MeshBlock> edges;
-    if (constraints)
+    const auto second = Hold(vtkDataObject::GetData(inputVector[1]));
+    std::vector<MeshBlock> others;
+    if (second)
     {
-      edges = ListMeshBlocks(constraints);
-      edges.resize(std::max<std::size_t>(1, edges.size()), { { 0 }, "", 0.0, false, {} });
+      others = ListMeshBlocks(second, vtkDataObject::CELL);
+      others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
     }
     std::vector<MeshBlock> blocks = this->ListBlocks(input);
     bool isLive = false;
-    double cells = 0.0;
+    double size = 0.0;
     for (const MeshBlock& block : blocks)
     {
       isLive = isLive || block.IsLive;
-      cells += block.Cells;
+      size += block.Size;
     }
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
     {
@@ -141,10 +332,9 @@ int vtkDelaunayFlip::RequestData(
     double before = 0.0;
     for (MeshBlock& block : blocks)
     {
-      this->SetProgressShiftScale(
-        before / std::max(1.0, cells), block.Cells / std::max(1.0, cells));
-      this->FlipBlock(block, edges, summary);
-      before += block.Cells;
+      this->SetProgressShiftScale(before / std::max(1.0, size), block.Size / std::max(1.0, size));
+      this->FlipBlock(block, others, summary);
+      before += block.Size;
     }
     StoreResults(blocks, structure, output);
   }
@@ -166,7 +356,7 @@ int vtkDelaunayFlip::RequestData(
 }
 
 /// Leaves nothing half done.
-void vtkDelaunayFlip::DiscardRun()
+void vtkDelaunayFlipAlgorithm::DiscardRun()
 {
   this->Run.reset();
   this->CanContinue = false;
@@ -174,7 +364,7 @@ void vtkDelaunayFlip::DiscardRun()
   *this->Report = UpdateReport();
 }
 
-void vtkDelaunayFlip::Publish(const UpdateSummary& summary)
+void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
 {
   *this->Report = summary.Report;
   this->Failure = summary.Failure;
@@ -193,9 +383,9 @@ void vtkDelaunayFlip::Publish(const UpdateSummary& summary)
 }
 
 //------------------------------------------------------------------------------
-std::vector<MeshBlock> vtkDelaunayFlip::ListBlocks(vtkDataObject* input)
+std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(vtkDataObject* input)
 {
-  std::vector<MeshBlock> blocks = ListMeshBlocks(input);
+  std::vector<MeshBlock> blocks = ListMeshBlocks(input, this->SizeOfBlocks);
   if (blocks.size() == 1 && blocks.front().Place.empty())
   {
     blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram();
@@ -203,41 +393,13 @@ std::vector<MeshBlock> vtkDelaunayFlip::ListBlocks(vtkDataObject* input)
   return blocks;
 }
 
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)
+void vtkDelaunayFlipAlgorithm::FlipBlock(
+  MeshBlock& block, const std::vector<MeshBlock>& others, UpdateSummary& summary)
 {
-  return vtkPolyData::SafeDownCast(input);
-}
-
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::ReadMesh(vtkDataObject* input)
-{
+  *this->Report = UpdateReport();
   try
   {
-    return this->GetMesh(input);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw InvalidMesh(error.what(), -1, -1);
-  }
-}
-
-void vtkDelaunayFlip::FlipBlock(
-  MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
-{
-  try
-  {
-    BlockMesh mesh(
-      block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray);
-    const auto edges = mesh.FindConstraints(constraints);
-    const std::vector<Note> notes = mesh.ListNotes();
-    summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
-    if (!mesh.GetMesh())
-    {
-      mesh.Store(nullptr);
-      return;
-    }
-    vtkNew<vtkPolyData> flipped;
-    this->FlipMesh(mesh.GetMesh(), edges, block.IsLive, flipped);
-    mesh.Store(flipped);
+    this->FlipLeaves(block, others, summary);
   }
   catch (...)
   {
@@ -249,7 +411,7 @@ void vtkDelaunayFlip::FlipBlock(
     }
   }
   const std::string trouble =
-    DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
+    DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->HasTolerance());
   // Live updates give each warning once.
   if (!trouble.empty() && !(this->Run && this->Run->Warning == trouble))
   {
@@ -263,22 +425,9 @@ void vtkDelaunayFlip::FlipBlock(
 }
 
 //------------------------------------------------------------------------------
-FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
+ProgressObserver vtkDelaunayFlipAlgorithm::MakeProgress()
 {
-  FlipOptions options;
-  options.Geometry = static_cast<GeometryKind>(this->Geometry);
-  options.Criterion = static_cast<CriterionKind>(this->Criterion);
-  options.TieRule = static_cast<TieRuleKind>(this->TieRule);
-  options.Backend = static_cast<BackendKind>(this->Backend);
-  options.Tolerance = this->Tolerance;
-  options.FeatureAngle = this->FeatureAngle;
-  options.MaximumIterations = this->MaximumIterations;
-  options.NumberOfThreads = this->NumberOfThreads;
-  options.Device = this->DeviceId;
-  options.Devices = ParseDevices(this->Devices);
-  options.NumberOfPieces = this->NumberOfPieces;
-  options.TrackQuality = this->TrackQuality;
-  const auto observe = [this](double fraction)
+  return [this](double fraction)
   {
     // The share of the whole update, of which this mesh may be a part. It must not go back where a
     // session is advanced again and again.
@@ -289,20 +438,16 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
         : fraction);
     return !IsAbortRequested(this);
   };
-  return { mesh, constraints,
-    { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
-      this->RegionArray },
-    options, isLive, this->GenerateFlipCount, this->GenerateQuality, observe };
 }
 
-void vtkDelaunayFlip::FlipMesh(
-  vtkPolyData* mesh, vtkPolyData* constraints, bool isLive, vtkPolyData* output)
+void vtkDelaunayFlipAlgorithm::FlipMesh(
+  vtkPolyData* mesh, vtkPolyData* others, bool isLive, vtkPolyData* output)
 {
-  std::unique_ptr<FlipRun> run = std::move(this->Run); // which observers may reset
+  std::unique_ptr<UpdateRun> run = std::move(this->Run); // which observers may reset
   *this->Report = UpdateReport();
   const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
-  if (mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0)
+  if (!this->HasWork(mesh))
   {
     this->Report->StopReason = StopReasonKind::Converged;
     output->ShallowCopy(mesh);
@@ -318,7 +463,7 @@ void vtkDelaunayFlip::FlipMesh(
     {
       throw RunAborted(); // in another block
     }
-    const bool isSame = FlipRun::ContinueOrStart(run, this->MakeRequest(mesh, constraints, isLive));
+    const bool isSame = this->ContinueOrStart(run, mesh, others, isLive);
     *this->Report = UpdateReport(run->GetReport());
     const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
@@ -356,4 +501,21 @@ void vtkDelaunayFlip::FlipMesh(
   {
     this->Run = std::move(run);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Backend: " << this->Backend << "\n";
+  os << indent << "DeviceId: " << this->DeviceId << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
+  os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
+  os << indent << "Paused: " << this->Paused << "\n";
+  os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
+  os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
+  os << indent << "NumberOfNonDelaunayEdges: " << this->GetNumberOfNonDelaunayEdges() << "\n";
+  os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
 }
