@@ -304,7 +304,7 @@ void LiveScene::HideStatus() { this->Status->VisibilityOff(); }
 /// In as many lines as the width of the renderer needs.
 void LiveScene::SetKeyVisibility(bool visible)
 {
-  constexpr int characterWidth = 8; // pixels
+  constexpr double characterWidth = 6.5; // pixels
   const auto width = static_cast<std::size_t>(this->Renderer->GetSize()[0] / characterWidth);
   this->Keys->SetInput(Wrap(KeyHelp, width).c_str());
   this->Keys->SetVisibility(visible);

@@ -383,6 +383,7 @@ TEST(LiveViewPicture, Texts)
   view->Start();
   EXPECT_EQ(view.GetStatus(), "input, paused\n2 triangles\nsmallest angle 18.43 degrees");
   EXPECT_EQ(view.GetKeys().find("space: run/pause"), 0u);
+  EXPECT_NE(view.GetKeys().find("\n"), std::string::npos); // the window is narrow
   view->Run();
   EXPECT_EQ(view.GetStatus().find("input, running"), 0u);
   view->Step();
