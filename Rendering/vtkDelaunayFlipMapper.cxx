@@ -214,6 +214,14 @@ ColorBands GetBands(vtkLookupTable* table)
   return bands;
 }
 
+void MakeCurrent(vtkOpenGLRenderWindow* window)
+{
+  if (!window->IsCurrent()) // else a context may be flushed for nothing
+  {
+    window->MakeCurrent();
+  }
+}
+
 void SetMatrix(
   vtkShaderProgram* program, const char* name, vtkMatrix4x4* first, vtkMatrix4x4* transposed)
 {
@@ -552,7 +560,7 @@ void vtkDelaunayFlipMapper::BeginStep()
   {
     try
     {
-      this->Own->Window->MakeCurrent();
+      MakeCurrent(this->Own->Window);
       this->Own->Filler->Map();
     }
     catch (const std::exception& error)
@@ -571,10 +579,7 @@ bool vtkDelaunayFlipMapper::Fill()
   {
     return false;
   }
-  if (!window->IsCurrent()) // else a context may be flushed for nothing
-  {
-    window->MakeCurrent();
-  }
+  MakeCurrent(window);
   return this->Prepare(window);
 }
 
