@@ -172,7 +172,7 @@ FileMesh ReadPoints(const InputFile& file)
   if (!lines.Words.empty())
   {
     const std::vector<std::size_t> columns = ChooseColumns(lines, names, file.GetName(), result);
-    const std::string_view rest = lines.GetRest();
+    const std::string_view rest = lines.Rest;
     coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do
     {

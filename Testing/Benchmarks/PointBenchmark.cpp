@@ -251,7 +251,8 @@ Result TimeCgal(const PointInput& input)
       "" };
   }
   CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>
-    triangulation(points.begin(), points.end());
+    triangulation;
+  triangulation.insert(points.begin(), points.end());
   const double before = watch.GetMilliseconds();
   for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
   {
