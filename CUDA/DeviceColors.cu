@@ -56,110 +56,6 @@ ColorTable MakeColorTable(
     bands.OfNaN };
 }
 
-/// The least and the greatest of some numbers, none at first.
-struct Extremes
-{
-  float Least = std::numeric_limits<float>::infinity();
-  float Greatest = -std::numeric_limits<float>::infinity();
-
-  /// NaN changes nothing.
-  __device__ void Add(float value) { *this += Extremes{ value, value }; }
-  __host__ __device__ Extremes& operator+=(const Extremes& other)
-  {
-    this->Least = other.Least < this->Least ? other.Least : this->Least;
-    this->Greatest = other.Greatest > this->Greatest ? other.Greatest : this->Greatest;
-    return *this;
-  }
-  ValueRange Get() const
-  {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    return this->Least > this->Greatest ? ValueRange{ nan, nan }
-                                        : ValueRange{ this->Least, this->Greatest };
-  }
-};
-
-/// A backend on the GPU that has an array.
-CudaBackend MakeBackend(const void* memory)
-{
-  const int device = FindDeviceOf(memory);
-  if (device < 0)
-  {
-    throw InvalidOptions("the array for colours is not in the memory of a GPU");
-  }
-  return CudaBackend({ device }, 1);
-}
-
-template <typename T>
-void Color(const T* values, std::int64_t count, const ColorBands& bands, std::uint32_t* colors,
-  const DeviceStream& stream)
-{
-  if (count == 0)
-  {
-    return;
-  }
-  const CudaBackend backend = MakeBackend(colors);
-  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-  Array<std::uint32_t> memory;
-  const ColorTable table = MakeColorTable(bands, backend, memory);
-  backend.WaitFor(stream);
-  backend.ForEach(count,
-    [=] __device__(std::int64_t i) { colors[i] = table.Find(static_cast<double>(values[i])); });
-  backend.Synchronize();
-}
-}
-
-ValueRange FindSmallestAngles(const DeviceMesh& mesh, GeometryKind geometry, float* degrees)
-{
-  if (mesh.Triangles.Count == 0)
-  {
-    return Extremes().Get();
-  }
-  const CudaBackend backend = MakeBackend(degrees);
-  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-  DeviceMesh plain;
-  plain.Points = mesh.Points;
-  plain.Triangles = mesh.Triangles;
-  plain.Stream = mesh.Stream;
-  const LocalDeviceMesh local = backend.Localize(plain);
-  const TriangleMesh view = local.View();
-  const auto measure = [=] __device__(std::int64_t t, Extremes & found)
-  {
-    degrees[t] = static_cast<float>(FindSmallestAngle(view, geometry, t));
-    found.Add(degrees[t]);
-  };
-  return backend.Sum<Extremes>(view.Triangles.Count, measure).Get();
-}
-
-ValueRange FindRange(const std::int32_t* values, std::int64_t count, const DeviceStream& stream)
-{
-  if (count == 0)
-  {
-    return Extremes().Get();
-  }
-  const CudaBackend backend = MakeBackend(values);
-  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-  backend.WaitFor(stream);
-  return backend
-    .Sum<Extremes>(count,
-      [=] __device__(std::int64_t i, Extremes & found)
-      { found.Add(static_cast<float>(values[i])); })
-    .Get();
-}
-
-void ColorValues(const float* values, std::int64_t count, const ColorBands& bands,
-  std::uint32_t* colors, const DeviceStream& stream)
-{
-  Color(values, count, bands, colors, stream);
-}
-
-void ColorValues(const std::int32_t* values, std::int64_t count, const ColorBands& bands,
-  std::uint32_t* colors, const DeviceStream& stream)
-{
-  Color(values, count, bands, colors, stream);
-}
-
-namespace
-{
 /// A block looks for changed triangles in this many, and then works on those alone, without idle
 /// threads between them.
 constexpr int TrianglesPerThread = 4;
@@ -316,32 +212,6 @@ struct StoreColorStep
   __device__ void operator()(std::int64_t t) const { this->View.StoreColor(t); }
 };
 
-/// Writes everything, with the values that colours show where the colours go.
-double StoreAll(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors)
-{
-  const std::int64_t count = arrays.Triangles.Count;
-  session.StoreTriangles(arrays.Triangles, arrays.Stream);
-  DeviceMesh drawn;
-  drawn.Points = arrays.Points;
-  drawn.Triangles.Ids32 = arrays.Triangles.Ids32;
-  drawn.Triangles.Ids64 = arrays.Triangles.Ids64;
-  drawn.Triangles.Count = count;
-  drawn.Stream = arrays.Stream;
-  auto* degrees = reinterpret_cast<float*>(arrays.Colors);
-  const double smallest = FindSmallestAngles(drawn, GeometryKind::Surface, degrees).Smallest;
-  if (colors.ByFlipCount)
-  {
-    auto* counts = reinterpret_cast<std::int32_t*>(arrays.Colors);
-    session.StoreFlipCounts(counts, arrays.Stream);
-    const double largest = FindRange(counts, count, arrays.Stream).Largest;
-    ColorValues(counts, count, colors.Choose(largest), arrays.Colors, arrays.Stream);
-  }
-  else
-  {
-    ColorValues(degrees, count, colors.Choose(0.0), arrays.Colors, arrays.Stream);
-  }
-  return smallest;
-}
 }
 
 /// What was written last, on a GPU.
@@ -489,7 +359,7 @@ void DrawnTriangles::Forget()
 
 double DrawnTriangles::GetSmallestAngle() const
 {
-  return this->Shown ? this->Shown->GetSmallestAngle() : this->Smallest;
+  return this->Shown ? this->Shown->GetSmallestAngle() : std::numeric_limits<double>::quiet_NaN();
 }
 
 void DrawnTriangles::Update(
@@ -498,19 +368,22 @@ void DrawnTriangles::Update(
   if (arrays.Triangles.Count == 0)
   {
     this->Shown.reset();
-    this->Smallest = std::numeric_limits<double>::quiet_NaN();
     return;
+  }
+  const int device = FindDeviceOf(arrays.Colors);
+  if (device < 0)
+  {
+    throw InvalidOptions("the array for colours is not in the memory of a GPU");
   }
   const DeviceTriangles triangles = session.ViewTriangles();
-  if (!triangles.Records || FindDeviceOf(arrays.Colors) != triangles.Device)
+  if (!triangles.Records || device != triangles.Device)
   {
     this->Shown.reset();
-    this->Smallest = StoreAll(session, arrays, colors);
-    return;
+    throw BackendUnavailable("the triangles of the run are not in one array on the GPU that draws");
   }
-  if (!this->Shown || this->Shown->GetDevice() != triangles.Device)
+  if (!this->Shown || this->Shown->GetDevice() != device)
   {
-    this->Shown = std::make_unique<OnDevice>(triangles.Device);
+    this->Shown = std::make_unique<OnDevice>(device);
   }
   this->Shown->Update(triangles, arrays, colors);
 }

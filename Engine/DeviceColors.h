@@ -9,26 +9,17 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <vector>
 
 /// @file
 /// Colours of triangles in the memory of a GPU, for programs that draw a mesh from there. Nothing
-/// here is copied through the host. All functions wait for what is in the caller's stream; when
-/// they return, their results are there for any stream.
+/// here is copied through the host.
 
 namespace delaunayflip
 {
 
 class FlipSession;
-
-/// The extreme ones of some numbers, NaN left out; both are NaN if there is no number.
-struct ValueRange
-{
-  double Smallest;
-  double Largest;
-};
 
 /// Bands of equal width between two numbers, with a colour each.
 struct ColorBands
@@ -38,27 +29,6 @@ struct ColorBands
   double Last = 1.0; ///< Where the last band ends. What is more gets its colour.
   std::uint32_t OfNaN = 0;
 };
-
-/// Writes the smallest angle of every triangle in degrees: mesh.Triangles.Count numbers in device
-/// memory. They are those of FindSmallestAngles for the host (TriangleAngles.h), up to the rounding
-/// to float, but NaN also for a triangle with a point that does not exist.
-/// @param mesh its points, triangles and stream; nothing else of it matters.
-/// @throws InvalidOptions if `degrees` is not in the memory of a GPU; BackendUnavailable.
-DELAUNAYFLIP_EXPORT ValueRange FindSmallestAngles(
-  const DeviceMesh& mesh, GeometryKind geometry, float* degrees);
-
-/// The extreme ones of `count` numbers in device memory.
-/// @throws the same.
-DELAUNAYFLIP_EXPORT ValueRange FindRange(
-  const std::int32_t* values, std::int64_t count, const DeviceStream& stream);
-
-/// Writes the colours of `count` numbers in device memory. `colors` may be the array of the numbers
-/// itself.
-/// @throws InvalidOptions also if there is no band; BackendUnavailable.
-DELAUNAYFLIP_EXPORT void ColorValues(const float* values, std::int64_t count,
-  const ColorBands& bands, std::uint32_t* colors, const DeviceStream& stream);
-DELAUNAYFLIP_EXPORT void ColorValues(const std::int32_t* values, std::int64_t count,
-  const ColorBands& bands, std::uint32_t* colors, const DeviceStream& stream);
 
 /// What a program draws a session's mesh from, in the memory of a GPU.
 struct DrawnArrays
@@ -95,11 +65,11 @@ public:
   /// changed: that update writes everything.
   void Forget();
 
-  /// For any session: one on another GPU or on the CPU, or with constraints that were inserted,
-  /// writes everything each time. Work that follows in the stream of the arrays finds them updated;
-  /// the call itself may return before.
-  /// @throws InvalidOptions if the arrays are not in the memory of a GPU or there is no colour;
-  /// BackendUnavailable. Then the next update writes everything.
+  /// Waits for what is in the caller's stream. Work that follows in that stream finds the arrays
+  /// updated; the call itself may return before.
+  /// @throws InvalidOptions if the arrays are not in the memory of a GPU or there is no colour.
+  /// @throws BackendUnavailable also if the session works elsewhere than on that GPU alone, or has
+  /// inserted constraints by flips. Then the next update writes everything.
   void Update(const FlipSession& session, const DrawnArrays& arrays, const DrawnColors& colors);
 
   /// Waits for the last update.
@@ -109,8 +79,7 @@ public:
 
 private:
   class OnDevice;
-  std::unique_ptr<OnDevice> Shown; ///< None if the last update has written everything.
-  double Smallest = std::numeric_limits<double>::quiet_NaN(); ///< If so: the smallest angle.
+  std::unique_ptr<OnDevice> Shown; ///< Null if nothing is.
 };
 
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
 #include "CudaDevice.h"
-#include "DeviceColors.h"
 #include "FlipError.h"
 #include "LoadedMesh.h"
 
@@ -43,27 +42,6 @@ void CopyFromDevice(const void*, std::int64_t, void*, const DeviceStream&)
 }
 
 void CopyToDevice(const void*, std::int64_t, void*, const DeviceStream&)
-{
-  throw BackendUnavailable(NoArrays);
-}
-
-ValueRange FindSmallestAngles(const DeviceMesh&, GeometryKind, float*)
-{
-  throw BackendUnavailable(NoArrays);
-}
-
-ValueRange FindRange(const std::int32_t*, std::int64_t, const DeviceStream&)
-{
-  throw BackendUnavailable(NoArrays);
-}
-
-void ColorValues(const float*, std::int64_t, const ColorBands&, std::uint32_t*, const DeviceStream&)
-{
-  throw BackendUnavailable(NoArrays);
-}
-
-void ColorValues(
-  const std::int32_t*, std::int64_t, const ColorBands&, std::uint32_t*, const DeviceStream&)
 {
   throw BackendUnavailable(NoArrays);
 }

@@ -15,10 +15,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {
@@ -58,160 +58,45 @@ private:
   int Previous = -1;
 };
 
-/// The devices of CUDA that draw the current context of OpenGL.
-/// @throws std::runtime_error.
-std::vector<int> ListDrawingDevices()
+using Stream = std::shared_ptr<CUstream_st>;
+using Resource = std::shared_ptr<cudaGraphicsResource>;
+
+/// @throws std::runtime_error, as what follows.
+Stream MakeStream()
 {
-  std::array<int, 64> devices{};
-  unsigned int count = 0;
-  Require(cudaGLGetDevices(
-            &count, devices.data(), static_cast<unsigned int>(devices.size()), cudaGLDeviceListAll),
-    "find the GPU that OpenGL draws on");
-  return std::vector<int>(devices.begin(), devices.begin() + count);
+  cudaStream_t stream = nullptr;
+  Require(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "make a stream");
+  return Stream(stream, [](cudaStream_t made) { cudaStreamDestroy(made); });
 }
 
-/// Registered buffers, and their memory while they are mapped.
-class SharedBuffers
+/// The buffer keeps what is not written. Of a context that is gone nothing can be released; that is
+/// no error.
+Resource Register(unsigned int buffer)
 {
-public:
-  explicit SharedBuffers(const DrawnBuffers& buffers)
-  {
-    Require(cudaStreamCreateWithFlags(&this->Stream, cudaStreamNonBlocking), "make a stream");
-    try
+  cudaGraphicsResource_t resource = nullptr;
+  Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
+    "register a buffer of OpenGL");
+  return Resource(resource,
+    [](cudaGraphicsResource_t registered)
     {
-      this->Add(buffers.Triangles, this->Both[0]);
-      this->Add(buffers.Colors, this->Both[1]);
-    }
-    catch (...)
-    {
-      this->Close();
-      throw;
-    }
-  }
-  ~SharedBuffers() { this->Close(); }
-  SharedBuffers(const SharedBuffers&) = delete;
-  SharedBuffers& operator=(const SharedBuffers&) = delete;
+      cudaGraphicsUnregisterResource(registered);
+      cudaGetLastError();
+    });
+}
 
-  DeviceStream GetStream() const { return { this->Stream }; }
-
-  void Map()
-  {
-    if (!this->AreMapped)
-    {
-      Require(cudaGraphicsMapResources(2, this->Both, this->Stream), "map the buffers of OpenGL");
-      this->AreMapped = true;
-    }
-  }
-  void Unmap()
-  {
-    if (std::exchange(this->AreMapped, false))
-    {
-      Require(
-        cudaGraphicsUnmapResources(2, this->Both, this->Stream), "return the buffers to OpenGL");
-    }
-  }
-
-  /// Only while they are mapped.
-  std::int32_t* GetTriangles(std::int64_t count) const
-  {
-    return static_cast<std::int32_t*>(Get(this->Both[0], 12 * count));
-  }
-  std::uint32_t* GetColors(std::int64_t count) const
-  {
-    return static_cast<std::uint32_t*>(Get(this->Both[1], 4 * count));
-  }
-
-private:
-  /// The buffer keeps what is not written.
-  static void Add(unsigned int buffer, cudaGraphicsResource_t& resource)
-  {
-    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
-      "register a buffer of OpenGL");
-  }
-
-  static void* Get(cudaGraphicsResource_t resource, std::int64_t bytes)
-  {
-    void* memory = nullptr;
-    std::size_t size = 0;
-    Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, resource),
-      "find the memory of a buffer of OpenGL");
-    if (size < static_cast<std::size_t>(bytes))
-    {
-      throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
-    }
-    return memory;
-  }
-
-  /// Of a context that is gone nothing can be released; that is no error here.
-  void Close() noexcept
-  {
-    if (this->AreMapped)
-    {
-      cudaGraphicsUnmapResources(2, this->Both, this->Stream);
-    }
-    for (cudaGraphicsResource_t resource : this->Both)
-    {
-      if (resource)
-      {
-        cudaGraphicsUnregisterResource(resource);
-      }
-    }
-    cudaStreamDestroy(this->Stream);
-    cudaGetLastError();
-  }
-
-  cudaStream_t Stream = nullptr;
-  cudaGraphicsResource_t Both[2] = { nullptr, nullptr }; ///< Triangles, colours.
-  bool AreMapped = false;
-};
-
-/// A copy of points in the memory of the current device.
-class PointCopy
+/// The memory of a mapped buffer.
+void* GetMemory(const Resource& resource, std::int64_t bytes)
 {
-public:
-  /// Memory for such points.
-  explicit PointCopy(const PointArray& points)
-    : Points(points)
+  void* memory = nullptr;
+  std::size_t size = 0;
+  Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, resource.get()),
+    "find the memory of a buffer of OpenGL");
+  if (size < static_cast<std::size_t>(bytes))
   {
-    Require(
-      cudaMalloc(&this->Memory, std::max<std::size_t>(CountBytes(points), 1)), "allocate memory");
+    throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
   }
-  ~PointCopy()
-  {
-    cudaFree(this->Memory);
-    cudaGetLastError();
-  }
-  PointCopy(const PointCopy&) = delete;
-  PointCopy& operator=(const PointCopy&) = delete;
-
-  bool Fits(const PointArray& points) const
-  {
-    return points.Count == this->Points.Count && !points.Floats == !this->Points.Floats;
-  }
-
-  void Write(const PointArray& points)
-  {
-    const void* host = points.Floats ? static_cast<const void*>(points.Floats) : points.Doubles;
-    Require(
-      cudaMemcpy(this->Memory, host, CountBytes(points), cudaMemcpyHostToDevice), "copy points");
-  }
-
-  DevicePointArray View() const
-  {
-    return this->Points.Floats
-      ? DevicePointArray(static_cast<const float*>(this->Memory), this->Points.Count)
-      : DevicePointArray(static_cast<const double*>(this->Memory), this->Points.Count);
-  }
-
-private:
-  static std::size_t CountBytes(const PointArray& points)
-  {
-    return 3 * points.Count * (points.Floats ? sizeof(float) : sizeof(double));
-  }
-
-  PointArray Points;
-  void* Memory = nullptr;
-};
+  return memory;
+}
 
 class CudaFiller : public BufferFiller
 {
@@ -219,20 +104,35 @@ public:
   CudaFiller(int device, const DrawnBuffers& buffers)
     : Device(device),
       Count(buffers.Count),
-      Buffers(buffers)
+      Triangles(Register(buffers.Triangles)),
+      Colors(Register(buffers.Colors))
   {
+  }
+  ~CudaFiller() override
+  {
+    if (this->AreMapped)
+    {
+      this->Call(cudaGraphicsUnmapResources);
+      cudaGetLastError();
+    }
   }
 
   void Map() override
   {
-    const CurrentGpu current(this->Device);
-    this->Buffers.Map();
+    if (!std::exchange(this->AreMapped, true))
+    {
+      const CurrentGpu current(this->Device);
+      Require(this->Call(cudaGraphicsMapResources), "map the buffers of OpenGL");
+    }
   }
 
   void Unmap() override
   {
-    const CurrentGpu current(this->Device);
-    this->Buffers.Unmap();
+    if (std::exchange(this->AreMapped, false))
+    {
+      const CurrentGpu current(this->Device);
+      Require(this->Call(cudaGraphicsUnmapResources), "return the buffers to OpenGL");
+    }
   }
 
   void Fill(const FilledMesh& mesh) override
@@ -243,12 +143,17 @@ public:
     }
     const CurrentGpu current(this->Device);
     this->CopyPoints(mesh);
-    this->Buffers.Map();
-    const DrawnArrays arrays{ this->Points->View(),
-      MutableTriangleArray(this->Buffers.GetTriangles(this->Count), this->Count),
-      this->Buffers.GetColors(this->Count), this->Buffers.GetStream() };
-    this->Drawn.Update(*mesh.Session, arrays, mesh.Colors);
-    this->Buffers.Unmap();
+    this->Map();
+    auto* triangles = static_cast<std::int32_t*>(GetMemory(this->Triangles, 12 * this->Count));
+    auto* colors = static_cast<std::uint32_t*>(GetMemory(this->Colors, 4 * this->Count));
+    const void* points = this->Points.get();
+    this->Drawn.Update(*mesh.Session,
+      { mesh.Points.Floats
+          ? DevicePointArray(static_cast<const float*>(points), mesh.Points.Count)
+          : DevicePointArray(static_cast<const double*>(points), mesh.Points.Count),
+        MutableTriangleArray(triangles, this->Count), colors, { this->Queue.get() } },
+      mesh.Colors);
+    this->Unmap();
   }
 
   double GetSmallestAngle() noexcept override
@@ -264,26 +169,42 @@ public:
   }
 
 private:
+  /// Maps or unmaps the buffers.
+  template <typename Function>
+  cudaError_t Call(Function function) const
+  {
+    cudaGraphicsResource_t both[] = { this->Triangles.get(), this->Colors.get() };
+    return function(2, both, this->Queue.get());
+  }
+
   void CopyPoints(const FilledMesh& mesh)
   {
-    const bool fits = this->Points && this->Points->Fits(mesh.Points);
-    if (fits && this->PointsTime == mesh.PointsTime)
+    const bool areFloats = mesh.Points.Floats != nullptr;
+    const auto bytes = static_cast<std::size_t>(mesh.Points.Count) * (areFloats ? 12 : 24);
+    if (std::exchange(this->PointsTime, mesh.PointsTime) == mesh.PointsTime)
     {
       return;
     }
-    if (!fits)
+    if (std::exchange(this->PointBytes, bytes) != bytes)
     {
-      this->Points = std::make_unique<PointCopy>(mesh.Points);
+      void* memory = nullptr;
+      this->Points.reset();
+      Require(cudaMalloc(&memory, bytes), "allocate memory");
+      this->Points.reset(memory, [](void* allocated) { cudaFree(allocated); });
     }
-    this->Points->Write(mesh.Points);
-    this->PointsTime = mesh.PointsTime;
+    const void* host =
+      areFloats ? static_cast<const void*>(mesh.Points.Floats) : mesh.Points.Doubles;
+    Require(cudaMemcpy(this->Points.get(), host, bytes, cudaMemcpyHostToDevice), "copy points");
     this->Drawn.Forget();
   }
 
   int Device;
   std::int64_t Count;
-  SharedBuffers Buffers;
-  std::unique_ptr<PointCopy> Points;
+  Stream Queue = MakeStream();
+  Resource Triangles, Colors;
+  bool AreMapped = false;
+  std::shared_ptr<void> Points; ///< A copy in the memory of the GPU.
+  std::size_t PointBytes = 0;
   std::uint64_t PointsTime = 0; ///< When they were copied.
   DrawnTriangles Drawn;
 };
@@ -306,8 +227,12 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const Draw
   {
     Require(cudaGetDevice(&device), "ask for the current device");
   }
-  const std::vector<int> devices = ListDrawingDevices();
-  if (std::count(devices.begin(), devices.end(), device) == 0)
+  std::array<int, 64> devices{};
+  unsigned int count = 0;
+  Require(cudaGLGetDevices(
+            &count, devices.data(), static_cast<unsigned int>(devices.size()), cudaGLDeviceListAll),
+    "find the GPU that OpenGL draws on");
+  if (std::count(devices.begin(), devices.begin() + count, device) == 0)
   {
     throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
   }

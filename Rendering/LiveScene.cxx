@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveScene.h"
 
+#include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
 
 #include "vtkActor.h"
@@ -17,6 +18,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -25,6 +29,9 @@ namespace
 {
 
 constexpr int FontSize = 14;
+
+constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
+                                "k: colours, g: edges, i: statistics, d: drawing, q: quit";
 
 using Color = std::array<double, 3>;
 
@@ -52,6 +59,97 @@ int GetViewAxis(const double* bounds)
   const double largest = std::max({ extent(0), extent(1), extent(2) });
   const auto isFlat = [&](int axis) { return extent(axis) < 1e-3 * largest; };
   return isFlat(2) ? 2 : isFlat(1) ? 1 : isFlat(0) ? 0 : 2;
+}
+
+/// 1234567 -> "1,234,567"
+std::string Group(vtkIdType number)
+{
+  std::string text = std::to_string(number);
+  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
+  {
+    text.insert(static_cast<std::size_t>(i), ",");
+  }
+  return text;
+}
+
+/// 2, "flip" -> "2 flips"
+std::string Count(vtkIdType number, const std::string& things)
+{
+  return Group(number) + " " + things + (number == 1 ? "" : "s");
+}
+
+std::string DescribeCounts(vtkDelaunayFlip* filter)
+{
+  return Count(filter->GetTotalFlips(), "flip") + ", " +
+    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+}
+
+/// Breaks a text into lines of so many characters.
+std::string Wrap(const std::string& text, std::size_t width = 60)
+{
+  std::istringstream words(text);
+  std::string wrapped;
+  std::string word;
+  for (std::size_t begin = 0; words >> word; wrapped += word)
+  {
+    const bool fits = wrapped.size() - begin + 1 + word.size() <= width;
+    wrapped += wrapped.empty() ? "" : fits ? " " : "\n";
+    begin = fits ? begin : wrapped.size();
+  }
+  return wrapped;
+}
+
+std::string DescribeState(const LiveStatus& status)
+{
+  switch (status.State)
+  {
+    case LiveState::Failed:
+    {
+      // If the filter's source failed, the filter itself has no message.
+      const std::string reason = status.Filter->GetErrorMessage();
+      return Wrap("failed: " + (reason.empty() ? "no input" : reason));
+    }
+    case LiveState::Converged:
+      return "converged";
+    case LiveState::Limited:
+      return "iteration limit";
+    case LiveState::Aborted:
+      return "aborted";
+    default:
+      return status.IsRunning ? "running" : "paused";
+  }
+}
+
+/// After a failure the filter has no counts, so the text says which frame is shown instead.
+std::string DescribeMesh(const LiveStatus& status)
+{
+  const std::string state = DescribeState(status);
+  const std::string triangles = Count(status.Triangles, "triangle");
+  if (status.State == LiveState::Failed)
+  {
+    return state + "\nthe mesh of frame " + Group(status.Frame);
+  }
+  if (status.Frame == 0)
+  {
+    return "input, " + state + "\n" + triangles;
+  }
+  if (!vtkPolyData::SafeDownCast(status.Filter->GetOutputDataObject(0)))
+  {
+    return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
+  }
+  return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
+    DescribeCounts(status.Filter);
+}
+
+std::string DescribeStatus(const LiveStatus& status)
+{
+  char angle[64] = "";
+  if (!std::isnan(status.SmallestAngle))
+  {
+    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", status.SmallestAngle);
+  }
+  const std::string drawing = status.Drawing.empty() ? "" : "\n" + Wrap(status.Drawing);
+  return DescribeMesh(status) + angle + drawing;
 }
 
 }
@@ -162,9 +260,11 @@ void LiveScene::SetColorBy(int what)
 
 void LiveScene::ShowScale(const char* title)
 {
-  // Above the line of keys, if there is one, and as high as the labels need.
+  // Above the lines of keys, if there are any, and as high as the labels need.
   const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
-  const double lines = this->Keys->GetVisibility() ? 2.0 : 0.4;
+  const std::string keys = this->Keys->GetVisibility() ? this->Keys->GetInput() : "";
+  const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
+  const double lines = keys.empty() ? 0.4 : 2.0 + more;
   this->Scale->SetPosition(0.2, lines * FontSize / height);
   this->Scale->SetHeight(3.6 * FontSize / height);
   this->Scale->SetTitle(title);
@@ -190,18 +290,24 @@ bool LiveScene::GetEdgeVisibility() const
   return this->Actor->GetProperty()->GetEdgeVisibility() != 0;
 }
 
-void LiveScene::SetStatus(const std::string& text, bool isError)
+void LiveScene::SetStatus(const LiveStatus& status)
 {
   const Color& red = IsDark(this->Renderer) ? LightRed : DarkRed;
-  this->Status->SetInput(text.c_str());
-  this->Status->SetVisibility(!text.empty());
-  Paint(this->Status->GetTextProperty(), isError ? red.data() : this->Ink);
+  this->Status->SetInput(DescribeStatus(status).c_str());
+  this->Status->VisibilityOn();
+  Paint(
+    this->Status->GetTextProperty(), status.State == LiveState::Failed ? red.data() : this->Ink);
 }
 
-void LiveScene::SetKeys(const std::string& text)
+void LiveScene::HideStatus() { this->Status->VisibilityOff(); }
+
+/// In as many lines as the width of the renderer needs.
+void LiveScene::SetKeyVisibility(bool visible)
 {
-  this->Keys->SetInput(text.c_str());
-  this->Keys->SetVisibility(!text.empty());
+  constexpr double characterWidth = 6.5; // pixels
+  const auto width = static_cast<std::size_t>(this->Renderer->GetSize()[0] / characterWidth);
+  this->Keys->SetInput(Wrap(KeyHelp, width).c_str());
+  this->Keys->SetVisibility(visible);
 }
 
 void LiveScene::Draw()

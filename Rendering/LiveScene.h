@@ -4,12 +4,13 @@
 #define LiveScene_h
 
 #include "vtkNew.h"
-#include "vtkSmartPointer.h"
+#include "vtkType.h"
 #include "vtkWeakPointer.h"
 
 #include <string>
 
 class vtkActor;
+class vtkDelaunayFlip;
 class vtkDelaunayFlipMapper;
 class vtkPolyData;
 class vtkRenderer;
@@ -19,6 +20,30 @@ class vtkTextActor;
 
 namespace delaunayflip
 {
+
+/// The state of the mesh in a live view.
+enum class LiveState
+{
+  NotStarted,
+  UnderWay, ///< Another step may change it.
+  Aborted, ///< The same, but the filter was asked to stop.
+  Converged,
+  Limited, ///< The iteration limit was reached.
+  Failed, ///< The filter failed; the mesh is that of the step before.
+  Unchanged, ///< The filter had nothing to do. Only an outcome of a step.
+};
+
+/// What the statistics of a live view are about.
+struct LiveStatus
+{
+  vtkDelaunayFlip* Filter;
+  LiveState State;
+  bool IsRunning;
+  int Frame;
+  vtkIdType Triangles;
+  double SmallestAngle; ///< In degrees; NaN if unknown.
+  std::string Drawing; ///< How it is drawn; may be empty.
+};
 
 /// What a live view adds to a renderer: a mesh, its colour scale, and texts.
 class LiveScene
@@ -49,8 +74,13 @@ public:
   void SetEdgeVisibility(bool visible);
   bool GetEdgeVisibility() const;
 
-  void SetStatus(const std::string& text, bool isError);
-  void SetKeys(const std::string& text);
+  /// Shows statistics in two or three lines. A failure, and how the mesh is drawn, take as many as
+  /// their reasons need.
+  void SetStatus(const LiveStatus& status);
+  void HideStatus();
+
+  /// Shows or hides the line that explains the keys.
+  void SetKeyVisibility(bool visible);
 
   /// Draws the window with what was set.
   void Draw();

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "LiveRun.h"
 #include "LiveScene.h"
 
 #include "vtkAlgorithmOutput.h"
+#include "vtkAppendPolyData.h"
 #include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
@@ -31,6 +33,79 @@ namespace
 {
 
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
+
+/// Sets a flag for as long as it lives.
+struct Raised
+{
+  bool& Flag;
+  explicit Raised(bool& flag)
+    : Flag(flag)
+  {
+    flag = true;
+  }
+  ~Raised() { this->Flag = false; }
+};
+
+/// Whether a step with this outcome ends a run. An abort only pauses it.
+bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }
+
+/// Makes the filter do one step. On request it does not put the mesh out, if it can do without; an
+/// update follows the last step, so that the output is then the final mesh.
+/// An update caused only by a change of the input or of an option is a step too.
+LiveState MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
+{
+  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
+  bool works = true;
+  if (withholdsMesh)
+  {
+    works = filter->AdvanceSession();
+  }
+  else
+  {
+    filter->Advance();
+    works = filter->GetExecutive()->Update(0) != 0;
+  }
+  if (!works || filter->GetFailure() != vtkDelaunayFlip::FAILURE_NONE)
+  {
+    return LiveState::Failed;
+  }
+  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
+  const int reason = filter->GetStopReason();
+  const LiveState state = !isNew                             ? LiveState::Unchanged
+    : reason == vtkDelaunayFlip::STOP_REASON_RUNNING         ? LiveState::UnderWay
+    : reason == vtkDelaunayFlip::STOP_REASON_ABORTED         ? LiveState::Aborted
+    : reason == vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT ? LiveState::Limited
+                                                             : LiveState::Converged;
+  if (IsEnd(state))
+  {
+    filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
+  }
+  return state;
+}
+
+/// A mesh, or all blocks of a composite one as one mesh.
+vtkSmartPointer<vtkPolyData> JoinBlocks(vtkDataObject* data)
+{
+  vtkNew<vtkAppendPolyData> append;
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
+  if (!blocks)
+  {
+    return vtkPolyData::SafeDownCast(data);
+  }
+  const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      append->AddInputData(mesh);
+    }
+  }
+  if (append->GetNumberOfInputConnections(0) > 0)
+  {
+    append->Update();
+  }
+  return append->GetOutput();
+}
 
 /// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
 std::string MakeFrameName(const std::string& prefix, int frame)
@@ -189,7 +264,7 @@ void vtkDelaunayFlipLiveView::ShowInput()
   vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
   source->GetProducer()->Update(source->GetIndex());
   vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
-  this->Filter->SetLiveUpdate(!IsComposite(input));
+  this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
   this->State = LiveState::UnderWay;
@@ -244,16 +319,15 @@ void vtkDelaunayFlipLiveView::Restart()
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  LiveStep step;
+  LiveState next = LiveState::Unchanged;
   {
-    const ScopedValue<bool> busy(this->IsBusy, true);
+    const Raised busy(this->IsBusy);
     const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
     vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
     mapper->SetZeroCopy(this->ZeroCopy);
     mapper->BeginStep();
-    step = MakeStep(filter, mapper->DrawsRun());
+    next = MakeStep(filter, mapper->DrawsRun());
   }
-  const LiveState next = step.State;
   if (this->State == LiveState::NotStarted)
   {
     return false; // An observer of the filter has ended the run.
@@ -264,7 +338,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     this->TimerId = 0;
   }
   this->State = next == LiveState::Unchanged ? this->State : next;
-  this->ShowStep(step);
+  this->ShowStep(next);
   if (isNews && IsEnd(next))
   {
     this->InvokeEvent(vtkCommand::EndEvent);
@@ -273,14 +347,14 @@ bool vtkDelaunayFlipLiveView::TakeStep()
 }
 
 /// If the filter failed, the last mesh stays.
-void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
+void vtkDelaunayFlipLiveView::ShowStep(LiveState outcome)
 {
-  if (step.State == LiveState::Failed || step.State == LiveState::Unchanged)
+  if (outcome == LiveState::Failed || outcome == LiveState::Unchanged)
   {
     this->Render();
     return;
   }
-  if (!step.IsWithheld)
+  if (!this->Filter->GetMeshIsWithheld())
   {
     this->Scene->SetMesh(JoinBlocks(this->Filter->GetOutputDataObject(0)));
     this->Scene->GetMapper()->SetFilter(this->Filter->GetSession() ? this->Filter : nullptr);
@@ -296,7 +370,7 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   this->Render();
   if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
   {
-    const ScopedValue<bool> busy(this->IsBusy, true);
+    const Raised busy(this->IsBusy);
     const std::string name = MakeFrameName(this->FramePrefix, number);
     this->CanWrite = WriteFrame(this->Window, name);
     if (!this->CanWrite)
@@ -313,25 +387,24 @@ void vtkDelaunayFlipLiveView::Render()
   {
     return;
   }
-  const ScopedValue<bool> busy(this->IsBusy, true);
+  const Raised busy(this->IsBusy);
   vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
   const bool isSmall = mapper->GetNumberOfTriangles() < SmallMesh;
-  const bool showKeys = this->ShowKeys && !this->Window->GetOffScreenRendering();
-  this->Scene->SetKeys(showKeys ? KeyHelp : "");
+  const bool isOffScreen = this->Window->GetOffScreenRendering(); // there are no keys
+  this->Scene->SetKeyVisibility(this->ShowKeys && !isOffScreen);
   this->Scene->SetColorBy(this->ColorBy);
   this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  const bool hasFailed = this->State == LiveState::Failed;
-  std::string status;
-  if (this->ShowStatistics || hasFailed)
+  if (this->ShowStatistics || this->State == LiveState::Failed)
   {
-    // Off screen there are no keys: the program calls Step().
-    const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
-    status = DescribeStatus(
-      { this->Filter, this->State, isRunning, this->FrameNumber, mapper->GetNumberOfTriangles(),
-        mapper->GetSmallestAngle(), this->ShowDrawing ? mapper->GetDrawing() : "" });
+    this->Scene->SetStatus({ this->Filter, this->State, this->IsRunning() || isOffScreen,
+      this->FrameNumber, mapper->GetNumberOfTriangles(), mapper->GetSmallestAngle(),
+      this->ShowDrawing ? mapper->GetDrawing() : "" });
   }
-  this->Scene->SetStatus(status, hasFailed);
+  else
+  {
+    this->Scene->HideStatus();
+  }
   this->Scene->Draw();
 }
 

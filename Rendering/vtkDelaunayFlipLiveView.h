@@ -78,7 +78,6 @@ namespace delaunayflip
 {
 class LiveScene;
 enum class LiveState;
-struct LiveStep;
 }
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipLiveView : public vtkObject
@@ -291,7 +290,7 @@ private:
   void Detach();
   void ShowInput();
   bool TakeStep();
-  void ShowStep(const delaunayflip::LiveStep& step);
+  void ShowStep(delaunayflip::LiveState outcome);
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();

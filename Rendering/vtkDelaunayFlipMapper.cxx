@@ -10,7 +10,6 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -134,38 +133,22 @@ void main()
 }
 )";
 
-/// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
-/// with VTK 9.6 a line stays.
-vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
-{
-  const vtkIdType before = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
-  const vtkIdType count = mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips();
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
-  surface->SetPoints(mesh->GetPoints());
-  surface->SetPolys(mesh->GetPolys());
-  surface->SetStrips(mesh->GetStrips());
-  surface->GetCellData()->CopyAllOn();
-  surface->GetCellData()->CopyAllocate(mesh->GetCellData(), count);
-  surface->GetCellData()->CopyData(mesh->GetCellData(), 0, count, before);
-  return surface;
-}
-
-/// The faces of a mesh as triangles with their cell data: a copy that shares arrays where it can.
+/// A copy of a mesh, which shares arrays, if its polygons are triangles, as in outputs of the
+/// filter. Otherwise one in which polygons and strips are split into triangles.
 vtkSmartPointer<vtkPolyData> MakeFaces(vtkPolyData* mesh)
 {
   auto faces = vtkSmartPointer<vtkPolyData>::New();
-  const vtkIdType triangles = mesh ? mesh->GetNumberOfPolys() : 0;
-  if (mesh && mesh->GetNumberOfCells() == triangles &&
-    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0)) // as in outputs of the filter
+  if (mesh)
   {
     faces->ShallowCopy(mesh);
   }
-  else if (mesh)
+  const vtkIdType size = faces->GetPolys()->IsHomogeneous(); // 0: there are none
+  if (faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
   {
     vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(TakeSurface(mesh));
+    split->SetInputData(faces);
     split->Update();
-    faces->ShallowCopy(split->GetOutput());
+    return split->GetOutput();
   }
   return faces;
 }
@@ -193,47 +176,31 @@ TriangleArray ViewTriangles(vtkPolyData* faces)
     : TriangleArray(static_cast<const std::int64_t*>(first), faces->GetNumberOfPolys());
 }
 
-using Color = std::array<double, 3>;
-
-/// Fills the table, for 0 to `largest`, with twelve bands of colours interpolated between `stops`.
-void FillTable(vtkLookupTable* table, const std::vector<Color>& stops, double largest)
+/// Fills the table, for flip counts or angles, with twelve bands between a few colours.
+void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
 {
   constexpr int bands = 12;
-  vtkNew<vtkColorTransferFunction> function;
-  for (std::size_t i = 0; i < stops.size(); ++i)
-  {
-    const double x = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
-    function->AddRGBPoint(x, stops[i][0], stops[i][1], stops[i][2]);
-  }
+  using Colors = std::vector<std::array<double, 3>>;
+  // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
+  const Colors colors = byFlipCount
+    ? Colors{ { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 },
+        { 0.46, 0.32, 0.66 }, { 0.25, 0.0, 0.49 } }
+    : Colors{ { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 },
+        { 0.82, 0.90, 0.94 }, { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } };
   table->SetNumberOfTableValues(bands);
   for (int i = 0; i < bands; ++i)
   {
-    const double* rgb = function->GetColor(static_cast<double>(i) / (bands - 1));
+    const double place = static_cast<double>(i) / (bands - 1) * (colors.size() - 1.0);
+    const std::size_t low = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+    double rgb[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      rgb[k] = colors[low][k] + (place - low) * (colors[low + 1][k] - colors[low][k]);
+    }
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
-  table->SetRange(0.0, largest);
-}
-
-/// The table for flip counts or angles.
-void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
-{
-  if (byFlipCount)
-  {
-    // From nearly white to dark violet. The range is 0 to the largest count, rounded up to a
-    // multiple of four for whole labels at its quarters, and at least 12.
-    FillTable(table,
-      { { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 }, { 0.46, 0.32, 0.66 },
-        { 0.25, 0.0, 0.49 } },
-      4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
-  }
-  else
-  {
-    // 0 to 60 degrees in steps of five: from red for slivers to blue for equilateral triangles.
-    FillTable(table,
-      { { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 }, { 0.82, 0.90, 0.94 },
-        { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } },
-      60.0);
-  }
+  // The largest count is rounded up to a multiple of four for whole labels at its quarters.
+  table->SetRange(0.0, byFlipCount ? 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0) : 60.0);
 }
 
 ColorBands GetBands(vtkLookupTable* table)
@@ -245,6 +212,14 @@ ColorBands GetBands(vtkLookupTable* table)
   bands.Last = table->GetRange()[1];
   std::memcpy(&bands.OfNaN, table->GetNanColorAsUnsignedChars(), sizeof(bands.OfNaN));
   return bands;
+}
+
+void MakeCurrent(vtkOpenGLRenderWindow* window)
+{
+  if (!window->IsCurrent()) // else a context may be flushed for nothing
+  {
+    window->MakeCurrent();
+  }
 }
 
 void SetMatrix(
@@ -275,7 +250,7 @@ struct vtkDelaunayFlipMapper::Parts
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
   vtkSmartPointer<vtkDataArray> Points; ///< As float or double.
   vtkMTimeType PointsTime = 0;
-  double Bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  vtkBoundingBox Box; ///< Of the points that triangles use.
   double Center[3] = { 0.0, 0.0, 0.0 };
   double Unit = 1.0; ///< Of places in the shader.
 
@@ -301,243 +276,226 @@ struct vtkDelaunayFlipMapper::Parts
   bool HasWarned = false;
   double TableKind = -2.0; ///< What the table was filled for: a largest count, or -1 for angles.
 
-  const FlipSession* FindSession() const;
-  void ReadPoints();
-  void MakeBuffers(vtkOpenGLRenderWindow* window);
-  void MakeBuffer(BufferName name, vtkOpenGLBufferObject::ObjectType type, GLenum target,
-    std::int64_t count, GLenum format);
-  void UploadPoints();
-  void Release(vtkWindow* window);
-  void ChooseFiller(bool allowsDevice);
-  void Abandon(const std::exception& error);
-  FilledMesh DescribeMesh(vtkLookupTable* table);
-  void Draw(vtkShaderProgram* program);
-};
-
-//------------------------------------------------------------------------------
-/// The session whose triangles are the faces; or null.
-const FlipSession* vtkDelaunayFlipMapper::Parts::FindSession() const
-{
-  const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
-  const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
-  return fits ? session : nullptr;
-}
-
-/// Points that no triangle uses do not matter. The mesh may be one that no filter has checked.
-void vtkDelaunayFlipMapper::Parts::ReadPoints()
-{
-  vtkPoints* points = this->Faces->GetPoints();
-  this->Points = points ? points->GetData() : vtkSmartPointer<vtkDoubleArray>::New().Get();
-  if (!vtkFloatArray::FastDownCast(this->Points) && !vtkDoubleArray::FastDownCast(this->Points))
+  /// The session whose triangles are the faces; or null.
+  const FlipSession* FindSession() const
   {
-    auto doubles = vtkSmartPointer<vtkDoubleArray>::New();
-    doubles->DeepCopy(this->Points);
-    this->Points = doubles;
+    const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
+    const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
+    return fits ? session : nullptr;
   }
-  const PointArray places = ViewPoints(this->Points);
-  const TriangleArray triangles = ViewTriangles(this->Faces);
-  std::vector<char> areUsed(static_cast<std::size_t>(places.Count));
-  for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
+
+  /// Points that no triangle uses do not matter. The mesh may be one that no filter has checked.
+  void ReadPoints()
   {
-    const std::int64_t id = triangles.Get(i / 3, static_cast<int>(i % 3));
-    if (id >= 0 && id < places.Count)
+    vtkPoints* points = this->Faces->GetPoints();
+    this->Points = points ? points->GetData() : vtkSmartPointer<vtkDoubleArray>::New().Get();
+    if (!vtkFloatArray::FastDownCast(this->Points) && !vtkDoubleArray::FastDownCast(this->Points))
     {
-      areUsed[id] = 1;
+      auto doubles = vtkSmartPointer<vtkDoubleArray>::New();
+      doubles->DeepCopy(this->Points);
+      this->Points = doubles;
     }
-  }
-  vtkMath::UninitializeBounds(this->Bounds);
-  vtkBoundingBox box;
-  for (std::int64_t i = 0; i < places.Count; ++i)
-  {
-    if (areUsed[i])
+    const PointArray places = ViewPoints(this->Points);
+    const TriangleArray triangles = ViewTriangles(this->Faces);
+    std::vector<char> areUsed(static_cast<std::size_t>(places.Count));
+    for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
     {
-      box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
-    }
-  }
-  const vtkMTimeType time = points ? points->GetMTime() : 0;
-  if (box.IsValid())
-  {
-    box.GetBounds(this->Bounds);
-  }
-  if (std::exchange(this->PointsTime, time) != time && box.IsValid())
-  {
-    box.GetCenter(this->Center);
-    const double half = 0.5 * box.GetDiagonalLength();
-    this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
-  }
-}
-
-/// Keeps those that there are, if they have the right sizes.
-void vtkDelaunayFlipMapper::Parts::MakeBuffers(vtkOpenGLRenderWindow* window)
-{
-  const std::int64_t count = this->Faces->GetNumberOfPolys();
-  const std::int64_t points = this->Points->GetNumberOfTuples();
-  if (this->HasBuffers && this->Window == window && count == this->Count &&
-    points == this->PointCount)
-  {
-    return;
-  }
-  this->Release(this->Window);
-  window->MakeCurrent();
-  this->HasBuffers = true;
-  this->Window = window;
-  this->Count = count;
-  this->PointCount = points;
-  using Buffer = vtkOpenGLBufferObject;
-  this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
-  this->MakeBuffer(
-    Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
-  this->MakeBuffer(Colors, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_RGBA8);
-}
-
-/// Every value has four bytes.
-void vtkDelaunayFlipMapper::Parts::MakeBuffer(BufferName name,
-  vtkOpenGLBufferObject::ObjectType type, GLenum target, std::int64_t count, GLenum format)
-{
-  vtkOpenGLBufferObject* buffer = this->Buffers[name];
-  buffer->GenerateBuffer(type);
-  buffer->Bind();
-  glBufferData(target, static_cast<GLsizeiptr>(4 * count), nullptr, GL_DYNAMIC_DRAW);
-  buffer->Release();
-  vtkTextureObject* texture = this->Textures[name];
-  texture->SetContext(this->Window);
-  texture->SetInternalFormat(format);
-  texture->CreateTextureBuffer(static_cast<unsigned int>(count), name == Colors ? 4 : 1,
-    name == Colors ? VTK_UNSIGNED_CHAR : VTK_FLOAT, buffer);
-}
-
-void vtkDelaunayFlipMapper::Parts::UploadPoints()
-{
-  if (std::exchange(this->UploadTime, this->PointsTime) == this->PointsTime)
-  {
-    return;
-  }
-  std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
-  const PointArray points = ViewPoints(this->Points);
-  vtkSMPTools::For(0, this->PointCount,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
+      const std::int64_t id = triangles.Get(i / 3, static_cast<int>(i % 3));
+      if (id >= 0 && id < places.Count)
       {
-        const double x = points.Get(i / 3, static_cast<int>(i % 3)) - this->Center[i % 3];
-        places[i] = static_cast<float>(x / this->Unit);
+        areUsed[id] = 1;
       }
-    });
-  this->Buffers[Places]->Upload(places, vtkOpenGLBufferObject::ArrayBuffer);
-}
-
-/// Needs the window's context only if it is given.
-void vtkDelaunayFlipMapper::Parts::Release(vtkWindow* window)
-{
-  if (!std::exchange(this->HasBuffers, false))
-  {
-    return;
-  }
-  if (window)
-  {
-    window->MakeCurrent();
-  }
-  this->Filler.reset();
-  for (const int name : { Places, Corners, Colors })
-  {
-    this->Textures[name]->ReleaseGraphicsResources(window);
-    this->Buffers[name]->ReleaseGraphicsResources();
-  }
-  this->Array->ReleaseGraphicsResources();
-  this->Obstacle = NoRun;
-  this->UploadTime = 0;
-  this->IsBehind = true;
-  this->MayTryDevice = true;
-}
-
-//------------------------------------------------------------------------------
-/// CUDA is tried once for every mesh that the host has got. After a failure of the filter its
-/// session is gone, but the mesh in the buffers stays.
-void vtkDelaunayFlipMapper::Parts::ChooseFiller(bool allowsDevice)
-{
-  const DrawnBuffers buffers{ static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()),
-    static_cast<unsigned int>(this->Buffers[Colors]->GetHandle()), this->Count };
-  const bool isOnDevice = this->Obstacle.empty();
-  const bool hasSession = this->FindSession() != nullptr;
-  const bool hasOther = this->Filter && this->Filter->GetSession();
-  if (this->Filter && !hasOther && this->Filler)
-  {
-    return;
-  }
-  if (!hasSession || !allowsDevice)
-  {
-    this->Obstacle = hasSession ? "ZeroCopy is off"
-      : hasOther                ? "the mesh has other cells than triangles"
-                                : NoRun;
-    this->MayTryDevice = true;
-    this->Filler = isOnDevice ? nullptr : std::move(this->Filler);
-  }
-  else if (!isOnDevice && std::exchange(this->MayTryDevice, false))
-  {
-    try
+    }
+    this->Box.Reset();
+    for (std::int64_t i = 0; i < places.Count; ++i)
     {
-      this->Filler = DeviceFillerMaker(this->Filter, buffers);
-      this->Obstacle.clear();
+      if (areUsed[i])
+      {
+        this->Box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
+      }
+    }
+    const vtkMTimeType time = points ? points->GetMTime() : 0;
+    if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
+    {
+      this->Box.GetCenter(this->Center);
+      const double half = 0.5 * this->Box.GetDiagonalLength();
+      this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
+    }
+  }
+
+  /// Keeps those that there are, if they have the right sizes.
+  void MakeBuffers(vtkOpenGLRenderWindow* window)
+  {
+    const std::int64_t count = this->Faces->GetNumberOfPolys();
+    const std::int64_t points = this->Points->GetNumberOfTuples();
+    if (this->HasBuffers && this->Window == window && count == this->Count &&
+      points == this->PointCount)
+    {
+      return;
+    }
+    this->Release(this->Window);
+    window->MakeCurrent();
+    this->HasBuffers = true;
+    this->Window = window;
+    this->Count = count;
+    this->PointCount = points;
+    using Buffer = vtkOpenGLBufferObject;
+    this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
+    this->MakeBuffer(
+      Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
+    this->MakeBuffer(Colors, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_RGBA8);
+  }
+
+  /// Every value has four bytes.
+  void MakeBuffer(BufferName name, vtkOpenGLBufferObject::ObjectType type, GLenum target,
+    std::int64_t count, GLenum format)
+  {
+    vtkOpenGLBufferObject* buffer = this->Buffers[name];
+    buffer->GenerateBuffer(type);
+    buffer->Bind();
+    glBufferData(target, static_cast<GLsizeiptr>(4 * count), nullptr, GL_DYNAMIC_DRAW);
+    buffer->Release();
+    vtkTextureObject* texture = this->Textures[name];
+    texture->SetContext(this->Window);
+    texture->SetInternalFormat(format);
+    texture->CreateTextureBuffer(static_cast<unsigned int>(count), name == Colors ? 4 : 1,
+      name == Colors ? VTK_UNSIGNED_CHAR : VTK_FLOAT, buffer);
+  }
+
+  void UploadPoints()
+  {
+    if (std::exchange(this->UploadTime, this->PointsTime) == this->PointsTime)
+    {
+      return;
+    }
+    std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
+    const PointArray points = ViewPoints(this->Points);
+    vtkSMPTools::For(0, this->PointCount,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
+        {
+          const double x = points.Get(i / 3, static_cast<int>(i % 3)) - this->Center[i % 3];
+          places[i] = static_cast<float>(x / this->Unit);
+        }
+      });
+    this->Buffers[Places]->Upload(places, vtkOpenGLBufferObject::ArrayBuffer);
+  }
+
+  /// Needs the window's context only if it is given.
+  void Release(vtkWindow* window)
+  {
+    if (!std::exchange(this->HasBuffers, false))
+    {
+      return;
+    }
+    if (window)
+    {
+      window->MakeCurrent();
+    }
+    this->Filler.reset();
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->ReleaseGraphicsResources(window);
+      this->Buffers[name]->ReleaseGraphicsResources();
+    }
+    this->Array->ReleaseGraphicsResources();
+    this->Obstacle = NoRun;
+    this->UploadTime = 0;
+    this->IsBehind = true;
+    this->MayTryDevice = true;
+  }
+
+  /// CUDA is tried once for every mesh that the host has got. After a failure of the filter its
+  /// session is gone, but the mesh in the buffers stays.
+  void ChooseFiller(bool allowsDevice)
+  {
+    const DrawnBuffers buffers{ static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()),
+      static_cast<unsigned int>(this->Buffers[Colors]->GetHandle()), this->Count };
+    const bool isOnDevice = this->Obstacle.empty();
+    const bool hasSession = this->FindSession() != nullptr;
+    const bool hasOther = this->Filter && this->Filter->GetSession();
+    if (this->Filter && !hasOther && this->Filler)
+    {
+      return;
+    }
+    if (!hasSession || !allowsDevice)
+    {
+      this->Obstacle = hasSession ? "ZeroCopy is off"
+        : hasOther                ? "the mesh has other cells than triangles"
+                                  : NoRun;
+      this->MayTryDevice = true;
+      this->Filler = isOnDevice ? nullptr : std::move(this->Filler);
+    }
+    else if (!isOnDevice && std::exchange(this->MayTryDevice, false))
+    {
+      try
+      {
+        this->Filler = DeviceFillerMaker(this->Filter, buffers);
+        this->Obstacle.clear();
+        this->IsBehind = true;
+      }
+      catch (const std::exception& error)
+      {
+        this->Obstacle = error.what();
+      }
+    }
+    if (!this->Filler)
+    {
+      this->Filler = MakeHostFiller(this->Filter, buffers);
       this->IsBehind = true;
     }
-    catch (const std::exception& error)
-    {
-      this->Obstacle = error.what();
-    }
   }
-  if (!this->Filler)
+
+  /// Does without the filler that has failed.
+  void Abandon(const std::exception& error)
   {
-    this->Filler = MakeHostFiller(this->Filter, buffers);
+    this->Filler.reset();
+    this->Obstacle = error.what();
     this->IsBehind = true;
   }
-}
 
-/// Does without the filler that has failed.
-void vtkDelaunayFlipMapper::Parts::Abandon(const std::exception& error)
-{
-  this->Filler.reset();
-  this->Obstacle = error.what();
-  this->IsBehind = true;
-}
-
-FilledMesh vtkDelaunayFlipMapper::Parts::DescribeMesh(vtkLookupTable* table)
-{
-  // The table changes only if it must, since what is drawn with it is then drawn anew.
-  const auto choose = [this, table](double largestCount)
+  FilledMesh DescribeMesh(vtkLookupTable* table)
   {
-    this->LargestCount = std::max(this->LargestCount, largestCount);
-    const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
-    if (std::exchange(this->TableKind, kind) != kind)
+    // The table changes only if it must, since what is drawn with it is then drawn anew.
+    const auto choose = [this, table](double largestCount)
     {
-      FillTable(table, this->ByFlipCount, this->LargestCount);
-    }
-    return GetBands(table);
-  };
-  vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
-  return { this->FindSession(), ViewTriangles(this->Faces), FindValues<vtkIntArray>(counts),
-    ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
-}
+      this->LargestCount = std::max(this->LargestCount, largestCount);
+      const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
+      if (std::exchange(this->TableKind, kind) != kind)
+      {
+        FillTable(table, this->ByFlipCount, this->LargestCount);
+      }
+      return GetBands(table);
+    };
+    vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
+    const int* flips = FindValues<vtkIntArray>(counts);
+    const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
+    return { this->FindSession(), ViewTriangles(this->Faces), flips ? flips + first : nullptr,
+      ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
+  }
 
-void vtkDelaunayFlipMapper::Parts::Draw(vtkShaderProgram* program)
-{
-  this->Array->Bind();
-  this->Array->AddAttributeArray(
-    program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
-  this->Buffers[Corners]->Bind();
-  const char* const names[] = { "places", "corners", "colors" };
-  for (const int name : { Places, Corners, Colors })
+  void Draw(vtkShaderProgram* program)
   {
-    this->Textures[name]->Activate();
-    program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
+    this->Array->Bind();
+    this->Array->AddAttributeArray(
+      program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
+    this->Buffers[Corners]->Bind();
+    const char* const names[] = { "places", "corners", "colors" };
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->Activate();
+      program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
+    }
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
+    for (const int name : { Places, Corners, Colors })
+    {
+      this->Textures[name]->Deactivate();
+    }
+    this->Buffers[Corners]->Release();
+    this->Array->Release();
   }
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
-  for (const int name : { Places, Corners, Colors })
-  {
-    this->Textures[name]->Deactivate();
-  }
-  this->Buffers[Corners]->Release();
-  this->Array->Release();
-}
+};
 
 //------------------------------------------------------------------------------
 vtkStandardNewMacro(vtkDelaunayFlipMapper);
@@ -602,7 +560,7 @@ void vtkDelaunayFlipMapper::BeginStep()
   {
     try
     {
-      this->Own->Window->MakeCurrent();
+      MakeCurrent(this->Own->Window);
       this->Own->Filler->Map();
     }
     catch (const std::exception& error)
@@ -621,10 +579,7 @@ bool vtkDelaunayFlipMapper::Fill()
   {
     return false;
   }
-  if (!window->IsCurrent()) // else a context may be flushed for nothing
-  {
-    window->MakeCurrent();
-  }
+  MakeCurrent(window);
   return this->Prepare(window);
 }
 
@@ -645,7 +600,11 @@ void vtkDelaunayFlipMapper::ReadInput()
 void vtkDelaunayFlipMapper::ComputeBounds()
 {
   this->ReadInput();
-  std::copy_n(this->Own->Bounds, 6, this->Bounds);
+  vtkMath::UninitializeBounds(this->Bounds);
+  if (this->Own->Box.IsValid())
+  {
+    this->Own->Box.GetBounds(this->Bounds);
+  }
 }
 
 /// Brings everything that is drawn up to date, in the current context of a window. After a failure

@@ -5,7 +5,9 @@
 ///
 /// A hill swells on a plane and sinks again, and the mesh is kept Delaunay: every frame moves the
 /// points and continues from the triangles of the frame before, so that few flips are left to do.
-/// Prints the frames per second; with --window it also draws them.
+/// Prints the frames per second; with --window it also draws them, and keeps the window until q is
+/// pressed.
+#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipLiveView.h>
@@ -14,6 +16,7 @@
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
 #include <CLI/CLI.hpp>
@@ -90,6 +93,19 @@ double Animate(vtkPoints* points, int frames, const std::function<void()>& show)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// A window that looks at the hill from the side and from above.
+void OpenWindow(vtkRenderWindow* window)
+{
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  renderer->GetActiveCamera()->SetPosition(0.5, -1.5, 1.3);
+  renderer->GetActiveCamera()->SetFocalPoint(0.5, 0.5, 0.0);
+  renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
+  window->AddRenderer(renderer);
+  window->SetSize(900, 700);
+  window->SetWindowName("A swelling surface");
+}
+
 /// @returns the exit status for the command line, or -1 to go on.
 int ReadArguments(int argc, char* argv[], Settings& settings)
 {
@@ -104,7 +120,7 @@ int ReadArguments(int argc, char* argv[], Settings& settings)
     { "threads", vtkDelaunayFlip::BACKEND_THREADS }, { "cuda", vtkDelaunayFlip::BACKEND_CUDA } };
   app.add_option("--backend", settings.Backend, "where the flips are made")
     ->transform(CLI::CheckedTransformer(backends));
-  app.add_flag("--window", settings.HasWindow, "draw the frames");
+  app.add_flag("--window", settings.HasWindow, "draw the frames, and wait for the key q");
   try
   {
     app.parse(argc, argv);
@@ -142,7 +158,7 @@ int main(int argc, char* argv[])
   std::function<void()> show = [&]() { flip->Update(); };
   if (settings.HasWindow)
   {
-    window->SetSize(900, 700);
+    OpenWindow(window);
     interactor->SetRenderWindow(window);
     view->SetFilter(flip);
     view->SetInteractor(interactor);
@@ -166,5 +182,10 @@ int main(int argc, char* argv[])
     settings.Frames, static_cast<long long>(mesh->GetNumberOfPoints()), seconds,
     settings.Frames / seconds, static_cast<long long>(flips),
     static_cast<long long>(flip->GetNumberOfNonDelaunayEdges()), flip->GetBackendUsed());
+  if (settings.HasWindow)
+  {
+    std::fflush(stdout);
+    interactor->Start();
+  }
   return 0;
 }

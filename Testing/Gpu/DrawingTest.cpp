@@ -13,88 +13,13 @@
 #include <optional>
 
 /// @file
-/// Angles and colours in device memory, and arrays that are drawn while a session goes on: bit for
-/// bit what is written all at once.
+/// Arrays in device memory that are drawn while a session goes on: bit for bit what is written all
+/// at once, which is what the host measures.
 
 namespace delaunayflip
 {
 namespace
 {
-
-class DeviceColorsTest : public GpuTest
-{
-protected:
-  /// The angles of a mesh by the GPU, which must be those of the CPU.
-  template <typename Real, typename Id>
-  void ExpectSameAngles(const TriangleMesh& mesh, GeometryKind geometry, int components)
-  {
-    std::vector<double> expected(mesh.Triangles.Count);
-    FindSmallestAngles(mesh, geometry, 1, expected.data());
-    const DeviceArrays<Real, Id> device(mesh, components);
-    const DeviceValues<float> degrees(std::vector<float>(mesh.Triangles.Count, -1.0f));
-    const ValueRange range = FindSmallestAngles(device.View(), geometry, degrees.Data());
-    const std::vector<float> actual = degrees.Get();
-    for (std::size_t t = 0; t < expected.size(); ++t)
-    {
-      ASSERT_NEAR(expected[t], actual[t], 1e-5) << "triangle " << t;
-    }
-    EXPECT_EQ(*std::min_element(actual.begin(), actual.end()), range.Smallest);
-    EXPECT_EQ(*std::max_element(actual.begin(), actual.end()), range.Largest);
-  }
-};
-
-TEST_F(DeviceColorsTest, AnglesAreThoseOfTheHost)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 17);
-  this->ExpectSameAngles<double, std::int32_t>(mesh.View(), GeometryKind::Surface, 3);
-  this->ExpectSameAngles<double, std::int64_t>(mesh.View(), GeometryKind::PlanarXY, 2);
-}
-
-TEST_F(DeviceColorsTest, WhatHasNoAngleIsNaN)
-{
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(100, 18);
-  mesh.Triangles[3] = 1000000;
-  mesh.Triangles[7] = -1;
-  const DeviceArrays<double, std::int32_t> device(mesh.View(), 3);
-  const std::int64_t count = mesh.View().Triangles.Count;
-  const DeviceValues<float> degrees(std::vector<float>(count, -1.0f));
-  const ValueRange range = FindSmallestAngles(device.View(), GeometryKind::Surface, degrees.Data());
-  const std::vector<float> angles = degrees.Get();
-  EXPECT_FALSE(std::isnan(angles[0]));
-  EXPECT_TRUE(std::isnan(angles[1]) && std::isnan(angles[2]));
-  EXPECT_LE(0.0, range.Smallest);
-  EXPECT_LT(range.Smallest, range.Largest);
-}
-
-TEST_F(DeviceColorsTest, Bands)
-{
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const DeviceValues<float> values({ -5.0f, 0.0f, 9.9f, 10.0f, 30.0f, 99.0f, nan });
-  const DeviceValues<std::uint32_t> colors(std::vector<std::uint32_t>(7, 0));
-  ColorValues(values.Data(), 7, { { 1, 2, 3 }, 0.0, 30.0, 9 }, colors.Data(), {});
-  EXPECT_EQ((std::vector<std::uint32_t>{ 1, 1, 1, 2, 3, 3, 9 }), colors.Get());
-}
-
-TEST_F(DeviceColorsTest, ColorsMayTakeThePlaceOfCounts)
-{
-  const DeviceValues<std::int32_t> counts({ 4, 0, 7, 12, 40 });
-  const ValueRange range = FindRange(counts.Data(), 5, {});
-  EXPECT_EQ(0.0, range.Smallest);
-  EXPECT_EQ(40.0, range.Largest);
-  auto* colors = reinterpret_cast<std::uint32_t*>(counts.Data());
-  ColorValues(counts.Data(), 5, { { 5, 6, 7 }, 0.0, 12.0, 9 }, colors, {});
-  EXPECT_EQ((std::vector<std::int32_t>{ 6, 5, 6, 7, 7 }), counts.Get());
-}
-
-TEST_F(DeviceColorsTest, NothingToColor)
-{
-  EXPECT_TRUE(std::isnan(FindRange(nullptr, 0, {}).Smallest));
-  EXPECT_TRUE(std::isnan(FindSmallestAngles(DeviceMesh(), GeometryKind::Surface, nullptr).Largest));
-  std::uint32_t onHost[1] = {};
-  const std::int32_t values[1] = {};
-  EXPECT_THROW(ColorValues(values, 1, {}, onHost, {}), InvalidOptions);
-  EXPECT_THROW(ColorValues(values, 1, { { 1 } }, onHost, {}), InvalidOptions);
-}
 
 const std::vector<std::uint32_t> Colors = { 11, 12, 13, 14, 15, 16, 17 };
 
@@ -163,26 +88,16 @@ protected:
     return { this->Memory->Result.Get(), this->ColorMemory->Get(), smallest };
   }
 
-  /// The same by the functions that write everything, in other arrays.
+  /// The same by another object, which writes everything, in other arrays.
   Picture WriteAll(const FlipSession& session, const DrawnColors& colors) const
   {
     const std::int64_t count = this->Mesh.NumberOfTriangles();
     const DeviceValues<std::int32_t> ids(std::vector<std::int32_t>(3 * count, 55));
     const DeviceValues<std::uint32_t> painted(std::vector<std::uint32_t>(count, 55));
-    const DeviceValues<float> degrees(std::vector<float>(count, 55.0f));
-    const DeviceValues<std::int32_t> flips(std::vector<std::int32_t>(count, 55));
-    session.StoreTriangles(MutableTriangleArray(ids.Data(), count), {});
-    session.StoreFlipCounts(flips.Data(), {});
-    DeviceMesh mesh;
-    mesh.Points = this->View().Points;
-    mesh.Triangles = TriangleArray(ids.Data(), count);
-    const double smallest =
-      FindSmallestAngles(mesh, GeometryKind::Surface, degrees.Data()).Smallest;
-    const double largest = FindRange(flips.Data(), count, {}).Largest;
-    const ColorBands bands = colors.Choose(colors.ByFlipCount ? largest : 0.0);
-    colors.ByFlipCount ? ColorValues(flips.Data(), count, bands, painted.Data(), {})
-                       : ColorValues(degrees.Data(), count, bands, painted.Data(), {});
-    return { ids.Get(), painted.Get(), smallest };
+    DrawnTriangles drawn;
+    drawn.Update(session,
+      { this->View().Points, MutableTriangleArray(ids.Data(), count), painted.Data(), {} }, colors);
+    return { ids.Get(), painted.Get(), drawn.GetSmallestAngle() };
   }
 
   /// Updates the arrays and compares them.
@@ -298,16 +213,35 @@ TEST_F(DrawnTrianglesTest, MovedPointsAndOtherArrays)
   this->ExpectSame(session, ByAngle(60.0));
 }
 
-TEST_F(DrawnTrianglesTest, SessionsWhoseTrianglesAreElsewhere)
+/// Angles differ from those of the host in the last bits, so that a few colours may differ.
+TEST_F(DrawnTrianglesTest, WritesWhatTheHostMeasures)
 {
   FlipSession session = this->Begin();
   session.Advance(3);
-  this->ExpectSame(session, ByAngle(60.0));
-  this->ExpectSameIterations(this->Begin(BackendKind::Threads), ByFlipCount());
-  this->ExpectSame(session, ByFlipCount());
+  const std::int64_t count = this->Mesh.NumberOfTriangles();
+  std::vector<std::int32_t> ids(3 * count), flips(count);
+  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+  session.StoreFlipCounts(flips.data());
+  TriangleMesh mesh = this->Mesh.View();
+  mesh.Triangles = TriangleArray(ids.data(), count);
+  std::vector<double> degrees(count);
+  FindSmallestAngles(mesh, GeometryKind::Surface, 1, degrees.data());
+  const Picture byAngle = this->Update(session, ByAngle(70.0)); // ten degrees per colour
+  EXPECT_EQ(ids, byAngle.Triangles);
+  EXPECT_NEAR(*std::min_element(degrees.begin(), degrees.end()), byAngle.SmallestAngle, 1e-5);
+  const std::int32_t largest = *std::max_element(flips.begin(), flips.end());
+  const Picture byFlips = this->Update(session, ByFlipCount());
+  int different = 0;
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    different += byAngle.Colors[t] != Colors[static_cast<int>(degrees[t] / 10.0)] ? 1 : 0;
+    const auto size = static_cast<std::int32_t>(Colors.size());
+    ASSERT_EQ(Colors[flips[t] * size / (largest + 1)], byFlips.Colors[t]) << "triangle " << t;
+  }
+  EXPECT_GT(3, different);
 }
 
-TEST_F(DrawnTrianglesTest, FlipsOfInsertedConstraintsCount)
+TEST_F(DrawnTrianglesTest, SessionsWhoseTrianglesAreElsewhere)
 {
   const std::int64_t edge[] = { 100, 900, 1000, 150 };
   const unsigned char inserts[] = { 1, 1 };
@@ -317,11 +251,14 @@ TEST_F(DrawnTrianglesTest, FlipsOfInsertedConstraintsCount)
   mesh.ConstraintsToInsert = inserts;
   FlipOptions options;
   options.Backend = BackendKind::CUDA;
-  FlipSession session(mesh, options);
-  std::vector<std::int32_t> counts(this->Mesh.NumberOfTriangles());
-  session.StoreFlipCounts(counts.data());
-  EXPECT_LT(0, *std::max_element(counts.begin(), counts.end()));
-  this->ExpectSameIterations(std::move(session), ByFlipCount());
+  const FlipSession inserting(mesh, options), threads = this->Begin(BackendKind::Threads);
+  const FlipSession session = this->Begin();
+  for (const FlipSession* other : { &inserting, &threads })
+  {
+    this->ExpectSame(session, ByAngle(60.0));
+    EXPECT_THROW(this->Drawn.Update(*other, this->View(), ByAngle(60.0)), BackendUnavailable);
+  }
+  this->ExpectSame(session, ByAngle(60.0));
 }
 
 /// Each call of an update fails once, and the next update makes up for it.
@@ -385,6 +322,10 @@ TEST_F(DrawnTrianglesTest, NothingToDraw)
   EXPECT_TRUE(std::isnan(this->Drawn.GetSmallestAngle()));
   const DrawnColors none{ false, [](double) { return ColorBands(); } };
   EXPECT_THROW(this->Drawn.Update(session, this->View(), none), InvalidOptions);
+  DrawnArrays onHost = this->View();
+  std::vector<std::uint32_t> colors(this->Mesh.NumberOfTriangles());
+  onHost.Colors = colors.data();
+  EXPECT_THROW(this->Drawn.Update(session, onHost, ByAngle(60.0)), InvalidOptions);
   this->ExpectSame(session, ByAngle(60.0));
 }
 
