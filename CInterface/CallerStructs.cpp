@@ -44,8 +44,8 @@ Enumeration ToEnumeration(std::int32_t value, Enumeration last, const std::strin
 }
 
 /// The points as `Array`. Its constructors take the components too, if they are given.
-template <typename Array, typename... Components>
-Array ToPoints(const delaunayflip_mesh& c, Components... components)
+template <typename Array, typename Struct, typename... Components>
+Array ToPoints(const Struct& c, Components... components)
 {
   Require(c.number_of_points >= 0, "number_of_points is negative");
   Require(c.points || c.number_of_points == 0, "points is null");
@@ -99,17 +99,17 @@ delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
   return c;
 }
 
-bool IsOnDevice(const delaunayflip_mesh& c)
+bool IsOnDevice(std::int32_t memory)
 {
-  Require(c.memory == DELAUNAYFLIP_HOST || c.memory == DELAUNAYFLIP_CUDA,
+  Require(memory == DELAUNAYFLIP_HOST || memory == DELAUNAYFLIP_CUDA,
     "memory is neither DELAUNAYFLIP_HOST nor DELAUNAYFLIP_CUDA");
-  return c.memory == DELAUNAYFLIP_CUDA;
+  return memory == DELAUNAYFLIP_CUDA;
 }
 
 TriangleMesh ToMesh(const delaunayflip_mesh* given)
 {
   const delaunayflip_mesh c = CompleteMesh(given);
-  Require(!IsOnDevice(c), "this function needs a mesh in the host's memory");
+  Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
   TriangleMesh mesh;
   static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
   Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
@@ -118,13 +118,34 @@ TriangleMesh ToMesh(const delaunayflip_mesh* given)
   return mesh;
 }
 
-PlaneArray ToPlane(const delaunayflip_mesh* given)
+delaunayflip_points CompletePoints(const delaunayflip_points* given)
 {
-  const delaunayflip_mesh c = CompleteMesh(given);
-  Require(!IsOnDevice(c), "points to triangulate must be in the host's memory");
+  return Complete(given, delaunayflip_points_init);
+}
+
+PointInput ToPointInput(const delaunayflip_points& c)
+{
   Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
-  Require(c.number_of_triangles == 0, "points to triangulate must have no triangles");
-  return ToPoints<PlaneArray>(c, c.point_components);
+  Require(c.number_of_segments >= 0, "number_of_segments is negative");
+  Require(c.segments || c.number_of_segments == 0, "segments is null");
+  Require(c.number_of_hole_seeds >= 0, "number_of_hole_seeds is negative");
+  Require(c.hole_seeds || c.number_of_hole_seeds == 0, "hole_seeds is null");
+  PointInput input{ ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments,
+    c.rings, c.hole_seeds, c.number_of_hole_seeds };
+  input.OnDevice = IsOnDevice(c.memory);
+  input.Stream.Handle = c.stream;
+  return input;
+}
+
+PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
+{
+  PointOptions points{ options };
+  points.PointTolerance = c.point_tolerance;
+  points.SplitCrossings = c.split_crossings != 0;
+  points.Outline = ToEnumeration(c.outline, OutlineKind::Orientation, "outline");
+  points.Alpha = c.alpha;
+  points.LongestEdge = c.longest_edge;
+  return points;
 }
 
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
@@ -254,6 +275,15 @@ void KeptReport::Fill(delaunayflip_report& target) const
   c.inserted_constraints = report.InsertedConstraints;
   c.constraint_flips = report.ConstraintFlips;
   c.euler_characteristic = report.EulerCharacteristic;
+  c.points_not_finite = report.FromPoints.NotFinite;
+  c.points_repeated = report.FromPoints.Repeated;
+  c.points_too_near = report.FromPoints.TooNear;
+  c.segment_edges = report.FromPoints.SegmentEdges;
+  c.segments_refused = report.FromPoints.RefusedSegments;
+  c.crossings = report.FromPoints.Crossings;
+  c.largest_shift = report.FromPoints.LargestShift;
+  c.triangles_outside = report.FromPoints.OutsideTriangles;
+  c.triangles_large = report.FromPoints.LargeTriangles;
   c.size = target.size;
   std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
 }

@@ -52,14 +52,20 @@ delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
 /// Views of the arrays of a mesh in the host's memory.
 TriangleMesh ToMesh(const delaunayflip_mesh* given);
 
-/// A view of the points to triangulate.
-PlaneArray ToPlane(const delaunayflip_mesh* given);
+/// The points with all members that this library knows.
+delaunayflip_points CompletePoints(const delaunayflip_points* given);
+
+/// Views of the points and segments to triangulate.
+PointInput ToPointInput(const delaunayflip_points& points);
+
+/// @param options of the run.
+PointOptions ToPointOptions(const delaunayflip_points& points, const FlipOptions& options);
 
 /// Views of the arrays of a complete mesh in device memory.
 DeviceMesh ToDeviceMesh(const delaunayflip_mesh& mesh);
 
-/// Whether a complete mesh is in device memory.
-bool IsOnDevice(const delaunayflip_mesh& mesh);
+/// Whether `memory`, a delaunayflip_memory, is that of a device.
+bool IsOnDevice(std::int32_t memory);
 
 /// A view of an array for three ids per triangle, of a delaunayflip_type.
 MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type);

@@ -131,7 +131,7 @@ void RequireReport(const delaunayflip_report* report)
 FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
   const MutableTriangleArray& triangles, const Observers& observers)
 {
-  return IsOnDevice(c)
+  return IsOnDevice(c.memory)
     ? FlipToDelaunay(ToDeviceMesh(c), options, triangles, observers.Iteration, observers.Progress)
     : FlipToDelaunay(ToMesh(&c), options, triangles, observers.Iteration, observers.Progress);
 }
@@ -176,16 +176,16 @@ struct delaunayflip_session
 {
   delaunayflip_session(
     const delaunayflip_mesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(IsOnDevice(mesh) ? FlipSession(ToDeviceMesh(mesh), options, progress)
-                               : FlipSession(ToMesh(&mesh), options, progress)),
+    : Session(IsOnDevice(mesh.memory) ? FlipSession(ToDeviceMesh(mesh), options, progress)
+                                      : FlipSession(ToMesh(&mesh), options, progress)),
       NumberOfTriangles(mesh.number_of_triangles),
       TriangleNumbers(mesh.triangle_numbers)
   {
   }
 
   delaunayflip_session(
-    const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(points, options, progress),
+    const delaunayflip_points& points, const FlipOptions& options, const ProgressObserver& progress)
+    : Session(ToPointInput(points), ToPointOptions(points, options), progress),
       IsFromPoints(true)
   {
   }
@@ -201,6 +201,25 @@ struct delaunayflip_session
   const std::int64_t* TriangleNumbers = nullptr; ///< Of the caller, or null.
   std::optional<KeptReport> Report;
 };
+
+namespace
+{
+/// The same as TryWith for work with a session from points, which writes `count(report)` values.
+template <typename Count, typename Work>
+delaunayflip_status TryWithPoints(
+  const delaunayflip_session* session, const void* target, const Count& count, const Work& work)
+{
+  return TryWith(session,
+    [&]()
+    {
+      Require(session->IsFromPoints, "the session is not from points");
+      Require(target || count(session->Session.GetReport()) == 0, "an array is null");
+      work();
+    });
+}
+
+std::int64_t CountTriangles(const FlipReport& report) { return report.Triangles; }
+}
 
 extern "C"
 {
@@ -221,6 +240,13 @@ extern "C"
     mesh->point_type = DELAUNAYFLIP_FLOAT64;
     mesh->id_type = DELAUNAYFLIP_INT64;
     mesh->point_components = 3;
+  }
+
+  void delaunayflip_points_init(delaunayflip_points* points)
+  {
+    *points = MakeEmpty<delaunayflip_points>();
+    points->point_type = DELAUNAYFLIP_FLOAT64;
+    points->point_components = 2;
   }
 
   void delaunayflip_options_init(delaunayflip_options* options)
@@ -259,7 +285,7 @@ extern "C"
       });
   }
 
-  delaunayflip_status delaunayflip_open_points(const delaunayflip_mesh* points,
+  delaunayflip_status delaunayflip_open_points(const delaunayflip_points* points,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session)
   {
@@ -268,31 +294,61 @@ extern "C"
       {
         Require(session, "session is null");
         *session = new delaunayflip_session(
-          ToPlane(points), ToOptions(options), Observers(callbacks).Progress);
+          CompletePoints(points), ToOptions(options), Observers(callbacks).Progress);
       });
   }
 
   delaunayflip_status delaunayflip_store_neighbors(
     delaunayflip_session* session, std::int32_t* neighbors)
   {
-    return TryWith(session,
-      [=]()
-      {
-        Require(session->IsFromPoints, "the session is not from points");
-        Require(neighbors || session->CountTriangles() == 0, "neighbors is null");
-        session->Session.StoreNeighbors(neighbors);
-      });
+    return TryWithPoints(
+      session, neighbors, CountTriangles, [=]() { session->Session.StoreNeighbors(neighbors); });
+  }
+
+  delaunayflip_status delaunayflip_store_neighbors_on_device(
+    delaunayflip_session* session, std::int32_t* neighbors, void* stream)
+  {
+    return TryWithPoints(session, neighbors, CountTriangles,
+      [=]() { session->Session.StoreNeighbors(neighbors, DeviceStream{ stream }); });
   }
 
   delaunayflip_status delaunayflip_store_used_points(
     delaunayflip_session* session, std::int64_t* ids)
   {
-    return TryWith(session,
+    return TryWithPoints(
+      session, ids, [](const FlipReport& report) { return report.Points; },
+      [=]() { session->Session.StoreUsedPoints(ids); });
+  }
+
+  delaunayflip_status delaunayflip_store_added_points(
+    delaunayflip_session* session, double* xy, std::int64_t* ends, double* shares)
+  {
+    return TryWithPoints(
+      session, xy && ends ? shares : nullptr,
+      [](const FlipReport& report) { return report.FromPoints.Crossings; },
       [=]()
       {
-        Require(session->IsFromPoints, "the session is not from points");
-        Require(ids || session->Session.GetReport().Points == 0, "ids is null");
-        session->Session.StoreUsedPoints(ids);
+        std::int64_t i = 0;
+        for (const AddedPoint& point : session->Session.GetAddedPoints())
+        {
+          xy[2 * i] = point.X;
+          xy[2 * i + 1] = point.Y;
+          ends[2 * i] = point.From;
+          ends[2 * i + 1] = point.To;
+          shares[i++] = point.Share;
+        }
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_segment_edges(
+    delaunayflip_session* session, std::int64_t* pairs)
+  {
+    return TryWithPoints(
+      session, pairs, [](const FlipReport& report) { return report.FromPoints.SegmentEdges; },
+      [=]()
+      {
+        const std::vector<std::int64_t> all = session->Session.ListSegmentEdges();
+        std::copy(all.begin(), all.end(), pairs);
       });
   }
 

@@ -222,6 +222,16 @@ extern "C"
     double flip_seconds;
     int64_t number_of_points; /**< Of the caller. */
     int64_t number_of_triangles;
+    /** Of a session from points. */
+    int64_t points_not_finite; /**< Points with NaN or infinite coordinates. */
+    int64_t points_repeated; /**< Points at the place of one with a lower id. */
+    int64_t points_too_near; /**< Points within the tolerance of one with a lower id. */
+    int64_t segment_edges; /**< Edges that segments have become. */
+    int64_t segments_refused; /**< They cross earlier ones, or an end is not finite. */
+    int64_t crossings; /**< Points added where segments cross. */
+    double largest_shift; /**< How far rounding has moved one of these at most. */
+    int64_t triangles_outside; /**< Removed outside rings and around hole seeds. */
+    int64_t triangles_large; /**< Removed by alpha and longest_edge. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -244,7 +254,7 @@ extern "C"
   typedef struct delaunayflip_session delaunayflip_session;
 
   /** Builds the edges of `mesh` and tests them all. `options` and `callbacks` may be null. A
-   * A mesh in DELAUNAYFLIP_CUDA is flipped on its GPU. It is copied to the host if the options
+   * mesh in DELAUNAYFLIP_CUDA is flipped on its GPU. It is copied to the host if the options
    * request threads, if the GPU fails, or for constraints_to_insert. If a progress callback returns
    * 0, the session is aborted and has the input's triangles. On success `*session` must be passed
    * to delaunayflip_close. */
@@ -252,14 +262,50 @@ extern "C"
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
+  typedef enum
+  {
+    DELAUNAYFLIP_EVEN_ODD = 0, /**< Triangles inside an odd number of rings are kept. */
+    DELAUNAYFLIP_ORIENTATION = 1 /**< Those inside more counter-clockwise rings than clockwise ones;
+                                    if there are none, those inside as many of both. */
+  } delaunayflip_outline;
+
+  /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
+   * member in full. */
+  typedef struct
+  {
+    int64_t size;
+    const void* points; /**< point_components numbers per point: x, y and, without effect, z. */
+    int64_t number_of_points;
+    int32_t point_type; /**< DELAUNAYFLIP_FLOAT32 or DELAUNAYFLIP_FLOAT64. [FLOAT64] */
+    int32_t point_components; /**< 2 or 3. [2] */
+    const int64_t* segments; /**< Edges that the mesh must have: pairs of point ids, or null. */
+    int64_t number_of_segments;
+    const int32_t* rings; /**< Of every segment the number of its closed ring, or -1; null: none.
+                             What is outside of rings is removed. */
+    const double* hole_seeds; /**< x, y of places: what can be reached from there without crossing a
+                                 segment is removed. */
+    int64_t number_of_hole_seeds;
+    double point_tolerance; /**< Points nearer than this to one with a lower id are not used. [0] */
+    double alpha; /**< Triangles with a larger circumradius are removed; 0: none. [0] */
+    double longest_edge; /**< Triangles with a longer edge are removed; 0: none. [0] */
+    int32_t outline; /**< A delaunayflip_outline. [EVEN_ODD] */
+    int32_t split_crossings; /**< Not 0: segments that cross are split there. 0: the later one is
+                                refused. [0] */
+    int32_t memory; /**< A delaunayflip_memory: where the points are. [HOST] */
+    void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
+  } delaunayflip_points;
+
+  DELAUNAYFLIP_API void delaunayflip_points_init(delaunayflip_points* points);
+
   /** Triangulates points in x and y: a session that begins with a valid triangulation of all
-   * places, which delaunayflip_advance makes Delaunay. Of `points` only the points are used: their
-   * array, number, type, and 2 or 3 components; they must be in the host's memory. Geometry,
-   * criterion and tie rule of the options are not used: the triangles depend on the points alone,
-   * not on their order. They turn counter-clockwise and have an area. Of points at equal places
-   * that with the lowest id is used; points with NaN or infinite x or y are not. The report's
-   * number_of_triangles says how many triangles to store; it is 0 if all places lie on one line. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open_points(const delaunayflip_mesh* points,
+   * places, which delaunayflip_advance makes Delaunay; then it inserts the segments and removes
+   * what is outside. Geometry, criterion and tie rule of the options are not used: the triangles
+   * depend on the points alone, not on their order. They turn counter-clockwise and have an area.
+   * Of points at equal places that with the lowest id is used; points with NaN or infinite x or y
+   * are not. When nothing is left to do, the report's number_of_triangles says how many triangles
+   * to store; it is 0 if all places lie on one line. All arrays must stay as long as the session.
+   */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open_points(const delaunayflip_points* points,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
@@ -272,6 +318,18 @@ extern "C"
    * place, or -1 for one that is not finite. number_of_points integers. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_used_points(
     delaunayflip_session* session, int64_t* ids);
+
+  /** Of a session from points: writes the points that were made where segments cross, as many as
+   * the report's crossings. Each gets `xy`, two numbers; `ends`, two ids of points, of which an
+   * added one is number_of_points plus its index; and `shares`: what belongs to the point, such as
+   * z, is (1 - share) times that of the first end plus share times that of the second. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_added_points(
+    delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
+
+  /** Of a session from points: writes the edges that segments have become, as pairs of point ids,
+   * in the order and direction of the segments: 2 * segment_edges of the report. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_segment_edges(
+    delaunayflip_session* session, int64_t* pairs);
 
   /** Runs at most `iterations` more iterations; -1: until nothing is left to flip or a limit is
    * reached.
@@ -308,6 +366,8 @@ extern "C"
     delaunayflip_session* session, void* triangles, int32_t id_type, void* stream);
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts_on_device(
     delaunayflip_session* session, int32_t* counts, void* stream);
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_neighbors_on_device(
+    delaunayflip_session* session, int32_t* neighbors, void* stream);
 
   /** Ends a session; null is allowed. */
   DELAUNAYFLIP_API void delaunayflip_close(delaunayflip_session* session);

@@ -10,7 +10,7 @@ option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it 
 # finds it first, and what those link to must be known there.
 set(delaunayflip_vtk_drawing "") # for DelaunayFlip::Rendering and its example
 if(DELAUNAYFLIP_BUILD_RENDERING)
-  set(delaunayflip_vtk_drawing FiltersCore FiltersVerdict IOImage RenderingAnnotation RenderingCore
+  set(delaunayflip_vtk_drawing FiltersCore IOImage RenderingAnnotation RenderingCore
     RenderingFreeType RenderingOpenGL2)
   if(DELAUNAYFLIP_BUILD_TESTING)
     enable_language(C) # a VTK with MPI, such as Debian's, needs MPI for C
@@ -33,8 +33,13 @@ find_package(VTK 9.1 REQUIRED
   COMPONENTS ${delaunayflip_vtk}
   OPTIONAL_COMPONENTS ${delaunayflip_vtk_optional})
 
+set(delaunayflip_opengl VTK::glew) # what loads OpenGL's functions
+if(TARGET VTK::glad) # since VTK 9.4
+  set(delaunayflip_opengl VTK::glad)
+endif()
+
 set(delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module")
-set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel) # what users need
+set(delaunayflip_vtk_installed CommonCore CommonDataModel CommonExecutionModel CommonTransforms) # what users need
 option(DELAUNAYFLIP_BUILD_PARALLEL "Build the filter for many ranks, where VTK has ParallelCore" ON)
 set(DELAUNAYFLIP_PARALLEL OFF) # whether it is built
 if(DELAUNAYFLIP_BUILD_PARALLEL AND TARGET VTK::ParallelCore)

@@ -100,6 +100,31 @@ public:
       });
   }
 
+  /// Takes over the states that are Fixed or Candidate, after LoadStates.
+  void TakeStates(const EdgeMesh& mesh)
+  {
+    const EdgeBits bits = this->Bits;
+    const EdgeState* states = mesh.States.Data();
+    const std::int64_t edges = mesh.NumberOfEdges;
+    this->Backend.ForEach(this->NumberOfWords,
+      [=] __device__(std::int64_t word)
+      {
+        std::uint32_t candidates = 0;
+        for (int i = 0; i < 32 && 32 * word + i < edges; ++i)
+        {
+          const EdgeState state = states[32 * word + i];
+          bits.Fixed[word] |= state == EdgeState::Fixed ? 1u << i : 0;
+          candidates |= state == EdgeState::Candidate ? 1u << i : 0;
+        }
+        bits.FixedOrDeferred[word] = bits.Fixed[word];
+        bits.Candidates[word] = candidates;
+        const std::uint32_t others = ~(bits.Fixed[word] | candidates);
+        bits.Bad[word] &= others;
+        bits.BlockedByShape[word] &= others;
+        bits.BlockedByEdge[word] &= others;
+      });
+  }
+
   /// @param chunkBits chunks of 2^chunkBits triangles.
   void DeferEdgesBetweenChunks(EdgeMesh& edgeMesh, int chunkBits)
   {
@@ -222,6 +247,8 @@ protected:
     found.BlockedByEdge = GetSum(all, IterationSum::AllBlockedByEdge);
     return found;
   }
+
+  void TakeStates() override { this->Bits.TakeStates(this->Mesh); }
 
   /// A launch of iterations on the whole mesh.
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override

@@ -61,6 +61,18 @@ public:
     return true;
   }
 
+  bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) const override
+  {
+    const std::int64_t size = 3 * this->GetInputReport().Triangles;
+    if (size > 0 && !this->IsHere(neighbors))
+    {
+      return false;
+    }
+    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(neighbors), 0, size };
+    this->GetBackend().StoreOnDevice(size, all, stream, this->GetNeighborStep());
+    return true;
+  }
+
   DeviceTriangles ViewTriangles() const override
   {
     const StoreStep store = this->GetStoreStep();
@@ -125,15 +137,19 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   return Load(mesh, view, { options.Device }, options, progress);
 }
 
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PlaneArray& points, const FlipOptions& options,
+std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
   bool byDivision, const BuildProgress& progress)
 {
   try
   {
     CudaBackend backend({ options.Device }, options.NumberOfThreads);
     const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-    return std::unique_ptr<LoadedMesh>(
-      new CudaMesh(points, options, byDivision, std::move(backend), progress));
+    if (points.OnDevice)
+    {
+      backend.WaitFor(points.Stream);
+    }
+    return std::unique_ptr<LoadedMesh>(new CudaMesh(
+      points.Points, points.OnDevice, options, byDivision, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {

@@ -119,6 +119,52 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
     "A cell array of the input: edges between cells of different values stay");
 }
 
+void AddPointOptions(CLI::App& app, Arguments& arguments)
+{
+  app.add_flag("--from-points", arguments.FromPoints,
+    "Make a mesh from the points of INPUT, whatever its cells: their Delaunay triangulation. The "
+    "lines and polygons of --constraints become edges of it, and with --insert-lines the lines of "
+    "INPUT too. Points of these files that INPUT does not have are added");
+  app
+    .add_option("--outline", arguments.Outline,
+      "A mesh file whose polygons and closed lines are rings: what is outside of all is removed")
+    ->check(FileName());
+  app
+    .add_option("--holes", arguments.Holes,
+      "A mesh file whose polygons and closed lines are rings: what is inside is removed")
+    ->check(FileName());
+  app.add_flag("--split-crossings", arguments.Flip.SplitCrossings,
+    "Add a point where segments cross. Else one that crosses an earlier one is left out");
+  const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
+  app
+    .add_option("--alpha", arguments.Flip.Alpha,
+      "Remove triangles whose circumcircle has a larger radius; 0: none [0]")
+    ->check(length);
+  app
+    .add_option("--longest-edge", arguments.Flip.LongestEdge,
+      "Remove triangles that have a longer edge; 0: none [0]")
+    ->check(length);
+  app
+    .add_option("--point-tolerance", arguments.Flip.PointTolerance,
+      "Leave out points nearer than this to one before them; 0: those at the same place [0]")
+    ->check(length);
+  AddChoice<bool>(app, "--projection", arguments.InBestPlane,
+    { { "xy", false }, { "plane", true } },
+    "Where points are joined: by x and y, or in the plane that fits them best [xy]");
+  CLI::Option* const fromPoints = app.get_option("--from-points");
+  for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
+         "--longest-edge", "--point-tolerance", "--projection" })
+  {
+    app.get_option(name)->needs(fromPoints);
+  }
+  for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--tolerance",
+         "--tie-rule", "--no-insert-constraints", "--ignore-lines", "--region-array", "--devices",
+         "--pieces", "--quality" })
+  {
+    app.get_option(name)->excludes(fromPoints);
+  }
+}
+
 /// @returns what is wrong with a list of GPUs, or an empty text.
 std::string FindFaultOfDevices(const std::string& list)
 {
@@ -187,6 +233,27 @@ void CheckDistinct(const std::string& first, const std::string& second)
   }
 }
 
+/// Checks that files can be read or written as what they are given for.
+void CheckFormats(Arguments& arguments)
+{
+  arguments.InputFormat = FormatOf(arguments.Input);
+  arguments.OutputFormat = FormatOf(arguments.Output);
+  if (arguments.InputFormat == MeshFormat::Points && !arguments.FromPoints)
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      arguments.Input + ": has points, but no triangles; --from-points makes them");
+  }
+  for (const std::string& file :
+    { arguments.Output, arguments.Constraints, arguments.Outline, arguments.Holes })
+  {
+    if (!file.empty() && FormatOf(file) == MeshFormat::Points)
+    {
+      throw CommandError(ExitCode::WrongUsage,
+        file + ": such a file has points alone; give a .vtk, .vtp, .ply, .stl or .obj");
+    }
+  }
+}
+
 /// Checks that involve more than one option.
 void CheckTogether(Arguments& arguments)
 {
@@ -195,12 +262,7 @@ void CheckTogether(Arguments& arguments)
     throw CommandError(ExitCode::WrongUsage,
       "--insert-lines and --ignore-lines contradict each other; give one of them");
   }
-  arguments.InputFormat = FormatOf(arguments.Input);
-  arguments.OutputFormat = FormatOf(arguments.Output);
-  if (!arguments.Constraints.empty())
-  {
-    arguments.ConstraintsFormat = FormatOf(arguments.Constraints);
-  }
+  CheckFormats(arguments);
   const bool holdsCellData =
     arguments.OutputFormat != MeshFormat::STL && arguments.OutputFormat != MeshFormat::OBJ;
   if (arguments.Quality && !holdsCellData)
@@ -208,12 +270,12 @@ void CheckTogether(Arguments& arguments)
     throw CommandError(
       ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk, .vtp or .ply file");
   }
-  // The input may also be the output, or its own constraints.
-  const std::string files[] = { arguments.Input, arguments.Constraints, arguments.Output,
-    arguments.Statistics, arguments.Report };
+  // What is read may be one file. The input may also be the output.
+  const std::string files[] = { arguments.Input, arguments.Constraints, arguments.Outline,
+    arguments.Holes, arguments.Output, arguments.Statistics, arguments.Report };
   for (std::size_t i = 0; i < std::size(files); ++i)
   {
-    for (std::size_t j = i == 0 ? 3 : i + 1; j < std::size(files); ++j)
+    for (std::size_t j = i == 0 ? 5 : std::max<std::size_t>(i + 1, 4); j < std::size(files); ++j)
     {
       CheckDistinct(files[i], files[j]);
     }
@@ -224,8 +286,10 @@ void CheckTogether(Arguments& arguments)
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
 {
-  CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips. Points never move.\n"
-               "Files: .vtk .vtp .ply .stl .obj, by extension.",
+  CLI::App app(
+    "Turns a triangle mesh into a Delaunay mesh by edge flips, or makes one from points.\n"
+    "Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points also\n"
+    ".xyz .csv .txt.",
     "delaunay-flip");
   app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
   app.footer(
@@ -233,7 +297,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
-  app.add_option("INPUT", arguments.Input, "The mesh to read: .vtk, .vtp, .ply, .stl or .obj")
+  app.add_option("INPUT", arguments.Input, "The mesh or the points to read")
     ->required()
     ->check(FileName());
   app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")
@@ -242,6 +306,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   AddMethodOptions(app, arguments.Flip);
   AddConstraintOptions(app, arguments);
   AddRunOptions(app, arguments);
+  AddPointOptions(app, arguments);
   try
   {
     app.parse(argc, argv);

@@ -3,8 +3,8 @@
 #ifndef DELAUNAYFLIP_ARGUMENTS_H
 #define DELAUNAYFLIP_ARGUMENTS_H
 
-#include "FlipOptions.h"
 #include "MeshFiles.h"
+#include "PointTriangulation.h"
 
 #include <optional>
 #include <string>
@@ -21,11 +21,14 @@ struct Arguments
   std::string Output;
   MeshFormat InputFormat = MeshFormat::VTK;
   MeshFormat OutputFormat = MeshFormat::VTK;
-  FlipOptions Flip;
+  PointOptions Flip;
+  bool FromPoints = false;
+  bool InBestPlane = false; ///< Of points: else in x and y.
+  std::string Outline; ///< Of points: a file; empty: none.
+  std::string Holes;
   bool IgnoreLines = false;
   bool InsertLines = false;
   std::string Constraints; ///< File; empty: none.
-  MeshFormat ConstraintsFormat = MeshFormat::VTK;
   bool InsertConstraints = true;
   std::string RegionArray; ///< Empty: none.
   std::string Devices; ///< GPUs that share the mesh; empty: Flip.Device.

@@ -168,10 +168,11 @@ ProgressBar::ProgressBar(bool wanted, MeshFormat input, MeshFormat output)
 {
   // Times per triangle, by format, relative to building the edges of a badly triangulated terrain
   // and flipping them. Writing includes checking the file.
-  static const std::map<MeshFormat, std::pair<double, double>> costs = { { MeshFormat::VTK,
-                                                                           { 0.5, 1.6 } },
-    { MeshFormat::VTP, { 1.8, 3.2 } }, { MeshFormat::PLY, { 0.8, 2.0 } },
-    { MeshFormat::STL, { 3.5, 1.6 } }, { MeshFormat::OBJ, { 1.4, 3.6 } } };
+  static const std::map<MeshFormat, std::pair<double, double>> costs = {
+    { MeshFormat::VTK, { 0.5, 1.6 } }, { MeshFormat::VTP, { 1.8, 3.2 } },
+    { MeshFormat::PLY, { 0.8, 2.0 } }, { MeshFormat::STL, { 3.5, 1.6 } },
+    { MeshFormat::OBJ, { 1.4, 3.6 } }, { MeshFormat::Points, { 0.8, 0.0 } }
+  };
   const double read = costs.at(input).first;
   const double flipped = read + 4.0;
   const double all = flipped + costs.at(output).second;

@@ -5,23 +5,33 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
+#include "Formats.h"
 #include "OutputFiles.h"
 #include "Report.h"
 
+#include <vtkAppendPolyData.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
 #include <vtkDelaunayFlip.h>
+#include <vtkDelaunayFlipPoints.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPolygon.h>
 #include <vtkSMPTools.h>
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <regex>
 #include <sstream>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -70,18 +80,23 @@ void KeepVTKFromThreads()
   }
 }
 
-void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
+void ConfigureRun(vtkDelaunayFlipAlgorithm* filter, const FlipOptions& flip)
 {
-  const FlipOptions& flip = arguments.Flip;
-  filter->SetGeometry(static_cast<int>(flip.Geometry));
-  filter->SetCriterion(static_cast<int>(flip.Criterion));
-  filter->SetTieRule(static_cast<int>(flip.TieRule));
   filter->SetBackend(static_cast<int>(flip.Backend));
-  filter->SetTolerance(flip.Tolerance);
-  filter->SetFeatureAngle(flip.FeatureAngle);
   filter->SetMaximumIterations(flip.MaximumIterations);
   filter->SetNumberOfThreads(flip.NumberOfThreads);
   filter->SetDeviceId(flip.Device);
+}
+
+void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
+{
+  const FlipOptions& flip = arguments.Flip;
+  ConfigureRun(filter, flip);
+  filter->SetGeometry(static_cast<int>(flip.Geometry));
+  filter->SetCriterion(static_cast<int>(flip.Criterion));
+  filter->SetTieRule(static_cast<int>(flip.TieRule));
+  filter->SetTolerance(flip.Tolerance);
+  filter->SetFeatureAngle(flip.FeatureAngle);
   filter->SetDevices(arguments.Devices.c_str());
   filter->SetNumberOfPieces(flip.NumberOfPieces);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
@@ -89,6 +104,19 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetInsertConstraints(arguments.InsertConstraints);
   filter->SetRegionArray(arguments.RegionArray.c_str());
   filter->SetGenerateQuality(arguments.Quality);
+}
+
+void Configure(vtkDelaunayFlipPoints* filter, const Arguments& arguments)
+{
+  const PointOptions& points = arguments.Flip;
+  ConfigureRun(filter, points);
+  filter->SetProjection(arguments.InBestPlane);
+  filter->SetLinesAsSegments(arguments.InsertLines);
+  filter->SetSplitCrossings(points.SplitCrossings);
+  filter->SetAlpha(points.Alpha);
+  filter->SetLongestEdge(points.LongestEdge);
+  filter->SetPointTolerance(points.PointTolerance);
+  filter->SetOutlineToOrientation();
 }
 
 /// The exit code for a vtkDelaunayFlip::FailureType.
@@ -116,12 +144,78 @@ std::string WithOptions(const std::string& message)
 
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
 {
-  auto* filter = vtkDelaunayFlip::SafeDownCast(caller);
+  auto* filter = vtkDelaunayFlipAlgorithm::SafeDownCast(caller);
   const vtkIdType iterations = filter->GetNumberOfIterations();
   static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
     iterations == 0 ? "finding edges"
                     : "iteration " + std::to_string(iterations) + ", " +
         std::to_string(filter->GetTotalFlips()) + " flips");
+}
+
+enum class SegmentKind
+{
+  Breaklines,
+  Outline,
+  Holes
+};
+
+/// The lines and polygons of `mesh`, with all its points, as vtkDelaunayFlipPoints takes them:
+/// breaklines as lines, and rings as polygons. Seen from above, an outline turns counter-clockwise,
+/// and holes clockwise.
+vtkSmartPointer<vtkPolyData> MakeSegments(
+  vtkPolyData* mesh, const std::string& path, SegmentKind kind)
+{
+  const vtkNew<vtkCellArray> segments;
+  for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
+  {
+    const bool areLines = cells == mesh->GetLines();
+    vtkIdType cell = 0;
+    const auto add = [&](vtkIdType size, const vtkIdType* points)
+    {
+      const auto require = [&](bool isTrue, const char* problem)
+      {
+        if (!isTrue)
+        {
+          throw CommandError(ExitCode::BadFile,
+            path + (areLines ? ": line " : ": polygon ") + std::to_string(cell) + problem);
+        }
+      };
+      std::vector<vtkIdType> ids(points, points + size);
+      for (const vtkIdType id : ids)
+      {
+        require(id >= 0 && id < mesh->GetNumberOfPoints(), " has a point that is not in the file");
+      }
+      if (kind != SegmentKind::Breaklines)
+      {
+        const char* const few = " has fewer than three points, so it is no ring";
+        require(size > 2, few);
+        std::array<double, 3> first, last, normal;
+        mesh->GetPoint(ids.front(), first.data());
+        mesh->GetPoint(ids.back(), last.data());
+        require(first == last || !areLines, " does not end where it begins, so it is no ring");
+        ids.resize(ids.size() - (first == last ? 1 : 0));
+        require(ids.size() > 2, few);
+        vtkPolygon::ComputeNormal(
+          mesh->GetPoints(), static_cast<int>(ids.size()), ids.data(), normal.data());
+        require(normal[2] != 0.0, " has no area as seen from above, so it is no ring");
+        const bool isRight = (normal[2] > 0.0) == (kind == SegmentKind::Outline);
+        std::reverse(ids.begin(), isRight ? ids.begin() : ids.end());
+      }
+      else if (!areLines && size > 0)
+      {
+        ids.push_back(ids.front());
+      }
+      segments->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+      ++cell;
+    };
+    ForEachCell(cells, add);
+  }
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->SetPoints(mesh->GetPoints());
+  made->GetPointData()->ShallowCopy(mesh->GetPointData());
+  const bool areLines = kind == SegmentKind::Breaklines;
+  (areLines ? made->SetLines(segments) : made->SetPolys(segments));
+  return made;
 }
 
 /// The work from reading to the report, one function per step.
@@ -138,32 +232,48 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    this->Input = this->ReadFile(this->Settings.Input, this->Settings.InputFormat);
-    if (!this->Settings.Constraints.empty())
+    this->Input = this->ReadFile(this->Settings.Input);
+    if (this->Settings.FromPoints)
     {
-      this->Constraints =
-        this->ReadFile(this->Settings.Constraints, this->Settings.ConstraintsFormat);
+      this->ReadSegments();
+    }
+    else if (!this->Settings.Constraints.empty())
+    {
+      this->Segments = this->ReadFile(this->Settings.Constraints);
     }
     this->Run.ReadSeconds = SecondsSince(start);
-    if (this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() == 0)
+    const bool hasTriangles =
+      this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
+    if (hasTriangles == this->Settings.FromPoints)
     {
-      this->Note(this->Settings.Input + ": contains no triangles");
+      this->Note(this->Settings.Input +
+        (hasTriangles ? ": its triangles are not used, only its points"
+                      : ": contains no triangles; --from-points makes them"));
     }
   }
 
   void Flip()
   {
+    if (this->Settings.FromPoints)
+    {
+      const auto filter = vtkSmartPointer<vtkDelaunayFlipPoints>::New();
+      filter->SetSegmentsData(this->Segments);
+      Configure(filter, this->Settings);
+      this->Filter = filter;
+    }
+    else
+    {
+      const auto filter = vtkSmartPointer<vtkDelaunayFlip>::New();
+      filter->SetConstraintsData(this->Segments);
+      Configure(filter, this->Settings);
+      this->Filter = filter;
+    }
     vtkNew<vtkCallbackCommand> progress;
     progress->SetCallback(ShowProgress);
     progress->SetClientData(&this->Bar);
-    Configure(this->Filter, this->Settings);
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
     this->Filter->SetInputData(this->Input);
-    if (this->Constraints)
-    {
-      this->Filter->SetConstraintsData(this->Constraints);
-    }
     this->Filter->Update();
     this->Bar.Clear();
     for (const std::string& warning : this->Messages.TakeWarnings())
@@ -187,7 +297,8 @@ public:
       [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
-    const std::string losses = DescribeLosses(this->Input, this->Settings.OutputFormat);
+    mesh->SetFieldData(this->Input->GetFieldData()); // what flips add is in reports
+    const std::string losses = DescribeLosses(mesh, this->Settings.OutputFormat);
     if (!losses.empty())
     {
       this->Note(this->Settings.Output + ": this file format cannot store: " + losses);
@@ -221,16 +332,50 @@ public:
   }
 
 private:
-  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, MeshFormat format)
+  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path)
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
-    const FileMesh file = ReadMesh(path, format, this->Messages);
+    const FileMesh file = ReadMesh(path, FormatOf(path), this->Messages);
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
     {
       this->Warn(warning);
     }
     return file.Mesh;
+  }
+
+  /// Of points: breaklines and rings, as one mesh.
+  void ReadSegments()
+  {
+    const vtkNew<vtkAppendPolyData> all;
+    int mostArrays = 0;
+    const Arguments& files = this->Settings;
+    for (const auto& [kind, path] :
+      std::map<SegmentKind, std::string>{ { SegmentKind::Breaklines, files.Constraints },
+        { SegmentKind::Outline, files.Outline }, { SegmentKind::Holes, files.Holes } })
+    {
+      if (path.empty())
+      {
+        continue;
+      }
+      const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path);
+      if (mesh->GetNumberOfLines() + mesh->GetNumberOfPolys() == 0)
+      {
+        throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
+      }
+      all->AddInputData(MakeSegments(mesh, path, kind));
+      mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
+    }
+    if (all->GetNumberOfInputConnections(0) > 0)
+    {
+      all->Update();
+      this->Segments = all->GetOutput();
+      if (this->Segments->GetPointData()->GetNumberOfArrays() < mostArrays)
+      {
+        this->Warn("of the point data of breaklines, outline and holes, only arrays that all of "
+                   "these files have are kept");
+      }
+    }
   }
 
   void Warn(const std::string& warning)
@@ -253,20 +398,21 @@ private:
     if (!errors.empty())
     {
       const int failure = this->Filter->GetFailure();
-      const bool isNamed = failure != vtkDelaunayFlip::FAILURE_OTHER;
-      throw CommandError(ToExitCode(failure),
-        this->Settings.Input + (isNamed ? ": " : ": cannot be flipped: ") + WithOptions(errors));
+      const char* const work = failure != vtkDelaunayFlip::FAILURE_OTHER ? ": "
+        : this->Settings.FromPoints ? ": cannot be triangulated: "
+                                    : ": cannot be flipped: ";
+      throw CommandError(ToExitCode(failure), this->Settings.Input + work + WithOptions(errors));
     }
   }
 
   void TakeReport()
   {
+    this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
+    report.Points = this->Filter->GetOutput()->GetNumberOfPoints(); // with those that were added
     if (report.Triangles == 0)
     {
-      // The filter had nothing to do.
-      report.Points = this->Input->GetNumberOfPoints();
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
     }
@@ -277,8 +423,8 @@ private:
   VTKMessages Messages;
   ProgressBar Bar;
   vtkSmartPointer<vtkPolyData> Input;
-  vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
-  vtkNew<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
+  vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   RunReport Run;
 };
 

@@ -232,13 +232,16 @@ MeshFormat FormatOf(const std::string& path)
 {
   static const std::map<std::string, MeshFormat> formats = { { ".vtk", MeshFormat::VTK },
     { ".vtp", MeshFormat::VTP }, { ".ply", MeshFormat::PLY }, { ".stl", MeshFormat::STL },
-    { ".obj", MeshFormat::OBJ } };
+    { ".obj", MeshFormat::OBJ }, { ".xyz", MeshFormat::Points }, { ".csv", MeshFormat::Points },
+    { ".txt", MeshFormat::Points } };
   const auto found = formats.find(
     vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path)));
   if (found == formats.end())
   {
     throw CommandError(ExitCode::WrongUsage,
-      path + ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj");
+      path +
+        ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
+        ".xyz, .csv and .txt");
   }
   return found->second;
 }
@@ -253,7 +256,8 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
       : format == MeshFormat::VTP             ? ReadXml(file, messages)
       : format == MeshFormat::PLY             ? ReadPly(file)
       : format == MeshFormat::STL             ? ReadStl(file)
-                                              : ReadObj(file);
+      : format == MeshFormat::OBJ             ? ReadObj(file)
+                                              : ReadPoints(file);
     RequireValidIds(read.Mesh, file);
     return read;
   }
@@ -291,6 +295,8 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VT
       case MeshFormat::OBJ:
         WriteObj(mesh, path);
         break;
+      case MeshFormat::Points:
+        return; // the command line does not allow it
     }
     const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format, messages).Mesh;
     if (IsEnded(path, format) && mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&

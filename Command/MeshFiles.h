@@ -25,7 +25,8 @@ enum class MeshFormat
   VTP, ///< VTK's XML .vtp
   PLY,
   STL,
-  OBJ
+  OBJ,
+  Points ///< .xyz, .csv or .txt: points alone; cannot be written.
 };
 
 /// The format of `path`, from its extension in upper or lower case.

@@ -25,6 +25,15 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
   json["constraint_flips"] = flip.ConstraintFlips;
+  if (run.IsFromPoints)
+  {
+    const PointCounts& counts = flip.FromPoints;
+    json["from_points"] = { { "not_finite", counts.NotFinite }, { "repeated", counts.Repeated },
+      { "too_near", counts.TooNear }, { "segment_edges", counts.SegmentEdges },
+      { "refused_segments", counts.RefusedSegments }, { "crossings", counts.Crossings },
+      { "largest_shift", counts.LargestShift }, { "outside_triangles", counts.OutsideTriangles },
+      { "large_triangles", counts.LargeTriangles } };
+  }
   json["geometry"] = ToString(flip.GeometryUsed);
   json["geometry_reason"] = flip.GeometryReason;
   json["tolerance"] = flip.Tolerance;
@@ -130,6 +139,33 @@ std::string DescribeConstraints(const FlipReport& flip)
   return text + ", " + Grouped(flip.UnmatchedConstraints) + " not in the mesh\n";
 }
 
+/// The lines of the summary that only a mesh from points has.
+std::string DescribePoints(const FlipReport& flip)
+{
+  const PointCounts& counts = flip.FromPoints;
+  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
+  { return count > 0 ? text + ", " + Grouped(count) + " " + what : text; };
+  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
+  std::string points = Grouped(flip.Points - unused) + " used";
+  points = add(points, counts.Repeated, "repeated");
+  points = add(points, counts.TooNear, "too near to another");
+  points = add(points, counts.NotFinite, "not finite");
+  std::string text = "points          " + points + '\n';
+  if (counts.SegmentEdges + counts.RefusedSegments > 0)
+  {
+    std::string segments = Count(counts.SegmentEdges, "edge");
+    segments = add(segments, counts.RefusedSegments, "refused");
+    text += "segments        " + segments +
+      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
+  }
+  if (counts.OutsideTriangles + counts.LargeTriangles > 0)
+  {
+    text += "removed         " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
+      Grouped(counts.LargeTriangles) + " too large\n";
+  }
+  return text;
+}
+
 std::string Seconds(double seconds)
 {
   std::ostringstream text;
@@ -144,14 +180,22 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
   const FlipReport& flip = run.Flip;
   stream << "mesh            " << Count(flip.Points, "point") << ", "
          << Count(flip.Triangles, "triangle") << ", " << Count(flip.Edges.Edges, "edge") << " ("
-         << Grouped(flip.Edges.Fixed) << " fixed)\n"
-         << "geometry        " << ToString(flip.GeometryUsed)
-         << (flip.GeometryReason.empty() ? "" : ": ") << flip.GeometryReason << '\n'
-         << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
-         << " -> " << DescribeLeft(flip) << '\n'
-         << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
-         << Degrees(flip.MinimumAngleAfter) << " degrees\n"
-         << "flips           " << Grouped(flip.TotalFlips) << " in "
+         << Grouped(flip.Edges.Fixed) << " fixed)\n";
+  if (run.IsFromPoints)
+  {
+    stream << DescribePoints(flip) << "smallest angle  " << Degrees(flip.MinimumAngleAfter)
+           << " degrees\n";
+  }
+  else
+  {
+    stream << "geometry        " << ToString(flip.GeometryUsed)
+           << (flip.GeometryReason.empty() ? "" : ": ") << flip.GeometryReason << '\n'
+           << DescribeConstraints(flip) << "bad edges       " << Grouped(flip.NonDelaunayBefore)
+           << " -> " << DescribeLeft(flip) << '\n'
+           << "smallest angle  " << Degrees(flip.MinimumAngleBefore) << " -> "
+           << Degrees(flip.MinimumAngleAfter) << " degrees\n";
+  }
+  stream << "flips           " << Grouped(flip.TotalFlips) << " in "
          << Count(static_cast<std::int64_t>(flip.Iterations.size()), "iteration") << ", "
          << ToString(flip.StopReason) << '\n'
          << "time            read " << Seconds(run.ReadSeconds) << ", edges "

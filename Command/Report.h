@@ -18,6 +18,7 @@ namespace delaunayflip
 /// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
+  bool IsFromPoints = false;
   FlipReport Flip;
   double ReadSeconds = 0.0;
   double WriteSeconds = 0.0;

@@ -47,7 +47,8 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
     case Phase::Reading:
       return arguments.Input + ": cannot be read: ";
     case Phase::Flipping:
-      return arguments.Input + ": cannot be flipped: ";
+      return arguments.Input + ": cannot be " +
+        (arguments.FromPoints ? "triangulated: " : "flipped: ");
     default:
       return arguments.Output + ": cannot be written: ";
   }

@@ -8,6 +8,7 @@
 #include "FlipError.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "PointTriangulation.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -54,20 +55,21 @@ public:
   FlipSession(
     const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
 
-  /// Triangulates points in the plane: a session that begins with a valid triangulation of all
-  /// places, which flips make Delaunay. Of the options, Geometry, Criterion and TieRule are not
-  /// used: the geometry is PlanarXY, and ties are canonical, so that the triangles depend on the
-  /// points alone, not on their order. All turn counter-clockwise and have an area; n places with h
-  /// on the hull have 2 n - 2 - h triangles. Of points at equal places that with the lowest id is
-  /// used; points with NaN or infinite coordinates are not. GetReport().Triangles is known after
-  /// the constructor; it is 0 if fewer than three places are given or all lie on one line.
+  /// Triangulates points in the plane (PointTriangulation.h): a session that begins with a valid
+  /// triangulation of all places, which flips make Delaunay. When no bad edge or no iteration is
+  /// left, the segments are inserted, and flips go on around them. In the end triangles are
+  /// removed as the options say. So the number of triangles, GetReport().Triangles, is that of the
+  /// result once there is nothing more to do. It is 0 if fewer than three places are given or all
+  /// lie on one line. If an observer aborts, segments that are not inserted yet are missing, and
+  /// nothing is removed.
   ///
   /// If the flips would be a long chain, as for points along curves, the host takes over by divide
-  /// and conquer. The arrays must stay unchanged as above.
-  /// @throws MeshTooLarge for more than 357 million points; InvalidOptions, BackendUnavailable,
-  /// std::bad_alloc.
+  /// and conquer. The arrays must stay unchanged as long as the session exists.
+  /// @throws MeshTooLarge for more than 357 million points; InvalidMesh if a segment names a point
+  /// that does not exist, or (also from Advance) if a ring is not closed or one of its segments is
+  /// refused; InvalidOptions, BackendUnavailable, std::bad_alloc.
   FlipSession(
-    const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress = {});
+    const PointInput& points, const PointOptions& options, const ProgressObserver& progress = {});
   ~FlipSession();
   FlipSession(FlipSession&&) noexcept;
   FlipSession& operator=(FlipSession&&) noexcept;
@@ -97,6 +99,14 @@ public:
   /// used at its place, or -1 for one that is not finite.
   void StoreUsedPoints(std::int64_t* ids) const;
 
+  /// Of a session from points: the points made where segments cross; empty without
+  /// PointOptions::SplitCrossings.
+  const std::vector<AddedPoint>& GetAddedPoints() const;
+
+  /// Of a session from points: the edges that segments have become, as pairs of point ids, in the
+  /// order and direction of the segments. Empty until they are inserted.
+  std::vector<std::int64_t> ListSegmentEdges() const;
+
   /// Writes, for every triangle slot, in how many flips it took part: GetReport().Triangles
   /// numbers.
   void StoreFlipCounts(std::int32_t* counts) const;
@@ -107,6 +117,7 @@ public:
   /// @throws InvalidOptions if the array is not in the memory of a GPU; BackendUnavailable.
   void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream) const;
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const;
+  void StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const;
 
 private:
   friend class DrawnTriangles; // of DeviceColors.h

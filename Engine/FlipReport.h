@@ -5,6 +5,7 @@
 
 #include "EngineExport.h"
 #include "FlipOptions.h"
+#include "PointTriangulation.h"
 
 #include <cstdint>
 #include <functional>
@@ -104,6 +105,8 @@ struct FlipReport
 
   StopReasonKind StopReason = StopReasonKind::NotStarted;
   bool Converged() const { return this->StopReason == StopReasonKind::Converged; }
+
+  PointCounts FromPoints; ///< Of a session from points.
 
   double BuildSeconds = 0.0; ///< From the caller's arrays to the edge mesh.
   double FlipSeconds = 0.0; ///< The loop.

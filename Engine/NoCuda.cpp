@@ -30,7 +30,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(const DeviceMesh&, const FlipOptions&, co
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(
-  const PlaneArray&, const FlipOptions&, bool, const BuildProgress&)
+  const PointInput&, const FlipOptions&, bool, const BuildProgress&)
 {
   throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
 }

@@ -181,6 +181,22 @@ vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tu
   return array;
 }
 
+vtkSmartPointer<vtkAbstractArray> ExtendArray(
+  vtkAbstractArray* array, vtkIdType count, vtkAbstractArray* others, vtkIdList* places)
+{
+  auto made = MakeZeros(array, count + places->GetNumberOfIds());
+  if (made)
+  {
+    made->CopyInformation(array->GetInformation());
+    made->InsertTuples(0, count, 0, array);
+  }
+  if (made && others)
+  {
+    made->InsertTuples(MakeRange(count, places->GetNumberOfIds()), places, others);
+  }
+  return made;
+}
+
 bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b)
 {
   return a->GetDataType() == b->GetDataType() &&

@@ -112,6 +112,12 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdT
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
   vtkAbstractArray* like, vtkIdType tuples);
 
+/// An array of the same kind: its first `count` tuples, then tuples of another array.
+/// @param others the array whose tuples `places` follow; null: as many zeros or empty texts.
+/// @returns null if there is no such kind.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> ExtendArray(
+  vtkAbstractArray* array, vtkIdType count, vtkAbstractArray* others, vtkIdList* places);
+
 /// Whether values may be copied from one to the other.
 DELAUNAYFLIP_EXPORT bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b);
 

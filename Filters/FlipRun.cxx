@@ -38,6 +38,20 @@ std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
   return stamps;
 }
 
+UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
+{
+  vtkPolyData* mesh = request.Input;
+  const bool hasPolygons = mesh->GetNumberOfStrips() > 0 ||
+    mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
+  const bool hasConstraints =
+    request.Constraints || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
+  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
+             request.WantsAngles },
+    request.Progress };
+}
+
+}
+
 vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
 {
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
@@ -53,20 +67,6 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
     mesh->SetPoints(copy);
   }
   return mesh;
-}
-
-UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
-{
-  vtkPolyData* mesh = request.Input;
-  const bool hasPolygons = mesh->GetNumberOfStrips() > 0 ||
-    mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
-  const bool hasConstraints =
-    request.Constraints || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
-  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
-             request.WantsAngles },
-    request.Progress };
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -151,27 +151,28 @@ TriangleMesh FlipRun::GetMesh(const Source& input, const Start& start)
   return mesh;
 }
 
-bool FlipRun::ContinueOrStart(std::unique_ptr<FlipRun>& run, const FlipRequest& request)
+bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest& request)
 {
-  const bool fits = run && run->Asked.Options == request.Options &&
-    run->Asked.Settings == request.Settings && run->Input->Edges == StampEdges(request);
-  if (fits && run->Input->Points == StampPoints(request.Input))
+  auto* last = static_cast<FlipRun*>(run.get());
+  const bool fits = last && last->Asked.Options == request.Options &&
+    last->Asked.Settings == request.Settings && last->Input->Edges == StampEdges(request);
+  if (fits && last->Input->Points == StampPoints(request.Input))
   {
-    if (run->Input->Time != request.Input->GetMTime())
+    if (last->Input->Time != request.Input->GetMTime())
     {
-      run->Input->Time = request.Input->GetMTime();
-      run->Input->Current = ShareMesh(request.Input);
+      last->Input->Time = request.Input->GetMTime();
+      last->Input->Current = ShareMesh(request.Input);
     }
-    run->Asked.WantsFlipCounts = request.WantsFlipCounts;
-    run->Asked.WantsAngles = request.WantsAngles;
-    run->Stopped = false;
+    last->Asked.WantsFlipCounts = request.WantsFlipCounts;
+    last->Asked.WantsAngles = request.WantsAngles;
+    last->Stopped = false;
     return true;
   }
   const UpdatePlan plan = MakePlan(request, fits);
   Start start;
   if (fits)
   {
-    start = run->GetEnd(plan.For(UpdatePlan::FixedEdges));
+    start = last->GetEnd(plan.For(UpdatePlan::FixedEdges));
   }
   else
   {

@@ -29,7 +29,35 @@ struct FlipRequest
 
 /// Flips the mesh of an input: all at once or, in a live update, a few iterations at a time, with
 /// an output after each step.
-class FlipRun
+class UpdateRun
+{
+public:
+  virtual ~UpdateRun() = default;
+
+  virtual FlipSession& GetSession() = 0;
+
+  /// Whether the observer of this update stopped the run before its first iteration.
+  virtual bool IsStopped() const = 0;
+
+  /// What to tell of the session's progress to.
+  virtual ProgressObserver GetProgress() const = 0;
+
+  /// What has happened so far. Its defects name cells of the input.
+  virtual FlipReport GetReport() const = 0;
+
+  /// Writes the mesh as it is now.
+  /// @returns false when the observer stopped it; then there are no angles.
+  virtual bool Store(vtkPolyData* output) const = 0;
+
+  /// What the last warning said.
+  std::string Warning;
+};
+
+/// A shallow copy, but with points of its own.
+vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input);
+
+/// The run of a vtkDelaunayFlip.
+class FlipRun : public UpdateRun
 {
 public:
   FlipRun(const FlipRun&) = delete;
@@ -42,25 +70,14 @@ public:
   /// @returns whether it stayed itself.
   /// @throws as PolyDataBridge's and FlipSession's constructors. After RunAborted, `run` is what it
   /// was, or null.
-  static bool ContinueOrStart(std::unique_ptr<FlipRun>& run, const FlipRequest& request);
+  /// @param run null, or a FlipRun.
+  static bool ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest& request);
 
-  FlipSession& GetSession() { return this->Session; }
-
-  /// Whether the observer of this update stopped the run before its first iteration.
-  bool IsStopped() const { return this->Stopped; }
-
-  /// What to tell of the session's progress to.
-  ProgressObserver GetProgress() const { return this->Plan.For(UpdatePlan::Session); }
-
-  /// What has happened so far. Its defects name cells of the input.
-  FlipReport GetReport() const;
-
-  /// Writes the mesh as it is now.
-  /// @returns false when the observer stopped it; then there are no angles.
-  bool Store(vtkPolyData* output) const;
-
-  /// What the last warning said.
-  std::string Warning;
+  FlipSession& GetSession() override { return this->Session; }
+  bool IsStopped() const override { return this->Stopped; }
+  ProgressObserver GetProgress() const override { return this->Plan.For(UpdatePlan::Session); }
+  FlipReport GetReport() const override;
+  bool Store(vtkPolyData* output) const override;
 
 private:
   /// Modification times, of which no two objects ever have the same one, and places of arrays.

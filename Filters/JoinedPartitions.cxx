@@ -531,22 +531,16 @@ void JoinedPartitions::DivideData(vtkDataSetAttributes* own, vtkIdType count,
   vtkDataSetAttributes* joined = areCells
     ? static_cast<vtkDataSetAttributes*>(this->Mesh->GetCellData())
     : this->Mesh->GetPointData();
-  const auto targets = MakeRange(count, places->GetNumberOfIds());
   for (int i = 0; i < own->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = own->GetAbstractArray(i);
     vtkAbstractArray* source = flipped->GetAbstractArray(FindName(own, i, joined).c_str());
-    const auto made = source ? MakeZeros(array, count + places->GetNumberOfIds()) : nullptr;
-    if (!made || array->GetNumberOfTuples() < count)
+    const bool isWhole = source && array->GetNumberOfTuples() >= count;
+    const auto made = isWhole ? ExtendArray(array, count, source, places) : nullptr;
+    if (!made)
     {
       continue;
     }
-    made->CopyInformation(array->GetInformation());
-    if (!areCells)
-    {
-      made->InsertTuples(0, count, 0, array);
-    }
-    made->InsertTuples(targets, places, source);
     const int index = result->AddArray(made);
     const int attribute = own->IsArrayAnAttribute(i);
     if (attribute >= 0)
@@ -559,9 +553,7 @@ void JoinedPartitions::DivideData(vtkDataSetAttributes* own, vtkIdType count,
     vtkAbstractArray* array = flipped->GetAbstractArray(i);
     if (array->GetName() && !joined->HasArray(array->GetName()))
     {
-      const auto made = MakeZeros(array, places->GetNumberOfIds());
-      made->InsertTuples(targets, places, array);
-      result->AddArray(made);
+      result->AddArray(ExtendArray(array, 0, array, places));
     }
   }
 }

@@ -30,14 +30,9 @@ vtkDataObjectTree* GetTree(vtkDataObject* data)
   return vtkUniformGridAMR::SafeDownCast(data) ? nullptr : vtkDataObjectTree::SafeDownCast(data);
 }
 
-double CountCells(vtkDataObject* data)
-{
-  return static_cast<double>(data->GetNumberOfElements(vtkDataObject::CELL));
-}
-
 /// @param number the flat index of the tree, and then of its last node.
-void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigned int& number,
-  std::vector<MeshBlock>& blocks)
+void AddLeaves(vtkDataObjectTree* tree, int elements, std::vector<std::int64_t> place,
+  unsigned int& number, std::vector<MeshBlock>& blocks)
 {
   const bool arePartitions = vtkPartitionedDataSet::SafeDownCast(tree) != nullptr;
   place.push_back(0);
@@ -47,16 +42,17 @@ void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigne
   child->SkipEmptyNodesOff();
   std::int64_t i = 0;
   constexpr std::size_t None = SIZE_MAX;
-  std::size_t joined = None; // the block of the partitions that have cells
+  std::size_t joined = None; // the block of the partitions that are not empty
   for (child->InitTraversal(); !child->IsDoneWithTraversal(); child->GoToNextItem(), ++i)
   {
     ++number;
     vtkDataObject* data = child->GetCurrentDataObject();
-    const bool isJoined = arePartitions && data && CountCells(data) > 0.0;
+    const double size = data ? static_cast<double>(data->GetNumberOfElements(elements)) : 0.0;
+    const bool isJoined = arePartitions && size > 0.0;
     place.back() = isJoined ? 0 : arePartitions ? -1 - i : i;
     if (vtkDataObjectTree* inner = GetTree(data))
     {
-      AddLeaves(inner, place, number, blocks);
+      AddLeaves(inner, elements, place, number, blocks);
     }
     else if (data)
     {
@@ -70,7 +66,7 @@ void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigne
         blocks.push_back({ place, name, 0.0, false, {} });
       }
       MeshBlock& block = isJoined ? blocks[joined] : blocks.back();
-      block.Cells += CountCells(data);
+      block.Size += size;
       block.Leaves.push_back({ data, number, name, nullptr });
     }
   }
@@ -78,18 +74,19 @@ void AddLeaves(vtkDataObjectTree* tree, std::vector<std::int64_t> place, unsigne
 
 }
 
-std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input)
+std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
 {
   std::vector<MeshBlock> blocks;
   unsigned int number = 0;
   if (vtkDataObjectTree* tree = GetTree(input))
   {
-    AddLeaves(tree, {}, number, blocks);
+    AddLeaves(tree, elements, {}, number, blocks);
   }
   else
   {
     std::vector<std::int64_t> place(vtkCompositeDataSet::SafeDownCast(input) ? 1 : 0);
-    blocks.push_back({ place, "", CountCells(input), false, { { input, number, "", nullptr } } });
+    const auto size = static_cast<double>(input->GetNumberOfElements(elements));
+    blocks.push_back({ place, "", size, false, { { input, number, "", nullptr } } });
   }
   return blocks;
 }
@@ -155,7 +152,7 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
       notes.push_back({ this->Block.Leaves[this->Leaves[i]].Name, DescribeDefects(defects) });
     }
   }
-  if (this->Leaves.size() < this->Block.Leaves.size() && this->Block.Cells > 0.0)
+  if (this->Leaves.size() < this->Block.Leaves.size() && this->Block.Size > 0.0)
   {
     notes.push_back({ this->Block.Name, "not a surface, passed unchanged" });
   }

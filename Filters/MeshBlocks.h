@@ -33,16 +33,18 @@ struct BlockLeaf
 struct MeshBlock
 {
   /// Where it is in composite data: the numbers of children, from the root on. The partitions of a
-  /// dataset that have cells are at one place, whatever their numbers. Empty if it is all.
+  /// dataset that are not empty are at one place, whatever their numbers. Empty if it is all.
   std::vector<std::int64_t> Place;
   std::string Name; ///< In messages.
-  double Cells = 0.0;
+  double Size = 0.0; ///< How many cells, or points, it has.
   bool IsLive = false; ///< Flipped a few iterations at a time.
   std::vector<BlockLeaf> Leaves;
 };
 
 /// The blocks of an input, in the order of their first leaves.
-DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input);
+/// @param elements what they are measured by: vtkDataObject::CELL or POINT. Partitions without any
+/// are blocks of their own.
+DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
 /// Gives `output`, which is of the same type, the structure of `input` and the results of the
 /// blocks' leaves.

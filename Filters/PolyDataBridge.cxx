@@ -84,6 +84,44 @@ struct VisitTuples
   }
 };
 
+/// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
+/// values of ArrayT. Offsets are not shared with the input, whose cells may grow in place later:
+/// the output would then have more offsets than connectivity.
+template <typename ArrayT, typename Id>
+vtkSmartPointer<vtkCellArray> FillTriangles(const FlipSession& session, vtkIdType count)
+{
+  using Value = typename ArrayT::ValueType;
+  vtkNew<ArrayT> offsets, connectivity;
+  offsets->SetNumberOfTuples(count + 1);
+  Value* values = offsets->GetPointer(0);
+  vtkSMPTools::For(0, count + 1,
+    [values](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        values[i] = static_cast<Value>(3 * i);
+      }
+    });
+  connectivity->SetNumberOfTuples(3 * count);
+#if defined(__linux__)
+  // Hints to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated and
+  // cleared on first use: an update of 5 M points on a GPU takes 56 ms instead of 63.
+  constexpr std::uintptr_t HugePage = std::uintptr_t(2) << 20;
+  const auto begin = reinterpret_cast<std::uintptr_t>(connectivity->GetPointer(0));
+  const std::uintptr_t first = (begin + HugePage - 1) / HugePage * HugePage;
+  const std::uintptr_t end = begin + 3 * count * sizeof(Value);
+  if (first + HugePage <= end)
+  {
+    madvise(reinterpret_cast<void*>(first), (end - first) / HugePage * HugePage, MADV_HUGEPAGE);
+  }
+#endif
+  session.StoreTriangles(
+    MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
 }
 
 vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh)
@@ -216,44 +254,6 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 namespace
 {
 
-/// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
-/// values of ArrayT. Offsets are not shared with the input, whose cells may grow in place later:
-/// the output would then have more offsets than connectivity.
-template <typename ArrayT, typename Id>
-vtkSmartPointer<vtkCellArray> BuildTriangles(const FlipSession& session, vtkIdType count)
-{
-  using Value = typename ArrayT::ValueType;
-  vtkNew<ArrayT> offsets, connectivity;
-  offsets->SetNumberOfTuples(count + 1);
-  Value* values = offsets->GetPointer(0);
-  vtkSMPTools::For(0, count + 1,
-    [values](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        values[i] = static_cast<Value>(3 * i);
-      }
-    });
-  connectivity->SetNumberOfTuples(3 * count);
-#if defined(__linux__)
-  // Hints to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated and
-  // cleared on first use: an update of 5 M points on a GPU takes 56 ms instead of 63.
-  constexpr std::uintptr_t HugePage = std::uintptr_t(2) << 20;
-  const auto begin = reinterpret_cast<std::uintptr_t>(connectivity->GetPointer(0));
-  const std::uintptr_t first = (begin + HugePage - 1) / HugePage * HugePage;
-  const std::uintptr_t end = begin + 3 * count * sizeof(Value);
-  if (first + HugePage <= end)
-  {
-    madvise(reinterpret_cast<void*>(first), (end - first) / HugePage * HugePage, MADV_HUGEPAGE);
-  }
-#endif
-  session.StoreTriangles(
-    MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
-}
-
 /// The polygons of the output. Their ids are stored as wide as those of the mesh's polygons, or of
 /// its strips if it has no polygons.
 vtkSmartPointer<vtkCellArray> BuildPolygons(
@@ -263,10 +263,7 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
   const bool areWide = UsesWideIds(mesh);
   if (slots.ArePolygonsTriangles())
   {
-    // Splitting may need more connectivity than 32-bit offsets can number.
-    return areWide || 3 * count > std::numeric_limits<std::int32_t>::max()
-      ? BuildTriangles<vtkTypeInt64Array, std::int64_t>(session, count)
-      : BuildTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
+    return BuildTriangles(session, count, areWide);
   }
   std::vector<std::int64_t> storage(3 * count);
   const MutableTriangleArray triangles(storage.data(), count);
@@ -401,6 +398,15 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkCellArray> BuildTriangles(
+  const FlipSession& session, vtkIdType count, bool areWide)
+{
+  // There may be more connectivity than 32-bit offsets can number.
+  return areWide || 3 * count > std::numeric_limits<std::int32_t>::max()
+    ? FillTriangles<vtkTypeInt64Array, std::int64_t>(session, count)
+    : FillTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
+}
+
 bool UsesWideIds(vtkPolyData* mesh)
 {
   vtkCellArray* cells = mesh->GetNumberOfPolys() > 0 ? mesh->GetPolys() : mesh->GetStrips();
@@ -423,7 +429,7 @@ vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyDat
   return cells;
 }
 
-void DemoteGlobalIds(vtkCellData* data)
+void DemoteGlobalIds(vtkDataSetAttributes* data)
 {
   vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
   if (!ids)

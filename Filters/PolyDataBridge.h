@@ -110,6 +110,11 @@ private:
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
+/// The session's triangles as cells.
+/// @param areWide whether ids have 64 bits, even where 32 would do.
+vtkSmartPointer<vtkCellArray> BuildTriangles(
+  const FlipSession& session, vtkIdType count, bool areWide);
+
 /// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
 DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);
 
@@ -117,9 +122,9 @@ DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildStrips(
   const TriangleSlots& slots, vtkPolyData* mesh);
 
-/// Turns global ids into pedigree ids: when cells are divided, several share an id. If there are
-/// pedigree ids already, the array is no attribute any more.
-DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkCellData* data);
+/// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
+/// If there are pedigree ids already, the array is no attribute any more.
+DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
 
 /// A copy of the active cell normals, to be changed; null if there are none, or too few.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output);

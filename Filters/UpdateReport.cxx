@@ -121,6 +121,13 @@ void UpdateReport::Add(const UpdateReport& other)
       &Sum::TotalBlocked, &Sum::NonDelaunayBefore, &Sum::NonDelaunayAfter, &Sum::BlockedByShape,
       &Sum::BlockedByEdge });
   AddMembers<Sum, double>(*this, other, { &Sum::BuildSeconds, &Sum::FlipSeconds });
+  using Found = PointCounts;
+  AddMembers(this->FromPoints, other.FromPoints,
+    { &Found::NotFinite, &Found::Repeated, &Found::TooNear, &Found::SegmentEdges,
+      &Found::RefusedSegments, &Found::Crossings, &Found::OutsideTriangles,
+      &Found::LargeTriangles });
+  this->FromPoints.LargestShift =
+    std::max(this->FromPoints.LargestShift, other.FromPoints.LargestShift);
   using Reason = StopReasonKind;
   for (const Reason worse :
     { Reason::Aborted, Reason::IterationLimit, Reason::Running, Reason::Converged })
@@ -263,21 +270,30 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
   add(vtkNew<vtkDoubleArray>().Get(), "Seconds", &IterationRecord::Seconds);
 }
 
+namespace
+{
+
+const std::string Prefix = "DelaunayFlip:";
+
+template <typename ArrayT, typename Value>
+void AddValue(const char* name, const Value& value, vtkFieldData* data)
+{
+  vtkNew<ArrayT> array;
+  array->SetName((Prefix + name).c_str());
+  array->InsertNextValue(value);
+  data->AddArray(array);
+}
+
+}
+
 void AddFieldData(const UpdateReport& report, vtkFieldData* data)
 {
-  const std::string prefix = "DelaunayFlip:";
-  const auto add = [&](auto* array, const char* name, const auto& value)
-  {
-    array->SetName((prefix + name).c_str());
-    array->InsertNextValue(value);
-    data->AddArray(array);
-  };
   const auto addText = [&](const char* name, const std::string& text)
-  { add(vtkNew<vtkStringArray>().Get(), name, text); };
+  { AddValue<vtkStringArray>(name, text, data); };
   const auto addCount = [&](const char* name, std::int64_t count)
-  { add(vtkNew<vtkIdTypeArray>().Get(), name, count); };
+  { AddValue<vtkIdTypeArray>(name, count, data); };
   // The totals first: ParaView lists no field data when the first array is empty.
-  add(vtkNew<vtkIntArray>().Get(), "Converged", report.Converged() ? 1 : 0);
+  AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
   addText("StopReason", ToString(report.StopReason));
   addCount("TotalFlips", report.TotalFlips);
   addCount("NonDelaunayEdges", report.NonDelaunayAfter);
@@ -293,7 +309,22 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   addText("GeometryReason", report.GeometryReason);
   addText("Tolerance", report.Tolerance);
   addText("Backend", report.Backend);
-  AddIterationColumns(report, prefix, data);
+  AddIterationColumns(report, Prefix, data);
+}
+
+void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)
+{
+  const auto add = [&](const char* name, std::int64_t count)
+  { AddValue<vtkIdTypeArray>(name, count, data); };
+  add("PointsNotFinite", counts.NotFinite);
+  add("RepeatedPoints", counts.Repeated);
+  add("PointsTooNear", counts.TooNear);
+  add("SegmentEdges", counts.SegmentEdges);
+  add("RefusedSegments", counts.RefusedSegments);
+  add("CrossingPoints", counts.Crossings);
+  add("OutsideTriangles", counts.OutsideTriangles);
+  add("LargeTriangles", counts.LargeTriangles);
+  AddValue<vtkDoubleArray>("LargestShift", counts.LargestShift, data);
 }
 
 }

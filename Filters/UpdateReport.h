@@ -85,6 +85,9 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
 /// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
 DELAUNAYFLIP_EXPORT void AddFieldData(const UpdateReport& report, vtkFieldData* data);
 
+/// The same for what is known of points.
+void AddPointFieldData(const PointCounts& counts, vtkFieldData* data);
+
 }
 
 #endif

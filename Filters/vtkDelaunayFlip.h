@@ -37,10 +37,10 @@
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
  * cells (vtkGhostType: duplicate, refined or hidden).
  *
- * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, in x and y
- * only. This one improves an existing mesh, planar in any orientation or a surface in space, and
- * keeps its holes, borders and constraints. In the plane it is exact: by default each edge is
- * judged by an error-free in-circle predicate.
+ * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, as
+ * vtkDelaunayFlipPoints does. This one improves an existing mesh, planar in any orientation or a
+ * surface in space, and keeps its holes, borders and constraints. In the plane it is exact: by
+ * default each edge is judged by an error-free in-circle predicate.
  *
  * The work is done on a GPU if the build has the CUDA backend, there is a GPU, and the mesh is
  * large enough; otherwise on CPU threads (see Backend). The same input gives the same output, bit
@@ -81,37 +81,29 @@
  * predicates", Discrete & Computational Geometry 18, 1997.
  *
  * @sa
- * vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
+ * vtkDelaunayFlipPoints vtkDelaunay2D vtkFeatureEdges vtkTriangleFilter
  */
 #ifndef vtkDelaunayFlip_h
 #define vtkDelaunayFlip_h
 
+#include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For meshes of inputs
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 #include <vector> // For std::vector
 
-class vtkTable;
-
 namespace delaunayflip
 {
-class FlipRun;
-class FlipSession;
-struct FlipReport;
 struct FlipRequest;
-struct MeshBlock;
-struct UpdateReport;
-struct UpdateSummary;
 }
 
-class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkPolyDataAlgorithm
+class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlip : public vtkDelaunayFlipAlgorithm
 {
 public:
   static vtkDelaunayFlip* New();
-  vtkTypeMacro(vtkDelaunayFlip, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkDelaunayFlip, vtkDelaunayFlipAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -270,37 +262,6 @@ public:
 
   ///@{
   /**
-   * Where the flips run; the result is the same, bit for bit. AUTO (default) uses a GPU if there is
-   * one that this build supports and the mesh, once split, has at least 20,000 triangles. If that
-   * GPU fails, for example because it runs out of memory, the CPU does the work and one warning
-   * says why. CUDA uses a GPU for meshes of any size; the update fails if there is no GPU or the
-   * GPU fails. THREADS uses CPU threads.
-   */
-  enum BackendType
-  {
-    BACKEND_AUTO = 0,
-    BACKEND_CUDA = 1,
-    BACKEND_THREADS = 2
-  };
-  vtkSetClampMacro(Backend, int, BACKEND_AUTO, BACKEND_THREADS);
-  vtkGetMacro(Backend, int);
-  void SetBackendToAuto() { this->SetBackend(BACKEND_AUTO); }
-  void SetBackendToCUDA() { this->SetBackend(BACKEND_CUDA); }
-  void SetBackendToThreads() { this->SetBackend(BACKEND_THREADS); }
-  ///@}
-
-  ///@{
-  /**
-   * CUDA's number of the GPU to use, 0 or more; -1 (default): the current device of the thread that
-   * updates, usually 0. If there is no such GPU, AUTO gives a warning and uses the CPU, and with
-   * CUDA the update fails. Has no effect on the CPU.
-   */
-  vtkSetClampMacro(DeviceId, int, -1, VTK_INT_MAX);
-  vtkGetMacro(DeviceId, int);
-  ///@}
-
-  ///@{
-  /**
    * GPUs that share the mesh, instead of DeviceId: CUDA's numbers separated by commas, such as
    * "0,1", or "all"; empty (default): DeviceId alone. They flip a large mesh
    * faster than one GPU, or one that is too large for it; the result is the same. The GPUs must be
@@ -321,26 +282,6 @@ public:
    */
   vtkSetClampMacro(NumberOfPieces, int, 0, 255);
   vtkGetMacro(NumberOfPieces, int);
-  ///@}
-
-  ///@{
-  /**
-   * The number of CPU threads; 0 (default): as many as the machine has. At most twice as many are
-   * used, or 16 if that is more, and fewer if the system cannot start so many; GetBackendUsed()
-   * tells how many there were. The result does not depend on it.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The most iterations to make; 0 makes none, and -1 (default) sets no limit. On surfaces -1 still
-   * has a safety limit, the number of triangles + 1000, with a warning if it is reached. Reaching a
-   * limit that you set gives no warning. StopReason tells of both, and the output is a valid mesh.
-   */
-  vtkSetClampMacro(MaximumIterations, vtkIdType, -1, VTK_ID_MAX);
-  vtkGetMacro(MaximumIterations, vtkIdType);
   ///@}
 
   ///@{
@@ -379,71 +320,6 @@ public:
 
   ///@{
   /**
-   * Show the mesh while it improves: every update makes IterationsPerUpdate more iterations and
-   * outputs the mesh, with its statistics, as it is then. Default off. The filter keeps the state
-   * between updates, in memory of the host or of a GPU, until LiveUpdate is turned off. The last
-   * mesh is bit-identical to that of an update without LiveUpdate.
-   *
-   * Request the next update by Advance():
-   *
-   *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
-   *
-   * A change of the input or of an option starts a new run. But if only points were moved, under
-   * the same cells, the next update continues from the flipped triangles, with the edges that were
-   * fixed at the beginning (a warm start); its statistics start again. Composite input is flipped
-   * at once, with a warning. So is any input in ParaView's pvbatch, without a warning.
-   */
-  vtkSetMacro(LiveUpdate, bool);
-  vtkGetMacro(LiveUpdate, bool);
-  vtkBooleanMacro(LiveUpdate, bool);
-  ///@}
-
-  ///@{
-  /**
-   * The number of iterations per update when LiveUpdate is on: 1 (default) or more, or 0 for as
-   * many as fit into 50 ms, at least one. With 0 the intermediate meshes may differ between runs;
-   * the last one and the table do not.
-   */
-  vtkSetClampMacro(IterationsPerUpdate, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(IterationsPerUpdate, vtkIdType);
-  ///@}
-
-  /**
-   * Requests the next step of a live run: marks the filter as modified if there is more to do.
-   * @returns whether there is more to do: false after convergence, the iteration limit or an error,
-   * and without LiveUpdate.
-   */
-  bool Advance();
-
-  ///@{
-  /**
-   * Pause a live run: while this is on, GetNeedsUpdate() returns false; Advance() and Step() still
-   * work. Default off. Setting it does not mark the filter as modified, since that would cause a
-   * step.
-   */
-  void SetPaused(bool paused) { this->Paused = paused; }
-  vtkGetMacro(Paused, bool);
-  vtkBooleanMacro(Paused, bool);
-  ///@}
-
-  /**
-   * The same as Advance(): requests one more step of a live run, paused or not. For a button.
-   */
-  bool Step() { return this->Advance(); }
-
-  /**
-   * Makes the next update of a live run start from the input again.
-   */
-  void Restart();
-
-  /**
-   * For programs that poll, such as ParaView with a LiveSource: the same as Advance(), but returns
-   * false before the first update, after an abort and while Paused is on.
-   */
-  bool GetNeedsUpdate();
-
-  ///@{
-  /**
    * Constraint edges, optional: edges of the mesh along the lines and polygons of this input stay,
    * and those that the mesh does not have are inserted (see InsertConstraints).
    * If this input has no points, or the same points as the first input (the same number and bits),
@@ -456,32 +332,6 @@ public:
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints);
-  ///@}
-
-  /**
-   * Frees the memory, on GPUs and on the host, that the CUDA backend keeps for the next update. All
-   * filters of a process share it; updates that are running in other threads keep theirs. The next
-   * update on a GPU starts a little slower. A filter that has been updated does this when it is
-   * deleted. Never fails; does nothing if no GPU was used.
-   */
-  void ReleaseDeviceMemory();
-
-  /// The table of iterations, output port 1.
-  vtkTable* GetIterations();
-
-  ///@{
-  /**
-   * What the last update did. With several blocks, NumberOfIterations is the largest of
-   * theirs and TotalFlips the sum. In an observer of ProgressEvent they are those of the current
-   * block so far. Progress is the estimated share of the update's time that has passed, from the
-   * splitting of polygons and the matching of constraints to the output. AbortExecute is checked
-   * whenever progress is reported: for a million triangles at least every 0.1 s. If aborted before
-   * the first iteration, the output has the triangles of the input, or its polygons if these had
-   * not all been read; if later, those of the last iteration. AbortExecute is off again at the end,
-   * and a live run goes on with the next update.
-   */
-  vtkIdType GetNumberOfIterations() const;
-  vtkIdType GetTotalFlips() const;
   ///@}
 
   ///@{
@@ -499,12 +349,6 @@ public:
   vtkIdType GetNumberOfConstraintFlips() const;
   ///@}
 
-  /**
-   * How many bad edges, neither locally Delaunay nor fixed, are left after the last update; the sum
-   * over blocks.
-   */
-  vtkIdType GetNumberOfNonDelaunayEdges() const;
-
   ///@{
   /**
    * Why such edges are left: those whose flip would fold the mesh over, and those whose flip would
@@ -512,31 +356,6 @@ public:
    */
   vtkIdType GetNumberOfEdgesBlockedByShape() const;
   vtkIdType GetNumberOfEdgesBlockedByEdge() const;
-  ///@}
-
-  /**
-   * Whether the last update ended because an iteration found no edge that may flip.
-   */
-  bool GetConverged() const;
-
-  ///@{
-  /**
-   * Why the last update ended. NOT_STARTED before the first update; RUNNING if a live update has
-   * made its iterations and there is more to do; FAILED after an error, with empty outputs and the
-   * text "failed: " and the reason. Once the cause is removed, the next update works. With several
-   * blocks, the worst of their reasons.
-   */
-  enum StopReasonType
-  {
-    STOP_REASON_NOT_STARTED = 0,
-    STOP_REASON_CONVERGED = 1,
-    STOP_REASON_ITERATION_LIMIT = 2,
-    STOP_REASON_ABORTED = 3,
-    STOP_REASON_RUNNING = 4,
-    STOP_REASON_FAILED = 5
-  };
-  int GetStopReason() const;
-  const char* GetStopReasonAsString() const;
   ///@}
 
   ///@{
@@ -555,79 +374,9 @@ public:
    */
   const char* GetGeometryReason() const;
 
-  /**
-   * Where the last update ran, e.g. "Threads: 8" or "CUDA: NVIDIA H200", or "Threads: 8, CUDA:
-   * NVIDIA H200" if blocks differ. "" before the first update, after an error and for a mesh
-   * without triangles.
-   */
-  const char* GetBackendUsed() const;
-
-  ///@{
-  /**
-   * What caused the last update to fail. FAILURE_OPTIONS: options contradict each other or the
-   * mesh. FAILURE_MESH: the mesh names points that do not exist, or is too large. FAILURE_BACKEND:
-   * the backend cannot run here. FAILURE_OTHER: no memory. FAILURE_NONE before the first update and
-   * after success. GetErrorCode() returns vtkErrorCode::UserError plus this number, or
-   * vtkErrorCode::NoError.
-   */
-  enum FailureType
-  {
-    FAILURE_NONE = 0,
-    FAILURE_OPTIONS = 1,
-    FAILURE_MESH = 2,
-    FAILURE_BACKEND = 3,
-    FAILURE_OTHER = 4
-  };
-  vtkGetMacro(Failure, int);
-  ///@}
-
-  /**
-   * Why the last update failed, in words; "" before the first update and after success.
-   */
-  const char* GetErrorMessage() const;
-
-  /**
-   * The full report of the last update, for C++ callers that include FlipReport.h.
-   */
-#ifndef __VTK_WRAP__
-  const delaunayflip::FlipReport& GetReport() const;
-#endif
-
-  ///@{
-  /**
-   * For C++ callers that draw a live run from the memory of a GPU, where the mesh is already.
-   *
-   * AdvanceSession() makes the next step of a live run, as Advance() and an update do, but leaves
-   * the mesh where it is if the run is that of the last update. Then GetMeshIsWithheld() is true,
-   * and output port 0 has no cells until the filter is updated again, by whatever is connected to
-   * it; that update makes no step. Port 1 and all results are those of the step.
-   * AdvanceSession() returns false if the executive failed.
-   *
-   * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
-   * failed. It is valid until the next update. Its triangles are the polygons of the output, in
-   * their order, if the input has no other polygons than triangles and no strips.
-   *
-   * StoreMesh() writes the mesh as it is now, without an update; it returns false, and writes
-   * nothing, if there is no session.
-   */
-#ifndef __VTK_WRAP__
-  bool AdvanceSession();
-  bool GetMeshIsWithheld() const { return this->MeshIsWithheld; }
-  const delaunayflip::FlipSession* GetSession() const;
-  bool StoreMesh(vtkPolyData* mesh) const;
-#endif
-  ///@}
-
 protected:
-  vtkDelaunayFlip();
-  ~vtkDelaunayFlip() override;
-
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  vtkDelaunayFlip() = default;
+  ~vtkDelaunayFlip() override = default;
 
   /**
    * Returns an input, or a block of it, as a mesh; null if it is not a surface. Subclasses that
@@ -639,19 +388,13 @@ protected:
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
 #ifndef __VTK_WRAP__
-  // Subclasses that flip meshes in another way override these; their headers are private.
-
-  /**
-   * The meshes of the input. May throw; the update then fails.
-   */
-  virtual std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input);
-
-  /**
-   * Flips a block, stores its results, and adds what is to be told. Must not throw.
-   * @param constraints the blocks of the second input.
-   */
-  virtual void FlipBlock(delaunayflip::MeshBlock& block,
-    const std::vector<delaunayflip::MeshBlock>& constraints, delaunayflip::UpdateSummary& summary);
+  void FlipLeaves(delaunayflip::MeshBlock& block,
+    const std::vector<delaunayflip::MeshBlock>& constraints,
+    delaunayflip::UpdateSummary& summary) override;
+  bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* mesh,
+    vtkPolyData* constraints, bool isLive) override;
+  bool HasWork(vtkPolyData* mesh) const override;
+  bool HasTolerance() const override { return this->Tolerance >= 0.0; }
 
   /**
    * What is asked of the flips of a mesh.
@@ -666,7 +409,6 @@ protected:
   vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
 #endif
 
-  bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Geometry = GEOMETRY_AUTO;
   int Criterion = CRITERION_IN_CIRCLE;
   double Tolerance = -1.0;
@@ -677,39 +419,13 @@ protected:
   bool InsertConstraints = true;
   bool InsertLines = false;
   bool Triangulate = true;
-  int Backend = BACKEND_AUTO;
-  int DeviceId = -1;
   std::string Devices;
   int NumberOfPieces = 0;
-  int NumberOfThreads = 0;
-  vtkIdType MaximumIterations = -1;
   bool TrackQuality = false;
   bool GenerateFlipCount = false;
   bool GenerateQuality = false;
-  bool LiveUpdate = false;
-  vtkIdType IterationsPerUpdate = 1;
-  bool Paused = false;
 
 private:
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-  void FlipMesh(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive, vtkPolyData* output);
-  void DiscardRun();
-  void Publish(const delaunayflip::UpdateSummary& summary);
-
-  int Failure = FAILURE_NONE;
-  std::string ErrorMessage;
-  std::string StopReasonText; ///< After an error.
-  bool HasExecuted = false;
-  bool IsAtWork = false; ///< An update is running.
-  bool CanContinue = true; ///< Whether another live update can change the mesh.
-  bool IsStepAsked = false; ///< Advance() was called since the last update.
-  bool WithholdsMesh = false; ///< An update need not write the mesh.
-  bool MeshIsWithheld = false; ///< The last update did not write it.
-  std::unique_ptr<delaunayflip::FlipRun> Run; ///< Null without LiveUpdate.
-  /// During an update that of the current mesh, afterwards the sum over all meshes.
-  std::unique_ptr<delaunayflip::UpdateReport> Report;
-
   vtkDelaunayFlip(const vtkDelaunayFlip&) = delete;
   void operator=(const vtkDelaunayFlip&) = delete;
 };

@@ -53,7 +53,7 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
       Put(message, number);
     }
     Put(message, block.Name);
-    Put(message, block.Cells);
+    Put(message, block.Size);
   }
   std::map<std::vector<std::int64_t>, MeshBlock> shared;
   for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
@@ -66,7 +66,7 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
     const std::string name = reader.GetText();
     MeshBlock& block =
       shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
-    block.Cells += reader.Get<double>();
+    block.Size += reader.Get<double>();
   }
   for (const MeshBlock& block : own)
   {
@@ -129,7 +129,7 @@ std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
         { "InsertConstraints", write(request.Settings.InsertConstraints) },
         { "GenerateFlipCount", write(request.WantsFlipCounts) },
         { "GenerateQuality", write(request.WantsAngles) } });
-    blocks = ShareBlocks(ListMeshBlocks(input), told);
+    blocks = ShareBlocks(ListMeshBlocks(input, vtkDataObject::CELL), told);
   };
   RunTogether(*this->Group, std::ref(share));
   return blocks;

@@ -349,7 +349,7 @@ void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
 {
   vtkSMProxy* proxy = source->getProxy();
   const QString name = proxy->GetXMLName();
-  if (name == "DelaunayFlip")
+  if (name == "DelaunayFlip" || name == "DelaunayFromPoints")
   {
     proxy->UpdatePropertyInformation();
     for (pqPipelineSource* consumer : source->getAllConsumers())

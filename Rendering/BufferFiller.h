@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 class vtkDelaunayFlip;
 
@@ -30,42 +29,36 @@ struct DrawnBuffers
 /// What is to be written into them.
 struct FilledMesh
 {
-  const FlipSession& Session; ///< Of Count triangles.
-  PointArray Points; ///< In the host's memory.
+  const FlipSession* Session; ///< Of Count triangles. If null, those that follow are drawn.
+  TriangleArray Triangles; ///< In the host's memory, as are the points.
+  const std::int32_t* FlipCounts; ///< One per triangle, or null: none has been flipped.
+  PointArray Points;
   std::uint64_t PointsTime = 0; ///< Another one than in the last call if points have moved.
   DrawnColors Colors;
 };
 
-/// Writes the mesh of a session into the buffers that OpenGL draws. All calls but the destructor
-/// are made with OpenGL's context current.
-class VTKDELAUNAYFLIPRENDERING_EXPORT BufferFiller
+/// Writes triangles and their colours into the buffers that OpenGL draws. All calls but the
+/// destructor are made with OpenGL's context current, and none after one has thrown an exception.
+/// What the buffers hold is undefined then.
+class BufferFiller
 {
 public:
   virtual ~BufferFiller() = default;
 
-  /// Why this cannot fill buffers of the current context with the mesh of the filter's last
-  /// update; empty if it can.
-  virtual std::string FindObstacle(vtkDelaunayFlip* filter) = 0;
-
-  /// Gets ready to fill these buffers. Their memory stays as it is until Release().
+  /// Takes the buffers from OpenGL, which must not use them until Fill() or Unmap(). If they are
+  /// taken already, nothing happens. Fill() does this by itself. It takes less time if this is
+  /// called before the session makes its step: then the GPU finishes drawing, and switches from
+  /// OpenGL to CUDA, while the step is being made.
   /// @throws std::exception.
-  virtual void Register(const DrawnBuffers& buffers) = 0;
-  virtual void Release() noexcept = 0;
-
-  /// Takes the registered buffers from OpenGL, which must not use them until Fill() or Unmap(). If
-  /// they are taken already, nothing happens. Fill() does this by itself. It takes less time if
-  /// this is called before the session makes its step: then the GPU finishes drawing, and
-  /// switches from OpenGL to CUDA, while the step is being made.
-  /// @throws std::exception; then what the buffers hold is undefined.
-  virtual void Map() = 0;
+  virtual void Map() {}
 
   /// Gives the buffers back as they are, if they are taken.
-  /// @throws std::exception; then what the buffers hold is undefined.
-  virtual void Unmap() = 0;
+  /// @throws std::exception.
+  virtual void Unmap() {}
 
   /// Writes the mesh and gives the buffers back to OpenGL. May return before they are written, as
   /// long as OpenGL waits for that.
-  /// @throws std::exception; then what the buffers hold is undefined.
+  /// @throws std::exception.
   virtual void Fill(const FilledMesh& mesh) = 0;
 
   /// The smallest angle of the mesh in the buffers in degrees; NaN if there is none, or if it
@@ -73,13 +66,23 @@ public:
   virtual double GetSmallestAngle() noexcept = 0;
 };
 
-/// The one that fills buffers by CUDA; null in a build without. Calls nothing of CUDA before it
-/// must.
-VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller();
+/// Makes a filler of buffers of the current context, for sessions of a filter. Their memory must
+/// stay as it is as long as the filler exists.
+/// @throws std::exception that says why it cannot fill them.
+using FillerMaker = std::unique_ptr<BufferFiller> (*)(
+  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
 
-/// The one that live views use: that of CUDA, or what a test has put in its place.
-std::unique_ptr<BufferFiller> MakeBufferFiller();
-VTKDELAUNAYFLIPRENDERING_EXPORT void ReplaceBufferFiller(std::unique_ptr<BufferFiller> (*make)());
+/// By CUDA, for sessions on the GPU that draws.
+VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
+  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
+
+/// From the host, for any mesh. The filter may be null.
+VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeHostFiller(
+  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
+
+/// What mappers use where they need not fill from the host: MakeCudaFiller, or what a test has put
+/// in its place.
+VTKDELAUNAYFLIPRENDERING_EXPORT extern FillerMaker DeviceFillerMaker;
 
 }
 

@@ -16,15 +16,15 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
 
 namespace
 {
-
-std::unique_ptr<BufferFiller> (*MakeFiller)() = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
 
@@ -216,67 +216,39 @@ private:
 class CudaFiller : public BufferFiller
 {
 public:
-  std::string FindObstacle(vtkDelaunayFlip* filter) override
+  CudaFiller(int device, const DrawnBuffers& buffers)
+    : Device(device),
+      Count(buffers.Count),
+      Buffers(buffers)
   {
-    const std::string backend = filter->GetBackendUsed();
-    if (!IsOnGpu(backend))
-    {
-      return "the filter works on CPU threads";
-    }
-    try
-    {
-      this->Device = filter->GetDeviceId();
-      if (this->Device < 0)
-      {
-        Require(cudaGetDevice(&this->Device), "ask for the current device");
-      }
-      const std::vector<int> devices = ListDrawingDevices();
-      const bool isThere = std::count(devices.begin(), devices.end(), this->Device) > 0;
-      return isThere ? "" : "OpenGL does not draw on the GPU of the filter";
-    }
-    catch (const std::exception& error)
-    {
-      return error.what();
-    }
   }
-
-  void Register(const DrawnBuffers& buffers) override
-  {
-    const CurrentGpu current(this->Device);
-    this->Buffers.reset();
-    this->Buffers = std::make_unique<SharedBuffers>(buffers);
-    this->Count = buffers.Count;
-    this->Drawn.Forget();
-  }
-
-  void Release() noexcept override { this->Buffers.reset(); }
 
   void Map() override
   {
     const CurrentGpu current(this->Device);
-    this->Buffers->Map();
+    this->Buffers.Map();
   }
 
   void Unmap() override
   {
     const CurrentGpu current(this->Device);
-    this->Buffers->Unmap();
+    this->Buffers.Unmap();
   }
 
   void Fill(const FilledMesh& mesh) override
   {
-    if (!IsOnGpu(mesh.Session.GetReport().Backend))
+    if (!IsOnGpu(mesh.Session->GetReport().Backend))
     {
       throw std::runtime_error("the filter no longer works on the GPU");
     }
     const CurrentGpu current(this->Device);
     this->CopyPoints(mesh);
-    this->Buffers->Map();
+    this->Buffers.Map();
     const DrawnArrays arrays{ this->Points->View(),
-      MutableTriangleArray(this->Buffers->GetTriangles(this->Count), this->Count),
-      this->Buffers->GetColors(this->Count), this->Buffers->GetStream() };
-    this->Drawn.Update(mesh.Session, arrays, mesh.Colors);
-    this->Buffers->Unmap();
+      MutableTriangleArray(this->Buffers.GetTriangles(this->Count), this->Count),
+      this->Buffers.GetColors(this->Count), this->Buffers.GetStream() };
+    this->Drawn.Update(*mesh.Session, arrays, mesh.Colors);
+    this->Buffers.Unmap();
   }
 
   double GetSmallestAngle() noexcept override
@@ -308,9 +280,9 @@ private:
     this->Drawn.Forget();
   }
 
-  int Device = 0;
-  std::int64_t Count = 0;
-  std::unique_ptr<SharedBuffers> Buffers;
+  int Device;
+  std::int64_t Count;
+  SharedBuffers Buffers;
   std::unique_ptr<PointCopy> Points;
   std::uint64_t PointsTime = 0; ///< When they were copied.
   DrawnTriangles Drawn;
@@ -320,14 +292,33 @@ private:
 
 }
 
+FillerMaker DeviceFillerMaker = &MakeCudaFiller;
+
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller() { return std::make_unique<CudaFiller>(); }
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const DrawnBuffers& buffers)
+{
+  if (!IsOnGpu(filter->GetBackendUsed()))
+  {
+    throw std::runtime_error("the filter works on CPU threads");
+  }
+  int device = filter->GetDeviceId();
+  if (device < 0)
+  {
+    Require(cudaGetDevice(&device), "ask for the current device");
+  }
+  const std::vector<int> devices = ListDrawingDevices();
+  if (std::count(devices.begin(), devices.end(), device) == 0)
+  {
+    throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
+  }
+  const CurrentGpu current(device);
+  return std::make_unique<CudaFiller>(device, buffers);
+}
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller() { return nullptr; }
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, const DrawnBuffers&)
+{
+  throw std::runtime_error("this build has no CUDA backend");
+}
 #endif
-
-std::unique_ptr<BufferFiller> MakeBufferFiller() { return MakeFiller(); }
-
-void ReplaceBufferFiller(std::unique_ptr<BufferFiller> (*make)()) { MakeFiller = make; }
 
 }

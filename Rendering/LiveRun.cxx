@@ -3,22 +3,16 @@
 #include "LiveRun.h"
 
 #include "vtkAppendPolyData.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkTriangleFilter.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
 #include <sstream>
 
 namespace delaunayflip
@@ -29,42 +23,6 @@ const char* const KeyHelp = "space: run/pause   n: next step   b: begin again   
 
 namespace
 {
-
-/// A mesh without its verts and lines. That vtkTriangleFilter leaves them out cannot be relied on:
-/// with VTK 9.6 a line stays.
-vtkSmartPointer<vtkPolyData> TakeSurface(vtkPolyData* mesh)
-{
-  const vtkIdType before = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
-  const vtkIdType count = mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips();
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
-  surface->SetPoints(mesh->GetPoints());
-  surface->GetPointData()->ShallowCopy(mesh->GetPointData());
-  surface->SetPolys(mesh->GetPolys());
-  surface->SetStrips(mesh->GetStrips());
-  surface->GetCellData()->CopyAllOn();
-  surface->GetCellData()->CopyAllocate(mesh->GetCellData(), count);
-  surface->GetCellData()->CopyData(mesh->GetCellData(), 0, count, before);
-  return surface;
-}
-
-vtkSmartPointer<vtkPolyData> AppendBlocks(vtkCompositeDataSet* blocks)
-{
-  vtkNew<vtkAppendPolyData> append;
-  vtkSmartPointer<vtkCompositeDataIterator> block;
-  block.TakeReference(blocks->NewIterator());
-  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
-  {
-    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
-    {
-      append->AddInputData(mesh);
-    }
-  }
-  if (append->GetNumberOfInputConnections(0) > 0)
-  {
-    append->Update();
-  }
-  return append->GetOutput();
-}
 
 /// 1234567 -> "1,234,567"
 std::string Group(vtkIdType number)
@@ -186,44 +144,27 @@ bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != Li
 
 bool IsComposite(vtkDataObject* data) { return vtkCompositeDataSet::SafeDownCast(data) != nullptr; }
 
-vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data)
+vtkSmartPointer<vtkPolyData> JoinBlocks(vtkDataObject* data)
 {
-  vtkSmartPointer<vtkPolyData> mesh = vtkPolyData::SafeDownCast(data);
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  vtkNew<vtkAppendPolyData> append;
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
+  if (!blocks)
   {
-    mesh = AppendBlocks(blocks);
+    return vtkPolyData::SafeDownCast(data);
   }
-  auto faces = vtkSmartPointer<vtkPolyData>::New();
-  const vtkIdType triangles = mesh ? mesh->GetNumberOfPolys() : 0;
-  if (mesh && mesh->GetNumberOfCells() == triangles &&
-    mesh->GetPolys()->IsHomogeneous() == (triangles > 0 ? 3 : 0)) // as in outputs of the filter
+  const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
   {
-    faces->ShallowCopy(mesh);
+    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      append->AddInputData(mesh);
+    }
   }
-  else if (mesh)
+  if (append->GetNumberOfInputConnections(0) > 0)
   {
-    vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(TakeSurface(mesh));
-    split->Update();
-    faces->ShallowCopy(split->GetOutput());
+    append->Update();
   }
-  // Else VTK would shade by them, and those of flipped triangles would be of other triangles.
-  faces->GetCellData()->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
-  return faces;
-}
-
-/// An exception leaves no mesh; the filter's next update meets the same problem and reports it.
-vtkSmartPointer<vtkPolyData> CopyRun(vtkDelaunayFlip* filter)
-{
-  try
-  {
-    vtkNew<vtkPolyData> mesh;
-    return filter && filter->StoreMesh(mesh) ? MakeFaces(mesh) : nullptr;
-  }
-  catch (const std::exception&)
-  {
-    return nullptr;
-  }
+  return append->GetOutput();
 }
 
 std::string DescribeStatus(const LiveStatus& status)

@@ -66,13 +66,8 @@ bool IsEnd(LiveState state);
 
 bool IsComposite(vtkDataObject* data);
 
-/// The faces of a mesh, or of all blocks of a composite one, as triangles with their cell data: a
-/// copy that shares arrays where it can.
-vtkSmartPointer<vtkPolyData> MakeFaces(vtkDataObject* data);
-
-/// The same of the mesh of a filter's live run as it is now, without an update; null if there is no
-/// run.
-vtkSmartPointer<vtkPolyData> CopyRun(vtkDelaunayFlip* filter);
+/// A mesh, or all blocks of a composite one as one mesh.
+vtkSmartPointer<vtkPolyData> JoinBlocks(vtkDataObject* data);
 
 /// The line that explains the keys of a live view.
 extern const char* const KeyHelp;

@@ -3,8 +3,6 @@
 #ifndef LiveScene_h
 #define LiveScene_h
 
-#include "DeviceDrawing.h"
-
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
@@ -12,11 +10,8 @@
 #include <string>
 
 class vtkActor;
-class vtkDelaunayFlip;
-class vtkLookupTable;
-class vtkMeshQuality;
+class vtkDelaunayFlipMapper;
 class vtkPolyData;
-class vtkPolyDataMapper;
 class vtkRenderer;
 class vtkRenderWindow;
 class vtkScalarBarActor;
@@ -42,43 +37,17 @@ public:
   /// Makes a camera that looks at the mesh, if the renderer has none yet.
   void LookAtMesh();
 
-  /// Shows a mesh, which must consist of triangles.
+  /// Shows a mesh.
   void SetMesh(vtkPolyData* mesh);
 
-  /// The mesh of the last SetMesh(): it has the points and the number of triangles of what is
-  /// shown.
-  vtkPolyData* GetMesh() const { return this->Mesh; }
+  /// What draws the mesh.
+  vtkDelaunayFlipMapper* GetMapper() { return this->Mapper; }
 
-  /// Draws the mesh of a filter's live run without copies from the next SetColorBy() on, if it can.
-  /// The mesh must be that of the last SetMesh().
-  void OfferRun(vtkDelaunayFlip* filter);
-
-  /// Shows the first mesh of a filter's new run in the buffers of the run before, which is drawn
-  /// without copies. @returns false, and does nothing, if there is none or the mesh does not fit.
-  bool TakeNextRun(vtkDelaunayFlip* filter, vtkPolyData* mesh);
-
-  /// Says why OfferRun() was not called.
-  void DeclineRun(const std::string& reason);
-
-  /// Whether the run's mesh is drawn without copies.
-  bool DrawsRun() const { return this->Device.IsOn(); }
-
-  /// Says that the run is about to make a step.
-  void BeginStep() { this->Device.BeginStep(); }
-
-  /// Says that the run has made a step, in place of SetMesh().
-  void NoteStep() { this->Device.NoteStep(); }
-
-  /// How the mesh is drawn, in words.
-  std::string DescribeDrawing() const;
-
-  /// One of vtkDelaunayFlipLiveView::ColorByType.
+  /// Sets what colours show, one of vtkDelaunayFlipLiveView::ColorByType, and brings the mapper's
+  /// buffers up to date.
   void SetColorBy(int what);
   void SetEdgeVisibility(bool visible);
   bool GetEdgeVisibility() const;
-
-  /// The smallest angle of the mesh in degrees; NaN if it has no triangles.
-  double GetSmallestAngle();
 
   void SetStatus(const std::string& text, bool isError);
   void SetKeys(const std::string& text);
@@ -87,25 +56,14 @@ public:
   void Draw();
 
 private:
-  bool ColorOnDevice(int what);
-  void FillTable(int what);
   void ShowScale(const char* title);
 
   vtkWeakPointer<vtkRenderer> Renderer;
-  vtkNew<vtkPolyData> Mesh;
-  vtkNew<vtkMeshQuality> Quality;
-  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkDelaunayFlipMapper> Mapper;
   vtkNew<vtkActor> Actor;
-  vtkNew<vtkLookupTable> Colors;
   vtkNew<vtkScalarBarActor> Scale;
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
-  DeviceDrawing Device;
-  vtkSmartPointer<vtkDelaunayFlip> Run; ///< Whose run the device may draw, or draws.
-  int ColorBy = 0;
-  int TableKind = -1; ///< What the table of colours is for, and up to which count.
-  double TableCount = 0.0;
-  double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
   double Ink[3] = { 0.0, 0.0, 0.0 };
 };
 

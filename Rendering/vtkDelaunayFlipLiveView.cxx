@@ -9,6 +9,7 @@
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipMapper.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -192,7 +193,8 @@ void vtkDelaunayFlipLiveView::ShowInput()
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
   this->State = LiveState::UnderWay;
-  this->Scene->SetMesh(MakeFaces(input));
+  this->Scene->GetMapper()->SetFilter(nullptr);
+  this->Scene->SetMesh(JoinBlocks(input));
   this->Scene->LookAtMesh();
   this->ShowFrame(0);
 }
@@ -246,8 +248,10 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   {
     const ScopedValue<bool> busy(this->IsBusy, true);
     const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-    this->Scene->BeginStep();
-    step = MakeStep(filter, this->ZeroCopy && this->Scene->DrawsRun());
+    vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
+    mapper->SetZeroCopy(this->ZeroCopy);
+    mapper->BeginStep();
+    step = MakeStep(filter, mapper->DrawsRun());
   }
   const LiveState next = step.State;
   if (this->State == LiveState::NotStarted)
@@ -276,24 +280,12 @@ void vtkDelaunayFlipLiveView::ShowStep(const LiveStep& step)
     this->Render();
     return;
   }
-  if (step.IsWithheld)
+  if (!step.IsWithheld)
   {
-    this->Scene->NoteStep();
+    this->Scene->SetMesh(JoinBlocks(this->Filter->GetOutputDataObject(0)));
+    this->Scene->GetMapper()->SetFilter(this->Filter->GetSession() ? this->Filter : nullptr);
   }
-  else
-  {
-    const vtkSmartPointer<vtkPolyData> mesh = MakeFaces(this->Filter->GetOutputDataObject(0));
-    if (!this->ZeroCopy)
-    {
-      this->Scene->SetMesh(mesh);
-      this->Scene->DeclineRun("ZeroCopy is off");
-    }
-    else if (!this->Scene->TakeNextRun(this->Filter, mesh))
-    {
-      this->Scene->SetMesh(mesh);
-      this->Scene->OfferRun(this->Filter);
-    }
-  }
+  this->Scene->GetMapper()->EndStep();
   this->ShowFrame(this->FrameNumber + 1);
 }
 
@@ -322,7 +314,8 @@ void vtkDelaunayFlipLiveView::Render()
     return;
   }
   const ScopedValue<bool> busy(this->IsBusy, true);
-  const bool isSmall = this->Scene->GetMesh()->GetNumberOfCells() < SmallMesh;
+  vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
+  const bool isSmall = mapper->GetNumberOfTriangles() < SmallMesh;
   const bool showKeys = this->ShowKeys && !this->Window->GetOffScreenRendering();
   this->Scene->SetKeys(showKeys ? KeyHelp : "");
   this->Scene->SetColorBy(this->ColorBy);
@@ -334,15 +327,18 @@ void vtkDelaunayFlipLiveView::Render()
   {
     // Off screen there are no keys: the program calls Step().
     const bool isRunning = this->IsRunning() || this->Window->GetOffScreenRendering();
-    status = DescribeStatus({ this->Filter, this->State, isRunning, this->FrameNumber,
-      this->Scene->GetMesh()->GetNumberOfCells(), this->Scene->GetSmallestAngle(),
-      this->ShowDrawing ? this->Scene->DescribeDrawing() : "" });
+    status = DescribeStatus(
+      { this->Filter, this->State, isRunning, this->FrameNumber, mapper->GetNumberOfTriangles(),
+        mapper->GetSmallestAngle(), this->ShowDrawing ? mapper->GetDrawing() : "" });
   }
   this->Scene->SetStatus(status, hasFailed);
   this->Scene->Draw();
 }
 
-std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Scene->DescribeDrawing(); }
+std::string vtkDelaunayFlipLiveView::GetDrawing() const
+{
+  return this->Scene->GetMapper()->GetDrawing();
+}
 
 bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
 

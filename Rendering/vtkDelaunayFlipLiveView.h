@@ -31,9 +31,10 @@
  * turned off for it, and its first step is the last. A change of the input, also after the end, is
  * noticed at the next Step(), Run() or Restart().
  *
- * The pipeline is updated before anything is drawn, never while rendering, and the mesh that is
- * drawn is a shallow copy. So drawing the window again, or rotating the mesh, never executes the
- * filter. Off-screen windows work too: there, call Step() for every frame, without an event loop.
+ * vtkDelaunayFlipMapper draws the mesh; pickers do not see it. The pipeline is updated before
+ * anything is drawn, never while rendering. So drawing the window again, or rotating the mesh,
+ * never executes the filter. Off-screen windows work too: there, call Step() for every frame,
+ * without an event loop.
  *
  * A failure of the filter ends the run. The reason is shown over the last good mesh; the filter
  * itself reports the error. The next Step() or Run() tries again.
@@ -43,20 +44,18 @@
  * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
  * Start() and Restart() do nothing.
  *
- * Without copies (ZeroCopy, GetDrawing()) the filter's output has no cells between the steps of a
- * run. It gets them when it is updated, which makes no step; so do pickers and exporters, and so
- * does the output at the end of a run. A program that reads the output after a step of the view
- * calls Update() of the filter first.
+ * Between the steps of a run the filter's output stays as it was. It is brought up to date when it
+ * is updated, which makes no step, and at the end of a run. A program that reads the output after a
+ * step of the view calls Update() of the filter first.
  *
- * Cost per step: a step of the filter; without copies, passes over the triangles on the GPU; else a
- * copy of the triangles to the graphics card and, if statistics are shown or triangles are coloured
- * by smallest angle, a pass of vtkMeshQuality. No timer runs after the end of a run.
+ * Cost per step: a step of the filter, and passes over the triangles, on the GPU if CUDA writes
+ * what is drawn. No timer runs after the end of a run.
  *
  * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
  * any order.
  *
  * @sa
- * vtkDelaunayFlip
+ * vtkDelaunayFlip vtkDelaunayFlipMapper
  */
 #ifndef vtkDelaunayFlipLiveView_h
 #define vtkDelaunayFlipLiveView_h
@@ -170,12 +169,11 @@ public:
 
   ///@{
   /**
-   * Whether the mesh is drawn without copies where that is possible: the run writes its triangles,
-   * and their colours, into the buffers that OpenGL draws. That takes VTK 9.1, a filter that works
-   * on a GPU by CUDA, OpenGL on the same GPU, and a mesh of triangles alone, without strips and
-   * triangles with two points at one place. Otherwise the mesh is copied to the host and back.
-   * Default on. Takes effect at the next step. The picture is the same, but for triangles whose
-   * value is at the edge of two colours.
+   * Whether the mesh is drawn without copies where that is possible: CUDA writes the triangles of
+   * the run, and their colours, into the buffers that OpenGL draws. That takes a filter that works
+   * on a GPU by CUDA, and OpenGL on the same GPU. Otherwise they are sent from the host. Default
+   * on. Takes effect at the next step. The picture is the same, but for triangles whose value is at
+   * the edge of two colours.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the pictures of the documentation's guides: the meshes of make_examples.py before and after
-delaunay-flip, coloured by the smallest angle of each triangle."""
+delaunay-flip, coloured by the smallest angle of each triangle, and the survey, which has no triangles
+before."""
 import argparse
 import os
 import subprocess
@@ -13,7 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from draw_demo import ANGLES, INK, save
+from draw_demo import ANGLES, INK, save, shaded_colors
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -31,24 +32,27 @@ PICTURES = {
 }
 
 
-def flip(command, folder, mesh, options):
-    """Points, triangles and the smallest angle of each, after flips."""
+def run(command, folder, file, options):
+    """Points, triangles and, with --quality, the smallest angle of each, after flips."""
     output = os.path.join(folder, "out.vtp")
-    subprocess.run([command, mesh, output, "--quality", "--quiet", *options], cwd=folder,
+    subprocess.run([command, file, output, "--quiet", *options], cwd=folder,
                    stderr=subprocess.DEVNULL, check=False)
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(output)
     reader.Update()
     mesh = reader.GetOutput()
+    angles = mesh.GetCellData().GetArray("vtkDelaunayFlipAngleAfter")
     return (vtk_to_numpy(mesh.GetPoints().GetData()).astype(float),
             vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3),
-            vtk_to_numpy(mesh.GetCellData().GetArray("vtkDelaunayFlipAngleAfter")))
+            vtk_to_numpy(angles) if angles else None)
 
 
-def read_road(folder):
-    with open(os.path.join(folder, "road.vtk"), encoding="utf-8") as file:
-        lines = file.read().split("double\n")[1].split("LINES")[0].splitlines()
-    return np.array([line.split() for line in lines], dtype=float)
+def read_lines(folder, name):
+    """The lines of a file of make_examples.py: arrays of x, y."""
+    with open(os.path.join(folder, name), encoding="utf-8") as file:
+        points, lines = file.read().split("double\n")[1].split("LINES")
+    points = np.array([row.split() for row in points.splitlines()], dtype=float)
+    return [points[np.array(row.split()[1:], dtype=int), :2] for row in lines.splitlines()[1:]]
 
 
 def project(points, triangles, direction):
@@ -80,19 +84,61 @@ def draw_mesh(axes, mesh, direction, window):
     axes.axis("off")
 
 
+def draw_lines(axes, lines, origin, **style):
+    axes.add_collection(LineCollection([line - origin[:2] for line in lines], **style))
+
+
+def draw_relief(axes, mesh, origin):
+    """The mesh under the sun, with its edges."""
+    points, triangles, _ = mesh
+    axes.add_collection(PolyCollection((points - origin)[triangles][:, :, :2], linewidths=0.25,
+                                       facecolors=shaded_colors(points, triangles), edgecolors=INK))
+
+
+def draw_survey(command, folder, output):
+    """guide_survey.png: the points, and the mesh within its outline; guide_river.png: what the
+    breaklines are for."""
+    survey = np.loadtxt(os.path.join(folder, "survey.csv"), delimiter=",", skiprows=1)
+    origin = survey.min(axis=0)
+    river = read_lines(folder, "river.vtk")
+    rings = read_lines(folder, "area.vtk") + read_lines(folder, "pond.vtk")
+    plain = ["--from-points"]
+    lines = plain + ["--constraints", "river.vtk"]
+    bounded = lines + ["--outline", "area.vtk", "--holes", "pond.vtk"]
+    for name, options, titles, window in (
+            ("survey", (None, bounded), ("points, breaklines, rings", "--outline, --holes"),
+             (0, 1200, 0, 800)),
+            ("river", (plain, lines), ("without breaklines", "--constraints"),
+             (380, 680, 330, 570))):
+        figure, both = plt.subplots(1, 2, figsize=(9, 3.6))
+        for axes, title, chosen in zip(both, titles, options):
+            if chosen is None:
+                plan = survey - origin
+                axes.scatter(*plan[:, :2].T, s=1.2, c=INK, linewidths=0)
+                draw_lines(axes, rings, origin, colors="#b2182b", linewidths=1.2)
+            else:
+                draw_relief(axes, run(command, folder, "survey.csv", chosen), origin)
+            if chosen is not plain:
+                draw_lines(axes, river, origin, colors="#2166ac", linewidths=0.8)
+            axes.set(xlim=window[:2], ylim=window[2:], aspect="equal")
+            axes.set_title(title, color=INK)
+            axes.axis("off")
+        figure.subplots_adjust(0.01, 0.02, 0.99, 0.9, wspace=0.04)
+        save(figure, os.path.join(output, f"guide_{name}.png"))
+
+
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
     figure, both = plt.subplots(1, 2, figsize=(9, 4.2))
     for axes, title, limit in zip(both, ("before", "after"), (["--max-iterations", "0"], [])):
         constrained = options if not limit else [o for o in options if "road" not in o
                                                  and o != "--constraints"]
-        points, triangles, angles = flip(command, folder, mesh, constrained + limit)
+        points, triangles, angles = run(command, folder, mesh, ["--quality", *constrained, *limit])
         origin = points.min(axis=0) if direction is None else 0
         draw_mesh(axes, (points - origin, triangles, angles), direction, window)
         axes.set_title(title, color=INK)
         if name == "road":
-            axes.add_collection(LineCollection([(read_road(folder) - origin)[:, :2]], colors="k",
-                                               linewidths=2))
+            draw_lines(axes, read_lines(folder, "road.vtk"), origin, colors="k", linewidths=2)
     figure.subplots_adjust(0.01, 0.02, 0.99, 0.92, wspace=0.04)
     save(figure, os.path.join(output, f"guide_{name}.png"))
 
@@ -106,6 +152,7 @@ def main():
         subprocess.run(["/usr/bin/python3", f"{HERE}/make_examples.py", folder], check=True)
         for name in PICTURES:
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
+        draw_survey(os.path.abspath(arguments.command), folder, arguments.output)
 
 
 if __name__ == "__main__":

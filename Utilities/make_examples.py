@@ -5,14 +5,15 @@
 
 terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over it.
 scan.ply: a bumpy ring, as a laser scanner gives it. part.stl: an elliptic cylinder, as a CAD program
-writes it. plate.vtk: a plane of two materials, with a cell array Material. The same arguments give the
-same files.
+writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
+valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
+outline of the survey, and pond.vtk. The same arguments give the same files.
 """
 import argparse
 import os
 
 import numpy as np
-from make_terrain import make_terrain
+from make_terrain import EASTING, NORTHING, fractal_field, make_terrain, sample
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -80,6 +81,40 @@ def road(points):
     return points[nearest]
 
 
+class Valley:
+    """A tile of 1200 x 800 metres with a river and a pond, as an airborne scanner sees it."""
+
+    def __init__(self, random, spacing=18.0):
+        self.hills = fractal_field(random, (256, 384), 4.2)
+        scattered = random.random((60_000, 2)) * [1200.0, 800.0]
+        _, first = np.unique((scattered // spacing).astype(int), axis=0, return_index=True)
+        scattered = scattered[np.sort(first)]
+        dry = np.hypot(*((scattered - [820.0, 140.0]) / [72.0, 42.0]).T) > 1.05  # not on the pond
+        self.points = self.lift(scattered[dry])
+        stations = np.arange(100.0, 1101.0, 20.0)
+        self.river = [self.lift(np.c_[stations, self.middle(stations) + away])
+                      for away in (-15.0, -7.0, 7.0, 15.0)]
+        angle = np.arange(48) * 2 * np.pi / 48
+        circle = np.c_[np.cos(angle), np.sin(angle)]
+        wavy = circle * (1 + 0.05 * np.sin(3 * angle) + 0.03 * np.cos(5 * angle))[:, None]
+        self.area = self.lift([600.0, 400.0] + wavy * [560.0, 360.0])
+        self.pond = self.lift([820.0, 140.0] + circle * [72.0, 42.0])
+        self.pond[:, 2] = self.pond[:, 2].min()
+
+    @staticmethod
+    def middle(x):
+        return 430 + 110 * np.sin(x / 190) + 35 * np.sin(x / 71 + 1)
+
+    def lift(self, plan):
+        """Points with heights in metres, and with the offsets of a map."""
+        x, y = plan.T
+        away = np.abs(y - self.middle(x))
+        hills = 38 + 26 * sample(self.hills, plan * 10)  # which spans ten times as much
+        height = 300 - 0.01 * x + (1 - np.exp(-((away / 170) ** 2))) * hills
+        height += np.interp(away, [7, 15], [-9, 0])
+        return np.c_[x + EASTING, y + NORTHING, height].round(2)
+
+
 def rows_of(numbers):
     return "".join(" ".join(repr(value) for value in row) + "\n" for row in numbers.tolist())
 
@@ -94,6 +129,21 @@ def write(folder, name, text):
         file.write(text)
 
 
+def write_lines(folder, name, title, lines):
+    sizes = np.cumsum([0] + [len(line) for line in lines])
+    rows = [[end - begin, *range(begin, end)] for begin, end in zip(sizes, sizes[1:])]
+    write(folder, name, VTK_HEADER.format(title, sizes[-1]) + rows_of(np.concatenate(lines))
+          + f"LINES {len(lines)} {sizes[-1] + len(lines)}\n"
+          + "".join(" ".join(map(str, row)) + "\n" for row in rows))
+
+
+def write_valley(folder, valley):
+    write(folder, "survey.csv", "x,y,z\n" + rows_of(valley.points).replace(" ", ","))
+    write_lines(folder, "river.vtk", "A river", valley.river)
+    for name, ring in (("area", valley.area), ("pond", valley.pond)):
+        write_lines(folder, f"{name}.vtk", f"A ring: {name}", [np.r_[ring, ring[:1]]])
+
+
 def write_terrain(folder, count):
     mesh = make_terrain(count, seed=4)
     writer = vtkXMLPolyDataWriter()
@@ -101,10 +151,7 @@ def write_terrain(folder, count):
     writer.SetFileName(os.path.join(folder, "terrain.vtp"))
     writer.SetInputData(mesh)
     writer.Write()
-    line = road(vtk_to_numpy(mesh.GetPoints().GetData()))
-    ids = " ".join(map(str, range(len(line))))
-    write(folder, "road.vtk", VTK_HEADER.format("A road", len(line)) + rows_of(line)
-          + f"LINES 1 {len(line) + 1}\n{len(line)} {ids}\n")
+    write_lines(folder, "road.vtk", "A road", [road(vtk_to_numpy(mesh.GetPoints().GetData()))])
 
 
 def write_ply(folder, name, points, triangles):
@@ -139,7 +186,8 @@ def main():
     write_ply(arguments.folder, "scan.ply", *ring(random))
     write_stl(arguments.folder, "part.stl", *cylinder())
     write_plate(arguments.folder, *plate(random))
-    print("terrain.vtp road.vtk scan.ply part.stl plate.vtk")
+    write_valley(arguments.folder, Valley(random))
+    print("terrain.vtp road.vtk scan.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages);
 FileMesh ReadXml(const InputFile& file, VTKMessages& messages);
 FileMesh ReadPly(const InputFile& file);
 FileMesh ReadObj(const InputFile& file);
+FileMesh ReadPoints(const InputFile& file);
 
 /// Points in the same place become one, because a .stl repeats them for every triangle. A triangle
 /// that collapses stays a triangle.

@@ -114,6 +114,21 @@ bool IsBlank(char letter)
   return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f';
 }
 
+/// Without blanks around it, and without quotes around what is left.
+std::string_view Trimmed(std::string_view word)
+{
+  while (!word.empty() && IsBlank(word.front()))
+  {
+    word.remove_prefix(1);
+  }
+  while (!word.empty() && IsBlank(word.back()))
+  {
+    word.remove_suffix(1);
+  }
+  const bool isQuoted = word.size() > 1 && word.front() == '"' && word.back() == '"';
+  return isQuoted ? word.substr(1, word.size() - 2) : word;
+}
+
 }
 
 TextLines::TextLines(const InputFile& file, bool isObj)
@@ -144,14 +159,41 @@ bool TextLines::Next()
       isContinued = last != line.npos && line[last] == '\\';
       line = isContinued ? line.substr(0, last) : line;
     }
-    for (auto begin = std::find_if_not(line.begin(), line.end(), IsBlank); begin != line.end();)
-    {
-      const auto after = std::find_if(begin, line.end(), IsBlank);
-      this->Words.emplace_back(&*begin, static_cast<std::size_t>(after - begin));
-      begin = std::find_if_not(after, line.end(), IsBlank);
-    }
+    this->Split(line);
   }
   return !this->Words.empty();
+}
+
+char TextLines::SeparateBy(std::string_view characters)
+{
+  const auto found = std::find_if(characters.begin(), characters.end(),
+    [this](char letter) { return this->Text.find(letter) != std::string_view::npos; });
+  this->Separator = found == characters.end() ? ' ' : *found;
+  this->Words.clear();
+  this->Split(this->Text);
+  return this->Separator;
+}
+
+void TextLines::Split(std::string_view line)
+{
+  this->Text = line;
+  auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
+  if (this->Separator != ' ' && begin != line.end())
+  {
+    for (std::size_t start = 0; start <= line.size();)
+    {
+      const std::size_t end = std::min(line.find(this->Separator, start), line.size());
+      this->Words.push_back(Trimmed(line.substr(start, end - start)));
+      start = end + 1;
+    }
+    return;
+  }
+  while (begin != line.end())
+  {
+    const auto end = std::find_if(begin, line.end(), IsBlank);
+    this->Words.emplace_back(&*begin, static_cast<std::size_t>(end - begin));
+    begin = std::find_if_not(end, line.end(), IsBlank);
+  }
 }
 
 void TextLines::Fail(const std::string& reason) const

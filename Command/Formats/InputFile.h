@@ -48,13 +48,19 @@ private:
   std::string_view Bytes;
 };
 
-/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks.
+/// The lines of a text as words. Lines end with \n, \r\n or \r; words are separated by blanks,
+/// unless SeparateBy says otherwise.
 class TextLines
 {
 public:
   /// Begins behind a byte order mark, if there is one. In an .obj, # begins a comment, and a
   /// backslash at the end of a line continues the line.
   explicit TextLines(const InputFile& file, bool isObj = false);
+
+  /// From this line on, words are separated by the first of these characters that this line has, if
+  /// it has one. Then words may be empty, and quotes around them are removed. Returns the
+  /// character, or a blank.
+  char SeparateBy(std::string_view characters);
 
   /// Reads the next line that is not empty. Returns false if there is none.
   bool Next();
@@ -78,15 +84,19 @@ public:
   [[noreturn]] void FailOn(std::string_view word, const char* problem) const;
 
 private:
+  void Split(std::string_view line);
+
+  std::string_view Text; ///< The last one that was split.
   const InputFile& File;
   std::size_t Line = 0;
   bool IsObj;
+  char Separator = ' '; ///< Or a blank: any blanks.
 };
 
 template <typename T>
 T TextLines::Number(std::size_t place) const
 {
-  if (place >= this->Words.size())
+  if (place >= this->Words.size() || this->Words[place].empty())
   {
     this->Fail("a number is missing");
   }

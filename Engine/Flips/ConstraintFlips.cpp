@@ -5,6 +5,8 @@
 #include "EdgeFlip.h"
 #include "FlipRules.h"
 
+#include <algorithm>
+
 namespace delaunayflip
 {
 
@@ -20,10 +22,10 @@ struct CertainSigns
 }
 
 ConstraintFlips::ConstraintFlips(
-  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table)
+  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table)
   : Mesh(mesh),
     Table(table),
-    Fans(mesh, vertices, triangles)
+    Fans(mesh, vertices, triangles, table == nullptr)
 {
 }
 
@@ -38,23 +40,30 @@ PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
     }
     path = FindPath(this->Mesh, this->Fans, from, to);
   }
-  if (path.Result != PathResult::Found)
+  if (path.Result == PathResult::Found && !this->Flip(path))
   {
-    return path.Result;
+    return PathResult::Overlaps;
   }
-  for (Rim& rim : path.Segments)
+  if (path.Result == PathResult::Found)
   {
-    if (!this->Straighten(rim))
-    {
-      return PathResult::Overlaps;
-    }
+    this->Fix(path);
   }
+  return path.Result;
+}
+
+bool ConstraintFlips::Flip(ConstraintPath& path)
+{
+  return std::all_of(
+    path.Segments.begin(), path.Segments.end(), [this](Rim& rim) { return this->Straighten(rim); });
+}
+
+void ConstraintFlips::Fix(const ConstraintPath& path)
+{
   for (const Rim& rim : path.Segments)
   {
     this->Mesh.Edges.States[EdgeOf(rim.front())] = EdgeState::Fixed;
-    this->Segments.emplace_back(this->Mesh.GetEnd(rim.front()), this->Mesh.GetStart(rim.front()));
+    this->Segments.push_back(rim.front());
   }
-  return PathResult::Found;
 }
 
 /// Cuts ears off the triangles that a segment of a constraint crosses until their rim is that
@@ -174,18 +183,32 @@ bool ConstraintFlips::TryFlip(EdgeId edge)
     return false;
   }
   const Quad quad = mesh.GetQuad(edge);
-  const std::uint64_t key = EdgeKey(quad.A, quad.B);
-  bool fresh = false;
-  if (!this->IsConvex(quad) || this->Table.Find(key) != EdgeTableView::NoSlot ||
-    !this->Table.InsertNew(key, fresh))
+  if (!this->IsConvex(quad))
   {
     return false;
   }
-  this->Table.Remove(EdgeKey(quad.P, quad.Q));
+  if (this->Table)
+  {
+    const std::uint64_t key = EdgeKey(quad.A, quad.B);
+    bool fresh = false;
+    if (this->Table->Find(key) != EdgeTableView::NoSlot || !this->Table->InsertNew(key, fresh))
+    {
+      return false;
+    }
+    this->Table->Remove(EdgeKey(quad.P, quad.Q));
+  }
   const OuterHalfEdges outer = FlipEdge(mesh, edge, quad, mesh.Triangles[TriangleOf(quad.CornerA)],
     mesh.Triangles[TriangleOf(quad.CornerB)], nullptr);
   this->Fans.NoteFlip(edge, quad, outer.PB, outer.QA);
-  ++this->Flips;
+  for (const HalfEdgeId side : { 2 * edge, outer.AP, outer.QA, outer.PB, outer.BQ })
+  {
+    EdgeState* state = &mesh.States[EdgeOf(side)]; // others may make it a candidate, too
+    if (AtomicLoad(state) != EdgeState::Fixed)
+    {
+      AtomicStore(state, EdgeState::Candidate);
+    }
+  }
+  __atomic_fetch_add(&this->Flips, 1, __ATOMIC_RELAXED);
   return true;
 }
 

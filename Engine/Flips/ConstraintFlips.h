@@ -3,17 +3,17 @@
 #ifndef DELAUNAYFLIP_CONSTRAINTFLIPS_H
 #define DELAUNAYFLIP_CONSTRAINTFLIPS_H
 
+#include "Atomics.h"
 #include "ConstraintPath.h"
 #include "EdgeTable.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
 
-/// Makes constraints edges of a mesh, one after the other, by flips of the edges that cross them.
+/// Makes constraints edges of a mesh, by flips of the edges that cross them.
 ///
 /// Each flip turns two triangles into two that turn to the same side, and makes no edge that
 /// exists. So whatever the mesh, it stays what it was; and where a constraint cannot be inserted,
@@ -21,17 +21,31 @@ namespace delaunayflip
 class ConstraintFlips
 {
 public:
-  /// @param table of the vertex pairs of all edges.
+  /// @param table of the vertex pairs of all edges; null for a triangulation, in which no flip can
+  /// make an edge that exists.
   ConstraintFlips(
-    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView table);
+    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table);
 
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
   PathResult Insert(VertexId from, VertexId to);
 
-  /// The ends of the edges that constraints have become, in the order of insertion.
-  const std::vector<std::pair<VertexId, VertexId>>& GetSegments() const { return this->Segments; }
+  // The same in steps. Several threads may flip at a time for paths that have no triangle in
+  // common.
 
-  std::int64_t GetNumberOfFlips() const { return this->Flips; }
+  ConstraintPath Find(VertexId from, VertexId to) const
+  {
+    return FindPath(this->Mesh, this->Fans, from, to);
+  }
+  /// Makes each segment of a path one edge. @returns false where triangles overlap.
+  bool Flip(ConstraintPath& path);
+  /// Fixes the edges of a path, and adds them to GetSegments.
+  void Fix(const ConstraintPath& path);
+
+  /// A side of each of the edges that constraints have become, in the order of insertion and from
+  /// start to end. Flips do not change it.
+  const std::vector<HalfEdgeId>& GetSegments() const { return this->Segments; }
+
+  std::int64_t GetNumberOfFlips() const { return AtomicLoad(&this->Flips); }
 
 private:
   using Rim = ConstraintPath::Rim;
@@ -45,9 +59,9 @@ private:
   bool IsConvex(const Quad& quad) const;
 
   const PlaneMesh& Mesh;
-  EdgeTableView Table;
+  EdgeTableView* Table;
   VertexFans Fans;
-  std::vector<std::pair<VertexId, VertexId>> Segments;
+  std::vector<HalfEdgeId> Segments;
   std::int64_t Flips = 0;
 };
 

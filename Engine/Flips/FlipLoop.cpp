@@ -52,6 +52,13 @@ const StepCounts& FlipLoop::Detect()
   return this->Found;
 }
 
+/// Edges may be in other chunks now.
+void FlipLoop::Restart()
+{
+  this->ChunkIterationsLeft = 0;
+  this->TakeStates();
+}
+
 std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
 {
   if (this->ChunkIterationsLeft == 0)

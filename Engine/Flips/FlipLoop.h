@@ -74,6 +74,10 @@ public:
   /// The first detection.
   const StepCounts& Detect();
 
+  /// After the mesh was changed from outside, with the state Candidate where edges must be judged
+  /// again. Detect must follow.
+  void Restart();
+
   /// The counts of the last detection.
   const StepCounts& GetFound() const { return this->Found; }
 
@@ -96,6 +100,8 @@ protected:
 
   /// Passes 1 to 3 for the whole mesh. @returns what they found.
   virtual StepCounts DetectAll() = 0;
+
+  virtual void TakeStates() = 0;
 
   /// Passes 4 to 6 and a detection, on the whole mesh, once or more. Sets Found.
   virtual std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) = 0;

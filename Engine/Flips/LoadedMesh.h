@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_FLIPENGINE_H
-#define DELAUNAYFLIP_FLIPENGINE_H
+#ifndef DELAUNAYFLIP_LOADEDMESH_H
+#define DELAUNAYFLIP_LOADEDMESH_H
 
 #include "BuildProgress.h"
 #include "DeviceMesh.h"
@@ -9,10 +9,12 @@
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "Outline.h"
 #include "SpatialOrder.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace delaunayflip
@@ -88,6 +90,14 @@ public:
   virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
   virtual void StoreUsedPoints(std::int64_t* ids) const = 0;
 
+  /// Of a mesh from points: calls view(mesh) with the mesh in the memory of the host.
+  using HostView = std::function<void(const PointMeshView&)>;
+  virtual void ViewOnHost(const HostView& view) = 0;
+
+  /// The same, and keeps what `edit` has changed: triangles, corners of half-edges, and the states
+  /// of edges that it makes Fixed or Candidate. FlipLoop::Restart must follow.
+  virtual void EditOnHost(const HostView& edit) = 0;
+
   /// The same into device memory. @returns false, and writes nothing, if the backend's device
   /// cannot write it.
   virtual bool StoreTrianglesOnDevice(const MutableTriangleArray&, const DeviceStream&) const
@@ -95,6 +105,7 @@ public:
     return false;
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
+  virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
 
   /// The triangles as they are in device memory, if they are.
   virtual DeviceTriangles ViewTriangles() const { return {}; }
@@ -128,8 +139,8 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
-/// For points in the host's memory.
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PlaneArray& points, const FlipOptions& options,
+/// For points in the host's memory, or in that of FlipOptions::Device.
+std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
   bool byDivision, const BuildProgress& progress);
 
 }

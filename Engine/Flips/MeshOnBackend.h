@@ -153,16 +153,17 @@ public:
   }
 
   /// Triangulates points in the plane instead.
+  /// @param isLocal whether they are in the memory of the backend.
   /// @param byDivision divide and conquer, after which no edge is bad, instead of strips. On the
   /// host.
   /// @throws RunAborted.
-  MeshOnBackend(const PlaneArray& points, const FlipOptions& options, bool byDivision,
+  MeshOnBackend(const PlaneArray& points, bool isLocal, const FlipOptions& options, bool byDivision,
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
     points.Floats
-      ? this->Triangulate<float>(points, points.Floats, options, byDivision, progress)
-      : this->Triangulate<double>(points, points.Doubles, options, byDivision, progress);
+      ? this->Triangulate<float>(points, isLocal, points.Floats, options, byDivision, progress)
+      : this->Triangulate<double>(points, isLocal, points.Doubles, options, byDivision, progress);
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -183,8 +184,7 @@ public:
 
   void StoreNeighbors(std::int32_t* neighbors) const override
   {
-    this->Backend.StoreValues(3 * this->Mesh.NumberOfTriangles, neighbors,
-      NeighborStep{ this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data() });
+    this->Backend.StoreValues(3 * this->Mesh.NumberOfTriangles, neighbors, this->GetNeighborStep());
   }
 
   void StoreUsedPoints(std::int64_t* ids) const override
@@ -198,6 +198,9 @@ public:
       ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
     }
   }
+
+  void ViewOnHost(const HostView& view) override { this->UseOnHost(view, false); }
+  void EditOnHost(const HostView& edit) override { this->UseOnHost(edit, true); }
 
   HostTriangles ViewHostTriangles() const override
   {
@@ -242,19 +245,23 @@ public:
 protected:
   const BackendT& GetBackend() const { return this->Backend; }
   StoreStep GetStoreStep() const { return { this->Mesh.Triangles.Data(), this->Order.View() }; }
+  NeighborStep GetNeighborStep() const
+  {
+    return { this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data() };
+  }
   FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
 private:
   template <typename Real>
-  void Triangulate(PlaneArray points, const Real* values, const FlipOptions& options,
+  void Triangulate(PlaneArray points, bool isLocal, const Real* values, const FlipOptions& options,
     bool byDivision, const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
     StripPoints<Real> sorted;
     {
       const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;
-      Array<Real> copy = this->Backend.template MakeArray<Real>(BackendT::IsOnHost ? 0 : numbers);
-      if (!BackendT::IsOnHost)
+      Array<Real> copy = this->Backend.template MakeArray<Real>(isLocal ? 0 : numbers);
+      if (!isLocal)
       {
         this->Backend.Upload(values, numbers, copy.Data());
         points = PlaneArray(copy.Data(), points.Count, points.Stride);
@@ -287,6 +294,7 @@ private:
     this->Points.Count = places;
     const Real* coordinates = mesh.Points.Coordinates.Data();
     this->Points.Take(std::move(mesh.Points.Coordinates));
+    this->Places = PlaneArray(coordinates, places, 2);
 
     FlipReport& report = this->Report;
     report.Points = points.Count;
@@ -300,21 +308,59 @@ private:
     report.GeometryReason = "points are triangulated in x and y";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
-    if (finite < points.Count)
-    {
-      report.Defects.push_back({ "points with NaN or infinite coordinates", points.Count - finite,
-        {}, DefectIds::Points });
-    }
-    if (places < finite)
-    {
-      report.Defects.push_back(
-        { "points at the place of another one", finite - places, {}, DefectIds::Points });
-    }
+    report.FromPoints.NotFinite = points.Count - finite;
+    report.FromPoints.Repeated = finite - places;
     // All triangles turn to the left and none overlap, so that flips need no guard.
     using Rule = PlanarRule<Real, 2>;
     using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
     this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
       survey.Range, EdgeGuard(), this->Backend));
+  }
+
+  void UseOnHost(const HostView& use, bool keep)
+  {
+    EdgeMesh& mesh = this->Mesh;
+    PointMeshView view;
+    view.NumberOfTriangles = mesh.NumberOfTriangles;
+    view.NumberOfEdges = mesh.NumberOfEdges;
+    view.NumberOfPlaces = this->Points.Count;
+    if constexpr (BackendT::IsOnHost)
+    {
+      view.Edges = mesh.View();
+      view.Places = this->Places;
+      view.Ids = this->Order.VertexOfRank.Data();
+      use(view);
+      return;
+    }
+    const auto fetch = [&](const auto* values, std::int64_t size)
+    {
+      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
+      this->Backend.Download(values, size, copy.data());
+      return copy;
+    };
+    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
+    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
+    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
+    for (EdgeState& state : states)
+    {
+      state = state == EdgeState::Fixed ? state : EdgeState::Good;
+    }
+    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
+    const auto floats =
+      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
+    const auto doubles =
+      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
+    view.Edges = { triangles.data(), corners.data(), states.data() };
+    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
+                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
+    view.Ids = ids.data();
+    use(view);
+    if (keep)
+    {
+      this->Backend.Upload(triangles.data(), mesh.NumberOfTriangles, mesh.Triangles.Data());
+      this->Backend.Upload(corners.data(), 2 * mesh.NumberOfEdges, mesh.CornerOfHalfEdge.Data());
+      this->Backend.Upload(states.data(), mesh.NumberOfEdges, mesh.States.Data());
+    }
   }
 
   /// In the plane the caller's points are not needed once they are packed; on surfaces feature
@@ -331,6 +377,7 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
+  PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
   TurnCounts Turns;
   std::unique_ptr<FlipLoop> Loop;

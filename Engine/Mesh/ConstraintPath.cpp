@@ -2,15 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintPath.h"
 
+#include "Atomics.h"
+
 #include <tuple>
 
 namespace delaunayflip
 {
 
-VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles)
+VertexFans::VertexFans(
+  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, bool areWhole)
   : Mesh(mesh),
     First(vertices, NoHalfEdge)
 {
+  for (std::int64_t t = 0; areWhole && t < triangles; ++t)
+  {
+    const TriangleRecord& triangle = mesh.Edges.Triangles[t];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const HalfEdgeId leaves = triangle.HalfEdges[PreviousSlot(slot)];
+      HalfEdgeId& first = this->First[triangle.Vertices[slot]];
+      const bool isOpen = mesh.Edges.CornerOfHalfEdge[leaves ^ 1u] == NoCorner;
+      first = first == NoHalfEdge || isOpen ? leaves : first;
+    }
+  }
+  if (areWhole)
+  {
+    return;
+  }
   std::vector<bool> isKnown(4 * triangles, false);
   const auto addFans = [&](bool open)
   {
@@ -46,8 +64,12 @@ void VertexFans::NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfE
 {
   for (const auto& [vertex, halfEdge] : { std::pair(quad.P, fromP), std::pair(quad.Q, fromQ) })
   {
+    // Flips elsewhere may read it meanwhile, but only one of them has this edge.
     HalfEdgeId& first = this->First[vertex];
-    first = EdgeOf(first) == edge ? halfEdge : first;
+    if (EdgeOf(AtomicLoad(&first)) == edge)
+    {
+      AtomicStore(&first, halfEdge);
+    }
     const auto [begin, end] = this->Others.equal_range(vertex);
     for (auto other = begin; other != end; ++other)
     {
@@ -198,6 +220,7 @@ private:
         const bool isRim = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
         return this->Fail(isRim ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
       }
+      this->Path.Crossed.push_back(crossed);
       const CornerId across = this->Mesh.FindAcross(crossed);
       const int turnAcross = this->Mesh.FindTurnAt(across);
       if (turnAcross != turn)

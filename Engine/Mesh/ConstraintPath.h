@@ -5,8 +5,6 @@
 
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
-#include "MeshSurvey.h"
-#include "SpatialOrder.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -21,17 +19,15 @@ namespace delaunayflip
 
 constexpr HalfEdgeId NoHalfEdge = 0xFFFFFFFFu;
 
-/// An edge mesh of planar geometry with its points, which are the caller's.
+/// An edge mesh of planar geometry with the places of its vertices.
 struct PlaneMesh
 {
   EdgeMeshView Edges;
-  PointArray Points;
-  SpatialOrderView Order;
-  PlaneProjection Projection;
+  PlaneArray Places;
 
   PlanePoint GetPoint(VertexId vertex) const
   {
-    return this->Projection.Project(this->Points, this->Order.GetVertex(vertex));
+    return { this->Places.Get(vertex, 0), this->Places.Get(vertex, 1), 0.0 };
   }
   bool IsFinite(VertexId vertex) const { return delaunayflip::IsFinite(this->GetPoint(vertex)); }
 
@@ -107,7 +103,8 @@ class VertexFans
 {
 public:
   /// @param mesh must outlive this.
-  VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles);
+  /// @param areWhole whether every vertex is known to have one fan at most.
+  VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, bool areWhole);
 
   /// Calls visit(corner) for the corners of a vertex until it returns true.
   template <typename Visit>
@@ -172,6 +169,7 @@ struct ConstraintPath
 
   PathResult Result = PathResult::Found;
   std::vector<Rim> Segments; ///< Where it was found.
+  std::vector<HalfEdgeId> Crossed; ///< Edges that it crosses.
   TriangleId Bar = NoTriangle; ///< Where it IsBarred.
 };
 

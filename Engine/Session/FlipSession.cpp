@@ -11,6 +11,7 @@
 #include "HostMemory.h"
 #include "InputChecks.h"
 #include "LoadedMesh.h"
+#include "PointRun.h"
 #include "RunProgress.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
@@ -68,7 +69,7 @@ void StoreAtOnce(const LoadedMesh& mesh, Id* ids, std::int64_t count)
 struct FlipSession::Work
 {
   Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
-  Work(const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress);
+  Work(const PointInput& points, const PointOptions& options, const ProgressObserver& progress);
 
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
@@ -105,10 +106,23 @@ struct FlipSession::Work
     return this->Loaded != nullptr;
   }
 
+  /// Calls store(mesh), which says whether it has stored, unless triangles were removed.
+  template <typename Function>
+  bool StoreOnDevice(const Function& store)
+  {
+    bool isStored = false;
+    if (!this->Cloud || !this->Cloud->HasRemoved())
+    {
+      this->TryOnBackend([&](const LoadedMesh& mesh) { isStored = store(mesh); });
+    }
+    return isStored;
+  }
+
   void Build();
   void Load();
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend);
   void DivideIfLong();
+  void InsertIfDone();
   void FallBack(const BackendUnavailable& error);
   void Reset();
   void Abort();
@@ -124,11 +138,13 @@ struct FlipSession::Work
   void Keep(const IterationCounts& counts, double seconds);
   double MeasureAngle();
   void MeasureEnd();
+  void ReportPoints();
 
   CallerMesh Mesh; ///< Empty in a session from points.
-  std::optional<PlaneArray> Cloud; ///< Of a session from points.
+  std::unique_ptr<PointRun> Cloud; ///< Of a session from points.
   bool ByDivision = false; ///< Whether these are triangulated by divide and conquer.
   std::int64_t IterationsBeforeDivision = 0;
+  std::int64_t IterationsBeforeInsertion = 0; ///< Of segments, if they are inserted.
   FlipOptions Options;
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   FlipReport Report;
@@ -174,17 +190,25 @@ FlipSession::Work::Work(
 }
 
 FlipSession::Work::Work(
-  const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
+  const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
   : Mesh(TriangleMesh()),
-    Cloud(points),
+    Cloud(std::make_unique<PointRun>(points, options)),
     Options(options),
     Observer(progress)
 {
   CheckOptions(options);
-  CheckMeshSize(2 * points.Count, points.Count, "");
+  CheckMeshSize(2 * points.Points.Count, points.Points.Count, "");
+  if (points.OnDevice)
+  {
+    const PlaneArray& plane = points.Points;
+    const void* values = plane.Floats ? static_cast<const void*>(plane.Floats) : plane.Doubles;
+    const int device = RequireOnDevice(values, plane.Count, "the points are");
+    this->Options.Device = device >= 0 ? device : options.Device;
+  }
   this->Options.Geometry = GeometryKind::PlanarXY;
   this->Options.Criterion = CriterionKind::InCircle;
   this->Options.TieRule = TieRuleKind::Canonical;
+  this->Options.NumberOfPieces = 1;
   try
   {
     this->Build();
@@ -205,6 +229,10 @@ try
   const auto tell = [this](double share) { return this->Progress.Tell(this->Observer, share); };
   this->Insertion = ConstraintInsertion();
   this->Start = this->Mesh;
+  if (this->Cloud)
+  {
+    this->Cloud->Prepare(this->Observer);
+  }
   if (ConstraintInsertion::IsRequested(this->Mesh.GetFixedEdges()))
   {
     const TriangleMesh& mesh = this->Mesh.GetOnHost();
@@ -232,6 +260,10 @@ try
   this->Report.FlipSeconds = flipWatch.GetSeconds();
   this->Building.Reach(geometry, BuildStep::Tested);
   this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
+  if (this->Cloud)
+  {
+    this->ReportPoints();
+  }
 }
 catch (...)
 {
@@ -246,8 +278,10 @@ std::unique_ptr<LoadedMesh> FlipSession::Work::LoadOn(BackendKind backend)
   const bool onCuda = backend == BackendKind::CUDA;
   if (this->Cloud)
   {
-    return onCuda ? LoadOnCuda(*this->Cloud, options, this->ByDivision, this->Building)
-                  : LoadOnThreads(*this->Cloud, options, this->ByDivision, this->Building);
+    this->Cloud->Reset();
+    return onCuda
+      ? LoadOnCuda(this->Cloud->GetPoints(), options, this->ByDivision, this->Building)
+      : LoadOnThreads(this->Cloud->GetOnHost(), options, this->ByDivision, this->Building);
   }
   const DeviceMesh* device = this->Start->GetOnDevice();
   if (onCuda)
@@ -260,10 +294,13 @@ std::unique_ptr<LoadedMesh> FlipSession::Work::LoadOn(BackendKind backend)
 
 void FlipSession::Work::Load()
 {
-  const std::int64_t triangles = this->Cloud ? 2 * this->Cloud->Count : this->Mesh.CountTriangles();
+  const std::int64_t triangles =
+    this->Cloud ? 2 * this->Cloud->GetPoints().Points.Count : this->Mesh.CountTriangles();
+  const bool isOnDevice =
+    this->Cloud ? this->Cloud->GetPoints().OnDevice : this->Start->GetOnDevice() != nullptr;
   const bool wantsCuda = this->Options.Backend == BackendKind::CUDA ||
     (this->Options.Backend == BackendKind::Auto &&
-      (this->Start->GetOnDevice() || (triangles >= SmallestMeshForCuda && HasCudaDevice())));
+      (isOnDevice || (triangles >= SmallestMeshForCuda && HasCudaDevice())));
   if (!wantsCuda)
   {
     this->Loaded = this->LoadOn(BackendKind::Threads);
@@ -288,6 +325,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     throw;
   }
   this->Fallback = error.what();
+  const bool hadSegments = this->Cloud && this->Cloud->AreInserted();
   this->Loaded.reset();
   this->Loaded = this->LoadOn(BackendKind::Threads);
   if (!this->HasDetected)
@@ -298,16 +336,27 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Measured);
   loop.Detect();
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
-  std::int64_t batch = 1;
-  const std::int64_t iterations = this->CountIterations() - this->IterationsBeforeDivision;
-  for (std::int64_t done = 0; done < iterations;)
+  const auto repeat = [&](std::int64_t iterations)
   {
-    const StopWatch watch;
-    const AdvancePlan plan{ std::min(batch, iterations - done), false, false };
-    done += static_cast<std::int64_t>(loop.Advance(plan).size());
-    batch = watch.GetSeconds() < 0.05 ? std::min(2 * batch, iterations) : batch;
-    this->Building.Tell(0.0);
+    std::int64_t batch = 1;
+    for (std::int64_t done = 0; done < iterations;)
+    {
+      const StopWatch watch;
+      const AdvancePlan plan{ std::min(batch, iterations - done), false, false };
+      done += static_cast<std::int64_t>(loop.Advance(plan).size());
+      batch = watch.GetSeconds() < 0.05 ? std::min(2 * batch, iterations) : batch;
+      this->Building.Tell(0.0);
+    }
+  };
+  std::int64_t done = this->IterationsBeforeDivision;
+  if (hadSegments)
+  {
+    repeat(this->IterationsBeforeInsertion - done);
+    done = this->IterationsBeforeInsertion;
+    this->Cloud->Insert(*this->Loaded, {});
+    loop.Detect();
   }
+  repeat(this->CountIterations() - done);
 }
 
 void FlipSession::Work::Reset()
@@ -319,8 +368,12 @@ void FlipSession::Work::Reset()
   this->ByDivision = false;
   this->IterationsBeforeDivision = 0;
   this->Insertion = ConstraintInsertion();
+  if (this->Cloud)
+  {
+    this->Cloud->Reset();
+  }
   this->Report = FlipReport();
-  this->Report.Points = this->Cloud ? this->Cloud->Count : this->Mesh.CountPoints();
+  this->Report.Points = this->Cloud ? this->Cloud->CountCallerPoints() : this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
   this->IsMeasured = true;
 }
@@ -342,11 +395,11 @@ void FlipSession::Work::DivideIfLong()
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
   constexpr std::int64_t Least = 100000;
-  if (!this->Cloud || this->ByDivision)
+  if (!this->Cloud || this->ByDivision || this->Cloud->AreInserted())
   {
     return;
   }
-  const std::int64_t most = FlipsPerPoint * this->Cloud->Count + Least;
+  const std::int64_t most = FlipsPerPoint * this->Cloud->GetPoints().Points.Count + Least;
   std::int64_t done = 0;
   std::size_t iterations = 0;
   std::vector<IterationRecord>& made = this->Report.Iterations;
@@ -373,6 +426,27 @@ void FlipSession::Work::DivideIfLong()
   this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
   this->HasDetected = true;
   this->Resume();
+}
+
+/// Inserts the segments of a session from points once flips have ended without them: in the
+/// Delaunay triangulation segments cross few edges, and many are edges already.
+void FlipSession::Work::InsertIfDone()
+{
+  const bool isDue = this->Cloud && this->Cloud->HasSegments() && !this->Cloud->AreInserted() &&
+    (!this->IsRunning() || this->Cloud->WasStopped());
+  if (!isDue || this->Report.StopReason == StopReasonKind::Aborted)
+  {
+    return;
+  }
+  this->IterationsBeforeInsertion = this->CountIterations(); // where the CPU has to insert, too
+  const bool isComplete =
+    this->OnBackend([this](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, this->Observer); });
+  this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
+  this->Resume();
+  if (!isComplete)
+  {
+    this->Report.StopReason = StopReasonKind::Aborted;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -439,7 +513,11 @@ void FlipSession::Work::MeasureEnd()
   this->IsMeasured = true;
   this->Report.Defects = this->Loaded->GetInputReport().Defects;
   AddDefects(this->Insertion.GetRefused(), this->Report.Defects);
-  if (!this->IsRunning())
+  if (this->Cloud)
+  {
+    this->ReportPoints();
+  }
+  if (!this->IsRunning() && !this->Report.Iterations.empty())
   {
     this->Report.Iterations.back().MinimumAngle = this->Report.MinimumAngleAfter;
     const Defect turned =
@@ -449,6 +527,23 @@ void FlipSession::Work::MeasureEnd()
       this->Report.Defects.push_back(turned);
     }
   }
+}
+
+/// What is not about flips. Removes triangles once nothing is left to flip.
+void FlipSession::Work::ReportPoints()
+{
+  this->OnBackend(
+    [this](LoadedMesh& mesh)
+    {
+      if (this->Report.StopReason == StopReasonKind::Converged ||
+        this->Report.StopReason == StopReasonKind::IterationLimit)
+      {
+        this->Cloud->Finish(mesh);
+      }
+      this->Report.FromPoints = mesh.GetInputReport().FromPoints;
+      this->Report.Edges = mesh.GetInputReport().Edges;
+      this->Cloud->AddTo(this->Report, mesh);
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -465,7 +560,7 @@ FlipSession::FlipSession(
 }
 
 FlipSession::FlipSession(
-  const PlaneArray& points, const FlipOptions& options, const ProgressObserver& progress)
+  const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
   : Own(std::make_unique<Work>(points, options, progress))
 {
 }
@@ -493,6 +588,8 @@ try
   const double secondsBefore = report.FlipSeconds;
   const std::int64_t limit = iterations < 0 ? NoLimit : work.CountIterations() + iterations;
   work.Resume();
+  work.InsertIfDone();
+  work.IsMeasured = work.IsMeasured && !work.Cloud; // triangles may be removed
   while (work.IsRunning() && work.CountIterations() < limit)
   {
     // At least one iteration; with observers no more than they can wait for.
@@ -517,6 +614,7 @@ try
 #endif
     work.Resume();
     work.DivideIfLong();
+    work.InsertIfDone();
     bool continues = true;
     for (std::int64_t i = first; observer && i < work.CountIterations(); ++i)
     {
@@ -582,7 +680,11 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   const bool atOnce = work.Mesh.HasTriangles(triangles.Data());
   const auto store = [&](const LoadedMesh& mesh)
   {
-    if (!atOnce)
+    if (work.Cloud)
+    {
+      work.Cloud->StoreTriangles(mesh, triangles);
+    }
+    else if (!atOnce)
     {
       mesh.StoreTriangles(triangles);
     }
@@ -609,15 +711,30 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
 {
-  this->Own->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreNeighbors(neighbors); });
+  this->Own->TryOnBackend(
+    [&](const LoadedMesh& mesh) { this->Own->Cloud->StoreNeighbors(mesh, neighbors); });
 }
 
 void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 {
-  if (!this->Own->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreUsedPoints(ids); }))
+  const auto store = [&](const LoadedMesh& mesh) { this->Own->Cloud->StoreUsedPoints(mesh, ids); };
+  if (!this->Own->TryOnBackend(store))
   {
     std::fill_n(ids, this->Own->Report.Points, -1);
   }
+}
+
+const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
+{
+  return this->Own->Cloud->GetAddedPoints();
+}
+
+std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
+{
+  std::vector<std::int64_t> pairs;
+  this->Own->TryOnBackend(
+    [&](LoadedMesh& mesh) { pairs = this->Own->Cloud->ListSegmentEdges(mesh); });
+  return pairs;
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
@@ -627,7 +744,11 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
   {
     work.Divided->StoreFlipCounts(counts);
   }
-  else if (work.TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); }))
+  else if (work.TryOnBackend(
+             [&](const LoadedMesh& mesh) {
+               work.Cloud ? work.Cloud->StoreFlipCounts(mesh, counts)
+                          : mesh.StoreFlipCounts(counts);
+             }))
   {
     work.Insertion.AddFlipCounts(counts);
   }
@@ -641,9 +762,8 @@ void FlipSession::StoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream) const
 {
   RequireOnDevice(triangles.Data(), triangles.Count, "the array for triangles is");
-  bool isStored = false;
-  this->Own->TryOnBackend(
-    [&](const LoadedMesh& mesh) { isStored = mesh.StoreTrianglesOnDevice(triangles, stream); });
+  const bool isStored = this->Own->StoreOnDevice(
+    [&](const LoadedMesh& mesh) { return mesh.StoreTrianglesOnDevice(triangles, stream); });
   const auto pass = [&](auto* ids)
   {
     StoreThroughHost(ids, 3 * triangles.Count, stream,
@@ -657,18 +777,28 @@ void FlipSession::StoreTriangles(
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
 {
-  const std::int64_t size = this->Own->Mesh.CountTriangles();
+  const std::int64_t size = this->Own->Report.Triangles;
   RequireOnDevice(counts, size, "the array for flip counts is");
-  bool isStored = false;
-  if (!this->Own->Insertion.HasFlips())
-  {
-    this->Own->TryOnBackend(
-      [&](const LoadedMesh& mesh) { isStored = mesh.StoreFlipCountsOnDevice(counts, stream); });
-  }
+  const bool isStored = !this->Own->Insertion.HasFlips() &&
+    this->Own->StoreOnDevice(
+      [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
   if (!isStored)
   {
     StoreThroughHost(
       counts, size, stream, [this](std::int32_t* host) { this->StoreFlipCounts(host); });
+  }
+}
+
+void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const
+{
+  const std::int64_t size = 3 * this->Own->Report.Triangles;
+  RequireOnDevice(neighbors, size, "the array for neighbours is");
+  const bool isStored = this->Own->StoreOnDevice(
+    [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); });
+  if (!isStored)
+  {
+    StoreThroughHost(
+      neighbors, size, stream, [this](std::int32_t* host) { this->StoreNeighbors(host); });
   }
 }
 

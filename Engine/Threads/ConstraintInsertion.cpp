@@ -127,6 +127,19 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
   return missing;
 }
 
+/// The places of the points in the plane, by rank.
+static std::vector<CoordinatePair<double>> ListPlaces(
+  const TriangleMesh& mesh, const SpatialOrderView& ranks, const PlaneProjection& projection)
+{
+  std::vector<CoordinatePair<double>> places(mesh.Points.Count);
+  for (std::int64_t i = 0; i < mesh.Points.Count; ++i)
+  {
+    const PlanePoint point = projection.Project(mesh.Points, i);
+    places[ranks.GetRank(i)] = { point.U, point.V };
+  }
+  return places;
+}
+
 ConstraintInsertion::ConstraintInsertion(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer)
 {
@@ -173,8 +186,10 @@ ConstraintInsertion::ConstraintInsertion(
   const BuildProgress building(
     [&](double share) { return !observer || observer(std::min(1.0, share) * BuildShare); });
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, building);
-  const PlaneMesh plane{ built.Edges.View(), mesh.Points, ranks, survey.Projection };
-  ConstraintFlips flips(plane, mesh.Points.Count, mesh.Triangles.Count, built.Table.View());
+  const std::vector<CoordinatePair<double>> places = ListPlaces(mesh, ranks, survey.Projection);
+  const PlaneMesh plane{ built.Edges.View(), PlaneArray(&places.data()->U, mesh.Points.Count, 2) };
+  EdgeTableView table = built.Table.View();
+  ConstraintFlips flips(plane, mesh.Points.Count, mesh.Triangles.Count, &table);
   for (std::size_t i = 0; i < missing.First.size(); ++i)
   {
     constexpr std::size_t ConstraintsPerCall = 64; // a few milliseconds
@@ -185,18 +200,16 @@ ConstraintInsertion::ConstraintInsertion(
     }
     const std::int64_t* ends = mesh.ConstraintEdges + 2 * missing.First[i];
     const PathResult result = flips.Insert(ranks.GetRank(ends[0]), ranks.GetRank(ends[1]));
-    if (result == PathResult::Found)
-    {
-      ++this->Inserted;
-    }
-    else
+    if (result != PathResult::Found)
     {
       refuse(missing.First[i], ToRefusal(result));
     }
   }
-  for (const auto& [from, to] : flips.GetSegments())
+  this->Inserted = static_cast<std::int64_t>(missing.First.size() - this->Refused.size());
+  for (const HalfEdgeId segment : flips.GetSegments())
   {
-    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(from), ranks.GetVertex(to) });
+    this->Edges.insert(this->Edges.end(),
+      { ranks.GetVertex(plane.GetStart(segment)), ranks.GetVertex(plane.GetEnd(segment)) });
   }
   this->Flips = flips.GetNumberOfFlips();
   if (this->Flips > 0)

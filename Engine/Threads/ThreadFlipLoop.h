@@ -70,6 +70,8 @@ protected:
       : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
   }
 
+  void TakeStates() override { this->Worklist.ActivateAll(); }
+
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
     const EdgeMeshView mesh = this->Mesh.View();

@@ -25,7 +25,7 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(const PlaneArray& points, const FlipOp
   bool byDivision, const BuildProgress& progress)
 {
   return std::unique_ptr<LoadedMesh>(new MeshOnBackend<ThreadBackend>(
-    points, options, byDivision, ThreadBackend(options.NumberOfThreads), progress));
+    points, true, options, byDivision, ThreadBackend(options.NumberOfThreads), progress));
 }
 
 std::vector<std::int64_t> FindFixedEdges(

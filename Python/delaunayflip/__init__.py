@@ -40,25 +40,27 @@ if typing.TYPE_CHECKING:
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
-    from ._vtk import vtkDelaunayFlip
+    from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
     __version__: str
 
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
     "Result", "Session", "Triangulation", "flip", "has_cuda_device", "release_cuda_memory",
-    "smallest_angles", "triangulate", "vtkDelaunayFlip",
+    "smallest_angles", "triangulate", "vtkDelaunayFlip", "vtkDelaunayFlipPoints",
 ]
 
 # Modules of the names that are not in _library.
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
     "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
-    "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk", "vtkPDelaunayFlip": "_vtk",
+    "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk", "vtkDelaunayFlipPoints": "_vtk",
+    "vtkPDelaunayFlip": "_vtk",
 }
 # What these need beside VTK.
 _NEEDS = {
     "vtkDelaunayFlip": "numpy",
+    "vtkDelaunayFlipPoints": "numpy",
     "vtkDelaunayFlipLiveView": f"{__name__}.vtkDelaunayFlipRendering",
     "vtkPDelaunayFlip": f"{__name__}.vtkDelaunayFlipFiltersParallel",
 }

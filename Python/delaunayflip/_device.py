@@ -121,6 +121,17 @@ def to_host(array):
     return functions.to_host(array)
 
 
+def view_points(points):
+    """The functions for points on a device, and the points as these take them; or None, and the
+    points as they are."""
+    if not _is_on_device(points):
+        return None, points
+    library, points = _adapt(points)
+    points = library.as_contiguous(points)
+    _check("points", points, ("float32", "float64"), (2, 3))
+    return library, points
+
+
 def make_mesh(points, triangles, *others):
     """The mesh in the memory of its points and triangles. `others`: the other arguments."""
     if not _is_on_device(points) and not _is_on_device(triangles):
@@ -141,7 +152,7 @@ def store_triangles(session, target, count):
         raise TypeError(f"target must be an array of NumPy or on a GPU, not {type(target).__name__}")
     functions, target = _adapt(target) if is_on_device else (None, target)
     fits = tuple(target.shape) == (count, 3) and _can_be_written(target, functions)
-    kind = _type_of(target) if fits else None
+    kind = type_of(target) if fits else None
     if kind not in ("int32", "int64"):
         raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "
                          "byte order that can be written")
@@ -186,7 +197,7 @@ class Mesh(_arrays.Mesh):
 
 def _check(name, array, types, columns):
     """The name of the array's type, if it is one of these and the array has so many columns."""
-    found = _type_of(array)
+    found = type_of(array)
     if found not in types:
         raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {found}")
     if len(array.shape) != 2 or array.shape[1] not in columns:
@@ -195,7 +206,7 @@ def _check(name, array, types, columns):
     return found
 
 
-def _type_of(array):
+def type_of(array):
     """NumPy's name for the type of the array's values, if these are in native byte order."""
     kind = array.dtype
     if _is_on_device(array):

@@ -71,6 +71,17 @@ class Mesh(ctypes.Structure):
     ]
 
 
+class Points(ctypes.Structure):
+    _fields_ = [
+        *_of(c_int64, "size"), *_of(c_void_p, "points"), *_of(c_int64, "number_of_points"),
+        *_of(c_int32, "point_type point_components"), *_of(c_void_p, "segments"),
+        *_of(c_int64, "number_of_segments"), *_of(c_void_p, "rings hole_seeds"),
+        *_of(c_int64, "number_of_hole_seeds"),
+        *_of(c_double, "point_tolerance alpha longest_edge"),
+        *_of(c_int32, "outline split_crossings memory"), *_of(c_void_p, "stream"),
+    ]
+
+
 class Polygons(ctypes.Structure):
     _fields_ = [*_of(c_int64, "size number_of_polygons"), *_of(c_void_p, "offsets corners")]
 
@@ -101,7 +112,9 @@ class Report(ctypes.Structure):
              region_edges fixed_edges unmatched_constraints inserted_constraints constraint_flips
              euler_characteristic"""),
         *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
-        *_of(c_int64, "number_of_points number_of_triangles"),
+        *_of(c_int64, """number_of_points number_of_triangles points_not_finite points_repeated
+             points_too_near segment_edges segments_refused crossings"""),
+        *_of(c_double, "largest_shift"), *_of(c_int64, "triangles_outside triangles_large"),
     ]
 
 
@@ -138,12 +151,15 @@ def library():
         ("error_cell", c_int64, []),
         ("error_point", c_int64, []),
         *((f"{kind.__name__.lower()}_init", None, [pointer(kind)])
-          for kind in (Mesh, Options, Report, Callbacks, Polygons)),
+          for kind in (Mesh, Points, Options, Report, Callbacks, Polygons)),
         ("open", c_int32, [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
         ("open_points", c_int32,
-         [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
+         [pointer(Points), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
         ("store_neighbors", c_int32, [c_void_p, c_void_p]),
+        ("store_neighbors_on_device", c_int32, [c_void_p, c_void_p, c_void_p]),
         ("store_used_points", c_int32, [c_void_p, c_void_p]),
+        ("store_added_points", c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+        ("store_segment_edges", c_int32, [c_void_p, c_void_p]),
         ("advance", c_int32, [c_void_p, c_int64, pointer(Callbacks), pointer(c_int32)]),
         ("get_report", c_int32, [c_void_p, pointer(Report)]),
         ("get_iterations", c_int32, [c_void_p, c_int64, c_int64, c_void_p, c_int64]),

@@ -3,45 +3,70 @@
 """The Delaunay triangulation of points."""
 import ctypes
 import dataclasses
-from typing import Optional
+from typing import Optional, Sequence, Union
 
 import numpy
 
-from . import _arrays, _library, _report
-from ._device import to_host
+from . import _arrays, _device, _library, _report
+from ._arrays import address
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
 from ._report import Report
 from ._session import Observers
+
+_ORIENTATION = 1  # an outline
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Triangulation:
     """What `triangulate` returns. Only the same object is equal: compare the arrays."""
 
-    points: Array  #: The points of the caller, (n, 2) or (n, 3).
+    #: (n, 2) or (n, 3): the points of the caller, then those of rings that are given by coordinates,
+    #: then those where segments cross.
+    points: Array
     triangles: Array  #: (m, 3) int32, counter-clockwise in x and y.
     #: (m, 3) int32: the triangle opposite each corner, -1 where there is none, as in SciPy.
     neighbors: Array
     #: (n,) int64: the point that is used at the place of each point; -1: it is not finite.
     used_points: Array
+    #: (k, 2) int64: the edges that segments have become, in their order and direction.
+    segments: Array
     report: Report
 
 
 def triangulate(
-    points: Numbers, *, backend: Backend = "auto", threads: int = 0, device: int = -1,
-    maximum_iterations: int = -1, progress: Optional[Progress] = None,
-    on_iteration: Optional[OnIteration] = None,
+    points: Numbers, segments: Optional[Numbers] = None, *,
+    outline: Union[None, Numbers, Sequence[Numbers]] = None,
+    holes: Union[None, Numbers, Sequence[Numbers]] = None, alpha: float = 0.0,
+    longest_edge: float = 0.0, point_tolerance: float = 0.0, split_crossings: bool = False,
+    backend: Backend = "auto", threads: int = 0, device: int = -1, maximum_iterations: int = -1,
+    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
 ) -> Triangulation:
-    """The Delaunay triangulation of points in x and y.
+    """The Delaunay triangulation of points in x and y, constrained by segments if there are any.
 
     It is exact, and depends on the points alone: not on their order, the threads or the GPU. For
     points on one circle the same triangles are chosen as by `flip` with canonical ties. All
     triangles have an area; n places with h of them on the hull give 2 n - 2 - h triangles.
 
+    Points may be an array of CuPy, PyTorch or Numba in the memory of a GPU. They are triangulated
+    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's.
+
     Args:
         points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous; z does not
             matter. Of points at equal places that with the lowest id is used. Points with NaN or
             infinite x or y are not used.
+        segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
+            points is split there; one that crosses an earlier one is refused and reported.
+        outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of
+            point ids, or of coordinates, (k, 2) or (k, 3), which become points.
+        holes: A list of rings, whose inside is removed; or (k, 2) coordinates of places in holes:
+            what can be reached from there without crossing a segment is removed.
+        alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
+            edge; 0: none.
+        longest_edge: The same for triangles with a longer edge.
+        point_tolerance: Points nearer than this to one with a lower id are not used; 0: only those
+            at equal places.
+        split_crossings: Split segments where they cross, instead of refusing the later one. The
+            crossing is exact, rounded once; z is that of the earlier segment.
         backend: "cuda", "threads", or "auto": a GPU for many points if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: the current one.
@@ -54,18 +79,18 @@ def triangulate(
         line, or if progress aborts before there are any.
 
     Raises:
-        InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
+        InvalidMesh: A segment names a point that does not exist, or a ring crosses a segment.
+        InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
 
     Example:
         >>> result = triangulate([[0, 0], [1, 0], [0, 1], [1, 1.1]])
         >>> sorted(sorted(ids) for ids in result.triangles.tolist())
         [[0, 1, 2], [1, 2, 3]]
     """
-    points = _arrays.as_plane(to_host(points))
-    struct = _library.make(_library.Mesh)
-    struct.points, struct.number_of_points = _arrays.address(points), len(points)
-    struct.point_type = _library.TYPES[points.dtype.name]
-    struct.point_components = points.shape[1]
+    given = points if isinstance(points, Input) else Input(points, segments, outline, holes)
+    struct = given.struct
+    struct.alpha, struct.longest_edge = alpha or 0.0, longest_edge or 0.0
+    struct.point_tolerance, struct.split_crossings = point_tolerance, bool(split_crossings)
     options = make_options(backend=backend, threads=threads, device=device,
                            maximum_iterations=maximum_iterations)
     handle = ctypes.c_void_p()
@@ -77,15 +102,145 @@ def triangulate(
             with Observers(progress, on_iteration).raising() as callbacks:
                 _library.call("advance", handle, -1, callbacks, None)
             report = _read_report(handle)
-        triangles = numpy.empty((report.number_of_triangles, 3), dtype=numpy.int32)
-        neighbors = numpy.empty_like(triangles)
-        used = numpy.full(len(points), -1)
-        _library.call("store_triangles", handle, _arrays.address(triangles), _library.TYPES["int32"])
-        _library.call("store_neighbors", handle, _arrays.address(neighbors))
-        _library.call("store_used_points", handle, _arrays.address(used))
-        return Triangulation(points, triangles, neighbors, used, report)
+        return given.store(handle, report)
     finally:
         _library.library().delaunayflip_close(handle)
+
+
+class Input:
+    """The arrays of a call, which live as long, and their C struct."""
+
+    def __init__(self, points, segments, outline, holes):
+        self.struct = _library.make(_library.Points)
+        self.library, points = _device.view_points(points)
+        if self.library is None:
+            points = _arrays.as_plane(points)
+        self.segments = [_as_ids(segments, "segments")]
+        self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
+        self.new_points, self.ends = [], []
+        self.number_of_points = len(points)
+        self.number_of_rings = 0
+        seeds = numpy.empty((0, 2))
+        for ring in _list_rings(outline, "outline"):
+            self._add_ring(ring, points, 1)
+        if _is_list_of_places(holes):
+            seeds = _arrays.as_plane(holes)
+        else:
+            for ring in _list_rings(holes, "holes"):
+                self._add_ring(ring, points, -1)
+        if self.new_points:
+            self.library, points = None, numpy.concatenate([_device.to_host(points), *self.new_points])
+        self.points = points
+        self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
+        self.all_segments = numpy.ascontiguousarray(numpy.concatenate(self.segments))
+        self.all_rings = numpy.concatenate(self.rings)
+        self._fill()
+
+    def _fill(self):
+        struct = self.struct
+        struct.points, struct.number_of_points = address(self.points), len(self.points)
+        struct.point_type = _library.TYPES[_device.type_of(self.points)]
+        struct.point_components = self.points.shape[1]
+        if self.library:
+            struct.memory, struct.stream = _library.CUDA, self.library.get_stream(self.points)
+        struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
+        struct.rings = address(self.all_rings) if self.number_of_rings else None
+        struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
+        struct.outline = _ORIENTATION
+
+    def _add_ring(self, ring, points, side):
+        """Adds a ring that turns to the left (side 1) or to the right (-1)."""
+        ring = numpy.asarray(ring)
+        if ring.ndim == 2:
+            places = numpy.zeros((len(ring), points.shape[1]), dtype=_device.type_of(points))
+            columns = min(ring.shape[1], points.shape[1])
+            places[:, :columns] = ring[:, :columns]
+            ids = self.number_of_points + numpy.arange(len(ring))
+            self.new_points.append(places)
+            self.number_of_points += len(ring)
+        else:
+            ids = _as_ids(numpy.stack([ring, ring], axis=1), "a ring")[:, 0]
+            inside = ids[(ids >= 0) & (ids < len(points))]  # the engine names the others
+            places = _device.to_host(points[inside])
+        if len(ids) > 1 and ids[0] == ids[-1]:
+            ids, places = ids[:-1], places[:-1]
+        x, y = (places[:, :2] - places[:1, :2]).astype(float).T
+        area = x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)
+        ids = ids if area * side >= 0 else ids[::-1]
+        self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
+        self.rings.append(numpy.full(len(ids), self.number_of_rings, dtype=numpy.int32))
+        self.number_of_rings += 1
+
+    def store(self, handle, report):
+        """The Triangulation of a session that has ended."""
+        shape = (report.number_of_triangles, 3)
+        way, stream = "", []
+        if self.library:
+            triangles = self.library.make_empty(self.points, shape, "int32")
+            neighbors = self.library.make_empty(self.points, shape, "int32")
+            way, stream = "_on_device", [self.struct.stream]
+        else:
+            triangles, neighbors = (numpy.empty(shape, dtype=numpy.int32) for _ in range(2))
+        used = numpy.full(len(self.points), -1)
+        edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
+        _library.call(f"store_triangles{way}", handle, address(triangles), _library.TYPES["int32"], *stream)
+        _library.call(f"store_neighbors{way}", handle, address(neighbors), *stream)
+        _library.call("store_used_points", handle, address(used))
+        _library.call("store_segment_edges", handle, address(edges))
+        points = self.points
+        if report.crossings:
+            points = self._add_crossings(handle, report.crossings)
+            used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
+        return Triangulation(points, triangles, neighbors, used, edges, report)
+
+    def _add_crossings(self, handle, count):
+        """The points, with those at crossings behind them."""
+        points = _device.to_host(self.points)
+        first = len(points)
+        places, shares = numpy.empty((count, 2)), numpy.empty(count)
+        ends = numpy.empty((count, 2), dtype=numpy.int64)
+        _library.call("store_added_points", handle, address(places), address(ends), address(shares))
+        points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
+        points[first:, :2] = places
+        self.ends = list(zip(*ends.T, shares))
+        if points.shape[1] == 3:
+            for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
+                points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
+        return points
+
+
+def _as_ids(values, name):
+    ids = numpy.empty((0, 2), dtype=numpy.int64) if values is None else numpy.asarray(values)
+    if ids.size == 0:
+        ids = ids.astype(numpy.int64).reshape(0, 2)
+    if ids.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be ids of points, integers, not {ids.dtype}")
+    if ids.ndim != 2 or ids.shape[1] != 2:
+        raise ValueError(f"{name} must have the shape (k, 2), not {ids.shape}")
+    return ids.astype(numpy.int64)
+
+
+def _is_list_of_places(holes):
+    """Whether these are places in holes, not rings."""
+    try:
+        return holes is not None and numpy.asarray(holes, dtype=float).ndim == 2 and \
+            numpy.shape(holes)[1] == 2
+    except ValueError:  # rings of different lengths
+        return False
+
+
+def _list_rings(given, name):
+    """The rings of an argument: one, or a list of them."""
+    if given is None or len(given) == 0:
+        return []
+    first = numpy.asarray(given[0])
+    is_place = first.shape == (2,) or first.shape == (3,) and first.dtype.kind == "f"
+    if first.ndim == 0 or is_place:
+        given = [given]
+    for ring in given:
+        if len(ring) < 3:
+            raise ValueError(f"{name} has a ring of fewer than three points")
+    return given
 
 
 def _read_report(handle):

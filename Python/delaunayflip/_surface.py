@@ -200,7 +200,7 @@ class Constraints:
         if settings.lines_as_constraints:
             lines = surface.read("Lines", "line, cell")
             lines.require_points(len(points))
-            pairs.append(_drop_points(_list_pairs(lines, False)))
+            pairs.append(_drop_points(list_pairs(lines, False)))
             flags.append(numpy.full(len(pairs[-1]), settings.insert_lines))
         if others is not None:
             found, self.unmatched = _find_others(others, points, triangles)
@@ -209,7 +209,7 @@ class Constraints:
         self.pairs, self.to_insert = _unite(pairs, flags, max(len(points), 1))
 
 
-def _list_pairs(cells, are_closed):
+def list_pairs(cells, are_closed):
     """(k, 2) consecutive points of each cell; of closed ones also the last and the first."""
     corners, offsets = cells.corners.astype(numpy.int64), cells.offsets
     following = numpy.arange(1, len(corners) + 1)
@@ -251,13 +251,13 @@ def _find_others(others, points, triangles):
     for kind in ("Lines", "Polys"):
         cells = others.read(kind, "constraint cell")
         cells.require_points(len(points if is_by_id else other_points))
-        pairs.append(_list_pairs(cells, are_closed=kind == "Polys"))
+        pairs.append(list_pairs(cells, are_closed=kind == "Polys"))
     pairs = numpy.concatenate(pairs)
     return (_drop_points(pairs), 0) if is_by_id else _match_places(
         pairs, other_points, points, triangles)
 
 
-def _number_places(points, other_points):
+def number_places(points, other_points):
     """Numbers of the places of the points of both meshes; -1, -2, ... for points that are not
     finite."""
     single = numpy.float32 in (points.dtype, other_points.dtype)
@@ -275,7 +275,7 @@ def _number_places(points, other_points):
 def _match_places(pairs, other_points, points, triangles):
     """Pairs of points of the mesh at the places of other points. Where several points of the mesh
     lie at one place, all pairs of them that are edges match."""
-    places, other_places = _number_places(points, other_points)
+    places, other_places = number_places(points, other_points)
     wanted = _drop_points(other_places[pairs])
     size = int(max(places.max(initial=-1), other_places.max(initial=-1))) + 1
     shift = len(places) + len(other_places)  # so that none is negative

@@ -8,10 +8,11 @@ import importlib.util
 import os
 import typing
 
-# Base classes and return types of vtkDelaunayFlip must be loaded before it.
+# Base classes and types of the filters must be loaded before them.
 import vtkmodules.vtkCommonCore
 import vtkmodules.vtkCommonDataModel
 import vtkmodules.vtkCommonExecutionModel
+import vtkmodules.vtkCommonTransforms
 
 # The module of a class in C++, and those of VTK that must be loaded before it: of base classes, the
 # rendering backend and the interactor styles.
@@ -47,8 +48,9 @@ def __getattr__(name: str) -> typing.Any:
 
 
 if _is_built_for_this_vtk():
-    from .vtkDelaunayFlipFilters import vtkDelaunayFlip
+    from .vtkDelaunayFlipFilters import vtkDelaunayFlip, vtkDelaunayFlipPoints
 else:
     from ._vtk_filter import vtkDelaunayFlip
+    from ._vtk_points import vtkDelaunayFlipPoints
 
-__all__ = ["vtkDelaunayFlip"]
+__all__ = ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]

@@ -19,13 +19,13 @@ from ._vtk_update import Failure, Update, explain
 _USER_ERROR = 40000  # vtkErrorCode::UserError
 
 
-def _to_snake_case(name):
+def to_snake_case(name):
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
 
 
 @dataclasses.dataclass(frozen=True)
-class _Property:
-    """One property. The meaning of each is documented in vtkDelaunayFlip.h."""
+class Property:
+    """One property. The meaning of each is documented in the headers of the classes in C++."""
 
     name: str
     default: typing.Any
@@ -36,7 +36,7 @@ class _Property:
 
     @property
     def key(self):
-        return _to_snake_case(self.name)
+        return to_snake_case(self.name)
 
     def convert(self, value):
         """The value that a setter stores."""
@@ -48,24 +48,29 @@ class _Property:
         return value if self.low is None else min(max(value, self.low), self.high)
 
 
+#: Those of every filter.
+COMMON_PROPERTIES = (
+    Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
+    Property("DeviceId", -1, -1, VTK_INT_MAX),
+    Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
+    Property("MaximumIterations", -1, -1, VTK_ID_MAX),
+    Property("LiveUpdate", False),
+    Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
+    Property("Paused", False, modifies=False),
+)
+
 _PROPERTIES = (
-    _Property("Geometry", 0, 0, 3, ("Auto", "Planar", "PlanarXY", "Surface")),
-    _Property("Criterion", 0, 0, 1, ("InCircle", "OppositeAngles")),
-    _Property("Tolerance", -1.0),
-    _Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
-    _Property("FeatureAngle", 30.0, 0.0, 180.0),
-    _Property("RegionArray", ""),
-    *(_Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
-    _Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
-    _Property("DeviceId", -1, -1, VTK_INT_MAX),
-    _Property("Devices", ""),
-    _Property("NumberOfPieces", 0, 0, 255),
-    _Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
-    _Property("MaximumIterations", -1, -1, VTK_ID_MAX),
-    *(_Property(name, False) for name in (
-        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality", "LiveUpdate")),
-    _Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
-    _Property("Paused", False, modifies=False),
+    Property("Geometry", 0, 0, 3, ("Auto", "Planar", "PlanarXY", "Surface")),
+    Property("Criterion", 0, 0, 1, ("InCircle", "OppositeAngles")),
+    Property("Tolerance", -1.0),
+    Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
+    Property("FeatureAngle", 30.0, 0.0, 180.0),
+    Property("RegionArray", ""),
+    *(Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
+    Property("Devices", ""),
+    Property("NumberOfPieces", 0, 0, 255),
+    *(Property(name, False) for name in (
+        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality")),
 )
 
 
@@ -83,17 +88,15 @@ def _accessors(item):
     return get, set_
 
 
-def _add_properties(cls):
+def add_properties(cls, properties):
     """Adds the constants to a class, and for each property the methods that VTK's macros make."""
-    constants = {item.name: item.choices for item in _PROPERTIES if item.choices}
-    constants["Geometry"] += ("Mixed",)
-    constants["StopReason"] = (*_library.STOP_REASONS, "failed")
-    constants["Failure"] = [failure.name for failure in Failure]
+    constants = {item.name: item.choices for item in properties if item.choices}
     for group, names in constants.items():
         for value, name in enumerate(names):
-            name = _to_snake_case(f"{group}_{name.replace(' ', '_')}").upper()
+            name = to_snake_case(f"{group}_{name.replace(' ', '_')}").upper()
             setattr(cls, name, value)
-    for item in _PROPERTIES:
+    cls.properties = (*cls.properties, *properties)
+    for item in properties:
         get, set_ = _accessors(item)
         setattr(cls, "Get" + item.name, get)
         setattr(cls, "Set" + item.name, set_)
@@ -107,48 +110,42 @@ def _add_properties(cls):
         for value, choice in enumerate(item.choices):
             setattr(cls, f"Set{item.name}To{choice}",
                     lambda self, set_=set_, value=value: set_(self, value))
-    return cls
 
 
-@_add_properties
-class vtkDelaunayFlip(VTKPythonAlgorithmBase):
-    """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
-
-    This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
-    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. It leaves out live updates, and
-    with them warm starts: all flips are made at once, with a warning. Partitions of a dataset are
-    flipped one by one, and so are the pieces of parallel ranks, which report on their own piece:
-    edges between them stay, with a warning.
+class Filter(VTKPythonAlgorithmBase):
+    """What the filters have in common.
 
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """
 
+    name = "vtkDelaunayFlip"  #: The class in C++.
+    input_type = "vtkPolyData"
+    no_mesh = "not a surface, passed unchanged"
+    properties = ()
+    update_type = Update
+
     def __init__(self, **properties):
-        super().__init__(nInputPorts=2, nOutputPorts=2, inputType="vtkPolyData")
-        self._values = {item.name: item.default for item in _PROPERTIES}
+        super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.input_type)
+        self._values = {item.name: item.default for item in self.properties}
         self._is_at_work = False
         self._interrupt = None
-        self._update = Update(self)
+        self._update = self.update_type(self)
         for name, value in properties.items():
-            if name not in {item.key for item in _PROPERTIES}:
-                raise TypeError(f"vtkDelaunayFlip has no property {name!r}")
+            if name not in {item.key for item in self.properties}:
+                raise TypeError(f"{self.name} has no property {name!r}")
             setattr(self, name, value)
 
     # Methods of every filter of VTK.
 
     def GetClassName(self):
-        return "vtkDelaunayFlip"
+        return self.name
 
     def __str__(self):
-        names = [item.name for item in _PROPERTIES]
-        names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges",
-                  "NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge"]
+        names = [item.name for item in self.properties]
+        names += ["NumberOfIterations", "TotalFlips", "NumberOfNonDelaunayEdges", "StopReasonAsString"]
         values = ((name, getattr(self, "Get" + name)()) for name in names)
-        lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
+        lines = [f"  {name.replace('AsString', '')}: {int(value) if isinstance(value, bool) else value}"
                  for name, value in values]
-        lines += [f"  StopReason: {self.GetStopReasonAsString()}",
-                  f"  GeometryUsed: {self.GetGeometryUsedAsString()}",
-                  f"  GeometryReason: {self.GetGeometryReason()}"]
         return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
 
     def SetInputData(self, *port_and_data):
@@ -177,15 +174,11 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
             raise interrupt
         return status
 
-    def get_mesh(self, data):
-        """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
-        more than vtkPolyData override this."""
-        return data if isinstance(data, vtkPolyData) else None
-
     def FillInputPortInformation(self, port, info):
         if port == 1:
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
-        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData")
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(),
+                 self.input_type if port == 0 else "vtkPolyData")
         # Otherwise the executive would run the filter once per block, and it could not sum over them.
         info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
         return 1
@@ -221,11 +214,11 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
         table = vtkDataObject.GetData(outInfo, 1)
         self._is_at_work = True
-        update = Update(self, pieces)
+        update = self.update_type(self, pieces)
         try:
             update.flip(*data)
         except Exception as error:
-            update = Update(self)
+            update = self.update_type(self)
             update.fail(explain(error))
             data[-1].Initialize()
         finally:
@@ -241,7 +234,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         if not vtkObject.GetGlobalWarningDisplay():
             return
         address = self.__this__.split("_")[1].lstrip("0")
-        text = f"vtkDelaunayFlip (0x{address}): {text}\n"
+        text = f"{self.name} (0x{address}): {text}\n"
         if self.HasObserver(event):
             self.InvokeEvent(event, text)
         elif event == "ErrorEvent":
@@ -249,13 +242,7 @@ class vtkDelaunayFlip(VTKPythonAlgorithmBase):
         else:
             vtkOutputWindow.GetInstance().DisplayWarningText("Warning: " + text)
 
-    # Methods of the C++ class.
-
-    def SetConstraintsConnection(self, port):
-        self.SetInputConnection(1, port)
-
-    def SetConstraintsData(self, constraints):
-        self.SetInputDataObject(1, constraints)
+    # Methods of the C++ classes.
 
     def GetIterations(self):
         return self.GetOutputDataObject(1)
@@ -271,8 +258,14 @@ def _get_stop_reason(update):
     return "failed: " + update.error_message if update.failure else update.totals.stop_reason
 
 
-# What the last update did, and what only the class in C++ has: live updates.
-_ANSWERS = {
+def count_answers(**names):
+    """Methods that return counts of the update's report."""
+    return {"Get" + name: lambda update, count=count: update.totals.counts[count]
+            for name, count in names.items()}
+
+
+# What the last update did, and what only classes in C++ have: live updates.
+_COMMON_ANSWERS = {
     "Advance": lambda update: False,
     "Step": lambda update: False,
     "GetNeedsUpdate": lambda update: False,
@@ -281,35 +274,78 @@ _ANSWERS = {
     "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
     else _library.STOP_REASONS.index(update.totals.stop_reason),
     "GetStopReasonAsString": _get_stop_reason,
-    "GetGeometryUsed":
-    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
-    "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
-    "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
     "GetBackendUsed": lambda update: update.totals.texts["backend"],
     "GetFailure": lambda update: int(update.failure),
     "GetErrorMessage": lambda update: update.error_message,
     "GetErrorCode": lambda update: int(update.failure and _USER_ERROR + update.failure),
+    **count_answers(TotalFlips="total_flips", NumberOfNonDelaunayEdges="non_delaunay_after"),
 }
-for _name, _count in (("TotalFlips", "total_flips"),
-                      ("NumberOfConstraintEdges", "constraint_edges"),
-                      ("NumberOfUnmatchedConstraintEdges", "unmatched_constraints"),
-                      ("NumberOfInsertedConstraintEdges", "inserted_constraints"),
-                      ("NumberOfConstraintFlips", "constraint_flips"),
-                      ("NumberOfNonDelaunayEdges", "non_delaunay_after"),
-                      ("NumberOfEdgesBlockedByShape", "blocked_by_shape"),
-                      ("NumberOfEdgesBlockedByEdge", "blocked_by_edge")):
-    _ANSWERS["Get" + _name] = lambda update, count=_count: update.totals.counts[count]
-for _name, _answer in _ANSWERS.items():
-    setattr(vtkDelaunayFlip, _name, lambda self, answer=_answer: answer(self._update))
 
 
-def _add_snake_case(cls):
-    """Adds a property for every getter and setter of the class itself, as VTK 9.6 does."""
+def finish(cls, properties, answers):
+    """Adds to a class its properties, its answers about the last update and, as VTK 9.6 does, a
+    Python property for every getter and setter."""
+    add_properties(cls, properties)
+    for name, answer in answers.items():
+        setattr(cls, name, lambda self, answer=answer: answer(self._update))
     methods = dict(vars(cls))
     for name in {name[3:] for name in methods if re.match("[GS]et[A-Z]", name)}:
-        key = _to_snake_case(name)
+        key = to_snake_case(name)
         if not hasattr(cls, key):
             setattr(cls, key, property(methods.get("Get" + name), methods.get("Set" + name)))
 
 
-_add_snake_case(vtkDelaunayFlip)
+for _group, _names in (("STOP_REASON", (*_library.STOP_REASONS, "failed")),
+                       ("FAILURE", [_failure.name for _failure in Failure])):
+    for _value, _name in enumerate(_names):
+        setattr(Filter, f"{_group}_{_name.replace(' ', '_')}".upper(), _value)
+finish(Filter, COMMON_PROPERTIES, _COMMON_ANSWERS)
+
+
+class vtkDelaunayFlip(Filter):
+    """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
+
+    This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
+    a VTK that it was not built for; vtkDelaunayFlip.h is its manual. It leaves out live updates, and
+    with them warm starts: all flips are made at once, with a warning. Partitions of a dataset are
+    flipped one by one, and so are the pieces of parallel ranks, which report on their own piece:
+    edges between them stay, with a warning.
+
+    Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
+    """
+
+    GEOMETRY_MIXED = 4
+
+    def get_mesh(self, data):
+        """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
+        more than vtkPolyData override this."""
+        return data if isinstance(data, vtkPolyData) else None
+
+    def SetConstraintsConnection(self, port):
+        self.SetInputConnection(1, port)
+
+    def SetConstraintsData(self, constraints):
+        self.SetInputDataObject(1, constraints)
+
+    def __str__(self):
+        names = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString",
+                 "GeometryReason")
+        lines = [f"  {name.replace('AsString', '')}: {getattr(self, 'Get' + name)()}\n"
+                 for name in names]
+        return super().__str__() + "".join(lines)
+
+
+_ANSWERS = {
+    **_COMMON_ANSWERS,
+    "GetGeometryUsed":
+    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
+    "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
+    "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
+    **count_answers(NumberOfConstraintEdges="constraint_edges",
+                    NumberOfUnmatchedConstraintEdges="unmatched_constraints",
+                    NumberOfInsertedConstraintEdges="inserted_constraints",
+                    NumberOfConstraintFlips="constraint_flips",
+                    NumberOfEdgesBlockedByShape="blocked_by_shape",
+                    NumberOfEdgesBlockedByEdge="blocked_by_edge"),
+}
+finish(vtkDelaunayFlip, _PROPERTIES, _ANSWERS)

@@ -163,8 +163,8 @@ class MeshInput:
         mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
         texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
                  "mesh does not have"] if count else []
-        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
-        texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+        texts += describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                  passed if self.slots.in_place else "left out")
         ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
@@ -213,11 +213,9 @@ class MeshInput:
             data.ShallowCopy(self.mesh.GetCellData())
         else:
             self.vtk.copy_cell_data(self.mesh, self.cell_sources, data)
-        ids, shared = data.GetGlobalIds(), data.GetNormals()
-        if slots.divides_cells and ids is not None:  # several cells share an id
-            data.SetActiveAttribute(-1, data.GLOBALIDS)
-            if data.GetPedigreeIds() is None:
-                data.SetPedigreeIds(ids)
+        if slots.divides_cells:
+            demote_global_ids(data)
+        shared = data.GetNormals()
         if (shared is not None and shared.GetNumberOfComponents() == 3
                 and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
             normals = self.vtk.copy_array(shared)
@@ -287,6 +285,15 @@ class MeshInput:
         return of_cells
 
 
+def demote_global_ids(data):
+    """Global ids become pedigree ids, because several cells or points now share one."""
+    ids = data.GetGlobalIds()
+    if ids is not None:
+        data.SetActiveAttribute(-1, data.GLOBALIDS)
+        if data.GetPedigreeIds() is None:
+            data.SetPedigreeIds(ids)
+
+
 def _is_wide(cells):
     return cells.GetConnectivityArray().GetDataTypeSize() == 8
 
@@ -298,7 +305,7 @@ def _find_ghost_fault(ghosts):
     return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
 
 
-def _describe_short(data, tuples, kind, fate):
+def describe_short(data, tuples, kind, fate):
     arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
     names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
     if not names:

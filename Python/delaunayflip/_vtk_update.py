@@ -129,7 +129,7 @@ class Update:
             self.fail(explain(error), leaf.name)
             return result
         if mesh is None and leaf.cells:
-            self._warnings.append((leaf.name, "not a surface, passed unchanged"))
+            self._warnings.append((leaf.name, self._filter.no_mesh))
         if mesh is None or self._sum.stop_reason == "aborted":
             return _copy(leaf.data)
         self._try_to_flip(mesh, constraints, result, leaf.name)

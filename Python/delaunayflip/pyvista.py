@@ -23,8 +23,10 @@ from ._library import InvalidOptions
 from ._session import smallest_angles as _angles_of_arrays
 from ._options import Array, check_integer
 from ._options import Options as _Options
+from ._points import triangulate as _triangulate_arrays
 from ._report import Totals
 from ._surface import Settings, Slots
+from ._vtk_cloud import Cloud
 from ._vtk_mesh import MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
@@ -85,6 +87,47 @@ def flip(
     run = _Run(mesh, constraints, options)
     run.session.advance()
     return run.make_mesh(flip_counts, quality)
+
+
+def triangulate(
+    cloud: typing.Any, segments: "typing.Optional[pyvista.PolyData]" = None, *,
+    lines_as_segments: bool = False, outline: str = "even-odd", **options: typing.Any,
+) -> "pyvista.PolyData":
+    """The Delaunay mesh of the points of a dataset in x and y, with their data.
+
+    Args:
+        cloud: A dataset with points of its own, such as a PolyData or a PointSet; its cells do not
+            matter.
+        segments: Its lines become edges of the mesh. Its polygons too, and what is outside of them
+            is removed. Its points are added where they are new.
+        lines_as_segments: Whether the lines of `cloud` become edges, too.
+        outline: What polygons enclose: "even-odd", or "orientation", where counter-clockwise ones
+            enclose what is kept and clockwise ones cut holes.
+        **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
+            maximum_iterations and progress, as for delaunayflip.triangulate.
+
+    Returns:
+        The mesh. Its field data tells what was done, e.g. "DelaunayFlip:SegmentEdges".
+
+    Raises:
+        The same exceptions as delaunayflip.triangulate; TypeError for other datasets.
+
+    Example:
+        >>> import pyvista
+        >>> import delaunayflip.pyvista
+        >>> cloud = pyvista.PolyData([[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]])
+        >>> delaunayflip.pyvista.triangulate(cloud).n_cells
+        2
+    """
+    if not hasattr(cloud, "GetPoints"):
+        raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
+    if segments is not None:
+        _require_mesh("segments", segments)
+    given, made = Cloud(cloud, segments, lines_as_segments, outline), pyvista.PolyData()
+    trouble = given.write(_triangulate_arrays(given, **options), made)
+    if trouble:
+        warnings.warn(trouble, stacklevel=2)
+    return made
 
 
 def smallest_angles(mesh: "pyvista.PolyData") -> Array:
@@ -177,6 +220,9 @@ class DelaunayAccessor:
     def flip(self, **arguments: typing.Any) -> "pyvista.PolyData":
         return flip(self._mesh, **arguments)
 
+    def triangulate(self, *arguments: typing.Any, **options: typing.Any) -> "pyvista.PolyData":
+        return triangulate(self._mesh, *arguments, **options)
+
     def smallest_angles(self) -> Array:
         return smallest_angles(self._mesh)
 
@@ -186,7 +232,7 @@ class DelaunayAccessor:
     def animate(self, filename: str, **arguments: typing.Any) -> "pyvista.PolyData":
         return animate(self._mesh, filename, **arguments)
 
-    for _function in (flip, smallest_angles, plot_quality, animate):
+    for _function in (flip, triangulate, smallest_angles, plot_quality, animate):
         locals()[_function.__name__].__doc__ = _function.__doc__
 
 

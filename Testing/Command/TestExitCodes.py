@@ -42,8 +42,8 @@ class WrongUsage(CommandTest):
 
     def test_unknown_extension(self):
         known = [".vtk", ".vtp", ".ply", ".stl", ".obj"]
-        self.fail_with(2, self.planar, "out.xyz", naming=["out.xyz", *known])
-        self.fail_with(2, "in.xyz", "out.vtk", naming=["in.xyz", *known])
+        self.fail_with(2, self.planar, "out.abc", naming=["out.abc", *known])
+        self.fail_with(2, "in.abc", "out.vtk", naming=["in.abc", ".xyz", *known])
         self.fail_with(2, "in", "out.vtk", naming=known)
 
     def test_choices(self):

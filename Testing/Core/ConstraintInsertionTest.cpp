@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAudit.h"
+#include "PointTestSupport.h"
 #include "References.h"
 
 #include <gtest/gtest.h>
@@ -597,6 +598,12 @@ TEST(Pslg, GivesCgalsConstrainedDelaunayMesh)
     }
     const FlipResult canonical = Flip(WithTriangles(drawing.View(), reference), options);
     EXPECT_TRUE(ToTriangleSet(canonical.Triangles) == ToTriangleSet(result.Triangles));
+    const TriangleMesh pieces = drawing.View();
+    PointInput points;
+    points.Points = PlaneArray(pieces.Points.Doubles, pieces.Points.Count, 3);
+    points.Segments = pieces.ConstraintEdges;
+    points.NumberOfSegments = pieces.NumberOfConstraintEdges;
+    EXPECT_TRUE(ToTriangleSet(Triangulate(points).Triangles) == ToTriangleSet(result.Triangles));
     inserted += result.Report.InsertedConstraints;
   }
   if (error)

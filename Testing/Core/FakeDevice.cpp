@@ -104,6 +104,13 @@ public:
     this->Engine->StoreFlipCounts(counts);
     return true;
   }
+  bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream&) const override
+  {
+    this->Engine->StoreNeighbors(neighbors);
+    return true;
+  }
+  void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
+  void EditOnHost(const HostView& edit) override { this->Engine->EditOnHost(edit); }
   HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   void Audit() const override { this->Engine->Audit(); }
@@ -126,11 +133,11 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   return LoadOnCuda(WidePoints(mesh).View, options, progress);
 }
 
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PlaneArray& points, const FlipOptions& options,
+std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
   bool byDivision, const BuildProgress& progress)
 {
   return std::unique_ptr<LoadedMesh>(
-    new FakeEngine(LoadOnThreads(points, options, byDivision, progress)));
+    new FakeEngine(LoadOnThreads(points.Points, options, byDivision, progress)));
 }
 
 bool HasCudaDevice() { return true; }

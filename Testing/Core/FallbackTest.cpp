@@ -76,7 +76,7 @@ TEST_F(FallbackTest, AnyCallMayFail)
   }
 }
 
-/// Of points whose flips go on, and of points that divide and conquer takes over.
+/// Of points whose flips go on, and of points that divide and conquer takes over, with segments.
 TEST_F(FallbackTest, AnyCallMayFailForPoints)
 {
   std::vector<double> places[2];
@@ -89,8 +89,11 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
   }
   for (const std::vector<double>& xy : places)
   {
-    const PlaneArray points(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2);
-    FlipOptions threads;
+    PointInput points{ PlaneArray(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2) };
+    const std::vector<std::int64_t> segments = { 0, 9000, 20, 7000, 11, 12, 1, 2000 };
+    points.Segments = segments.data();
+    points.NumberOfSegments = 4;
+    PointOptions threads;
     threads.Backend = BackendKind::Threads;
     FlipSession expected(points, threads);
     expected.Advance();
@@ -102,6 +105,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
       {
       }
       ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+      ASSERT_EQ(expected.ListSegmentEdges(), session.ListSegmentEdges()) << call;
       ASSERT_EQ(expected.GetReport().TotalFlips, session.GetReport().TotalFlips) << call;
       ASSERT_EQ(CallsToFailure > 0 ? "" : "as the test wants it", session.GetReport().Fallback);
     }

@@ -82,12 +82,14 @@ FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options)
     options, [&](const FlipOptions& chosen) { return FlipSession(mesh, chosen); });
 }
 
-FlipSession FlipPoints(const PlaneArray& points, const FlipOptions& options)
+FlipSession FlipPoints(const PointInput& points, const PointOptions& options)
 {
   return RunOnTestBackend(options,
     [&](const FlipOptions& chosen)
     {
-      FlipSession session(points, chosen);
+      PointOptions onBackend = options;
+      static_cast<FlipOptions&>(onBackend) = chosen;
+      FlipSession session(points, onBackend);
       session.Advance();
       return session;
     });
@@ -319,7 +321,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, inserted, constraintFlips, euler, geometry,
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
-    byShape, byEdge, angleBefore, angleAfter, stopReason, buildSeconds, flipSeconds, defects] = b;
+    byShape, byEdge, angleBefore, angleAfter, stopReason, fromPoints, buildSeconds, flipSeconds,
+    defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
   static_cast<void>(buildSeconds);
@@ -345,6 +348,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   ExpectSameAngle(a.MinimumAngleBefore, angleBefore);
   ExpectSameAngle(a.MinimumAngleAfter, angleAfter);
   EXPECT_EQ(a.StopReason, stopReason);
+  EXPECT_EQ(a.FromPoints.Repeated, fromPoints.Repeated);
+  EXPECT_EQ(a.FromPoints.SegmentEdges, fromPoints.SegmentEdges);
   ExpectSameDefects(a.Defects, defects);
 }
 

@@ -50,7 +50,7 @@ FlipOptions OnTestBackend(FlipOptions options);
 FlipSession MakeSession(const TriangleMesh& mesh, const FlipOptions& options = {});
 
 /// A session from points, on the same backend, that has done all.
-FlipSession FlipPoints(const PlaneArray& points, const FlipOptions& options = {});
+FlipSession FlipPoints(const PointInput& points, const PointOptions& options = {});
 
 /// The triangles that a session has now, and their flips.
 std::vector<std::int32_t> StoreTriangles(const FlipSession& session);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlipTestSupport.h"
+#include "PointTestSupport.h"
 #include "RandomInputs.h"
-#include "References.h"
 
 #include <gtest/gtest.h>
 
@@ -22,39 +21,6 @@ namespace delaunayflip
 namespace
 {
 
-using Places = std::vector<std::array<double, 2>>;
-
-struct Triangulation
-{
-  std::vector<std::int32_t> Triangles, Neighbors;
-  std::vector<std::int64_t> UsedPoints;
-  FlipReport Report;
-};
-
-PlaneArray View(const Places& points)
-{
-  return PlaneArray(
-    points.empty() ? nullptr : points.front().data(), static_cast<std::int64_t>(points.size()), 2);
-}
-
-Triangulation Triangulate(const PlaneArray& points, const FlipOptions& options = {})
-{
-  const FlipSession session = FlipPoints(points, options);
-  Triangulation result;
-  result.Report = session.GetReport();
-  result.Triangles = StoreTriangles(session);
-  result.Neighbors.resize(result.Triangles.size());
-  session.StoreNeighbors(result.Neighbors.data());
-  result.UsedPoints.resize(points.Count);
-  session.StoreUsedPoints(result.UsedPoints.data());
-  return result;
-}
-
-Triangulation Triangulate(const Places& points, const FlipOptions& options = {})
-{
-  return Triangulate(View(points), options);
-}
-
 std::vector<double> Lift(const Places& points)
 {
   std::vector<double> xyz;
@@ -64,8 +30,6 @@ std::vector<double> Lift(const Places& points)
   }
   return xyz;
 }
-
-Point3 ToPoint(const std::array<double, 2>& place) { return { place[0], place[1], 0.0 }; }
 
 /// The triangles by the places of their corners, so that they can be compared across orders.
 std::set<std::array<std::array<double, 2>, 3>> ByPlaces(
@@ -368,7 +332,7 @@ TEST(PointTriangulation, EqualPlacesAreOnePoint)
 TEST(PointTriangulation, PointsThatAreNotFinite)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Triangulation result = Triangulate({ { 1, 0 }, { nan, 0 }, { 0, 0 }, { 0, 1 } });
+  const Triangulation result = Triangulate(Places{ { 1, 0 }, { nan, 0 }, { 0, 0 }, { 0, 1 } });
   EXPECT_EQ(1, result.Report.Triangles);
   EXPECT_EQ((std::vector<std::int64_t>{ 0, -1, 2, 3 }), result.UsedPoints);
 }
@@ -397,7 +361,7 @@ TEST(PointTriangulation, FloatsAndStrides)
     floats.push_back(std::numeric_limits<float>::quiet_NaN()); // z does not matter
     points.push_back({ floats[3 * i], floats[3 * i + 1] });
   }
-  const Triangulation result = Triangulate(PlaneArray(floats.data(), 5000, 3));
+  const Triangulation result = Triangulate(PointInput{ PlaneArray(floats.data(), 5000, 3) });
   EXPECT_EQ(ToTriangleSet(Triangulate(points).Triangles), ToTriangleSet(result.Triangles));
 }
 
@@ -422,8 +386,8 @@ TEST(PointTriangulation, CanBeStopped)
   const Places points = DrawOnGrid(random, 20000, 1 << 20, 1 << 20);
   for (const double limit : { 0.0, 0.3, 0.45 })
   {
-    FlipSession session(
-      View(points), OnTestBackend({}), [=](double share) { return share <= limit; });
+    FlipSession session(PointInput{ View(points) }, PointOptions{ OnTestBackend({}) },
+      [=](double share) { return share <= limit; });
     EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
     EXPECT_FALSE(session.Advance(-1, {}, {}));
     EXPECT_EQ(StopReasonKind::Converged, session.GetReport().StopReason);
@@ -434,7 +398,8 @@ TEST(PointTriangulation, CanBeStopped)
 TEST(PointTriangulation, TooManyPoints)
 {
   const double one[2] = { 0.0, 0.0 };
-  EXPECT_THROW(FlipSession(PlaneArray(one, std::int64_t(1) << 30, 2), {}), MeshTooLarge);
+  const PointInput points{ PlaneArray(one, std::int64_t(1) << 30, 2) };
+  EXPECT_THROW(FlipSession(points, PointOptions()), MeshTooLarge);
 }
 
 }

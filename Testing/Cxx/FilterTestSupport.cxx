@@ -197,7 +197,7 @@ long long CountViolations(vtkPolyData* mesh)
   return delaunayflip::CountNonDelaunayEdges(ToOwnedMesh(mesh).View(), {});
 }
 
-void SetTestBackend(vtkDelaunayFlip* filter)
+void SetTestBackend(vtkDelaunayFlipAlgorithm* filter)
 {
   if (delaunayflip::IsTestBackendCuda())
   {
@@ -205,7 +205,8 @@ void SetTestBackend(vtkDelaunayFlip* filter)
   }
 }
 
-WatchedFilter::WatchedFilter()
+WatchedAlgorithm::WatchedAlgorithm(vtkDelaunayFlipAlgorithm* filter)
+  : Filter(filter)
 {
   SetTestBackend(this->Filter);
   this->Watch(this->Filter, vtkCommand::ErrorEvent, &this->Errors);
@@ -213,13 +214,7 @@ WatchedFilter::WatchedFilter()
   this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, &this->ExecutiveErrors);
 }
 
-WatchedFilter::WatchedFilter(vtkDataObject* input)
-  : WatchedFilter()
-{
-  this->Filter->SetInputDataObject(input);
-}
-
-void WatchedFilter::Watch(
+void WatchedAlgorithm::Watch(
   vtkObject* object, unsigned long event, std::vector<std::string>* messages)
 {
   vtkNew<vtkCallbackCommand> command;
@@ -231,24 +226,24 @@ void WatchedFilter::Watch(
   object->AddObserver(event, command);
 }
 
-vtkPolyData* WatchedFilter::Run()
+vtkPolyData* WatchedAlgorithm::Run()
 {
   this->Filter->Update();
   return this->Filter->GetOutput();
 }
 
-vtkPolyData* WatchedFilter::GetBlock(unsigned int number)
+vtkPolyData* WatchedAlgorithm::GetBlock(unsigned int number)
 {
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->Filter->GetOutputDataObject(0));
   return blocks ? vtkPolyData::SafeDownCast(blocks->GetBlock(number)) : nullptr;
 }
 
-double WatchedFilter::GetRow(const char* column, vtkIdType row)
+double WatchedAlgorithm::GetRow(const char* column, vtkIdType row)
 {
   return this->Filter->GetIterations()->GetValueByName(row, column).ToDouble();
 }
 
-Mesh RunCleanly(WatchedFilter& filter)
+Mesh RunCleanly(WatchedAlgorithm& filter)
 {
   Mesh output = filter.Run();
   EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
@@ -256,7 +251,7 @@ Mesh RunCleanly(WatchedFilter& filter)
   return output;
 }
 
-std::string RunToWarning(WatchedFilter& filter)
+std::string RunToWarning(WatchedAlgorithm& filter)
 {
   filter.Run();
   EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
@@ -264,14 +259,14 @@ std::string RunToWarning(WatchedFilter& filter)
   return filter.GetWarnings().empty() ? "" : filter.GetWarnings()[0];
 }
 
-std::string RunToError(WatchedFilter& filter, int failure)
+std::string RunToError(WatchedAlgorithm& filter, int failure)
 {
   const std::size_t before = filter.GetErrors().size();
   filter.Run();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
-  EXPECT_EQ(filter->GetFailure(), failure);
+  EXPECT_EQ(filter.GetAlgorithm()->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter.GetAlgorithm()->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter.GetAlgorithm()->GetStopReason(), vtkDelaunayFlip::STOP_REASON_FAILED);
+  EXPECT_EQ(filter.GetAlgorithm()->GetFailure(), failure);
   EXPECT_EQ(filter.GetErrors().size(), before + 1);
   return filter.GetErrors().empty() ? "" : filter.GetErrors().back();
 }
@@ -289,15 +284,15 @@ LiveFilter::LiveFilter(vtkPolyData* input)
   (*this)->LiveUpdateOn();
 }
 
-int LiveFilter::RunToTheEnd()
+int RunToTheEnd(WatchedAlgorithm& filter)
 {
   constexpr int Most = 1000; // updates, after which the test fails
   int updates = 0;
   do
   {
-    this->Run();
+    filter.Run();
     ++updates;
-  } while ((*this)->Advance() && updates < Most);
+  } while (filter.GetAlgorithm()->Advance() && updates < Most);
   EXPECT_LT(updates, Most);
   return updates;
 }

@@ -123,18 +123,16 @@ delaunayflip::OwnedMesh<double> ToOwnedMesh(vtkPolyData* mesh);
 long long CountViolations(vtkPolyData* mesh);
 
 /// Chooses the GPU, for meshes of any size, if DELAUNAYFLIP_TEST_BACKEND says so.
-void SetTestBackend(vtkDelaunayFlip* filter);
+void SetTestBackend(vtkDelaunayFlipAlgorithm* filter);
 
 /// A filter that records its errors and warnings, and those of its executive. It runs on the
 /// backend of SetTestBackend until a test chooses one.
-class WatchedFilter
+class WatchedAlgorithm
 {
 public:
-  WatchedFilter();
-  explicit WatchedFilter(vtkDataObject* input);
+  explicit WatchedAlgorithm(vtkDelaunayFlipAlgorithm* filter);
 
-  vtkDelaunayFlip* operator->() { return this->Filter; }
-  vtkDelaunayFlip* Get() { return this->Filter; }
+  vtkDelaunayFlipAlgorithm* GetAlgorithm() { return this->Filter; }
 
   /// Updates, and returns output port 0; null if that is composite.
   vtkPolyData* Run();
@@ -155,15 +153,35 @@ public:
 private:
   void Watch(vtkObject* object, unsigned long event, std::vector<std::string>* messages);
 
-  vtkNew<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
   std::vector<std::string> ExecutiveErrors;
 };
 
+template <typename FilterT>
+class Watched : public WatchedAlgorithm
+{
+public:
+  Watched()
+    : WatchedAlgorithm(vtkNew<FilterT>())
+  {
+  }
+  explicit Watched(vtkDataObject* input)
+    : Watched()
+  {
+    this->Get()->SetInputDataObject(input);
+  }
+
+  FilterT* operator->() { return this->Get(); }
+  FilterT* Get() { return static_cast<FilterT*>(this->GetAlgorithm()); }
+};
+
+using WatchedFilter = Watched<vtkDelaunayFlip>;
+
 /// Calls a function at every progress event.
 template <typename Action>
-void OnProgress(vtkDelaunayFlip* filter, Action& action)
+void OnProgress(vtkAlgorithm* filter, Action& action)
 {
   vtkNew<vtkCallbackCommand> command;
   command->SetClientData(&action);
@@ -173,17 +191,20 @@ void OnProgress(vtkDelaunayFlip* filter, Action& action)
 }
 
 /// Runs a filter that must have neither an error nor a warning.
-Mesh RunCleanly(WatchedFilter& filter);
+Mesh RunCleanly(WatchedAlgorithm& filter);
 
 /// Runs a filter that must give one warning and no error. @returns the warning.
-std::string RunToWarning(WatchedFilter& filter);
+std::string RunToWarning(WatchedAlgorithm& filter);
 
 /// Runs a filter that must fail with one more error, leave its output empty, and tell of this kind
 /// of failure. @returns the error.
-std::string RunToError(WatchedFilter& filter, int failure = vtkDelaunayFlip::FAILURE_MESH);
+std::string RunToError(WatchedAlgorithm& filter, int failure = vtkDelaunayFlip::FAILURE_MESH);
 
 /// The polygons after a single update.
 Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle = 30.0);
+
+/// Updates a live run until nothing is left to do. @returns the number of updates.
+int RunToTheEnd(WatchedAlgorithm& filter);
 
 /// A filter with LiveUpdate on.
 class LiveFilter : public WatchedFilter
@@ -192,7 +213,7 @@ public:
   explicit LiveFilter(vtkPolyData* input);
 
   /// Updates until nothing is left to do. @returns the number of updates.
-  int RunToTheEnd();
+  int RunToTheEnd() { return ::RunToTheEnd(*this); }
 };
 
 #endif

@@ -7,7 +7,6 @@
 #include "vtkActor.h"
 #include "vtkActor2DCollection.h"
 #include "vtkActorCollection.h"
-#include "vtkMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
@@ -141,24 +140,18 @@ Bytes WatchedView::GetPicture()
   return Bytes(pixels->GetPointer(0), pixels->GetPointer(pixels->GetNumberOfValues()));
 }
 
-std::string WatchedView::GetColorArray()
-{
-  vtkMapper* mapper = this->GetActor()->GetMapper();
-  return mapper->GetScalarVisibility() ? mapper->GetArrayName() : "";
-}
-
 bool WatchedView::HasEdges() { return this->GetActor()->GetProperty()->GetEdgeVisibility() != 0; }
-
-vtkIdType WatchedView::GetNumberOfTriangles()
-{
-  return this->GetActor()->GetMapper()->GetInput()->GetNumberOfCells();
-}
 
 vtkActor* WatchedView::GetActor()
 {
   vtkActorCollection* actors = this->View->GetRenderer()->GetActors();
   actors->InitTraversal();
   return actors->GetNextActor();
+}
+
+vtkDelaunayFlipMapper* WatchedView::GetMapper()
+{
+  return vtkDelaunayFlipMapper::SafeDownCast(this->GetActor()->GetMapper());
 }
 
 void WatchedView::StepToTheEnd()

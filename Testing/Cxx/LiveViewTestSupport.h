@@ -6,6 +6,7 @@
 #include "FilterTestSupport.h"
 
 #include "vtkDelaunayFlipLiveView.h"
+#include "vtkDelaunayFlipMapper.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 
@@ -51,11 +52,9 @@ public:
   /// The pixels of the window.
   Bytes GetPicture();
 
-  /// The array by which triangles are coloured, or "".
-  std::string GetColorArray();
   bool HasEdges();
-  vtkIdType GetNumberOfTriangles();
   vtkActor* GetActor();
+  vtkDelaunayFlipMapper* GetMapper();
 
   /// Makes steps until the run ends.
   void StepToTheEnd();
@@ -70,7 +69,7 @@ public:
   std::vector<std::string> Errors;
 };
 
-/// The same run twice: once drawn from copies, once without as far as possible.
+/// The same run twice: once drawn from the host, once without copies as far as possible.
 struct ViewPair
 {
   explicit ViewPair(vtkPolyData* mesh);

@@ -3,33 +3,37 @@
 #ifndef TestFiller_h
 #define TestFiller_h
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
-/// Fills OpenGL's buffers in the tests of drawing without copies: from memory of the host, so
-/// that all but CUDA itself is tested where there is no GPU, or, where the environment says
+/// Takes CUDA's place in the tests of drawing: fills OpenGL's buffers from the host, so that all
+/// but CUDA itself is tested where there is no GPU, or, where the environment says
 /// DELAUNAYFLIP_TEST_BACKEND=cuda, by CUDA. Either can be made to fail.
 struct TestFiller
 {
-  /// What live views meet from now on. A number counts calls; the last of them fails, as do all
-  /// later ones; 0: none fails.
+  /// What mappers meet from now on. A number counts calls; the last of them fails, as do all later
+  /// ones; 0: none fails.
   std::string Obstacle;
-  int FailingRegister = 0;
   int FailingMap = 0;
   int FailingUnmap = 0;
   int FailingFill = 0;
 
-  int Registers = 0;
-  int Releases = 0;
+  int Fillers = 0; ///< How many were made.
   int Maps = 0; ///< Also by fills of buffers that are not mapped.
   int Unmaps = 0;
   int Fills = 0;
-  bool IsRegistered = false;
+  int Living = 0; ///< How many fillers there are now.
   bool AreMapped = false; ///< OpenGL must not use the buffers.
 
-  /// Puts the filler in the place of the live views' own, with nothing that fails.
+  /// What the buffers of the last filler hold. Needs their context.
+  std::vector<std::int32_t> GetTriangles() const;
+  std::vector<std::uint32_t> GetColors() const;
+
+  /// Puts the filler in the place of the mappers' own, with nothing that fails.
   static TestFiller& Install();
 
-  /// Gives live views their own one back.
+  /// Gives mappers their own one back.
   static void Remove();
 };
 

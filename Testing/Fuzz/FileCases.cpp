@@ -203,6 +203,9 @@ l 1 2
 p 3
 )";
 
+constexpr const char* CsvText = "id;X;Y;Z\n1;0;0;5\n2;4.5;0;1e-3\n#3\n3;4;3;\"2\"\n\n4;0;3;-1\n";
+constexpr const char* XyzText = "0 0 0\n4\t0.25 1\n4 3 2\n0 3 nan\n2 1 1\n";
+
 void WriteOthers(SeedWriter& writer, vtkPolyData* triangles)
 {
   writer.Write<vtkPLYWriter>(
@@ -219,6 +222,8 @@ void WriteOthers(SeedWriter& writer, vtkPolyData* triangles)
   writer.Write<vtkSTLWriter>("ascii.stl", triangles, [](auto* vtk) { vtk->SetFileTypeToASCII(); });
   writer.Write<vtkOBJWriter>("plain.obj", triangles, [](auto*) {});
   writer.Write("text.obj", ObjText);
+  writer.Write("names.csv", CsvText);
+  writer.Write("plain.csv", XyzText);
 }
 
 int WriteAll(const std::string& folder)

@@ -13,7 +13,7 @@ namespace delaunayflip
 
 struct SeedFile
 {
-  std::string Extension; ///< "vtk", "vtp", "ply", "stl" or "obj".
+  std::string Extension; ///< "vtk", "vtp", "ply", "stl", "obj" or "csv".
   std::string Bytes;
 };
 

@@ -20,8 +20,8 @@
 #include <stdexcept>
 
 /// @file
-/// The command as a target for fuzzers: mutated files of the five formats. The program forks for
-/// every file and calls the command's own main, so that VTK is loaded once.
+/// The command as a target for fuzzers: mutated files of the five formats and of points. The
+/// program forks for every file and calls the command's own main, so that VTK is loaded once.
 ///
 /// Whatever the file contains, the command must end by itself with one of the exit codes in its
 /// help. If it fails, it must say what is wrong and with which file, and keep an earlier output. It
@@ -38,7 +38,9 @@ namespace
 using namespace delaunayflip;
 namespace fs = std::filesystem;
 
-constexpr const char* Formats[] = { "vtk", "vtp", "ply", "stl", "obj" };
+constexpr const char* Formats[] = { "vtk", "vtp", "ply", "stl", "obj", "csv" };
+constexpr std::uint32_t ReadFormats = 6;
+constexpr std::uint32_t WrittenFormats = 5; // the first ones
 #ifdef DELAUNAYFLIP_SANITIZED
 constexpr rlim_t MostMemory = RLIM_INFINITY; // AddressSanitizer reserves terabytes
 #else
@@ -108,7 +110,7 @@ FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
   const std::vector<SeedFile>& seeds = GetFuzzFolder().Seeds;
   ByteSource source(bytes, size);
   // All formats are equally likely, whatever their numbers of seed files.
-  const char* format = Formats[source.Draw(5)];
+  const char* format = Formats[source.Draw(ReadFormats)];
   std::vector<const SeedFile*> candidates;
   for (const SeedFile& seed : seeds)
   {
@@ -120,7 +122,7 @@ FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
   const auto draw = [&] { return source.Draw(static_cast<std::uint32_t>(candidates.size())); };
   FileCase drawn;
   drawn.Input = std::string("in.") + format;
-  drawn.Output = std::string("out.") + Formats[source.Draw(5)];
+  drawn.Output = std::string("out.") + Formats[source.Draw(WrittenFormats)];
   drawn.HasEarlierOutput = source.Once(4);
   drawn.IsReadAgain = source.Once(4);
   const std::string& seed = candidates[draw()]->Bytes;
@@ -138,10 +140,11 @@ FileCase MakeFileCase(const std::uint8_t* bytes, std::size_t size)
   setrlimit(RLIMIT_AS, &memory);
   alarm(MostSeconds); // of the watching process; its child goes with it
   std::string words[] = { "delaunay-flip", (folder / in).string(), (folder / out).string(),
-    "--threads", "1" };
+    "--threads", "1", "--from-points" };
   char* argv[] = { words[0].data(), words[1].data(), words[2].data(), words[3].data(),
-    words[4].data(), nullptr };
-  const int code = RunCommand(5, argv);
+    words[4].data(), words[5].data(), nullptr };
+  const bool isOfPoints = in.substr(in.rfind('.')) == ".csv";
+  const int code = RunCommand(isOfPoints ? 6 : 5, argv);
   std::cout.flush();
   _exit(code);
 }
@@ -269,6 +272,10 @@ FileCounts CountsOf(const std::string& bytes, const std::string& format)
     return isContinued ? FileCounts()
                        : FileCounts{ CountLines(bytes, "v[ \t]"), CountLines(bytes, "p[ \t]"),
                            CountLines(bytes, "l[ \t]"), CountLines(bytes, "f[ \t]") };
+  }
+  if (format == "csv")
+  {
+    return {};
   }
   std::uint32_t triangles = 0;
   std::memcpy(&triangles, bytes.data() + 80, bytes.size() > 84 ? sizeof(triangles) : 0);

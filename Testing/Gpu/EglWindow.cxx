@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Windows of VTK without a display. VTK 9.1 of Debian draws through X alone, but its generic
-/// window draws into any context that is current.
+/// Windows of VTK without a display. Before 9.4 VTK of Debian draws through X alone, but its
+/// generic window draws into any context that is current.
 #include "EglWindow.h"
 
+#include "OpenGLFunctions.h"
 #include "TestWindow.h"
 
 #include "vtkCallbackCommand.h"
@@ -11,8 +12,6 @@
 #include "vtkGenericOpenGLRenderWindow.h"
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkNew.h"
-
-#include "vtk_glew.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -115,6 +114,7 @@ void Answer(vtkObject*, unsigned long event, void*, void* data)
 
 }
 
+#ifdef GLEWAPIENTRY
 /// Takes the place of GLEW's own. Debian's GLEW is built for X: it loads all functions of OpenGL,
 /// and then reports that there is no display of X, which VTK takes for a failure.
 extern "C" __attribute__((visibility("default"))) GLenum GLEWAPIENTRY glewInit()
@@ -123,6 +123,7 @@ extern "C" __attribute__((visibility("default"))) GLenum GLEWAPIENTRY glewInit()
   const GLenum code = own();
   return code == GLEW_ERROR_NO_GLX_DISPLAY ? GLEW_OK : code;
 }
+#endif
 
 std::string OpenEgl(bool allowsOthers)
 {
@@ -151,6 +152,10 @@ vtkSmartPointer<vtkRenderWindow> MakeTestWindow()
   {
     window->AddObserver(event, owner);
   }
+#ifndef GLEWAPIENTRY
+  window->SetOpenGLSymbolLoader(
+    [](void*, const char* name) { return eglGetProcAddress(name); }, nullptr);
+#endif
   window->SetReadyForRendering(true);
   return window;
 }

@@ -8,14 +8,17 @@
 #include "BenchmarkMesh.h"
 #include "DelaunayFlip.h"
 #include "EglWindow.h"
+#include "OpenGLFunctions.h"
 #include "TestWindow.h"
 
+#include "vtkActor.h"
+#include "vtkActorCollection.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipLiveView.h"
+#include "vtkDelaunayFlipMapper.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-
-#include "vtk_glew.h"
+#include "vtkRenderer.h"
 
 #include <CLI/CLI.hpp>
 
@@ -62,7 +65,7 @@ struct Scene
   }
 };
 
-/// Calls work() and waits for OpenGL, several times, and prints what it took.
+/// Calls prepare() and work() and waits for OpenGL, several times, and prints what work() took.
 void Measure(
   const BenchmarkMesh& mesh, const std::string& what, int frames, const std::function<bool()>& work,
   const std::function<void()>& prepare = []() {})
@@ -71,6 +74,7 @@ void Measure(
   bool goesOn = true;
   while (goesOn && static_cast<int>(times.size()) < frames)
   {
+    prepare();
     const auto start = std::chrono::steady_clock::now();
     goesOn = work();
     glFinish();
@@ -118,8 +122,17 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
   Measure(mesh, what + edges, frames, [&]() { return scene.View->Step(); });
   std::printf("{\"drawing\": \"%s\", \"renderer\": \"%s\"}\n", scene.View->GetDrawing().c_str(),
     GetRendererName().c_str());
-  if (what == "no copies")
+  if (what != "no copies, with texts")
   {
+    auto* actor = vtkActor::SafeDownCast(scene.View->GetRenderer()->GetActors()->GetLastActor());
+    auto* mapper = vtkDelaunayFlipMapper::SafeDownCast(actor->GetMapper());
+    Measure(
+      mesh, what + ": filling alone", drawsEdges ? 1 : frames, [&]() { return mapper->Fill(); },
+      [&]()
+      {
+        scene.Filter->AdvanceSession();
+        mapper->EndStep();
+      });
     scene.View->Render();
     Measure(mesh, "drawing alone" + edges, frames,
       [&]()

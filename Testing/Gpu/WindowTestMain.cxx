@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Runs the tests of drawing without copies in a window of EGL: by CUDA, or anywhere by the CPU
-/// with
-/// --any. Ends with 77 where it cannot run.
+/// Runs the tests of the mapper in a window of EGL: by CUDA, or anywhere by the CPU with --any.
+/// Ends with 77 where it cannot run.
 #include "EglWindow.h"
 #include "TestFiller.h"
 

@@ -144,6 +144,24 @@ class Cases:
         result = self.check(POINTS, TRIANGLES, constraints=ends)
         self.assertEqual(result.report.inserted_constraints, 1)
 
+    def test_points_are_triangulated(self):
+        points = numpy.random.default_rng(1).random((30000, 2))
+        for options in ({}, {"segments": [[0, 1], [2, 3]]}, {"longest_edge": 0.01},
+                        {"segments": [[0, 1], [2, 3], [4, 5]], "split_crossings": True}):
+            for real in (numpy.float32, numpy.float64):
+                with self.subTest(options=options, real=real):
+                    given = self.to_device(points.astype(real))
+                    found = delaunayflip.triangulate(given, **options)
+                    wanted = delaunayflip.triangulate(
+                        points.astype(real), backend="threads", **options)
+                    self.assertTrue(found.report.backend.startswith("CUDA: "))
+                    for name in ("triangles", "neighbors"):
+                        self.assertIs(type(getattr(found, name)), type(given))
+                        numpy.testing.assert_array_equal(
+                            self.to_host(getattr(found, name)), getattr(wanted, name))
+                    numpy.testing.assert_array_equal(found.used_points, wanted.used_points)
+                    numpy.testing.assert_array_equal(found.segments, wanted.segments)
+
     def test_errors(self):
         points, triangles = self.to_device(POINTS), self.to_device(TRIANGLES)
         with self.assertRaisesRegex(TypeError, "float32 or float64, not float16"):

@@ -13,14 +13,15 @@ from paraview.modules.vtkRemotingClientServerStream import vtkClientServerInterp
 
 from PluginTesting import Messages, PluginTest, main, refresh
 
-HEADER = os.path.join(
-    os.path.dirname(os.path.abspath(__file__)), "..", "..", "Filters", "vtkDelaunayFlip.h")
+FILTERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Filters")
 
 
-def list_properties():
-    """The properties with both a setter and a getter in the class's header."""
-    with open(HEADER, encoding="utf-8") as file:
-        header = file.read().split("\nprotected:")[0]
+def list_properties(name="vtkDelaunayFlip"):
+    """The properties with both a setter and a getter in the headers of the class and its base."""
+    header = ""
+    for each in (name, "vtkDelaunayFlipAlgorithm"):
+        with open(os.path.join(FILTERS, each + ".h"), encoding="utf-8") as file:
+            header += file.read().split("\nprotected:")[0]
 
     def list_accessors(verb):
         pattern = rf"\bvtk{verb}\w*Macro\((\w+)|\b{verb}(\w+)\("
@@ -29,11 +30,11 @@ def list_properties():
     return list_accessors("Set") & list_accessors("Get")
 
 
-def describe_class():
-    """{property: value as text} of a new vtkDelaunayFlip, without a proxy."""
+def describe_class(name="vtkDelaunayFlip"):
+    """{property: value as text} of a new object of the class, without a proxy."""
     interpreter = vtkClientServerInterpreterInitializer.GetGlobalInterpreter()
-    text = str(interpreter.NewInstance("vtkDelaunayFlip"))
-    own = text[text.index("  Geometry: "):]
+    text = str(interpreter.NewInstance(name))
+    own = text[text.index("  Backend: "):]
     return dict(re.findall(r"^  (\w+): (.*)$", own, re.MULTILINE))
 
 

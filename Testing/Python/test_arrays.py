@@ -5,6 +5,7 @@ import copy
 import ctypes
 import doctest
 import gc
+import itertools
 import pathlib
 import pickle
 import re
@@ -61,6 +62,71 @@ class Triangulate(unittest.TestCase):
         self.assertIn("place of another", result.report.defects)
         for none in (numpy.empty((0, 2)), points[:1], [[0, 0], [1, 1], [2, 2], [3, 3]]):
             self.assertEqual(delaunayflip.triangulate(none).triangles.shape, (0, 3))
+
+    def test_segments(self):
+        points = numpy.random.default_rng(4).random((500, 3))
+        segments = [[0, 1], [2, 3], [4, 5], [6, 7]]
+        refused = delaunayflip.triangulate(points, segments)
+        self.assertIn("cross an earlier one", refused.report.defects)
+        split = delaunayflip.triangulate(points, segments, split_crossings=True)
+        self.assertEqual(split.report.segments_refused, 0)
+        self.assertEqual(len(split.points), 500 + split.report.crossings)
+        self.assertEqual(len(split.used_points), len(split.points))
+        for result in (refused, split):
+            edges = {frozenset(ids) for triangle in result.triangles.tolist()
+                     for ids in itertools.combinations(triangle, 2)}
+            self.assertLessEqual({frozenset(ids) for ids in result.segments.tolist()}, edges)
+        for crossing in split.points[500:]:  # on the first segment that it splits, z too
+            distances = []
+            for start, end in points[segments]:
+                share = (crossing - start)[:2] @ (end - start)[:2] / ((end - start)[:2] @ (end - start)[:2])
+                distances.append(numpy.abs(start + share * (end - start) - crossing).max())
+            self.assertLess(min(distances), 1e-12)
+        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "names point 500"):
+            delaunayflip.triangulate(points, [[0, 500]])
+        with self.assertRaises(TypeError):
+            delaunayflip.triangulate(points, [[0.0, 1.0]])
+        with self.assertRaises(ValueError):
+            delaunayflip.triangulate(points, [0, 1, 2])
+
+    def test_outline_and_holes(self):
+        points = numpy.random.default_rng(5).random((1000, 2))
+
+        def area(**options):
+            result = delaunayflip.triangulate(points, **options)
+            a, b, c = (result.points[result.triangles[:, slot]] for slot in range(3))
+            return round(0.5 * numpy.sum((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]), 9)
+
+        square, triangle = [[.1, .1], [.9, .1], [.9, .9], [.1, .9]], [[.3, .3], [.3, .5], [.5, .5]]
+        self.assertEqual(area(outline=square), 0.64)
+        self.assertEqual(area(outline=square[::-1], holes=[triangle]), 0.62)
+        self.assertEqual(area(outline=[square, [[2, 2], [3, 2], [3, 3]]]), 1.14)
+        whole = area()
+        self.assertAlmostEqual(area(holes=[triangle]), whole - 0.02)
+        self.assertEqual(area(outline=square, holes=[[.5, .5]]), 0)  # no segment stops it
+        result = delaunayflip.triangulate(points, outline=square)
+        self.assertEqual(result.points[1000:].tolist(), square)
+        self.assertEqual(result.report.number_of_triangles, len(result.triangles))
+        ids = delaunayflip.triangulate(result.points, outline=[1000, 1001, 1002, 1003])
+        self.assertEqual(ids.triangles.tolist(), result.triangles.tolist())
+        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "ring 1"):
+            delaunayflip.triangulate(points, outline=[square, [[.5, .5], [2, .5], [2, .6]]])
+        with self.assertRaises(ValueError):
+            delaunayflip.triangulate(points, outline=[[0, 1]])
+
+    def test_what_is_left_out(self):
+        points = numpy.random.default_rng(6).random((2000, 2))
+        result = delaunayflip.triangulate(points, longest_edge=0.05, point_tolerance=0.01)
+        lengths = numpy.linalg.norm(
+            points[result.triangles] - points[numpy.roll(result.triangles, 1, axis=1)], axis=2)
+        self.assertLessEqual(lengths.max(), 0.05)
+        self.assertGreaterEqual(lengths.min(), 0.01)
+        self.assertGreater(result.report.triangles_large, 0)
+        self.assertEqual(result.report.points_too_near, (result.used_points != numpy.arange(2000)).sum())
+        few = delaunayflip.triangulate(points, alpha=0.02)
+        self.assertLess(len(few.triangles), len(delaunayflip.triangulate(points).triangles))
+        with self.assertRaises(delaunayflip.InvalidOptions):
+            delaunayflip.triangulate(points, alpha=-1)
 
     def test_can_be_stopped(self):
         points = numpy.random.default_rng(3).random((20000, 2))

@@ -6,8 +6,10 @@ import random
 import re
 import unittest
 
-from delaunayflip import vtkDelaunayFlip as CxxFilter
-from delaunayflip._vtk_filter import _ANSWERS, vtkDelaunayFlip as PythonFilter
+from delaunayflip import vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipPoints as CxxPoints
+from delaunayflip._vtk_filter import (
+    _ANSWERS, vtkDelaunayFlip as PythonFilter)
+from delaunayflip._vtk_points import vtkDelaunayFlipPoints as PythonPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -153,7 +155,8 @@ def run(kind, data, prepare=lambda flip: None):
         "table": [read_array(column) for column in list_arrays(watched.filter.GetIterations().GetRowData())
                   if column.GetName() != "Seconds"],
         "errors": get_text(watched.errors), "warnings": get_text(watched.warnings),
-        "answers": {name: getattr(watched.filter, name)() for name in ANSWERS}}
+        "answers": {name: getattr(watched.filter, name)()
+                    for name in ANSWERS if hasattr(kind, name)}}
 
 
 class Same(unittest.TestCase):
@@ -278,6 +281,113 @@ class Same(unittest.TestCase):
         told = self.expect_same(make_bad_mesh(), lambda flip: (
             flip.SetNumberOfPieces(3), flip.GenerateFlipCountOn()))
         self.assertGreater(told["answers"]["GetTotalFlips"], 100)
+
+
+def make_cloud(count=300, kind=numpy.float64, seed=5):
+    """Points on a coarse lattice, with ties and repeated places, and data."""
+    generator = numpy.random.default_rng(seed)
+    places = numpy.floor(generator.uniform(0, 30, (count, 3))) + [0, 0, 0.25]
+    cloud = make_mesh(places, [(0, 1, 2)])
+    cloud.GetPoints().SetData(numpy_to_vtk(places.astype(kind), deep=True))
+    add_numbers(cloud.GetPointData(), "Number", count)
+    add_numbers(cloud.GetPointData(), "Own", count)
+    cloud.GetPointData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
+    cloud.GetPointData().GetGlobalIds().SetName("Ids")
+    return cloud
+
+
+def make_segments(cloud, kind):
+    """Lines and two rings: at places of the cloud, and new ones of which two are the same."""
+    known = vtk_to_numpy(cloud.GetPoints().GetData())[:8]
+    new = [[3.3, 3, 5], [9.5, 21.1, 6], [9.5, 21.1, 6], [25.7, 12, 7], [math.nan, 1, 1]]
+    ring = [[-1, -1, 0], [29, -1, 0], [29, 29, 0], [-1, 29, 0]]
+    hole = [[11, 11, 1], [11, 13.5, 1], [13.5, 13.5, 1], [13.5, 11, 1]]
+    places = numpy.concatenate([known, new, ring, hole]).astype(kind)
+    segments = make_mesh(places, [(13, 14, 15, 16), (17, 18, 19, 20)])
+    segments.GetPoints().SetData(numpy_to_vtk(places, deep=True))
+    segments.SetLines(make_cells([(0, 1, 2), (8, 9), (10, 11), (3, 3, 4), (7,)]))
+    add_numbers(segments.GetPointData(), "Number", len(places))
+    names = vtkStringArray()
+    names.SetName("Names")
+    for place in range(len(places)):
+        names.InsertNextValue(str(place))
+    segments.GetPointData().AddArray(names)
+    return segments
+
+
+class SamePoints(unittest.TestCase):
+    """vtkDelaunayFlipPoints in C++ and in Python."""
+
+    def expect_same(self, data, prepare=lambda points: None):
+        self.maxDiff = 2000
+        cxx, python = (run(kind, data, prepare) for kind in (CxxPoints, PythonPoints))
+        for key in cxx:
+            self.assertEqual(cxx[key], python[key], key)
+        return cxx
+
+    def test_interface(self):
+        """All methods and constants but those of projections."""
+        own = {name for name in set(dir(CxxPoints)) - set(dir(vtkObject))
+               if name[0] != "_" and not name.endswith("Type") and name != "SetOutput"}
+        left_out = {name for name in own - set(dir(PythonPoints))
+                    if not re.search("(?i)projection|transform", name)}
+        self.assertEqual(left_out, set())
+
+    def test_points(self):
+        for kind in (numpy.float32, numpy.float64):
+            told = self.expect_same(make_cloud(kind=kind))
+            self.assertIn("points at the place of another one", told["warnings"][0])
+        self.expect_same(make_cloud(), lambda points: points.SetMaximumIterations(1))
+        for count in (0, 2, 3):
+            self.expect_same(make_cloud(count, seed=2))
+
+    def test_segments(self):
+        for own in (numpy.float32, numpy.float64):
+            for other in (numpy.float32, numpy.float64):
+                for splits in (False, True):
+                    cloud = make_cloud(kind=own)
+                    segments = make_segments(cloud, other)
+
+                    def prepare(points, segments=segments, splits=splits):
+                        points.SetSegmentsData(segments)
+                        points.SetSplitCrossings(splits)
+                        points.SetOutline(int(splits))
+                        points.SetLongestEdge(9.0)
+
+                    told = self.expect_same(cloud, prepare)
+                    self.assertEqual(told["errors"], [])
+
+    def test_lines_of_the_input(self):
+        cloud = make_cloud(40)
+        cloud.SetLines(make_cells([(0, 9, 3), (5, 6), (7, 8)]))
+        self.expect_same(cloud, lambda points: points.LinesAsSegmentsOn())
+        cloud.SetLines(make_cells([(0, 77)]))
+        told = self.expect_same(cloud, lambda points: points.LinesAsSegmentsOn())
+        self.assertEqual(len(told["errors"]), 1)
+
+    def test_other_trouble(self):
+        cloud, short = make_cloud(30), vtkIntArray()
+        short.SetName("Short")
+        cloud.GetPointData().AddArray(short)
+        self.expect_same(cloud)
+        segments = make_segments(cloud, float)
+        self.expect_same(cloud, lambda points: points.SetSegmentsData(segments))
+        segments.SetPolys(make_cells([(13, 15, 14, 16)]))
+        told = self.expect_same(make_cloud(30), lambda points: points.SetSegmentsData(segments))
+        self.assertIn("ring 5", told["errors"][0])
+        self.expect_same(make_cloud(30), lambda points: points.SetBackendToCUDA())
+        blocks, image = vtkMultiBlockDataSet(), vtkImageData()
+        image.SetDimensions(2, 2, 2)
+        for i, data in enumerate((make_cloud(30), image, None, make_cloud(50))):
+            blocks.SetBlock(i, data)
+        told = self.expect_same(blocks)
+        self.assertIn("has no points of its own", told["warnings"][0])
+
+    def test_pieces_are_an_error(self):
+        for kind in (CxxPoints, PythonPoints):
+            told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
+            told.filter.Update()
+            self.assertIn("gather them in one dataset first", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):

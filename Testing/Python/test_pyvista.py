@@ -133,6 +133,24 @@ class PyVista(unittest.TestCase):
         numpy.testing.assert_array_equal(better.delaunay.smallest_angles(), arrays)
         self.assertGreater(arrays.min(), self.mesh.triangulate().delaunay.smallest_angles().min())
 
+    def test_points(self):
+        cloud = self.pyvista.PolyData(numpy.random.default_rng(3).random((50, 3)))
+        cloud["Number"] = numpy.arange(50)
+        segments = self.pyvista.Line((0.1, 0.2, 7), (0.9, 0.8, 7))
+        made = cloud.delaunay.triangulate(segments, alpha=0.5)
+        expected = delaunayflip.triangulate(made.points, segments=[[50, 51]], alpha=0.5)
+        numpy.testing.assert_array_equal(made.regular_faces, expected.triangles)
+        self.assertEqual(made["Number"].tolist(), [*range(50), 0, 0])
+        self.assertEqual(cloud.n_points, 50)
+        self.assertGreater(int(made.field_data["DelaunayFlip:SegmentEdges"][0]), 0)
+        same = delaunayflip.pyvista.triangulate(self.pyvista.PointSet(cloud.points))
+        numpy.testing.assert_array_equal(same.faces, cloud.delaunay.triangulate().faces)
+        with self.assertWarnsRegex(UserWarning, "cross an earlier one"):
+            cross = self.pyvista.Line((0.1, 0.8, 7), (0.9, 0.2, 7))
+            cloud.delaunay.triangulate(segments.append_polydata(cross))
+        with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):
+            delaunayflip.pyvista.triangulate([[0, 0, 0]])
+
     def test_what_is_refused(self):
         pyvista, flip = self.pyvista, self.mesh.delaunay.flip
         functions = [importlib.import_module("delaunayflip.pyvista").flip,

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 # Imported before any module of VTK: the package must load what it needs.
-from delaunayflip import vtkDelaunayFlip
+from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -392,6 +392,45 @@ class Properties(unittest.TestCase):
             self.assertTrue(change_property(flip, name))
             after = read(flip)
             self.assertEqual({line for line in after if after[line] != before.get(line)}, {name})
+
+
+class FromPoints(unittest.TestCase):
+
+    def test_points_and_a_breakline(self):
+        cloud = make_mesh([(-3, 0, 0), (0, -1, 0), (3, 0, 0), (0, 1, 0)], [])
+        points = vtkDelaunayFlipPoints()
+        points.SetInputData(cloud)
+        points.Update()
+        self.assertIn(FLIPPED, get_edges(points.GetOutput()))
+        segments = vtkPolyData()
+        segments.SetLines(make_cells([(0, 2)]))
+        points.SetSegmentsData(segments)
+        points.Update()
+        self.assertNotIn(FLIPPED, get_edges(points.GetOutput()))
+        self.assertEqual(points.GetNumberOfSegmentEdges(), 1)
+        self.assertEqual(points.GetNumberOfRefusedSegments(), 0)
+        self.assertTrue(points.GetConverged())
+        self.assertEqual(points.GetIterations().GetNumberOfRows(), points.GetNumberOfIterations())
+
+    def test_properties(self):
+        points = vtkDelaunayFlipPoints()
+        for name in ("Alpha", "LongestEdge", "PointTolerance", "SplitCrossings", "LinesAsSegments",
+                     "Outline", "MaximumIterations", "NumberOfThreads", "Backend"):
+            before = points.GetMTime()
+            self.assertTrue(change_property(points, name), name)
+            self.assertGreater(points.GetMTime(), before)
+        self.assertEqual(points.OUTLINE_ORIENTATION, points.GetOutline())
+        points.SetAlpha(-1)
+        self.assertEqual(points.GetAlpha(), 0)
+
+    def test_aborted(self):
+        points, cloud = vtkDelaunayFlipPoints(), make_bad_mesh()
+        points.SetInputData(cloud)
+        points.AddObserver("ProgressEvent", lambda *_: points.AbortExecuteOn())
+        points.Update()
+        self.assertEqual(points.GetStopReasonAsString(), "aborted")
+        self.assertEqual(points.GetOutput().GetNumberOfPoints(), cloud.GetNumberOfPoints())
+        self.assertEqual(points.GetOutput().GetNumberOfCells(), 0)
 
 
 @unittest.skipUnless(HAS_PIPELINES, "needs VTK 9.4")

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats.h"
+#include "InputFile.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <algorithm>
+#include <cctype>
+
+/// @file
+/// .xyz, .csv and .txt: a line of text for each point, x y [z] and perhaps more, perhaps after a
+/// line of names. Lines that begin with # or // are comments; the names may be in one.
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+using Words = std::vector<std::string_view>;
+
+bool IsNumber(std::string_view word)
+{
+  word.remove_prefix(word.substr(0, 1) == "+" ? 1 : 0);
+  const char* const end = word.data() + word.size();
+  double value = 0.0;
+  return !word.empty() && std::from_chars(word.data(), end, value).ptr == end;
+}
+
+bool IsComment(std::string_view word)
+{
+  return word.substr(0, 1) == "#" || word.substr(0, 2) == "//";
+}
+
+/// The places of the columns named x, y and, if there is one, z, in any case; else none.
+std::vector<std::size_t> FindAxes(const Words& names)
+{
+  std::vector<std::size_t> places;
+  for (const char axis : { 'x', 'y', 'z' })
+  {
+    const auto found = std::find_if(names.begin(), names.end(),
+      [axis](std::string_view name)
+      { return name.size() == 1 && std::tolower(static_cast<unsigned char>(name[0])) == axis; });
+    if (found != names.end())
+    {
+      places.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    else if (axis != 'z')
+    {
+      return {};
+    }
+  }
+  return places;
+}
+
+/// E.g. "'time', 'intensity'", but no more than ten.
+std::string Quoted(const Words& names)
+{
+  constexpr std::size_t most = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+  {
+    text += (i == 0 ? "'" : ", '") + std::string(names[i]) + "'";
+  }
+  return names.size() > most ? text + " and others" : text;
+}
+
+/// Files often end all lines with a separator.
+void DropEmptyEnd(Words& words)
+{
+  while (words.size() > 1 && words.back().empty())
+  {
+    words.pop_back();
+  }
+}
+
+/// Reads the lines before the first point, which is then the line of `lines`.
+/// @returns the names of its columns; empty if the file names none, or has no points.
+Words ReadNames(TextLines& lines)
+{
+  Words names;
+  bool hasNames = false; // that are no comment
+  // Names may have blanks, so tabs separate them. Between numbers, blanks and tabs are the same.
+  const char* separators = ";,";
+  while (lines.Next())
+  {
+    const bool isComment = IsComment(lines.Words[0]);
+    lines.SeparateBy(separators);
+    DropEmptyEnd(lines.Words);
+    if (!isComment && (hasNames || std::any_of(lines.Words.begin(), lines.Words.end(), IsNumber)))
+    {
+      const bool fits = names.size() == lines.Words.size();
+      if (hasNames && !fits)
+      {
+        lines.Fail("has " + std::to_string(lines.Words.size()) +
+          " columns, but the line of names has " + std::to_string(names.size()));
+      }
+      return fits ? names : Words();
+    }
+    const bool hasTabs = lines.SeparateBy(";,\t") == '\t';
+    DropEmptyEnd(lines.Words);
+    Words found = lines.Words;
+    if (isComment)
+    {
+      found[0].remove_prefix(found[0][0] == '#' ? 1 : 2);
+      found[0].remove_prefix(std::min(found[0].find_first_not_of(' '), found[0].size()));
+      found.erase(found.begin(), found.begin() + (found[0].empty() ? 1 : 0));
+    }
+    if (!isComment || !FindAxes(found).empty())
+    {
+      hasNames = !isComment;
+      names = std::move(found);
+      separators = hasTabs ? ";,\t" : ";,";
+    }
+  }
+  return {};
+}
+
+/// The columns of x, y and, if there is one, z. Warns of all that is not certain or left out.
+std::vector<std::size_t> ChooseColumns(
+  const TextLines& lines, const Words& names, const std::string& file, FileMesh& result)
+{
+  const std::size_t count = lines.Words.size();
+  if (count < 2)
+  {
+    lines.Fail("a point has two or three coordinates: x y [z]");
+  }
+  std::vector<std::size_t> columns = FindAxes(names);
+  if (columns.empty())
+  {
+    columns = { 0, 1 };
+    columns.resize(std::min<std::size_t>(count, 3), 2);
+    if (!names.empty())
+    {
+      result.Warnings.push_back(file + ": no columns are named x and y; took " +
+        Quoted({ names.begin(), names.begin() + static_cast<std::ptrdiff_t>(columns.size()) }) +
+        " as x" + (columns.size() == 3 ? ", y, z" : ", y"));
+    }
+  }
+  Words others;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    if (std::find(columns.begin(), columns.end(), i) == columns.end())
+    {
+      others.push_back(names[i]);
+    }
+  }
+  if (!others.empty())
+  {
+    result.Warnings.push_back(file + ": left out the columns " + Quoted(others));
+  }
+  else if (count > columns.size())
+  {
+    result.Warnings.push_back(
+      file + ": left out the columns from number " + std::to_string(columns.size() + 1) + " on");
+  }
+  return columns;
+}
+
+}
+
+FileMesh ReadPoints(const InputFile& file)
+{
+  FileMesh result;
+  TextLines lines(file);
+  const Words names = ReadNames(lines);
+  const vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  if (!lines.Words.empty())
+  {
+    const std::vector<std::size_t> columns = ChooseColumns(lines, names, file.GetName(), result);
+    const std::string_view rest = lines.GetRest();
+    coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
+    do
+    {
+      for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
+      {
+        coordinates->InsertNextValue(i < columns.size() ? lines.Number<double>(columns[i]) : 0.0);
+      }
+    } while (lines.Next());
+  }
+  result.Mesh->SetPoints(vtkNew<vtkPoints>());
+  result.Mesh->GetPoints()->SetData(coordinates);
+  return result;
+}
+
+}

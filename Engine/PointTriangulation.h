@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTTRIANGULATION_H
+#define DELAUNAYFLIP_POINTTRIANGULATION_H
+
+#include "DeviceMesh.h"
+#include "FlipOptions.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+
+/// @file
+/// What a FlipSession needs to triangulate points in the plane, and how it treats them.
+///
+/// **Points.** Of points at equal places that with the lowest id is used. Points with NaN or
+/// infinite coordinates are not used. All triangles turn counter-clockwise and have an area; n
+/// places with h on the hull have 2 n - 2 - h triangles. The triangles depend on the places and the
+/// segments alone, not on the order of the points: ties are canonical.
+///
+/// **Segments** become edges of the mesh, and stay; all other edges are constrained Delaunay. They
+/// are taken in their order. One that passes through points is split there. One that overlaps an
+/// earlier one is no conflict. One that crosses an earlier one is refused, counted and named in the
+/// report, or with PointOptions::SplitCrossings both are split where they cross.
+///
+/// **Rings** are closed polygons of segments. What lies outside of them is removed
+/// (PointOptions::Outline), then the regions of hole seeds, then what Alpha and LongestEdge say.
+
+namespace delaunayflip
+{
+
+/// What rings of segments enclose.
+enum class OutlineKind
+{
+  EvenOdd, ///< Triangles inside an odd number of rings are kept.
+  /// Counter-clockwise rings enclose what is kept, clockwise ones cut holes, as for vtkDelaunay2D's
+  /// Source: triangles inside more counter-clockwise rings than clockwise ones are kept. If there
+  /// are none, those inside as many of both are kept.
+  Orientation
+};
+
+/// Points in the plane, and the segments between them.
+struct PointInput
+{
+  PlaneArray Points;
+
+  /// Pairs of point ids, 2 * NumberOfSegments of them; null if there are none.
+  const std::int64_t* Segments = nullptr;
+  std::int64_t NumberOfSegments = 0;
+
+  /// For every segment the number of its ring, 0 or more, or -1 for a segment that is part of no
+  /// ring. Null: there are no rings. The segments of a ring run around it, all in the same
+  /// direction.
+  const std::int32_t* Rings = nullptr;
+
+  /// x and y of places in holes: the triangles that can be reached from there without crossing a
+  /// segment are removed. 2 * NumberOfHoleSeeds numbers.
+  const double* HoleSeeds = nullptr;
+  std::int64_t NumberOfHoleSeeds = 0;
+
+  /// Whether the coordinates are in the memory of a GPU, ordered by Stream. All other arrays are in
+  /// the host's.
+  bool OnDevice = false;
+  DeviceStream Stream{};
+};
+
+/// How points are triangulated. Of FlipOptions, Geometry, Criterion, TieRule and FeatureAngle are
+/// not used; NumberOfPieces must be 0 or 1.
+struct PointOptions : FlipOptions
+{
+  /// Points nearer than this to one that is used and has a lower id are not used. 0 (default): only
+  /// those at the same place.
+  double PointTolerance = 0.0;
+
+  /// Whether segments that cross are split where they do. The point is the exact crossing, rounded
+  /// once to the precision of the points; a point that is there already is used. Up to 10 rounds,
+  /// because the halves may cross others; what then still crosses is refused.
+  bool SplitCrossings = false;
+
+  OutlineKind Outline = OutlineKind::EvenOdd;
+
+  /// Triangles whose circumcircle has a larger radius are removed, unless one of their edges is a
+  /// segment. 0 (default): none.
+  double Alpha = 0.0;
+
+  /// The same for triangles with a longer edge.
+  double LongestEdge = 0.0;
+};
+
+/// A point made where two segments cross. Its id is the number of the caller's points plus its
+/// index.
+struct AddedPoint
+{
+  double X = 0.0, Y = 0.0;
+  /// What belongs to the point, such as z, is (1 - Share) times that of point From plus Share times
+  /// that of point To: the ends of the earlier segment.
+  std::int64_t From = -1, To = -1;
+  double Share = 0.0;
+};
+
+/// What is reported about points beside the flips.
+struct PointCounts
+{
+  std::int64_t NotFinite = 0; ///< Points with NaN or infinite coordinates.
+  std::int64_t Repeated = 0; ///< Points at the place of one with a lower id.
+  std::int64_t TooNear = 0; ///< Points within the tolerance of one with a lower id.
+  std::int64_t SegmentEdges = 0; ///< Edges that segments have become.
+  std::int64_t RefusedSegments = 0; ///< They cross earlier ones, or an end is not finite.
+  std::int64_t Crossings = 0; ///< Points added where segments cross.
+  double LargestShift = 0.0; ///< How far rounding has moved one of them at most.
+  std::int64_t OutsideTriangles = 0; ///< Removed outside rings and around hole seeds.
+  std::int64_t LargeTriangles = 0; ///< Removed by Alpha and LongestEdge.
+};
+
+}
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_OUTLINE_H
+#define DELAUNAYFLIP_OUTLINE_H
+
+#include "ConstraintPath.h"
+#include "PointTriangulation.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// Which triangles of a triangulation of points are not part of the result.
+
+namespace delaunayflip
+{
+
+/// A triangulation of points in the host's memory.
+struct PointMeshView : PlaneMesh
+{
+  std::int64_t NumberOfTriangles;
+  std::int64_t NumberOfEdges;
+  std::int64_t NumberOfPlaces;
+  const VertexId* Ids; ///< Of every place the point that is used there.
+};
+
+/// An edge that a segment has become.
+struct SegmentEdge
+{
+  HalfEdgeId Side; ///< One that has a triangle.
+  std::int32_t Ring; ///< -1: none.
+  bool IsOnLeft; ///< Whether Side is to the left of the segment.
+};
+
+/// What is left of a triangulation.
+struct KeptTriangles
+{
+  /// The new number of every triangle, by its slot in the output, or -1. Empty: all are kept.
+  std::vector<std::int32_t> Numbers;
+  std::int64_t Count = 0;
+  std::int64_t Outside = 0, Large = 0; ///< How many are not kept, and why.
+  std::int64_t SeedsOutside = 0; ///< Hole seeds in no triangle.
+  std::int64_t Edges = 0, Boundary = 0; ///< Of the triangles that are kept.
+  std::int64_t EulerCharacteristic = 0;
+  double SquaredCotangent = 0.0; ///< Of their smallest angle.
+};
+
+/// Whether these options can remove triangles.
+bool MayRemove(const PointInput& input, const PointOptions& options);
+
+KeptTriangles KeepTriangles(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
+  const PointInput& input, const PointOptions& options);
+
+}
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SEGMENTCROSSINGS_H
+#define DELAUNAYFLIP_SEGMENTCROSSINGS_H
+
+#include "PointTriangulation.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A segment between two points.
+struct Segment
+{
+  std::int64_t From, To; ///< Ids of points.
+  std::int32_t Ring; ///< -1: none.
+  std::int64_t Number; ///< Of the caller's segment.
+};
+
+struct SplitSegments
+{
+  std::vector<Segment> Segments; ///< In the order of those that were given.
+  std::vector<AddedPoint> Added;
+  double LargestShift = 0.0; ///< How far rounding has moved a point at most.
+};
+
+/// Splits segments where they cross each other, in up to ten rounds: points are rounded, so halves
+/// may cross again. Segments that meet at a point, or overlap, do not cross.
+/// @param check is called now and then, and may throw.
+SplitSegments SplitCrossings(
+  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);
+
+}
+
+#endif

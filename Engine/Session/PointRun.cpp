@@ -1,0 +1,518 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointRun.h"
+
+#include "CallerMesh.h"
+#include "FlipError.h"
+#include "InputChecks.h"
+#include "SegmentInsertion.h"
+#include "Strips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// How many points or segments pass between two calls of an observer.
+constexpr std::int64_t Batch = 1 << 14;
+
+void Tell(const ProgressObserver& observer)
+{
+  if (observer && !observer(0.0))
+  {
+    throw RunAborted();
+  }
+}
+
+void CheckInput(const PointInput& input, const PointOptions& options)
+{
+  for (const double length : { options.PointTolerance, options.Alpha, options.LongestEdge })
+  {
+    if (!(length >= 0.0 && length < INFINITY))
+    {
+      throw InvalidOptions("the point tolerance, alpha and the longest edge must be 0 or more");
+    }
+  }
+  if (options.NumberOfPieces > 1)
+  {
+    throw InvalidOptions("points cannot be triangulated in several pieces: gather them first");
+  }
+  for (std::int64_t i = 0; i < 2 * input.NumberOfSegments; ++i)
+  {
+    const std::int64_t point = input.Segments[i];
+    if (point < 0 || point >= input.Points.Count)
+    {
+      throw InvalidMesh("segment " + std::to_string(i / 2) + " names point " +
+          std::to_string(point) + ", but there are " + DescribePoints(input.Points.Count),
+        i / 2, point);
+    }
+  }
+  for (std::int64_t i = 0; i < 2 * input.NumberOfHoleSeeds; ++i)
+  {
+    if (!IsFinite(input.HoleSeeds[i]))
+    {
+      throw InvalidOptions(
+        "hole seed " + std::to_string(i / 2) + " has a coordinate that is NaN or infinite");
+    }
+  }
+}
+
+/// Pairs of point ids of the first three segments.
+std::vector<std::int64_t> ListFirstEnds(
+  const PointInput& caller, const std::vector<Segment>& segments)
+{
+  std::vector<std::int64_t> ends;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, segments.size()); ++i)
+  {
+    const std::int64_t* pair = caller.Segments + 2 * segments[i].Number;
+    ends.insert(ends.end(), { pair[0], pair[1] });
+  }
+  return ends;
+}
+}
+
+PointRun::PointRun(const PointInput& input, const PointOptions& options)
+  : Caller(input),
+    Options(options),
+    Prepared(input)
+{
+  CheckInput(input, options);
+}
+
+void PointRun::Prepare(const ProgressObserver& observer)
+{
+  if (this->IsPrepared)
+  {
+    return;
+  }
+  const PointInput& input = this->Caller;
+  this->Counts = PointCounts();
+  this->Segments.clear();
+  if (this->Options.PointTolerance > 0.0)
+  {
+    this->GetOnHost();
+    this->FindNearPoints(observer);
+  }
+  for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
+  {
+    const std::int64_t* ends = input.Segments + 2 * i;
+    const std::int32_t ring = input.Rings ? input.Rings[i] : -1;
+    const bool merges = !this->NearPoint.empty();
+    this->Segments.push_back({ merges ? this->NearPoint[ends[0]] : ends[0],
+      merges ? this->NearPoint[ends[1]] : ends[1], ring, i });
+  }
+  if (this->Options.SplitCrossings && !this->Segments.empty())
+  {
+    SplitSegments split =
+      SplitCrossings(this->GetOnHost(), std::move(this->Segments), [&] { Tell(observer); });
+    this->Segments = std::move(split.Segments);
+    this->Added = std::move(split.Added);
+    this->Counts.Crossings = static_cast<std::int64_t>(this->Added.size());
+    this->Counts.LargestShift = split.LargestShift;
+  }
+  if (!this->Added.empty() || this->Counts.TooNear > 0)
+  {
+    input.Points.Floats ? this->CopyCoordinates(this->Floats)
+                        : this->CopyCoordinates(this->Doubles);
+  }
+  this->IsPrepared = true;
+}
+
+void PointRun::Reset()
+{
+  this->Inserted = false;
+  this->Taken = 0;
+  this->Flips = 0;
+  this->Edges.clear();
+  this->Refused.clear();
+  this->Kept = KeptTriangles();
+}
+
+/// Copies the coordinates from a GPU, if they are there.
+PlaneArray PointRun::GetOnHost()
+{
+  if (this->Prepared.OnDevice)
+  {
+    const PlaneArray& points = this->Caller.Points;
+    const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;
+    const auto copy = [&](const auto* values, auto& copied)
+    {
+      copied.resize(numbers);
+      CopyFromDevice(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
+        this->Caller.Stream);
+      return PlaneArray(copied.data(), points.Count, points.Stride);
+    };
+    this->Prepared.Points =
+      points.Floats ? copy(points.Floats, this->Floats) : copy(points.Doubles, this->Doubles);
+    this->Prepared.OnDevice = false;
+  }
+  return this->Prepared.Points;
+}
+
+/// Finds for every point the one that is used instead of it: the first with a lower id that is used
+/// and nearer than the tolerance. A grid of cells as wide as the tolerance limits the search.
+void PointRun::FindNearPoints(const ProgressObserver& observer)
+{
+  const PlaneArray points = this->Prepared.Points;
+  const double tolerance = this->Options.PointTolerance;
+  struct Hash
+  {
+    std::size_t operator()(const std::pair<double, double>& cell) const
+    {
+      return std::hash<double>()(cell.first) * 0x9E3779B97F4A7C15u +
+        std::hash<double>()(cell.second);
+    }
+  };
+  std::unordered_map<std::pair<double, double>, std::int64_t, Hash> lastIn; // used point of a cell
+  std::vector<std::int64_t> before(points.Count, -1); // the used point of the same cell before
+  this->NearPoint.resize(points.Count);
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    if (i % Batch == 0)
+    {
+      Tell(observer);
+    }
+    this->NearPoint[i] = i;
+    if (!IsFinitePoint(points, i))
+    {
+      continue;
+    }
+    const double x = points.Get(i, 0), y = points.Get(i, 1);
+    const double column = std::floor(x / tolerance), row = std::floor(y / tolerance);
+    for (int cell = 0; cell < 9; ++cell)
+    {
+      const auto found = lastIn.find({ column + (cell % 3 - 1), row + (cell / 3 - 1) });
+      for (std::int64_t j = found == lastIn.end() ? -1 : found->second; j >= 0; j = before[j])
+      {
+        if (std::hypot(points.Get(j, 0) - x, points.Get(j, 1) - y) < tolerance)
+        {
+          this->NearPoint[i] = std::min(this->NearPoint[i], j);
+        }
+      }
+    }
+    if (this->NearPoint[i] == i)
+    {
+      std::int64_t& last = lastIn.emplace(std::pair(column, row), -1).first->second;
+      before[i] = std::exchange(last, i);
+    }
+    else
+    {
+      ++this->Counts.TooNear;
+    }
+  }
+}
+
+/// Makes the points to triangulate: those that are too near become NaN, so that they are not used.
+template <typename Real>
+void PointRun::CopyCoordinates(std::vector<Real>& copy)
+{
+  const PlaneArray points = this->Prepared.Points;
+  const std::int64_t added = this->Counts.Crossings;
+  std::vector<Real> made(2 * (points.Count + added));
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    const bool isUsed = this->NearPoint.empty() || this->NearPoint[i] == i;
+    made[2 * i] = static_cast<Real>(isUsed ? points.Get(i, 0) : NAN);
+    made[2 * i + 1] = static_cast<Real>(points.Get(i, 1));
+  }
+  for (std::int64_t i = 0; i < added; ++i)
+  {
+    made[2 * (points.Count + i)] = static_cast<Real>(this->Added[i].X);
+    made[2 * (points.Count + i) + 1] = static_cast<Real>(this->Added[i].Y);
+  }
+  copy = std::move(made);
+  this->Prepared.Points = PlaneArray(copy.data(), points.Count + added, 2);
+}
+
+//------------------------------------------------------------------------------
+/// By point the place at which it is, or NoVertex.
+std::vector<VertexId> PointRun::ListPlaces(const PointMeshView& view, const LoadedMesh& mesh) const
+{
+  std::vector<std::int64_t> used(this->Prepared.Points.Count);
+  mesh.StoreUsedPoints(used.data());
+  std::vector<VertexId> placeOf(used.size(), NoVertex);
+  for (std::int64_t place = 0; place < view.NumberOfPlaces; ++place)
+  {
+    placeOf[view.Ids[place]] = static_cast<VertexId>(place);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) // the used one has the lowest id of its place
+  {
+    placeOf[i] = used[i] < 0 ? NoVertex : placeOf[used[i]];
+  }
+  return placeOf;
+}
+
+void PointRun::RequireClosedRings(const std::vector<VertexId>& placeOf) const
+{
+  std::map<std::pair<std::int32_t, VertexId>, std::int64_t> ends; // segments out minus in
+  for (const Segment& segment : this->Segments)
+  {
+    if (segment.Ring >= 0)
+    {
+      ends[{ segment.Ring, placeOf[segment.From] }] += 1;
+      ends[{ segment.Ring, placeOf[segment.To] }] -= 1;
+    }
+  }
+  for (const Segment& segment : this->Segments)
+  {
+    const bool isOpen = segment.Ring >= 0 && ends[{ segment.Ring, placeOf[segment.From] }] != 0;
+    if (isOpen)
+    {
+      throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
+          std::to_string(segment.From) + ": close it, or make its segments part of no ring",
+        segment.Number, segment.From);
+    }
+  }
+}
+
+bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
+{
+  bool isComplete = true;
+  const auto insert = [&](const PointMeshView& view)
+  {
+    const std::vector<VertexId> placeOf = this->ListPlaces(view, mesh);
+    this->RequireClosedRings(placeOf);
+    const ThreadBackend backend(this->Options.NumberOfThreads);
+    SegmentInsertion insertion(view, backend);
+    while (this->Taken < this->Segments.size() && isComplete)
+    {
+      constexpr std::size_t SegmentsPerCall = 8192;
+      const std::size_t end = std::min(this->Segments.size(), this->Taken + SegmentsPerCall);
+      this->InsertBatch(view, placeOf, end, insertion);
+      isComplete = !observer || observer(0.0);
+    }
+    this->Flips += insertion.GetNumberOfFlips();
+  };
+  mesh.EditOnHost(insert);
+  mesh.GetLoop().Restart();
+  std::sort(this->Refused.begin(), this->Refused.end(),
+    [](const Segment& a, const Segment& b) { return a.Number < b.Number; });
+  const auto ofRing = std::find_if(this->Refused.begin(), this->Refused.end(),
+    [](const Segment& segment) { return segment.Ring >= 0; });
+  if (ofRing != this->Refused.end())
+  {
+    const std::int64_t* ends = this->Caller.Segments + 2 * ofRing->Number;
+    throw InvalidMesh("the segment of ring " + std::to_string(ofRing->Ring) + " from point " +
+        std::to_string(ends[0]) + " to point " + std::to_string(ends[1]) +
+        " cannot be inserted: it crosses an earlier segment, or a coordinate is not finite",
+      ofRing->Number, ends[0]);
+  }
+  this->Inserted = isComplete;
+  return isComplete;
+}
+
+/// Inserts the segments from Taken to `end`.
+void PointRun::InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf,
+  std::size_t end, SegmentInsertion& insertion)
+{
+  std::vector<SegmentInsertion::Item> items;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = this->Taken; i < end; ++i)
+  {
+    const VertexId from = placeOf[this->Segments[i].From], to = placeOf[this->Segments[i].To];
+    if (from == NoVertex || to == NoVertex || view.NumberOfTriangles == 0)
+    {
+      this->Refused.push_back(this->Segments[i]);
+    }
+    else if (from != to)
+    {
+      items.push_back({ from, to });
+      numbers.push_back(i);
+    }
+  }
+  this->Taken = end;
+  insertion.Insert(items);
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    const Segment& segment = this->Segments[numbers[i]];
+    if (!items[i].IsIn)
+    {
+      this->Refused.push_back(segment);
+    }
+    VertexId at = items[i].From;
+    for (const HalfEdgeId side : items[i].Sides)
+    {
+      const bool isOnLeft = view.GetStart(side) == at;
+      at = isOnLeft ? view.GetEnd(side) : view.GetStart(side);
+      this->Edges.push_back({ side, segment.Ring, isOnLeft });
+    }
+  }
+}
+
+void PointRun::Finish(LoadedMesh& mesh)
+{
+  if (!this->HasRemoved() && MayRemove(this->Prepared, this->Options))
+  {
+    mesh.ViewOnHost([this](const PointMeshView& view)
+      { this->Kept = KeepTriangles(view, this->Edges, this->Prepared, this->Options); });
+  }
+}
+
+void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
+{
+  PointCounts& counts = report.FromPoints;
+  const std::int64_t notFinite = counts.NotFinite - this->Counts.TooNear;
+  const std::int64_t repeated = counts.Repeated;
+  counts = this->Counts;
+  counts.NotFinite = notFinite;
+  counts.Repeated = repeated;
+  counts.SegmentEdges = static_cast<std::int64_t>(this->Edges.size());
+  counts.RefusedSegments = static_cast<std::int64_t>(this->Refused.size());
+  counts.OutsideTriangles = this->Kept.Outside;
+  counts.LargeTriangles = this->Kept.Large;
+  report.Points = this->Caller.Points.Count;
+  report.InsertedConstraints =
+    static_cast<std::int64_t>(this->Segments.size() - this->Refused.size());
+  report.UnmatchedConstraints = counts.RefusedSegments;
+  report.ConstraintFlips = this->Flips;
+  report.Edges.Constraint = counts.SegmentEdges;
+  if (this->HasRemoved())
+  {
+    report.Triangles = this->Kept.Count;
+    report.Edges.Edges = this->Kept.Edges;
+    report.Edges.Boundary = this->Kept.Boundary;
+    report.EulerCharacteristic = this->Kept.EulerCharacteristic;
+    report.MinimumAngleAfter = ToDegrees(this->Kept.SquaredCotangent);
+  }
+  report.Edges.Fixed = report.Edges.Boundary + counts.SegmentEdges;
+
+  std::vector<std::int64_t> used(notFinite + repeated > 0 ? this->Prepared.Points.Count : 0);
+  if (!used.empty())
+  {
+    mesh.StoreUsedPoints(used.data());
+  }
+  const auto listFirst = [&](const auto& isListed)
+  {
+    std::vector<std::int64_t> first;
+    for (std::int64_t i = 0; i < this->Caller.Points.Count && first.size() < 3; ++i)
+    {
+      if (isListed(i))
+      {
+        first.push_back(i);
+      }
+    }
+    return first;
+  };
+  const auto isNear = [&](std::int64_t i)
+  { return !this->NearPoint.empty() && this->NearPoint[i] != i; };
+  const auto add = [&](const char* what, std::int64_t count, const auto& list, DefectIds kind)
+  {
+    if (count > 0)
+    {
+      report.Defects.push_back({ what, count, list(), kind });
+    }
+  };
+  add(
+    "points with NaN or infinite coordinates", notFinite,
+    [&] { return listFirst([&](std::int64_t i) { return used[i] < 0 && !isNear(i); }); },
+    DefectIds::Points);
+  add(
+    "points at the place of another one", repeated,
+    [&] { return listFirst([&](std::int64_t i) { return used[i] >= 0 && used[i] != i; }); },
+    DefectIds::Points);
+  add(
+    "points nearer than the tolerance to one with a lower id", counts.TooNear,
+    [&] { return listFirst(isNear); }, DefectIds::Points);
+  add(
+    "segments that cross an earlier one or end at a point that is not finite",
+    counts.RefusedSegments, [&] { return ListFirstEnds(this->Caller, this->Refused); },
+    DefectIds::PointPairs);
+  add(
+    "hole seeds outside of all triangles", this->Kept.SeedsOutside,
+    [] { return std::vector<std::int64_t>(); }, DefectIds::Points);
+}
+
+//------------------------------------------------------------------------------
+/// Keeps of `width` numbers per triangle those of the triangles that are kept.
+template <typename Value>
+void KeepValues(const std::vector<std::int32_t>& numbers, const std::vector<Value>& values,
+  int width, Value* kept)
+{
+  for (std::size_t t = 0; t < numbers.size(); ++t)
+  {
+    if (numbers[t] >= 0)
+    {
+      std::copy_n(&values[width * t], width, kept + static_cast<std::int64_t>(width) * numbers[t]);
+    }
+  }
+}
+
+void PointRun::StoreTriangles(const LoadedMesh& mesh, const MutableTriangleArray& triangles) const
+{
+  if (!this->HasRemoved())
+  {
+    mesh.StoreTriangles(triangles);
+    return;
+  }
+  const auto store = [&](auto* ids)
+  {
+    std::vector<std::remove_pointer_t<decltype(ids)>> all(3 * this->Kept.Numbers.size());
+    mesh.StoreTriangles(
+      MutableTriangleArray(all.data(), static_cast<std::int64_t>(this->Kept.Numbers.size())));
+    KeepValues(this->Kept.Numbers, all, 3, ids);
+  };
+  triangles.Ids32 ? store(triangles.Ids32) : store(triangles.Ids64);
+}
+
+void PointRun::StoreNeighbors(const LoadedMesh& mesh, std::int32_t* neighbors) const
+{
+  if (!this->HasRemoved())
+  {
+    mesh.StoreNeighbors(neighbors);
+    return;
+  }
+  std::vector<std::int32_t> all(3 * this->Kept.Numbers.size());
+  mesh.StoreNeighbors(all.data());
+  for (std::int32_t& neighbor : all)
+  {
+    neighbor = neighbor < 0 ? -1 : this->Kept.Numbers[neighbor];
+  }
+  KeepValues(this->Kept.Numbers, all, 3, neighbors);
+}
+
+void PointRun::StoreFlipCounts(const LoadedMesh& mesh, std::int32_t* counts) const
+{
+  if (!this->HasRemoved())
+  {
+    mesh.StoreFlipCounts(counts);
+    return;
+  }
+  std::vector<std::int32_t> all(this->Kept.Numbers.size());
+  mesh.StoreFlipCounts(all.data());
+  KeepValues(this->Kept.Numbers, all, 1, counts);
+}
+
+void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
+{
+  std::vector<std::int64_t> used(this->Prepared.Points.Count);
+  mesh.StoreUsedPoints(used.data());
+  for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
+  {
+    ids[i] = used[this->NearPoint.empty() ? i : this->NearPoint[i]];
+  }
+}
+
+std::vector<std::int64_t> PointRun::ListSegmentEdges(LoadedMesh& mesh) const
+{
+  std::vector<std::int64_t> pairs;
+  mesh.ViewOnHost(
+    [&](const PointMeshView& view)
+    {
+      for (const SegmentEdge& edge : this->Edges)
+      {
+        const std::int64_t ends[2] = { view.Ids[view.GetStart(edge.Side)],
+          view.Ids[view.GetEnd(edge.Side)] };
+        pairs.insert(pairs.end(), { ends[edge.IsOnLeft ? 0 : 1], ends[edge.IsOnLeft ? 1 : 0] });
+      }
+    });
+  return pairs;
+}
+
+}

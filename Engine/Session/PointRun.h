@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTRUN_H
+#define DELAUNAYFLIP_POINTRUN_H
+
+#include "FlipReport.h"
+#include "LoadedMesh.h"
+#include "Outline.h"
+#include "PointTriangulation.h"
+#include "SegmentCrossings.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace delaunayflip
+{
+
+class SegmentInsertion;
+
+/// What a session from points does beside flips: it prepares points and segments, inserts segments,
+/// and removes triangles in the end.
+class PointRun
+{
+public:
+  /// @throws InvalidMesh, InvalidOptions.
+  PointRun(const PointInput& input, const PointOptions& options);
+
+  /// Finds points that are too near to others, and splits segments that cross, if that is wanted
+  /// and not done.
+  /// @throws BackendUnavailable; RunAborted.
+  void Prepare(const ProgressObserver& observer);
+
+  /// Forgets what was inserted and removed: for another mesh of the same points.
+  void Reset();
+
+  /// The points to triangulate; behind those of the caller, the added ones.
+  const PointInput& GetPoints() const { return this->Prepared; }
+  /// The same in the host's memory.
+  PlaneArray GetOnHost();
+
+  std::int64_t CountCallerPoints() const { return this->Caller.Points.Count; }
+  bool HasSegments() const { return !this->Segments.empty(); }
+  bool AreInserted() const { return this->Inserted; }
+  /// Whether some are inserted, and an observer has stopped the rest.
+  bool WasStopped() const { return this->Taken > 0 && !this->Inserted; }
+
+  /// Inserts the segments into a triangulation. Detect must follow.
+  /// @returns false if the observer stopped it; then another call goes on.
+  /// @throws InvalidMesh if a ring is not closed or a segment of a ring is refused.
+  bool Insert(LoadedMesh& mesh, const ProgressObserver& observer);
+
+  /// Removes triangles as the options say.
+  void Finish(LoadedMesh& mesh);
+
+  /// Adds what this knows to a report whose other counts are those of the loaded mesh.
+  void AddTo(FlipReport& report, LoadedMesh& mesh) const;
+
+  /// The same as FlipSession's.
+  void StoreTriangles(const LoadedMesh& mesh, const MutableTriangleArray& triangles) const;
+  void StoreNeighbors(const LoadedMesh& mesh, std::int32_t* neighbors) const;
+  void StoreFlipCounts(const LoadedMesh& mesh, std::int32_t* counts) const;
+  void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
+  const std::vector<AddedPoint>& GetAddedPoints() const { return this->Added; }
+  std::vector<std::int64_t> ListSegmentEdges(LoadedMesh& mesh) const;
+
+  bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
+
+private:
+  void FindNearPoints(const ProgressObserver& observer);
+  template <typename Real>
+  void CopyCoordinates(std::vector<Real>& copy);
+  void RequireClosedRings(const std::vector<VertexId>& placeOf) const;
+  void InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf, std::size_t end,
+    SegmentInsertion& insertion);
+  std::vector<VertexId> ListPlaces(const PointMeshView& view, const LoadedMesh& mesh) const;
+
+  PointInput Caller;
+  PointOptions Options;
+  PointInput Prepared; ///< Its points are the caller's, or one of the copies.
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+  std::vector<std::int64_t> NearPoint; ///< By point: itself, or the one that it is too near to.
+  std::vector<AddedPoint> Added;
+  std::vector<Segment> Segments;
+  PointCounts Counts;
+  bool IsPrepared = false;
+  bool Inserted = false;
+  std::size_t Taken = 0; ///< Segments that are inserted or refused.
+  std::int64_t Flips = 0; ///< That inserted segments.
+  std::vector<SegmentEdge> Edges;
+  std::vector<Segment> Refused;
+  KeptTriangles Kept;
+};
+
+}
+
+#endif

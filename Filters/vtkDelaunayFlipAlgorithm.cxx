@@ -1,0 +1,521 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayFlipAlgorithm.h"
+
+#include "CudaDevice.h"
+#include "DelaunayFlip.h"
+#include "FlipError.h"
+#include "FlipRun.h"
+#include "MeshBlocks.h"
+#include "UpdateReport.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+#include "vtkVersionMacros.h"
+#if defined(DELAUNAYFLIP_PARAVIEW)
+#include "vtkProcessModule.h"
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <string>
+#include <utility>
+
+using namespace delaunayflip;
+
+// The enumerators of the engine and of this class have the same values.
+static_assert(
+  static_cast<int>(BackendKind::Threads) == vtkDelaunayFlipAlgorithm::BACKEND_THREADS, "");
+static_assert(
+  static_cast<int>(StopReasonKind::Running) == vtkDelaunayFlipAlgorithm::STOP_REASON_RUNNING, "");
+
+static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 20,000");
+
+namespace
+{
+
+// What depends on the version of VTK, and on ParaView.
+
+/// Whether `filter` was asked to abort, directly or, from VTK 9.3 on, through a filter upstream.
+/// After a direct request the filter keeps its output, which the executive would otherwise empty.
+bool IsAbortRequested(vtkAlgorithm* filter)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  const bool aborted = filter->CheckAbort();
+  if (filter->GetAbortExecute())
+  {
+    filter->SetAbortOutput(false);
+  }
+  return aborted;
+#else
+  return filter->GetAbortExecute() != 0;
+#endif
+}
+
+/// Whether the filter runs in ParaView's pvbatch, where nobody watches the mesh improve, and
+/// scripts and state files expect the final mesh.
+bool IsBatchProgram()
+{
+#if defined(DELAUNAYFLIP_PARAVIEW)
+  return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH;
+#else
+  return false;
+#endif
+}
+
+/// Calls FlipSession::Advance for as many iterations as fit into `seconds`, at least one.
+bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
+  const ProgressObserver& progress)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  double elapsed = 0.0;
+  double iterations = 1.0;
+  bool isRunning = false;
+  do
+  {
+    const double before = elapsed;
+    isRunning = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
+    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
+    // take longer than those before, so batches grow slowly.
+    const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
+    iterations = std::min(fitting, 2.0 * iterations);
+  } while (isRunning && iterations >= 1.0);
+  return isRunning;
+}
+
+/// A shallow copy, whose leaves and arrays observers cannot take away; null for null.
+vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
+{
+  vtkSmartPointer<vtkDataObject> held;
+  if (data)
+  {
+    held.TakeReference(data->NewInstance());
+    held->ShallowCopy(data);
+  }
+  return held;
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
+  : SizeOfBlocks(vtkDataObject::CELL),
+    Report(new UpdateReport)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkDelaunayFlipAlgorithm::~vtkDelaunayFlipAlgorithm()
+{
+  this->Run.reset();
+  if (this->HasExecuted)
+  {
+    this->ReleaseDeviceMemory();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipAlgorithm::ReleaseDeviceMemory()
+{
+  try
+  {
+    ReleaseCudaMemory();
+  }
+  catch (...)
+  {
+    // The destructor calls this, so nothing may be thrown. Memory not released serves the next run.
+  }
+}
+
+vtkTable* vtkDelaunayFlipAlgorithm::GetIterations()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  this->Superclass::FillInputPortInformation(port, info);
+  // Otherwise the executive would run the filter once per block, and no sums could be made.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkDelaunayFlipAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkDelaunayFlipAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) && this->IsAtWork)
+  {
+    vtkErrorMacro("An observer asked for an update within an update.");
+    return 0;
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+/// Port 0: composite data of the input's type, or a mesh.
+int vtkDelaunayFlipAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
+  const char* type = blocks ? blocks->GetClassName() : "vtkPolyData";
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (!output || std::strcmp(type, output->GetClassName()) != 0)
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(
+      blocks ? static_cast<vtkDataObject*>(blocks->NewInstance()) : vtkPolyData::New());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDelaunayFlipAlgorithm::Advance()
+{
+  const bool continues = this->LiveUpdate && this->CanContinue;
+  if (continues)
+  {
+    this->Next = NextUpdate::StepAndStore;
+    this->Modified();
+  }
+  return continues;
+}
+
+/// The executive empties the output, and takes it for current after any update.
+bool vtkDelaunayFlipAlgorithm::AdvanceSession()
+{
+  auto* output = vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+  vtkNew<vtkPolyData> last;
+  if (output)
+  {
+    last->ShallowCopy(output);
+  }
+  this->Advance();
+  this->Next = NextUpdate::Step;
+  const bool works = this->GetExecutive()->Update(0) != 0;
+  if (this->Next == NextUpdate::Store)
+  {
+    output->ShallowCopy(last);
+    this->Modified();
+  }
+  else
+  {
+    this->Next = NextUpdate::StepAndStore;
+  }
+  return works;
+}
+
+const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
+{
+  return this->Run ? &this->Run->GetSession() : nullptr;
+}
+
+void vtkDelaunayFlipAlgorithm::Restart()
+{
+  this->Run.reset();
+  this->CanContinue = true;
+  this->Next = NextUpdate::StepAndStore;
+  this->Modified();
+}
+
+bool vtkDelaunayFlipAlgorithm::GetNeedsUpdate()
+{
+  const bool isUnderWay = this->Run && this->Report->StopReason == StopReasonKind::Running;
+  return isUnderWay && !this->Paused && this->Advance();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfIterations() const
+{
+  return static_cast<vtkIdType>(this->Report->Iterations.size());
+}
+
+vtkIdType vtkDelaunayFlipAlgorithm::GetTotalFlips() const { return this->Report->TotalFlips; }
+
+vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfNonDelaunayEdges() const
+{
+  return this->Report->NonDelaunayAfter;
+}
+
+bool vtkDelaunayFlipAlgorithm::GetConverged() const
+{
+  return this->Failure == FAILURE_NONE && this->Report->Converged();
+}
+
+int vtkDelaunayFlipAlgorithm::GetStopReason() const
+{
+  return this->Failure != FAILURE_NONE ? static_cast<int>(STOP_REASON_FAILED)
+                                       : static_cast<int>(this->Report->StopReason);
+}
+
+const char* vtkDelaunayFlipAlgorithm::GetStopReasonAsString() const
+{
+  return this->Failure != FAILURE_NONE ? this->StopReasonText.c_str()
+                                       : ToString(this->Report->StopReason);
+}
+
+const char* vtkDelaunayFlipAlgorithm::GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+
+const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
+{
+  return this->Report->Backend.c_str();
+}
+
+const FlipReport& vtkDelaunayFlipAlgorithm::GetReport() const { return *this->Report; }
+
+//------------------------------------------------------------------------------
+int vtkDelaunayFlipAlgorithm::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // Observers may take them from the filter while it works.
+  const vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  const vtkSmartPointer<vtkDataObject> output = vtkDataObject::GetData(outputVector);
+  const vtkSmartPointer<vtkTable> table = vtkTable::GetData(outputVector, 1);
+  const struct Work
+  {
+    bool& IsUnderWay;
+    ~Work() { this->IsUnderWay = false; }
+  } work{ this->IsAtWork = true };
+  this->HasExecuted = true;
+  UpdateSummary summary;
+  try
+  {
+    const auto structure = Hold(input);
+    const auto second = Hold(vtkDataObject::GetData(inputVector[1]));
+    std::vector<MeshBlock> others;
+    if (second)
+    {
+      others = ListMeshBlocks(second, vtkDataObject::CELL);
+      others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
+    }
+    std::vector<MeshBlock> blocks = this->ListBlocks(input);
+    bool isLive = false;
+    double size = 0.0;
+    for (const MeshBlock& block : blocks)
+    {
+      isLive = isLive || block.IsLive;
+      size += block.Size;
+    }
+    if (this->LiveUpdate && !isLive && !IsBatchProgram())
+    {
+      summary.Warnings.push_back(
+        { "", "LiveUpdate is for one mesh in one piece; others are flipped at once" });
+    }
+    summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
+    double before = 0.0;
+    for (MeshBlock& block : blocks)
+    {
+      this->SetProgressShiftScale(before / std::max(1.0, size), block.Size / std::max(1.0, size));
+      this->FlipBlock(block, others, summary);
+      before += block.Size;
+    }
+    StoreResults(blocks, structure, output);
+  }
+  catch (...)
+  {
+    this->DiscardRun();
+    output->Initialize();
+    summary = UpdateSummary();
+    summary.AddFailure(ExplainException(), "");
+  }
+  this->SetProgressShiftScale(0.0, 1.0);
+  AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
+  this->Publish(summary);
+  // From VTK 9.3 on the executive does not end a request to abort with the update that obeyed it.
+  this->SetAbortExecute(0);
+  // Even after an error: 0 would keep filters downstream from executing, and a representation of
+  // ParaView that did not execute ignores all later changes.
+  return 1;
+}
+
+/// Leaves nothing half done.
+void vtkDelaunayFlipAlgorithm::DiscardRun()
+{
+  this->Run.reset();
+  this->CanContinue = false;
+  this->Next = NextUpdate::StepAndStore;
+  *this->Report = UpdateReport();
+}
+
+void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
+{
+  *this->Report = summary.Report;
+  this->Failure = summary.Failure;
+  this->ErrorMessage = Describe(summary.Errors);
+  this->StopReasonText = "failed: " + this->ErrorMessage;
+  this->SetErrorCode(
+    this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
+  if (this->Failure && !this->IsSilent)
+  {
+    vtkErrorMacro(<< this->ErrorMessage);
+  }
+  if (!summary.Warnings.empty() && !this->IsSilent)
+  {
+    vtkWarningMacro(<< Describe(summary.Warnings));
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(vtkDataObject* input)
+{
+  std::vector<MeshBlock> blocks = ListMeshBlocks(input, this->SizeOfBlocks);
+  if (blocks.size() == 1 && blocks.front().Place.empty())
+  {
+    blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram();
+  }
+  return blocks;
+}
+
+void vtkDelaunayFlipAlgorithm::FlipBlock(
+  MeshBlock& block, const std::vector<MeshBlock>& others, UpdateSummary& summary)
+{
+  *this->Report = UpdateReport();
+  try
+  {
+    this->FlipLeaves(block, others, summary);
+  }
+  catch (...)
+  {
+    this->DiscardRun();
+    summary.AddFailure(ExplainException(), block.Name);
+    for (BlockLeaf& leaf : block.Leaves)
+    {
+      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+    }
+  }
+  const std::string trouble =
+    DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->HasTolerance());
+  // Live updates give each warning once.
+  if (!trouble.empty() && !(this->Run && this->Run->Warning == trouble))
+  {
+    summary.Warnings.push_back({ block.Name, trouble });
+  }
+  if (this->Run)
+  {
+    this->Run->Warning = trouble;
+  }
+  summary.Report.Add(*this->Report);
+}
+
+//------------------------------------------------------------------------------
+ProgressObserver vtkDelaunayFlipAlgorithm::MakeProgress()
+{
+  return [this](double fraction)
+  {
+    // The share of the whole update, of which this mesh may be a part. It must not go back where a
+    // session is advanced again and again.
+    const double scale = this->GetProgressScale();
+    const double share = this->GetProgressShift() + scale * fraction;
+    this->UpdateProgress(share < this->GetProgress() && scale > 0.0
+        ? (this->GetProgress() - this->GetProgressShift()) / scale
+        : fraction);
+    return !IsAbortRequested(this);
+  };
+}
+
+void vtkDelaunayFlipAlgorithm::FlipMesh(
+  vtkPolyData* mesh, vtkPolyData* others, bool isLive, vtkPolyData* output)
+{
+  std::unique_ptr<UpdateRun> run = std::move(this->Run); // which observers may reset
+  *this->Report = UpdateReport();
+  const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
+  const bool couldContinue = std::exchange(this->CanContinue, false);
+  if (!this->HasWork(mesh))
+  {
+    this->Report->StopReason = StopReasonKind::Converged;
+    output->ShallowCopy(mesh);
+    return;
+  }
+  if (!isLive)
+  {
+    run.reset(); // before another takes as much memory
+  }
+  try
+  {
+    if (IsAbortRequested(this))
+    {
+      throw RunAborted(); // in another block
+    }
+    const bool isSame = this->ContinueOrStart(run, mesh, others, isLive);
+    *this->Report = UpdateReport(run->GetReport());
+    const bool storesOnly = isSame && asked == NextUpdate::Store;
+    bool isRunning = storesOnly && couldContinue;
+    if (!storesOnly && !run->IsStopped())
+    {
+      const FlipObserver observer = [this](const IterationRecord& record)
+      {
+        this->Report->Iterations.push_back(record);
+        this->Report->TotalFlips += record.Flipped;
+        return true;
+      };
+      constexpr double Seconds = 0.05; // as documented in the header
+      FlipSession& session = run->GetSession();
+      isRunning = isLive && this->IterationsPerUpdate == 0
+        ? AdvanceFor(session, Seconds, observer, run->GetProgress())
+        : session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
+    }
+    const bool isWithheld = isSame && asked == NextUpdate::Step;
+    this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;
+    const bool isWhole = isWithheld || run->Store(output);
+    // Not before: a GPU may fail while its result is fetched.
+    *this->Report = UpdateReport(run->GetReport());
+    this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
+    AddFieldData(*this->Report, output->GetFieldData());
+    this->CanContinue =
+      isLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
+  }
+  catch (const RunAborted&) // before there are triangles to put out
+  {
+    this->Report->StopReason = StopReasonKind::Aborted;
+    output->ShallowCopy(mesh);
+    this->CanContinue = isLive;
+  }
+  if (isLive)
+  {
+    this->Run = std::move(run);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Backend: " << this->Backend << "\n";
+  os << indent << "DeviceId: " << this->DeviceId << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
+  os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
+  os << indent << "Paused: " << this->Paused << "\n";
+  os << indent << "NumberOfIterations: " << this->GetNumberOfIterations() << "\n";
+  os << indent << "TotalFlips: " << this->GetTotalFlips() << "\n";
+  os << indent << "NumberOfNonDelaunayEdges: " << this->GetNumberOfNonDelaunayEdges() << "\n";
+  os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
+}

@@ -1,0 +1,498 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayFlipPoints.h"
+
+#include "DataArrays.h"
+#include "DelaunayFlip.h"
+#include "FlipError.h"
+#include "FlipRun.h"
+#include "MeshBlocks.h"
+#include "UpdateReport.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkObjectFactory.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTransform.h"
+
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+using namespace delaunayflip;
+
+static_assert(
+  static_cast<int>(OutlineKind::Orientation) == vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, "");
+
+namespace
+{
+
+/// The rotation that takes the plane of the points to that of x and y. Points that are not finite
+/// do not matter.
+vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points)
+{
+  vtkNew<vtkPoints> finite;
+  finite->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    const double* x = points->GetPoint(i);
+    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+    {
+      finite->InsertNextPoint(x);
+    }
+  }
+  double origin[3], normal[3] = { 0.0, 0.0, 1.0 }, axis[3];
+  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
+  vtkMath::MultiplyScalar(normal, normal[2] < 0.0 ? -1.0 : 1.0);
+  const double up[3] = { 0.0, 0.0, 1.0 };
+  vtkMath::Cross(normal, up, axis);
+  auto rotation = vtkSmartPointer<vtkTransform>::New();
+  rotation->RotateWXYZ(
+    vtkMath::DegreesFromRadians(std::atan2(vtkMath::Norm(axis), normal[2])), axis);
+  return rotation;
+}
+
+/// What decides the triangles of a block.
+struct CloudRequest
+{
+  vtkPolyData* Cloud; ///< Its points and point data, and the lines that are segments.
+  vtkPolyData* Segments; ///< Or null.
+  vtkAbstractTransform* Transform; ///< Or null.
+  bool FitsPlane;
+  PointOptions Options;
+  std::vector<vtkMTimeType> Times; ///< When all of this was modified.
+  bool IsLive;
+  ProgressObserver Progress;
+};
+
+bool AreSame(const PointOptions& a, const PointOptions& b)
+{
+  const auto tie = [](const PointOptions& o)
+  { return std::tie(o.PointTolerance, o.SplitCrossings, o.Outline, o.Alpha, o.LongestEdge); };
+  return static_cast<const FlipOptions&>(a) == b && tie(a) == tie(b);
+}
+
+/// Triangulates the points of a block.
+class CloudRun : public UpdateRun
+{
+public:
+  /// @param run null, or a CloudRun.
+  static bool ContinueOrStart(std::unique_ptr<UpdateRun>& run, const CloudRequest& request)
+  {
+    auto* last = static_cast<CloudRun*>(run.get());
+    const bool isSame =
+      last && last->Times == request.Times && AreSame(last->Options, request.Options);
+    if (isSame)
+    {
+      last->Stopped = false;
+      return true;
+    }
+    run.reset(); // its memory may be needed
+    run = std::make_unique<CloudRun>(request);
+    return false;
+  }
+
+  explicit CloudRun(const CloudRequest& request)
+    : Times(request.Times),
+      Options(request.Options),
+      Plan(
+        { false, false, request.Segments != nullptr, false, true, true, false }, request.Progress),
+      Given(
+        request.IsLive ? CopyPoints(request.Cloud) : vtkSmartPointer<vtkPolyData>(request.Cloud)),
+      Cloud(vtkSmartPointer<vtkPolyData>::New())
+  {
+    this->Cloud->ShallowCopy(this->Given);
+    this->AddSegments(request.Segments);
+    this->Input.Points = this->Project(request);
+    this->Input.Segments = this->Segments.data();
+    this->Input.NumberOfSegments = static_cast<std::int64_t>(this->Rings.size());
+    this->Input.Rings = this->Rings.data();
+    this->Session = std::make_unique<FlipSession>(this->Input, this->Options, this->GetProgress());
+    this->Stopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
+  }
+
+  FlipSession& GetSession() override { return *this->Session; }
+  bool IsStopped() const override { return this->Stopped; }
+  ProgressObserver GetProgress() const override { return this->Plan.For(UpdatePlan::Session); }
+
+  FlipReport GetReport() const override
+  {
+    FlipReport report = this->Session->GetReport();
+    const bool addsPoints = this->Cloud->GetPoints() != this->Given->GetPoints() ||
+      !this->Session->GetAddedPoints().empty();
+    const auto malformed = ListMalformedArrays(this->Given, !addsPoints, true);
+    report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
+    const PointCounts& counts = report.FromPoints;
+    if (report.Triangles + counts.OutsideTriangles + counts.LargeTriangles == 0 &&
+      report.StopReason != StopReasonKind::Aborted)
+    {
+      report.Defects.push_back(
+        { "points that make no triangle: they have fewer than three places, or "
+          "all lie on one line",
+          report.Points, {}, DefectIds::Points });
+    }
+    return report;
+  }
+
+  bool Store(vtkPolyData* output) const override
+  {
+    output->SetPoints(this->Cloud->GetPoints());
+    output->GetPointData()->ShallowCopy(this->Cloud->GetPointData());
+    output->GetFieldData()->ShallowCopy(this->Cloud->GetFieldData());
+    AddPointFieldData(this->Session->GetReport().FromPoints, output->GetFieldData());
+    if (!this->Session->GetAddedPoints().empty())
+    {
+      this->AddCrossings(output);
+    }
+    output->SetPolys(
+      BuildTriangles(*this->Session, this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8));
+    return true;
+  }
+
+private:
+  using Data = vtkDataSetAttributes;
+
+  void AddSegments(vtkPolyData* others)
+  {
+    vtkPolyData* given = this->Given;
+    const vtkIdType count = given->GetNumberOfPoints();
+    std::vector<vtkIdType> ids(count);
+    std::iota(ids.begin(), ids.end(), 0);
+    this->AddCells(
+      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, ids, false);
+    if (!others)
+    {
+      return;
+    }
+    const auto segments = ShareMesh(others); // which observers cannot take away
+    std::vector<double> storage, otherStorage;
+    const PointArray points = ViewPoints(given, storage);
+    const PointArray otherPoints = ViewPoints(segments, otherStorage);
+    if (otherPoints.Count > 0 && !HaveSameBits(points, otherPoints))
+    {
+      ids = this->AddPoints(points, otherPoints, segments);
+    }
+    const auto size = static_cast<vtkIdType>(ids.size());
+    const vtkIdType verts = segments->GetNumberOfVerts();
+    this->AddCells(segments->GetLines(), { "segment cell", verts, size }, ids, false);
+    this->AddCells(segments->GetPolys(),
+      { "segment cell", verts + segments->GetNumberOfLines(), size }, ids, true);
+  }
+
+  /// @param ids those of the points that the cells name. @param areRings whether the cells are
+  /// polygons, whose rings have the numbers of the cells.
+  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
+    bool areRings)
+  {
+    const auto add = [&](vtkIdType cell, vtkIdList* corners)
+    {
+      const vtkIdType count = corners->GetNumberOfIds();
+      const bool isRing = areRings && count > 2;
+      for (vtkIdType i = 0; i < (isRing ? count : count - 1); ++i)
+      {
+        const vtkIdType from = ids[corners->GetId(i)];
+        const vtkIdType to = ids[corners->GetId((i + 1) % count)];
+        if (from != to)
+        {
+          this->Segments.insert(this->Segments.end(), { from, to });
+          this->Rings.push_back(isRing ? static_cast<std::int32_t>(check.FirstCell + cell) : -1);
+        }
+      }
+    };
+    VisitCells(cells, check, add);
+  }
+
+  /// Adds the points of the segments to the cloud where they are new. @returns the id of each.
+  std::vector<vtkIdType> AddPoints(
+    const PointArray& points, const PointArray& otherPoints, vtkPolyData* segments)
+  {
+    PointPlaces places(points.Floats || otherPoints.Floats);
+    std::vector<vtkIdType> ids(otherPoints.Count);
+    for (vtkIdType i = 0; i < otherPoints.Count; ++i)
+    {
+      ids[i] = places.Add(otherPoints, i); // at first the number of its place
+    }
+    std::vector<vtkIdType> first(places.GetNumberOfPlaces(), PointPlaces::None);
+    WorkProgress progress(this->Plan.For(UpdatePlan::Constraints), points.Count);
+    for (vtkIdType i = points.Count - 1; i >= 0; --i)
+    {
+      const std::int64_t place = places.Find(points, i);
+      if (place != PointPlaces::None)
+      {
+        first[place] = i;
+      }
+      progress.Add();
+    }
+    vtkNew<vtkIdList> added;
+    for (vtkIdType i = 0; i < otherPoints.Count; ++i)
+    {
+      vtkIdType& id = first[ids[i]];
+      if (id == PointPlaces::None)
+      {
+        id = points.Count + added->InsertNextId(i);
+      }
+      ids[i] = id;
+    }
+    if (added->GetNumberOfIds() > 0)
+    {
+      this->SetPoints(this->Cloud,
+        ExtendArray(this->Given->GetPoints()->GetData(), points.Count,
+          segments->GetPoints()->GetData(), added));
+      this->ExtendData(TakeWholeArrays<Data>(segments->GetPointData(), otherPoints.Count), added);
+    }
+    return ids;
+  }
+
+  static void SetPoints(vtkPolyData* mesh, vtkAbstractArray* coordinates)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetData(vtkArrayDownCast<vtkDataArray>(coordinates));
+    mesh->SetPoints(points);
+  }
+
+  /// The point data of the cloud: those of the input, then those of added points.
+  void ExtendData(Data* others, vtkIdList* added)
+  {
+    const vtkIdType count = this->Given->GetNumberOfPoints();
+    const auto own = TakeWholeArrays<Data>(this->Given->GetPointData(), count);
+    Data* result = this->Cloud->GetPointData();
+    result->Initialize();
+    const auto find = [](Data* data, vtkAbstractArray* array)
+    { return array->GetName() ? data->GetAbstractArray(array->GetName()) : nullptr; };
+    for (int i = 0; i < own->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = own->GetAbstractArray(i);
+      vtkAbstractArray* other = find(others, array);
+      const bool fits = other && IsSameKind(array, other);
+      const int index = result->AddArray(ExtendArray(array, count, fits ? other : nullptr, added));
+      if (own->IsArrayAnAttribute(i) >= 0)
+      {
+        result->SetActiveAttribute(index, own->IsArrayAnAttribute(i));
+      }
+    }
+    for (int i = 0; i < others->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* other = others->GetAbstractArray(i);
+      if (!find(own, other))
+      {
+        result->AddArray(ExtendArray(MakeZeros(other, count), count, other, added));
+      }
+    }
+    DemoteGlobalIds(result);
+  }
+
+  /// A view of the points, or of a projection of them.
+  PlaneArray Project(const CloudRequest& request)
+  {
+    if (!request.Transform && !request.FitsPlane)
+    {
+      const PointArray xyz = ViewPoints(this->Cloud, this->Storage);
+      return xyz.Floats ? PlaneArray(xyz.Floats, xyz.Count, 3)
+                        : PlaneArray(xyz.Doubles, xyz.Count, 3);
+    }
+    vtkPoints* points = this->Cloud->GetPoints();
+    vtkSmartPointer<vtkAbstractTransform> transform = request.Transform;
+    this->IsProjected = true;
+    vtkNew<vtkPolyData> projected;
+    this->Projected->SetDataTypeToDouble();
+    (transform ? transform.Get() : FitPlane(points).Get())
+      ->TransformPoints(points, this->Projected);
+    projected->SetPoints(this->Projected);
+    return PlaneArray(ViewPoints(projected, this->Storage).Doubles, points->GetNumberOfPoints(), 3);
+  }
+
+  /// Adds the points where segments cross to an output.
+  void AddCrossings(vtkPolyData* output) const
+  {
+    const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
+    const vtkIdType count = this->Cloud->GetNumberOfPoints();
+    const auto places = MakeRange(0, static_cast<vtkIdType>(crossings.size()));
+    const auto whole = TakeWholeArrays<Data>(this->Cloud->GetPointData(), count);
+    const auto extend = [&](vtkAbstractArray* array)
+    {
+      auto made = ExtendArray(array, count, nullptr, places);
+      for (const vtkIdType i : *places)
+      {
+        const AddedPoint& point = crossings[i];
+        made->InterpolateTuple(count + i, point.From, made, point.To, made, point.Share);
+      }
+      return made;
+    };
+    Data* result = output->GetPointData();
+    for (int i = 0; i < whole->GetNumberOfArrays(); ++i)
+    {
+      const int index = result->AddArray(extend(whole->GetAbstractArray(i)));
+      if (whole->IsArrayAnAttribute(i) >= 0)
+      {
+        result->SetActiveAttribute(index, whole->IsArrayAnAttribute(i));
+      }
+    }
+    DemoteGlobalIds(result);
+    const auto coordinates = extend(this->Cloud->GetPoints()->GetData());
+    for (const vtkIdType i : *places)
+    {
+      if (!this->IsProjected)
+      {
+        auto* xyz = vtkArrayDownCast<vtkDataArray>(coordinates);
+        xyz->SetComponent(count + i, 0, crossings[i].X);
+        xyz->SetComponent(count + i, 1, crossings[i].Y);
+      }
+    }
+    SetPoints(output, coordinates);
+  }
+
+  std::vector<vtkMTimeType> Times;
+  PointOptions Options;
+  UpdatePlan Plan;
+  vtkSmartPointer<vtkPolyData> Given; ///< The input.
+  vtkSmartPointer<vtkPolyData> Cloud; ///< With the points of the segments.
+  std::vector<double> Storage; ///< Points that cannot be viewed in place.
+  vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
+  bool IsProjected = false;
+  std::vector<std::int64_t> Segments; ///< Pairs of ids.
+  std::vector<std::int32_t> Rings; ///< One number per segment.
+  PointInput Input; ///< Views of these.
+  std::unique_ptr<FlipSession> Session;
+  bool Stopped = false;
+};
+
+}
+
+vtkStandardNewMacro(vtkDelaunayFlipPoints);
+vtkCxxSetObjectMacro(vtkDelaunayFlipPoints, Transform, vtkAbstractTransform);
+
+//------------------------------------------------------------------------------
+vtkDelaunayFlipPoints::vtkDelaunayFlipPoints() { this->SizeOfBlocks = vtkDataObject::POINT; }
+
+vtkDelaunayFlipPoints::~vtkDelaunayFlipPoints() { this->SetTransform(nullptr); }
+
+void vtkDelaunayFlipPoints::SetSegmentsData(vtkPolyData* segments)
+{
+  this->SetInputData(1, segments);
+}
+
+vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Transform ? std::max(own, this->Transform->GetMTime()) : own;
+}
+
+int vtkDelaunayFlipPoints::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  }
+  return 1;
+}
+
+int vtkDelaunayFlipPoints::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* asked = outputVector->GetInformationObject(0);
+  this->IsOtherPiece = asked->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0;
+  return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+void vtkDelaunayFlipPoints::FlipLeaves(
+  MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary)
+{
+  if (block.Leaves.size() > 1 || (this->IsOtherPiece && block.Size > 0.0))
+  {
+    throw InvalidMesh("the points are in several pieces; gather them in one dataset first, by "
+                      "vtkAppendDataSets, or Merge Blocks in ParaView",
+      -1, -1);
+  }
+  BlockLeaf& leaf = block.Leaves.front();
+  auto* points = vtkPointSet::SafeDownCast(leaf.Data);
+  if (!points)
+  {
+    leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
+    leaf.Result->ShallowCopy(leaf.Data);
+    summary.Warnings.push_back({ block.Name, "has no points of its own, passed unchanged" });
+    return;
+  }
+  const bool areOfAll = segments.size() == 1 && segments.front().Place.empty();
+  vtkPolyData* others = nullptr;
+  for (const MeshBlock& other : segments)
+  {
+    const bool isOfBlock = (areOfAll || other.Place == block.Place) && !other.Leaves.empty();
+    others = isOfBlock ? vtkPolyData::SafeDownCast(other.Leaves.front().Data) : others;
+  }
+  vtkNew<vtkPolyData> cloud, output;
+  cloud->SetPoints(points->GetPoints());
+  cloud->GetPointData()->ShallowCopy(points->GetPointData());
+  cloud->GetFieldData()->ShallowCopy(points->GetFieldData());
+  auto* mesh = vtkPolyData::SafeDownCast(points);
+  if (this->LinesAsSegments && mesh)
+  {
+    cloud->SetVerts(mesh->GetVerts()); // so that lines have their cell ids
+    cloud->SetLines(mesh->GetLines());
+  }
+  this->TimeOfBlock = points->GetMTime();
+  this->FlipMesh(cloud, others, block.IsLive, output);
+  output->SetVerts(nullptr);
+  output->SetLines(nullptr);
+  leaf.Result = output;
+}
+
+bool vtkDelaunayFlipPoints::HasWork(vtkPolyData* cloud) const
+{
+  return cloud->GetNumberOfPoints() > 0;
+}
+
+bool vtkDelaunayFlipPoints::ContinueOrStart(
+  std::unique_ptr<UpdateRun>& run, vtkPolyData* cloud, vtkPolyData* segments, bool isLive)
+{
+  PointOptions options;
+  options.Backend = static_cast<BackendKind>(this->Backend);
+  options.Device = this->DeviceId;
+  options.NumberOfThreads = this->NumberOfThreads;
+  options.MaximumIterations = this->MaximumIterations;
+  options.PointTolerance = this->PointTolerance;
+  options.SplitCrossings = this->SplitCrossings;
+  options.Outline = static_cast<OutlineKind>(this->Outline);
+  options.Alpha = this->Alpha;
+  options.LongestEdge = this->LongestEdge;
+  const std::vector<vtkMTimeType> times{ this->TimeOfBlock,
+    static_cast<vtkMTimeType>(cloud->GetNumberOfPoints()), segments ? segments->GetMTime() : 0,
+    this->Transform ? this->Transform->GetMTime() : 0, static_cast<vtkMTimeType>(this->Projection),
+    this->LinesAsSegments };
+  return CloudRun::ContinueOrStart(run,
+    { cloud, segments, this->Transform, this->Projection == PROJECTION_BEST_FITTING_PLANE, options,
+      times, isLive, this->MakeProgress() });
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkDelaunayFlipPoints::GetNumberOfSegmentEdges() const
+{
+  return this->GetUpdateReport().FromPoints.SegmentEdges;
+}
+
+vtkIdType vtkDelaunayFlipPoints::GetNumberOfRefusedSegments() const
+{
+  return this->GetUpdateReport().FromPoints.RefusedSegments;
+}
+
+void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Projection: " << this->Projection << "\n";
+  os << indent << "Transform: " << this->Transform << "\n";
+  os << indent << "Alpha: " << this->Alpha << "\n";
+  os << indent << "LongestEdge: " << this->LongestEdge << "\n";
+  os << indent << "PointTolerance: " << this->PointTolerance << "\n";
+  os << indent << "SplitCrossings: " << this->SplitCrossings << "\n";
+  os << indent << "Outline: " << this->Outline << "\n";
+  os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
+}

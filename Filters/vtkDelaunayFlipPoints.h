@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDelaunayFlipPoints
+ * @brief   make a Delaunay mesh from points, with or without segments, by parallel edge flips
+ *
+ * vtkDelaunayFlipPoints joins points to triangles in x and y, or in another plane (see Projection):
+ * first to a valid mesh, whose edges then flip until all of them are Delaunay. The result is exact,
+ * and depends on the places of the points and the segments alone: not on the order of the points,
+ * nor on threads or GPUs. Where four or more points lie on one circle, the triangles are those of
+ * vtkDelaunayFlip with the canonical tie rule.
+ *
+ * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
+ * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
+ * of a terrain; its polygons too, and they are outlines and holes: triangles outside of them are
+ * removed (see Outline). If this input has no points, or the same points as the first input (the
+ * same number and bits), its point ids are those of the first input, as with the source of
+ * vtkDelaunay2D. Otherwise a point at the place of one of the first input is that point, and the
+ * others are added. Places are compared as vtkDelaunayFlip does: x, y and z must be equal, after
+ * rounding to float if one of the inputs has float points.
+ *
+ * Output port 0: a vtkPolyData with all points of the input, in their order and with their point
+ * data, and triangles, which turn counter-clockwise in the plane. Without added points it shares
+ * the vtkPoints object of the input. Added points come last: those of the second input with their z
+ * and point data, where arrays that only one of the inputs has are 0 or empty for the points of the
+ * other; then those where segments cross. Global point ids then become pedigree ids, since they are
+ * no longer unique. Port 1: the table of iterations, as of vtkDelaunayFlip.
+ *
+ * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each, whose
+ * names begin with "DelaunayFlip:", too: PointsNotFinite, RepeatedPoints, PointsTooNear (see
+ * PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
+ * CrossingPoints (those added where segments cross), LargestShift (how far rounding has moved one
+ * of them at most), OutsideTriangles and LargeTriangles (those removed outside of polygons, and by
+ * Alpha and LongestEdge).
+ *
+ * Points that are not used: of points at equal places in the plane all but the one with the lowest
+ * id, whatever their z; and points with a coordinate that is NaN or infinite, where that of z does
+ * not matter in XY. They stay in the output, and a warning counts them. n places with h of them on
+ * the hull give 2 n - 2 - h triangles. If there are fewer than three places, or all lie on one
+ * line, there are none, and a warning says why.
+ *
+ * Segments are taken in the order of the cells: lines of the first input, lines, then polygons of
+ * the second one. A segment through points is split there. One that overlaps an earlier one is no
+ * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
+ * ones; with SplitCrossings both are split where they cross. If a segment of a polygon is refused,
+ * the update fails, and the error names the polygon.
+ *
+ * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
+ * nothing is removed.
+ *
+ * What the properties of vtkDelaunay2D become:
+ *
+ * | vtkDelaunay2D | vtkDelaunayFlipPoints |
+ * |---|---|
+ * | Input | the same |
+ * | Source | the second input, SetSegmentsConnection(); for polygons also Outline ORIENTATION |
+ * | Alpha | Alpha; the lines and vertices of an alpha shape are not made, only its triangles |
+ * | Tolerance, a share of the extent | PointTolerance, a distance |
+ * | Offset, BoundingTriangulation | none: there are no points but those of the inputs |
+ * | Transform | Transform |
+ * | ProjectionPlaneMode | Projection, Transform |
+ * | RandomPointInsertion | none: the order of the points does not matter |
+ * | OutputPointsPrecision | none: the output has the points of the input |
+ *
+ * Unlike with vtkDelaunay2D, no triangle at the hull is missing, segments through points are split
+ * there, and those that cross are reported.
+ *
+ * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
+ * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
+ * same structure, and its blocks apply block by block; any other applies to all. Points in several
+ * partitions of one dataset, or on several ranks, are an error: gather them first.
+ *
+ * @warning
+ * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to
+ * double; the rounded places are what is Delaunay. At most 357 million points.
+ *
+ * @sa
+ * vtkDelaunayFlip vtkDelaunay2D
+ */
+#ifndef vtkDelaunayFlipPoints_h
+#define vtkDelaunayFlipPoints_h
+
+#include "vtkDelaunayFlipAlgorithm.h"
+#include "vtkDelaunayFlipFiltersModule.h" // For export macro
+
+class vtkAbstractTransform;
+class vtkPointSet;
+
+class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlipPoints : public vtkDelaunayFlipAlgorithm
+{
+public:
+  static vtkDelaunayFlipPoints* New();
+  vtkTypeMacro(vtkDelaunayFlipPoints, vtkDelaunayFlipAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The segments, optional: see above.
+   */
+  void SetSegmentsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
+  void SetSegmentsData(vtkPolyData* segments);
+  ///@}
+
+  ///@{
+  /**
+   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that
+   * with the smallest sum of squared distances to the points, seen from above. A Transform replaces
+   * both.
+   */
+  enum ProjectionType
+  {
+    PROJECTION_XY = 0,
+    PROJECTION_BEST_FITTING_PLANE = 1
+  };
+  vtkSetClampMacro(Projection, int, PROJECTION_XY, PROJECTION_BEST_FITTING_PLANE);
+  vtkGetMacro(Projection, int);
+  void SetProjectionToXY() { this->SetProjection(PROJECTION_XY); }
+  void SetProjectionToBestFittingPlane() { this->SetProjection(PROJECTION_BEST_FITTING_PLANE); }
+  ///@}
+
+  ///@{
+  /**
+   * A transform of the points, whose x and y are then joined, or null (default). The points of the
+   * output are not transformed.
+   */
+  virtual void SetTransform(vtkAbstractTransform* transform);
+  vtkGetObjectMacro(Transform, vtkAbstractTransform);
+  ///@}
+
+  ///@{
+  /**
+   * Remove triangles whose circumcircle has a larger radius, or that have a longer edge; 0
+   * (default): none. Triangles at a segment stay. Both are measured in the plane.
+   */
+  vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Alpha, double);
+  vtkSetClampMacro(LongestEdge, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(LongestEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * Points nearer than this to one that is used and has a lower id are not used. 0 (default): only
+   * those at the same place.
+   */
+  vtkSetClampMacro(PointTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(PointTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Split segments that cross, instead of refusing the later one. The crossing is computed exactly
+   * and rounded once; a point that is there already is used. Its z and point data are interpolated
+   * along the earlier segment, in a projection x and y too. Default off.
+   */
+  vtkSetMacro(SplitCrossings, bool);
+  vtkGetMacro(SplitCrossings, bool);
+  vtkBooleanMacro(SplitCrossings, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What the polygons of the second input enclose. EVEN_ODD (default): what is inside an odd number
+   * of them is kept. ORIENTATION: counter-clockwise polygons enclose what is kept, clockwise ones
+   * cut holes, as for vtkDelaunay2D.
+   */
+  enum OutlineType
+  {
+    OUTLINE_EVEN_ODD = 0,
+    OUTLINE_ORIENTATION = 1
+  };
+  vtkSetClampMacro(Outline, int, OUTLINE_EVEN_ODD, OUTLINE_ORIENTATION);
+  vtkGetMacro(Outline, int);
+  void SetOutlineToEvenOdd() { this->SetOutline(OUTLINE_EVEN_ODD); }
+  void SetOutlineToOrientation() { this->SetOutline(OUTLINE_ORIENTATION); }
+  ///@}
+
+  ///@{
+  /**
+   * Take the lines of the first input, if it is a vtkPolyData, as segments. Default off.
+   */
+  vtkSetMacro(LinesAsSegments, bool);
+  vtkGetMacro(LinesAsSegments, bool);
+  vtkBooleanMacro(LinesAsSegments, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last update, summed over blocks: edges that segments have become, and segments that were
+   * refused. The field data have all counts.
+   */
+  vtkIdType GetNumberOfSegmentEdges() const;
+  vtkIdType GetNumberOfRefusedSegments() const;
+  ///@}
+
+  /**
+   * Also when the transform was modified.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkDelaunayFlipPoints();
+  ~vtkDelaunayFlipPoints() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+#ifndef __VTK_WRAP__
+  void FlipLeaves(delaunayflip::MeshBlock& block,
+    const std::vector<delaunayflip::MeshBlock>& segments,
+    delaunayflip::UpdateSummary& summary) override;
+  bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* cloud,
+    vtkPolyData* segments, bool isLive) override;
+  bool HasWork(vtkPolyData* cloud) const override;
+#endif
+
+  int Projection = PROJECTION_XY;
+  vtkAbstractTransform* Transform = nullptr;
+  double Alpha = 0.0;
+  double LongestEdge = 0.0;
+  double PointTolerance = 0.0;
+  bool SplitCrossings = false;
+  int Outline = OUTLINE_EVEN_ODD;
+  bool LinesAsSegments = false;
+
+private:
+  bool IsOtherPiece = false; ///< In the update under way: not the first of several.
+  vtkMTimeType TimeOfBlock = 0; ///< When the block at hand was modified.
+
+  vtkDelaunayFlipPoints(const vtkDelaunayFlipPoints&) = delete;
+  void operator=(const vtkDelaunayFlipPoints&) = delete;
+};
+
+#endif

@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Converts points and segments of any VTK to arrays for `triangulate`, and the result back."""
+from types import SimpleNamespace
+
+import numpy
+
+from . import _library
+from ._arrays import address
+from ._points import Input
+from ._report import FIELD_PREFIX, ITERATION, Totals
+from ._surface import list_pairs, number_places
+from ._vtk_mesh import demote_global_ids, describe_short, vtk_of
+
+_COUNTS = {"PointsNotFinite": "points_not_finite", "RepeatedPoints": "points_repeated",
+           "PointsTooNear": "points_too_near", "SegmentEdges": "segment_edges",
+           "RefusedSegments": "segments_refused", "CrossingPoints": "crossings",
+           "OutsideTriangles": "triangles_outside", "LargeTriangles": "triangles_large",
+           "LargestShift": "largest_shift"}
+OUTLINES = ("even-odd", "orientation")
+
+
+class Cloud(Input):
+    """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
+
+    def __init__(self, data, others=None, lines_as_segments=False, outline="even-odd"):
+        self.vtk, self.data = vtk_of(data), data
+        mesh = self.vtk.model.vtkPolyData()
+        mesh.SetPoints(data.GetPoints())
+        if lines_as_segments and data.IsA("vtkPolyData"):
+            mesh.SetVerts(data.GetVerts())  # so that lines have their cell ids
+            mesh.SetLines(data.GetLines())
+        own = self.vtk.read(mesh)
+        self._own, self._sources, self._pairs, self._numbers = own.points, [], [], []
+        self._others = others.GetPointData() if others is not None else self.vtk.model.vtkPointData()
+        self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)))
+        if others is not None:
+            theirs = self.vtk.read(others)
+            ids = self._add_points(theirs.points)
+            self._add_cells(theirs.read("Lines", "segment cell"), ids)
+            self._add_cells(theirs.read("Polys", "segment cell"), ids, are_rings=True)
+        super().__init__(self._own, numpy.concatenate(self._pairs), None, None)
+        self._numbers = numpy.concatenate(self._numbers).astype(numpy.int32)
+        self.struct.rings, self.struct.outline = address(self._numbers), OUTLINES.index(outline)
+
+    def _add_cells(self, cells, ids, are_rings=False):
+        cells.require_points(len(ids))
+        pairs = ids[list_pairs(cells, are_rings)]
+        is_ring = are_rings & (cells.sizes > 2)
+        numbers = numpy.where(is_ring, cells.first + numpy.arange(cells.count), -1)
+        numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~is_ring, 0))
+        kept = pairs[:, 0] != pairs[:, 1]
+        self._pairs.append(pairs[kept])
+        self._numbers.append(numbers[kept])
+
+    def _add_points(self, others):
+        """The ids of the points of the segments; those at new places are added."""
+        own = self._own
+        if len(others) == 0 or own.dtype == others.dtype and own.tobytes() == others.tobytes():
+            return numpy.arange(len(own))
+        places = numpy.concatenate(number_places(own, others))
+        _, first, place = numpy.unique(places, return_index=True, return_inverse=True)
+        ids = first[place.ravel()[len(own):]]
+        is_new = ids >= len(own)
+        self._sources, ranks = numpy.unique(ids[is_new] - len(own), return_inverse=True)
+        ids[is_new] = len(own) + ranks.ravel()
+        self._own = numpy.concatenate([own, others[self._sources].astype(own.dtype)])
+        return ids
+
+    def store(self, handle, report):
+        self.iterations = numpy.empty(report.number_of_iterations, dtype=ITERATION)
+        _library.call("get_iterations", handle, 0, len(self.iterations), address(self.iterations),
+                      ITERATION.itemsize)
+        return super().store(handle, report)
+
+    def sum_up(self, report):
+        """The Totals of a run."""
+        run = SimpleNamespace(report=report, iterations=self.iterations)
+        return Totals.of_run(run, SimpleNamespace(constraints=SimpleNamespace(unmatched=0)))
+
+    def write(self, result, output):
+        """Writes the mesh, with its data and its counts. Returns the text of a warning, or ""."""
+        data, vtk, report = self.data, self.vtk, result.report
+        count, is_grown = data.GetNumberOfPoints(), len(result.points) > data.GetNumberOfPoints()
+        polygons, corners = vtk.make_cells(numpy.full(len(result.triangles), 3), is_wide=True)
+        corners[:] = result.triangles.ravel()
+        output.SetPolys(polygons)
+        output.SetPoints(data.GetPoints())
+        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        output.GetPointData().ShallowCopy(data.GetPointData())
+        if is_grown:
+            points = vtk.core.vtkPoints()
+            points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
+            output.SetPoints(points)
+            self._extend_data(output.GetPointData(), count)
+        counts = [(name, getattr(report, field)) for name, field in _COUNTS.items()]
+        vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
+                       [*counts, *self.sum_up(report).list_fields()])
+        texts = [report.defects] if report.defects else []
+        removed = report.triangles_outside + report.triangles_large
+        if len(result.triangles) + removed == 0 and report.stop_reason != "aborted":
+            texts.append(f"{len(self.points)} points that make no triangle: they have fewer than three "
+                         "places, or all lie on one line")
+        texts += describe_short(data.GetPointData(), count, "point",
+                                "left out" if is_grown else "passed unchanged")
+        return "; ".join(texts)
+
+    def _extend_data(self, result, count):
+        """The point data, extended by those of added points."""
+        own, others = self.data.GetPointData(), self._others
+        result.Initialize()
+        arrays = [own.GetAbstractArray(i) for i in range(own.GetNumberOfArrays())]
+        for i, array in enumerate(arrays):
+            if array.GetNumberOfTuples() >= count:
+                number = result.AddArray(self._extend(
+                    array, array, others.GetAbstractArray(array.GetName() or ""), count))
+                if own.IsArrayAnAttribute(i) >= 0:
+                    result.SetActiveAttribute(number, own.IsArrayAnAttribute(i))
+        for i in range(others.GetNumberOfArrays() if len(self._sources) else 0):
+            array = others.GetAbstractArray(i)
+            if not own.HasArray(array.GetName() or ""):
+                result.AddArray(self._extend(array, None, array, count))
+        demote_global_ids(result)
+
+    def _extend(self, like, own, other, count):
+        """An array like `like`: tuples of `own`, or 0 or empty; then those of added points."""
+        made = self.vtk.core.vtkAbstractArray.CreateArray(like.GetDataType())
+        made.SetName(like.GetName())
+        made.SetNumberOfComponents(like.GetNumberOfComponents())
+        made.SetNumberOfTuples(count + len(self._sources) + len(self.ends))
+        if hasattr(made, "Fill"):
+            made.Fill(0)
+        if own is not None:
+            made.InsertTuples(0, count, 0, own)
+        if other is not None and (other.GetDataType(), other.GetNumberOfComponents()) == (
+                made.GetDataType(), made.GetNumberOfComponents()):
+            for place, source in enumerate(self._sources, count):
+                made.SetTuple(place, int(source), other)
+        for place, (start, end, share) in enumerate(self.ends, count + len(self._sources)):
+            made.InterpolateTuple(place, int(start), made, int(end), made, share)
+        return made

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkDelaunayFlipPoints for every VTK with Python, on `triangulate`."""
+from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX
+from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
+
+from ._library import InvalidMesh
+from ._options import CHOICES
+from ._points import triangulate
+from ._vtk_cloud import OUTLINES, Cloud
+from ._vtk_filter import Filter, Property, finish
+from ._vtk_update import Failure, Update
+
+_IN_PIECES = ("the points are in several pieces; gather them in one dataset first, by "
+              "vtkAppendDataSets, or Merge Blocks in ParaView")
+
+
+class _PointUpdate(Update):
+
+    segment_edges = refused_segments = 0
+
+    def __init__(self, filter_, pieces=1):
+        super().__init__(filter_, pieces)
+        self._datasets = set()  #: Places of those in partitions.
+
+    def _flip_leaf(self, leaf, segments):
+        if leaf.is_partition and leaf.data.GetNumberOfPoints():
+            if leaf.place[:-1] in self._datasets:
+                self.fail((Failure.MESH, _IN_PIECES), leaf.name)
+                return vtkPolyData()
+            self._datasets.add(leaf.place[:-1])
+        return super()._flip_leaf(leaf, segments)
+
+    def _pass_after_abort(self, data, output):
+        super()._pass_after_abort(vtkPolyData(), output)
+        output.SetPoints(data.GetPoints())
+        output.GetPointData().ShallowCopy(data.GetPointData())
+        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        return ""
+
+    def _flip(self, data, segments, output):
+        filter_ = self._filter
+        if self._pieces > 1 and data.GetNumberOfPoints():
+            raise InvalidMesh(_IN_PIECES)
+        if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
+            self._pass_after_abort(data, output)
+            self.totals.stop_reason = "aborted" if data.GetNumberOfPoints() else "converged"
+            return ""
+        cloud = Cloud(data, segments, filter_.lines_as_segments, OUTLINES[filter_.outline])
+        keywords = {name: getattr(filter_, name) for name in (
+            "alpha", "longest_edge", "point_tolerance", "split_crossings", "maximum_iterations")}
+        result = triangulate(
+            cloud, backend=CHOICES["backend"][filter_.backend], threads=filter_.number_of_threads,
+            device=filter_.device_id, progress=self._observe_part(0.0, 1.0),
+            on_iteration=self._observe, **keywords)
+        self.totals = cloud.sum_up(result.report)
+        self.segment_edges += result.report.segment_edges
+        self.refused_segments += result.report.segments_refused
+        return cloud.write(result, output)
+
+
+class vtkDelaunayFlipPoints(Filter):
+    """Makes a Delaunay mesh from points, with or without segments.
+
+    This class has the methods, outputs, warnings and progress of the C++ class
+    vtkDelaunayFlipPoints, for a VTK that it was not built for; vtkDelaunayFlipPoints.h is its
+    manual. It leaves out live updates, with a warning, and projections: x and y alone decide.
+    """
+
+    name = "vtkDelaunayFlipPoints"
+    input_type = "vtkPointSet"
+    update_type = _PointUpdate
+    no_mesh = "has no points of its own, passed unchanged"
+
+    def get_mesh(self, data):
+        return data if isinstance(data, vtkPointSet) else None
+
+    def SetSegmentsConnection(self, port):
+        self.SetInputConnection(1, port)
+
+    def SetSegmentsData(self, segments):
+        self.SetInputDataObject(1, segments)
+
+
+finish(vtkDelaunayFlipPoints, (
+    *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
+    *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
+    Property("Outline", 0, 0, 1, ("EvenOdd", "Orientation")),
+), {"GetNumberOfSegmentEdges": lambda update: update.segment_edges,
+    "GetNumberOfRefusedSegments": lambda update: update.refused_segments})

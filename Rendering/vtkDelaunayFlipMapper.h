@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDelaunayFlipMapper
+ * @brief   draw triangles that change in every frame
+ *
+ * vtkDelaunayFlipMapper draws the polygons and strips of its input as triangles, by OpenGL. It
+ * keeps points, triangles and one colour per triangle in three buffers of its own, and one shader
+ * draws them. Triangles are shaded flat and coloured by what they are, see ColorBy.
+ *
+ *     mapper->SetInputConnection(flip->GetOutputPort());
+ *     actor->SetMapper(mapper);
+ *
+ * With SetFilter() it draws the live run of a vtkDelaunayFlip, whose steps need not be put out: the
+ * points of the input with the triangles that the run has now. If the filter works on a GPU by CUDA
+ * and OpenGL draws on the same one, CUDA writes them into the buffers. Otherwise they are written
+ * from the memory of the host. Both give the same picture, but for triangles whose value is at the
+ * edge of two colours. vtkDelaunayFlipLiveView draws with this mapper.
+ *
+ * Of the actor's property it uses ambient and diffuse coefficient, lighting, edge visibility, edge
+ * colour and line width, and the colour if ColorBy is SOLID. Edges fade where triangles are smaller
+ * than about seven pixels, so that a dense mesh shows its colours. The light is at the camera,
+ * wherever the renderer's lights are. Up to six clipping planes are obeyed.
+ *
+ * @warning
+ * Nothing is picked: hardware selection does not see the triangles, and other pickers see the
+ * input, which a live run may be ahead of. Triangles are opaque and filled: with an opacity of less
+ * than 1 nothing is drawn, and a warning says so. Scalars, textures and normals do not matter.
+ * Coordinates are drawn in single precision, relative to the centre of the mesh.
+ *
+ * @sa
+ * vtkDelaunayFlip vtkDelaunayFlipLiveView
+ */
+#ifndef vtkDelaunayFlipMapper_h
+#define vtkDelaunayFlipMapper_h
+
+#include "vtkDelaunayFlipRenderingModule.h" // For export macro
+#include "vtkPolyDataMapper.h"
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkDelaunayFlip;
+class vtkOpenGLRenderWindow;
+
+class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipMapper : public vtkPolyDataMapper
+{
+public:
+  static vtkDelaunayFlipMapper* New();
+  vtkTypeMacro(vtkDelaunayFlipMapper, vtkPolyDataMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * What the colour of a triangle shows. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
+   * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: in how many flips it took part,
+   * from 0 to the largest count so far or 12, whichever is larger; without a live run this is the
+   * cell array vtkDelaunayFlipCount, or 0.
+   */
+  enum ColorByType
+  {
+    COLOR_BY_SOLID = 0,
+    COLOR_BY_SMALLEST_ANGLE = 1,
+    COLOR_BY_FLIP_COUNT = 2
+  };
+  vtkSetClampMacro(ColorBy, int, COLOR_BY_SOLID, COLOR_BY_FLIP_COUNT);
+  vtkGetMacro(ColorBy, int);
+  ///@}
+
+  ///@{
+  /**
+   * The filter whose live run is drawn. Null (default): the triangles of the input are drawn. The
+   * input must be the output of the filter's last update, or a copy of it. If the run has no
+   * session, or the output has other cells than triangles, the input is drawn.
+   */
+  void SetFilter(vtkDelaunayFlip* filter);
+  vtkDelaunayFlip* GetFilter() const;
+  ///@}
+
+  ///@{
+  /**
+   * Whether CUDA may write into the buffers. Default on.
+   */
+  vtkSetMacro(ZeroCopy, bool);
+  vtkGetMacro(ZeroCopy, bool);
+  vtkBooleanMacro(ZeroCopy, bool);
+  ///@}
+
+  /**
+   * Whether the filter's run is drawn, so that steps need not be put out.
+   */
+  bool DrawsRun();
+
+  ///@{
+  /**
+   * Call these before and after each step of the filter's run that is not put out. BeginStep() may
+   * be left out: it lets the GPU switch from OpenGL to CUDA while the step is prepared.
+   */
+  void BeginStep();
+  void EndStep();
+  ///@}
+
+  /**
+   * Brings the buffers up to date without drawing, so that GetSmallestAngle() is that of the mesh
+   * as it is now. Makes the context of the window current.
+   * @returns false if there are no buffers, because nothing has been drawn yet.
+   */
+  bool Fill();
+
+  /**
+   * The smallest angle of the mesh in the buffers, in degrees; NaN if there is none.
+   */
+  double GetSmallestAngle();
+
+  /**
+   * The number of triangles of the input.
+   */
+  vtkIdType GetNumberOfTriangles();
+
+  /**
+   * How a run is drawn: "drawn without copies", or "drawn from copies: " and the reason.
+   */
+  std::string GetDrawing() const;
+
+  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  bool HasOpaqueGeometry() override { return true; }
+  bool HasTranslucentPolygonalGeometry() override { return false; }
+
+protected:
+  vtkDelaunayFlipMapper();
+  ~vtkDelaunayFlipMapper() override;
+  void ComputeBounds() override;
+
+  int ColorBy = COLOR_BY_SMALLEST_ANGLE;
+  bool ZeroCopy = true;
+
+private:
+  void ReadInput();
+  bool Prepare(vtkOpenGLRenderWindow* window);
+
+  struct Parts;
+  std::unique_ptr<Parts> Own;
+
+  vtkDelaunayFlipMapper(const vtkDelaunayFlipMapper&) = delete;
+  void operator=(const vtkDelaunayFlipMapper&) = delete;
+};
+
+#endif

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
+#include "DelaunayFlip.h"
+#include "Machine.h"
+#if defined(DELAUNAYFLIP_HAS_CUDA)
+#include "TestDevice.h"
+#endif
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// @file
+/// Usage: delaunay-flip-point-benchmark [--points N...] [--sets NAME...] [--threads T...] [...]
+/// Times the triangulation of sets of points, from arrays of doubles to arrays of 32-bit ids, on
+/// threads and on a GPU, and CGAL on one thread. Prints a table with medians in milliseconds, the
+/// smallest and the largest time, and how many times as fast as CGAL that is.
+
+namespace delaunayflip
+{
+namespace
+{
+
+using Place = std::array<double, 2>;
+using Places = std::vector<Place>;
+using Random = std::mt19937_64;
+constexpr double Pi = 3.14159265358979323846;
+
+double Draw(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+Place AtAngle(double radiusX, double radiusY, double turns)
+{
+  return { radiusX * std::cos(2 * Pi * turns), radiusY * std::sin(2 * Pi * turns) };
+}
+
+Place DrawContour(Random& random, int levels)
+{
+  const double level = 1.0 + static_cast<double>(random() % levels);
+  const double turns = Draw(random);
+  const double radius =
+    level * (1 + 0.25 * std::sin(6 * Pi * turns + 0.1 * level) + 0.1 * std::sin(14 * Pi * turns));
+  return AtAngle(radius, 0.7 * radius, turns);
+}
+
+struct PointSet
+{
+  const char* Name;
+  std::function<Place(Random& random, double i, double n)> Make;
+};
+
+/// On which triangulations differ in cost.
+const PointSet Sets[] = {
+  { "uniform",
+    [](Random& r, double, double) {
+      return Place{ Draw(r), Draw(r) };
+    } },
+  { "clusters",
+    [](Random& r, double i, double)
+    {
+      Random centre(static_cast<std::uint64_t>(i) % 30);
+      const double size = std::pow(10.0, -1 - 3 * Draw(centre));
+      const double x = Draw(centre), y = Draw(centre);
+      const double distance = size * std::sqrt(-2 * std::log(1 - Draw(r)));
+      const Place offset = AtAngle(distance, distance, Draw(r));
+      return Place{ x + offset[0], y + offset[1] };
+    } },
+  { "lines",
+    [](Random& r, double, double) {
+      return Place{ Draw(r), static_cast<double>(r() % 100) / 100 + 1e-4 * Draw(r) };
+    } },
+  { "ring",
+    [](Random& r, double, double)
+    {
+      const double radius = 1 + 1e-3 * Draw(r);
+      return AtAngle(radius, radius, Draw(r));
+    } },
+  { "power",
+    [](Random& r, double, double)
+    {
+      const double radius = std::pow(Draw(r), 4);
+      return AtAngle(radius, radius, Draw(r));
+    } },
+  { "outlier",
+    [](Random& r, double i, double) {
+      return i == 0 ? Place{ 0.5, 1e4 } : Place{ Draw(r), Draw(r) };
+    } },
+  { "lattice",
+    [](Random&, double i, double n)
+    {
+      const double side = std::ceil(std::sqrt(n));
+      return Place{ std::fmod(i, side), std::floor(i / side) };
+    } },
+  { "contours40", [](Random& r, double, double) { return DrawContour(r, 40); } },
+  { "contours400", [](Random& r, double, double) { return DrawContour(r, 400); } },
+  { "ellipse", [](Random& r, double, double) { return AtAngle(1000, 1, Draw(r)); } },
+  { "parabola",
+    [](Random& r, double, double)
+    {
+      const double x = Draw(r);
+      return Place{ x, x * x };
+    } },
+  { "hyperbola",
+    [](Random& r, double, double)
+    {
+      const double x = 10 * Draw(r) + 0.1;
+      return Place{ x, 1 / x };
+    } },
+  { "spiral",
+    [](Random&, double i, double) { return AtAngle(i + 0.5, i + 0.5, 0.001 * i / (2 * Pi)); } },
+  { "two_circles",
+    [](Random& r, double i, double)
+    {
+      const Place place = AtAngle(1, 1, Draw(r));
+      return Place{ place[0], place[1] + 2 * std::fmod(i, 2) };
+    } },
+};
+
+Places MakePlaces(const PointSet& set, std::int64_t count)
+{
+  Random random(5);
+  Places places;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    places.push_back(set.Make(random, static_cast<double>(i), static_cast<double>(count)));
+  }
+  std::shuffle(places.begin(), places.end(), random);
+  return places;
+}
+
+/// Segments from points to others that are a few triangles away.
+std::vector<std::int64_t> DrawSegments(
+  const std::vector<std::int32_t>& triangles, std::int64_t points, std::int64_t count)
+{
+  constexpr int Steps = 4;
+  std::vector<std::int64_t> triangleOf(points, 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    triangleOf[triangles[i]] = static_cast<std::int64_t>(i / 3);
+  }
+  Random random(6);
+  std::vector<std::int64_t> segments;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const auto from = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(points));
+    std::int64_t to = from;
+    for (int step = 0; step < Steps; ++step)
+    {
+      to = triangles[3 * triangleOf[to] + static_cast<std::int64_t>(random() % 3)];
+    }
+    segments.insert(segments.end(), { from, to });
+  }
+  return segments;
+}
+
+//------------------------------------------------------------------------------
+struct Result
+{
+  double Milliseconds = 0.0;
+  std::int64_t Triangles = 0;
+  std::string Note;
+};
+
+class StopWatch
+{
+public:
+  double GetMilliseconds() const
+  {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - this->Start)
+      .count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+PointInput View(const Places& places, const std::vector<std::int64_t>& segments)
+{
+  PointInput input;
+  input.Points = PlaneArray(places.front().data(), static_cast<std::int64_t>(places.size()), 2);
+  input.Segments = segments.empty() ? nullptr : segments.data();
+  input.NumberOfSegments = static_cast<std::int64_t>(segments.size() / 2);
+  return input;
+}
+
+Result TimeEngine(const PointInput& input, BackendKind backend, int threads)
+{
+  PointOptions options;
+  options.Backend = backend;
+  options.NumberOfThreads = threads;
+  std::vector<std::int32_t> triangles(6 * input.Points.Count);
+  const StopWatch watch;
+  FlipSession session(input, options);
+  const double build = watch.GetMilliseconds();
+  session.Advance();
+  const std::int64_t count = session.GetReport().Triangles;
+  const double flips = watch.GetMilliseconds() - build;
+  session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
+  char note[128];
+  std::snprintf(note, sizeof note, "build %.1f, flips %.1f; %.2f flips per point", build, flips,
+    static_cast<double>(session.GetReport().TotalFlips) / static_cast<double>(input.Points.Count));
+  return { watch.GetMilliseconds(), count, note };
+}
+
+#if defined(DELAUNAYFLIP_HAS_CUDA)
+/// From device memory to device memory.
+Result TimeOnDevice(const PointInput& host)
+{
+  const DeviceValues<double> points(
+    std::vector<double>(host.Points.Doubles, host.Points.Doubles + 2 * host.Points.Count));
+  DeviceValues<std::int32_t> triangles(std::vector<std::int32_t>(6 * host.Points.Count));
+  PointInput input = host;
+  input.Points = PlaneArray(points.Data(), host.Points.Count, 2);
+  input.OnDevice = true;
+  const StopWatch watch;
+  FlipSession session(input, PointOptions());
+  session.Advance();
+  const std::int64_t count = session.GetReport().Triangles;
+  session.StoreTriangles(MutableTriangleArray(triangles.Data(), count), DeviceStream());
+  return { watch.GetMilliseconds(), count, "" };
+}
+#endif
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Result TimeCgal(const PointInput& input)
+{
+  std::vector<Kernel::Point_2> points;
+  for (std::int64_t i = 0; i < input.Points.Count; ++i)
+  {
+    points.emplace_back(input.Points.Get(i, 0), input.Points.Get(i, 1));
+  }
+  const StopWatch watch;
+  if (input.NumberOfSegments == 0)
+  {
+    CGAL::Delaunay_triangulation_2<Kernel> triangulation(points.begin(), points.end());
+    return { watch.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+      "" };
+  }
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>
+    triangulation;
+  triangulation.insert(points.begin(), points.end());
+  const double before = watch.GetMilliseconds();
+  for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
+  {
+    triangulation.insert_constraint(
+      points[input.Segments[2 * i]], points[input.Segments[2 * i + 1]]);
+  }
+  char note[64];
+  std::snprintf(note, sizeof note, "%.1f without segments", before);
+  return { watch.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+    note };
+}
+
+//------------------------------------------------------------------------------
+/// Prints the row of a way to triangulate. @returns its median.
+double PrintRow(
+  const std::string& name, int repetitions, double cgal, const std::function<Result()>& run)
+{
+  std::vector<double> times;
+  Result result;
+  for (int i = 0; i < repetitions; ++i)
+  {
+    result = run();
+    times.push_back(result.Milliseconds);
+  }
+  std::sort(times.begin(), times.end());
+  const double median = times[times.size() / 2];
+  std::printf("| %-20s | %9.2f | %9.2f - %9.2f | %7.2f | %9lld | %s |\n", name.c_str(), median,
+    times.front(), times.back(), cgal > 0.0 ? cgal / median : 1.0,
+    static_cast<long long>(result.Triangles), result.Note.c_str());
+  std::fflush(stdout);
+  return median;
+}
+
+struct Plan
+{
+  std::vector<std::int64_t> Sizes{ 1000000 };
+  std::vector<std::string> Names;
+  std::vector<int> Threads{ 1, 2 };
+  std::int64_t Segments = 0;
+  int Repetitions = 5;
+  bool HasCgal = true;
+};
+
+void RunSet(const PointSet& set, std::int64_t count, const Plan& plan)
+{
+  const Places places = MakePlaces(set, count);
+  std::vector<std::int64_t> segments;
+  if (plan.Segments > 0)
+  {
+    const PointInput points = View(places, segments);
+    FlipSession session(points, PointOptions());
+    session.Advance();
+    std::vector<std::int32_t> triangles(3 * session.GetReport().Triangles);
+    session.StoreTriangles(MutableTriangleArray(triangles.data(), session.GetReport().Triangles));
+    segments = DrawSegments(triangles, count, plan.Segments);
+  }
+  const PointInput input = View(places, segments);
+  std::printf(
+    "\n%s, %lld points, %lld segments\n\n| | ms | least - most | times CGAL | triangles | |\n"
+    "|---|---|---|---|---|---|\n",
+    set.Name, static_cast<long long>(count), static_cast<long long>(plan.Segments));
+  const double cgal = plan.HasCgal ? PrintRow("CGAL, 1 thread", std::min(plan.Repetitions, 3), 0.0,
+                                       [&] { return TimeCgal(input); })
+                                   : 0.0;
+  for (const int threads : plan.Threads)
+  {
+    PrintRow(std::to_string(threads) + " threads", plan.Repetitions, cgal,
+      [&] { return TimeEngine(input, BackendKind::Threads, threads); });
+  }
+  if (HasCudaDevice())
+  {
+    TimeEngine(input, BackendKind::CUDA, 0); // the first use of a GPU takes longer
+    PrintRow("GPU, host to host", plan.Repetitions, cgal,
+      [&] { return TimeEngine(input, BackendKind::CUDA, 0); });
+#if defined(DELAUNAYFLIP_HAS_CUDA)
+    PrintRow("GPU, device memory", plan.Repetitions, cgal, [&] { return TimeOnDevice(input); });
+#endif
+  }
+  else
+  {
+    std::printf("| GPU | skipped: there is none | | | | |\n");
+  }
+}
+
+}
+}
+
+int main(int argc, char* argv[])
+{
+  using namespace delaunayflip;
+  Plan plan;
+  CLI::App application("Times the triangulation of points.");
+  application.add_option("--points", plan.Sizes, "how many points");
+  application.add_option("--sets", plan.Names, "names of sets; none: all");
+  application.add_option("--threads", plan.Threads, "numbers of threads");
+  application.add_option("--segments", plan.Segments, "how many segments, each across a few edges");
+  application.add_option("--repetitions", plan.Repetitions, "runs per row");
+  application.add_flag("!--no-cgal", plan.HasCgal, "leave CGAL out");
+  CLI11_PARSE(application, argc, argv);
+  std::printf("%s\n", DescribeMachine().c_str());
+  for (const std::int64_t count : plan.Sizes)
+  {
+    for (const PointSet& set : Sets)
+    {
+      const auto& names = plan.Names;
+      if (names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end())
+      {
+        RunSet(set, count, plan);
+      }
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,363 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""--from-points: files of points, segments, outlines, holes, and what the command says about them."""
+
+import math
+import random
+import unittest
+
+from CommandTesting import (
+    FORMATS,
+    BadFileTest,
+    bumpy_grid,
+    cells_of,
+    edge_counts,
+    make_array,
+    make_mesh,
+    points_of,
+    read_mesh,
+    triangle_set,
+    triangles_of,
+    write_mesh,
+)
+
+# A square and its middle.
+PLACES = [(0, 0, 1), (4, 0, 2), (4, 4, 3), (0, 4, 4), (2, 2, 5)]
+
+
+def grid(columns, spacing=1.0):
+    return [(x * spacing, y * spacing, 0) for y in range(columns) for x in range(columns)]
+
+
+def area_of(mesh):
+    """The sum of the triangles' areas in x and y; all must turn counter-clockwise."""
+    points, total = points_of(mesh), 0.0
+    for a, b, c in triangles_of(mesh):
+        (ax, ay, _), (bx, by, _), (cx, cy, _) = points[a], points[b], points[c]
+        area = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+        assert area > 0
+        total += area
+    return total
+
+
+def edges_of(mesh):
+    """Pairs of places in x and y."""
+    points = [point[:2] for point in points_of(mesh)]
+    return {tuple(sorted((points[a], points[b])))
+            for t in triangles_of(mesh) for a, b in zip(t, t[1:] + t[:1])}
+
+
+def text_of(points, separator=" ", header="", end="\n"):
+    rows = [separator.join(map(repr, point)) for point in points]
+    return end.join(([header] if header else []) + rows) + end
+
+
+class PointTest(BadFileTest):
+    def triangulate(self, name, *options):
+        """Returns the mesh and what is printed."""
+        result = self.succeed(name, "out.vtp", "--from-points", *options)
+        return read_mesh(self.path("out.vtp")), result
+
+    def refuse_points(self, text, *naming, name="in.csv", code=3):
+        self.write(name, text)
+        self.fail_with(code, name, "out.vtk", "--from-points", naming=[name, *naming])
+
+    def rings(self, name, *rings):
+        """A file of closed lines through these places."""
+        points = [point for ring in rings for point in ring]
+        cells, begin = [], 0
+        for ring in rings:
+            cells.append((*range(begin, begin + len(ring)), begin))
+            begin += len(ring)
+        write_mesh(make_mesh(points, [], cells), self.path(name))
+        return name
+
+
+class Files(PointTest):
+    def expect(self, name, text, points, warning=""):
+        self.write(name, text)
+        mesh, result = self.triangulate(name)
+        self.assertEqual(points_of(mesh), points, text)
+        self.assertEqual(len(triangles_of(mesh)), len(points) - 1, text)
+        if warning:
+            self.assertIn(f"warning: {name}: {warning}\n", result.stderr)
+        else:
+            self.assertEqual(result.stderr, "", text)
+
+    def test_separators_headers_and_line_ends(self):
+        """A table of layouts, all of the same points."""
+        for separator in (" ", "\t", ",", ";", " , ", "  \t "):
+            for header in ("", "x y z", "X Y Z", "# x y z", "//X Y Z", "# made by hand"):
+                for end in ("\n", "\r\n", "\r"):
+                    names = header.replace(" ", separator)
+                    self.expect("in.txt", text_of(PLACES, separator, names, end), PLACES)
+
+    def test_columns(self):
+        text = 'name\tPoint ID\tz\tY\tx\n' + "".join(
+            f"a b\t7\t{z}\t{y}\t{x}\n" for x, y, z in PLACES)
+        self.expect("in.txt", text, PLACES, "left out the columns 'name', 'Point ID'")
+        flat = [(x, y, 0) for x, y, _ in PLACES]
+        self.expect("in.xyz", text_of([p[:2] for p in PLACES]), flat)
+        self.expect("in.csv", text_of(PLACES, ",", "x,y,height"), flat,
+                    "left out the columns 'height'")
+        self.expect("in.csv", text_of(PLACES, ",", "lon,lat,height"), PLACES,
+                    "no columns are named x and y; took 'lon', 'lat', 'height' as x, y, z")
+        self.expect("in.xyz", text_of([(*p, 9, 9) for p in PLACES]), PLACES,
+                    "left out the columns from number 4 on")
+        many = ",".join(f"c{i}" for i in range(12))
+        rows = text_of([(*p, *range(12)) for p in PLACES], ",", "x,y,z," + many)
+        listed = ", ".join(f"'c{i}'" for i in range(10)) + " and others"
+        self.expect("in.csv", rows, PLACES, "left out the columns " + listed)
+
+    def test_small_print(self):
+        """Quotes, a byte order mark, comments, empty lines, separators at the end, plus signs, numbers
+        below the smallest, and no line end at the end."""
+        self.expect("in.csv", '"x","y","z"\n"0","0","1"\n"4","0","2"\n4,4,"3"\n0,4,4\n2,2,5', PLACES)
+        self.expect("in.csv", "\ufeffx;y;z;\n" + text_of(PLACES, ";", end=";\n"), PLACES)
+        self.expect("in.xyz", "\n# a\n//b\n\n" + text_of(PLACES, end="\n\n#c\n"), PLACES)
+        self.expect("in.xyz", "+0 1e-400 1\n" + text_of(PLACES[1:]), PLACES)
+
+    def test_bad_lines_are_named(self):
+        for text, words in {
+            "1,2,3\n4,five,6\n": ["line 2", "'five' is not a number"],
+            "1,2,3\n4,5\n": ["line 2", "a number is missing"],
+            "1,2,3\n\n4,,6\n": ["line 3", "a number is missing"],
+            "x,y,z\n1,2,3\na,b,c\n": ["line 3", "'a' is not a number"],
+            "1.5;2,5;3\n": ["line 1", "'2,5' is not a number"],
+            "12\n1 2 3\n": ["line 1", "x y [z]"],
+            "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
+            "1 2 1e999\n": ["line 1", "'1e999' is out of range"],
+            b"\x7fELF\x01\x02\n\x03 1 2\n": ["line 2"],
+        }.items():
+            self.refuse_points(text, *words)
+        self.fail_with(3, "none.xyz", "out.vtk", "--from-points", naming=["none.xyz", "No such"])
+
+    def test_any_mesh_gives_its_points(self):
+        mesh = bumpy_grid(6, 0)
+        expected = None
+        for extension in FORMATS:
+            path = write_mesh(mesh, self.path("in" + extension))
+            out, result = self.triangulate(path)
+            self.assertIn("its triangles are not used", result.stderr)
+            expected = expected or triangle_set(out)
+            self.assertEqual(triangle_set(out), expected, extension)
+        self.assertNotEqual(expected, triangle_set(mesh))
+
+    def test_any_format_is_written(self):
+        self.write("in.xyz", text_of(PLACES))
+        expected = None
+        for extension in FORMATS:
+            result = self.succeed("in.xyz", "out" + extension, "--from-points")
+            self.assertEqual(result.stderr, "")
+            written = triangle_set(read_mesh(self.path("out" + extension)))
+            expected = expected or written
+            self.assertEqual(written, expected)
+        self.assertEqual(len(expected), 4)
+
+    def test_point_data_are_kept(self):
+        mesh = make_mesh(PLACES, [])
+        mesh.GetPointData().AddArray(make_array("depth", [1, 2, 3, 4, 5]))
+        out, _ = self.triangulate(write_mesh(mesh, self.path("in.vtp")))
+        depth = out.GetPointData().GetArray("depth")
+        self.assertEqual([depth.GetValue(i) for i in range(5)], [1, 2, 3, 4, 5])
+
+
+class Results(PointTest):
+    def test_delaunay(self):
+        """Of a jittered grid: the numbers of Euler's formula, the area of the hull, and what flips of
+        another triangulation of these points give."""
+        mesh = bumpy_grid(20, 1)
+        path = write_mesh(mesh, self.path("in.vtp"))
+        out, _ = self.triangulate(path)
+        edges, boundary, others = edge_counts(triangles_of(out))
+        self.assertEqual((len(triangles_of(out)), others), (2 * 400 - 2 - boundary, 0))
+        self.assertEqual(edges, 3 * 400 - 3 - boundary)
+        again = self.report("out.vtp", "again.vtp", "--geometry", "planar-xy")
+        self.assertEqual((again["total_flips"], again["non_delaunay_before"]), (0, 0))
+
+    def test_order_and_threads_do_not_matter(self):
+        points = grid(9)
+        shuffled = list(points)
+        random.Random(5).shuffle(shuffled)
+        self.write("in.xyz", text_of(points))
+        self.write("other.xyz", text_of(shuffled))
+        first, _ = self.triangulate("in.xyz", "--threads", 1)
+        second, _ = self.triangulate("other.xyz", "--threads", 3)
+        self.assertEqual(triangle_set(first), triangle_set(second))
+
+    def test_points_that_are_not_used(self):
+        more = PLACES + [(4, 0, 9), (math.nan, 1, 1), (0, math.inf, 1), (2.01, 2, 0)]
+        self.write("in.csv", text_of(more, ","))
+        _, result = self.triangulate("in.csv")
+        self.assertIn("points          6 used, 1 repeated, 2 not finite\n", result.stdout)
+        report = self.report("in.csv", "out.vtk", "--from-points", "--point-tolerance", 0.1)
+        counts = report["from_points"]
+        self.assertEqual(counts["repeated"] + counts["too_near"], 2)
+        self.assertEqual(counts["not_finite"], 2)
+        self.assertEqual(report["triangles"], 4)
+
+    def test_too_few_points(self):
+        for text in ("", "x y z\n", "1 2 3\n", text_of([(i, i, 0) for i in range(5)])):
+            self.write("in.xyz", text)
+            mesh, result = self.triangulate("in.xyz")
+            self.assertEqual(triangles_of(mesh), [])
+            self.assertIn("0 triangles", result.stdout)
+
+    def test_plane(self):
+        """Points of the plane x = 3."""
+        self.write("in.xyz", text_of([(3, y, x) for x, y, _ in PLACES]))
+        mesh, _ = self.triangulate("in.xyz")
+        self.assertEqual(triangles_of(mesh), [])
+        mesh, _ = self.triangulate("in.xyz", "--projection", "plane")
+        self.assertEqual(len(triangles_of(mesh)), 4)
+        self.write("in.xyz", text_of([(x, y, 9 * x) for x, y, _ in PLACES]))
+        ring = self.rings("ring.vtk", [(x, y, 9 * x) for x, y, _ in PLACES[1:4]])
+        for option in ("--outline", "--holes"):
+            mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
+            self.assertEqual(len(triangles_of(mesh)), 2)
+
+    def test_large_triangles(self):
+        self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))
+        mesh, _ = self.triangulate("in.xyz")
+        self.assertGreater(area_of(mesh), 9.5)
+        for option, value in (("--longest-edge", 1.5), ("--alpha", 0.8)):
+            mesh, result = self.triangulate("in.xyz", option, value)
+            self.assertEqual(area_of(mesh), 9.0)
+            self.assertRegex(result.stdout, r"removed +0 triangles outside, \d too large\n")
+
+    def test_iteration_limit(self):
+        path = write_mesh(bumpy_grid(20, 0), self.path("in.vtp"))
+        whole, _ = self.triangulate(path)
+        self.succeed(path, "out.vtk", "--from-points", "--max-iterations", 0, code=4)
+        start = read_mesh(self.path("out.vtk"))
+        self.assertNotEqual(triangle_set(start), triangle_set(whole))
+        self.assertAlmostEqual(area_of(start), area_of(whole))
+
+
+class Segments(PointTest):
+    def setUp(self):
+        super().setUp()
+        self.write("in.xyz", text_of(grid(5)))
+
+    def test_breaklines(self):
+        """A line through points and to a place that no point is at; a polygon is a line, too."""
+        line = make_mesh([(0, 0, 0), (3, 1, 0), (3.5, 1.25, 7)], [], [(0, 1, 2)])
+        path = write_mesh(line, self.path("line.vtk"))
+        mesh, result = self.triangulate("in.xyz", "--constraints", path)
+        self.assertIn("segments        2 edges\n", result.stdout)
+        edges = edges_of(mesh)
+        self.assertIn(((0, 0), (3, 1)), edges)
+        self.assertIn(((3, 1), (3.5, 1.25)), edges)
+        self.assertEqual(points_of(mesh)[25:], [(3.5, 1.25, 7)])
+        self.assertEqual(area_of(mesh), 16)
+        polygon = make_mesh([(0, 0, 0), (4, 1, 0), (1, 4, 0)], [(0, 1, 2)])
+        mesh, _ = self.triangulate(
+            "in.xyz", "--constraints", write_mesh(polygon, self.path("polygon.vtk")))
+        self.assertIn(((0, 0), (4, 1)), edges_of(mesh))
+        self.assertIn(((0, 0), (1, 4)), edges_of(mesh))
+        self.assertEqual(area_of(mesh), 16)
+
+    def test_lines_of_the_input(self):
+        mesh = make_mesh(grid(5), [], [(0, 8)])
+        path = write_mesh(mesh, self.path("in.vtk"))
+        self.assertNotIn(((0, 0), (3, 1)), edges_of(self.triangulate(path)[0]))
+        self.assertIn(((0, 0), (3, 1)), edges_of(self.triangulate(path, "--insert-lines")[0]))
+
+    def test_crossings(self):
+        lines = make_mesh([(0, 0, 0), (4, 1, 8), (0, 1, 0), (4, 0, 0)], [], [(0, 1), (2, 3)])
+        path = write_mesh(lines, self.path("lines.vtk"))
+        mesh, result = self.triangulate("in.xyz", "--constraints", path)
+        self.assertIn("1 refused", result.stdout)
+        self.assertIn("warning: ", result.stderr)
+        self.assertIn(((0, 0), (4, 1)), edges_of(mesh))
+        mesh, result = self.triangulate("in.xyz", "--constraints", path, "--split-crossings")
+        self.assertIn("segments        4 edges, 1 crossing added\n", result.stdout)
+        self.assertEqual(points_of(mesh)[25:], [(4, 1, 8), (2, 0.5, 4)])
+        self.assertIn(((0, 1), (2, 0.5)), edges_of(mesh))
+
+    def test_outline_and_holes(self):
+        outline = self.rings("outline.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)])
+        hole = self.rings("hole.vtk", [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)])
+        for options, area in (
+            (["--outline", outline], 9), (["--holes", hole], 15), (["--outline", hole], 1),
+            (["--outline", outline, "--holes", hole], 8),
+            (["--outline", outline, "--constraints", hole], 9),
+        ):
+            mesh, result = self.triangulate("in.xyz", *options)
+            self.assertEqual(area_of(mesh), area, options)
+            self.assertRegex(result.stdout, r"removed +\d+ triangles outside, 0 too large")
+
+    def test_rings_that_are_none(self):
+        for mesh, words in (
+            (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),
+            (make_mesh(PLACES, [], [(0, 1, 0)]), ["line 0", "fewer than three"]),
+            (make_mesh([(3, y, x) for x, y, _ in PLACES], [(0, 1, 2)]), ["polygon 0", "no area"]),
+            (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["line 0", "not in the file"]),
+            (make_mesh(PLACES, []), ["no lines or polygons"]),
+        ):
+            path = write_mesh(mesh, self.path("ring.vtk"))
+            for option in ("--outline", "--holes"):
+                self.fail_with(3, "in.xyz", "out.vtk", "--from-points", option, path,
+                               naming=["ring.vtk", *words])
+
+    def test_ring_that_is_crossed(self):
+        bow = self.rings("bow.vtk", [(0.5, 0.5, 0), (3.5, 3.5, 0), (3.5, 0.5, 0), (0.5, 3.5, 0)])
+        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", bow)
+
+    def test_point_data_of_several_files(self):
+        line = make_mesh([(0, 0, 0), (3.5, 1.25, 7)], [], [(0, 1)])
+        line.GetPointData().AddArray(make_array("depth", [1, 2]))
+        path = write_mesh(line, self.path("line.vtp"))
+        hole = self.rings("hole.vtk", [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0)])
+        mesh, _ = self.triangulate("in.xyz", "--constraints", path)
+        self.assertEqual(mesh.GetPointData().GetArray("depth").GetValue(25), 2)
+        _, result = self.triangulate("in.xyz", "--constraints", path, "--holes", hole)
+        self.assertIn("only arrays that all", result.stderr)
+
+
+class Usage(PointTest):
+    def test_options_without_effect(self):
+        self.write("in.xyz", text_of(PLACES))
+        for option in (
+            ["--geometry", "planar"], ["--criterion", "in-circle"], ["--feature-angle", 30],
+            ["--tolerance", 0], ["--tie-rule", "keep"], ["--no-insert-constraints"],
+            ["--ignore-lines"], ["--region-array", "a"], ["--devices", "all"], ["--pieces", 2],
+            ["--quality"],
+        ):
+            self.fail_with(2, "in.xyz", "out.vtk", "--from-points", *option,
+                           naming=[option[0], "excludes --from-points"])
+        path = write_mesh(make_mesh(PLACES, [(0, 1, 2)]), self.path("in.vtk"))
+        for option in (
+            ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
+            ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
+        ):
+            self.fail_with(2, path, "out.vtk", *option,
+                           naming=[option[0], "requires --from-points"])
+
+    def test_values(self):
+        self.write("in.xyz", text_of(PLACES))
+        for option in ("--alpha", "--longest-edge", "--point-tolerance"):
+            for value in ("-1", "nan", "inf", "a"):
+                self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, value, naming=[option])
+        self.fail_with(2, "in.xyz", "out.vtk", "--from-points", "--projection", "yz",
+                       naming=["--projection"])
+
+    def test_files_that_have_no_triangles(self):
+        self.write("in.xyz", text_of(PLACES))
+        self.fail_with(2, "in.xyz", "out.vtk", naming=["in.xyz", "--from-points"])
+        path = write_mesh(make_mesh(PLACES, []), self.path("in.vtk"))
+        result = self.succeed(path, "out.vtk")
+        self.assertIn("no triangles; --from-points makes them", result.stderr)
+
+    def test_points_where_a_mesh_is_needed(self):
+        self.write("in.xyz", text_of(PLACES))
+        self.fail_with(2, "in.xyz", "out.csv", "--from-points", naming=["out.csv", ".vtp"])
+        for option in ("--constraints", "--outline", "--holes"):
+            self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "a.txt",
+                           naming=["a.txt", "points alone"])
+            self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "out.vtk",
+                           naming=["out.vtk", "two purposes"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

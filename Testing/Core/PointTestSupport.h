@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTTESTSUPPORT_H
+#define DELAUNAYFLIP_POINTTESTSUPPORT_H
+
+#include "FlipTestSupport.h"
+#include "References.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+/// @file
+/// Triangulations of points for tests, and their judgement by rational numbers.
+
+namespace delaunayflip
+{
+
+using Places = std::vector<std::array<double, 2>>;
+using Pairs = std::vector<std::array<std::int64_t, 2>>;
+
+/// Points and segments that belong to a test.
+struct Drawing
+{
+  Places Points;
+  Pairs Segments;
+  std::vector<std::int32_t> Rings;
+  std::vector<double> Seeds;
+
+  PointInput View() const
+  {
+    PointInput input;
+    input.Points = PlaneArray(this->Points.empty() ? nullptr : this->Points.front().data(),
+      static_cast<std::int64_t>(this->Points.size()), 2);
+    input.Segments = this->Segments.empty() ? nullptr : this->Segments.front().data();
+    input.NumberOfSegments = static_cast<std::int64_t>(this->Segments.size());
+    input.Rings = this->Rings.empty() ? nullptr : this->Rings.data();
+    input.HoleSeeds = this->Seeds.data();
+    input.NumberOfHoleSeeds = static_cast<std::int64_t>(this->Seeds.size()) / 2;
+    return input;
+  }
+
+  /// Adds a closed ring of new points.
+  void AddRing(const Places& corners)
+  {
+    const std::int32_t ring = this->Rings.empty() ? 0 : this->Rings.back() + 1;
+    const auto first = static_cast<std::int64_t>(this->Points.size());
+    const auto count = static_cast<std::int64_t>(corners.size());
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      this->Points.push_back(corners[i]);
+      this->Segments.push_back({ first + i, first + (i + 1) % count });
+      this->Rings.push_back(ring);
+    }
+  }
+};
+
+struct Triangulation
+{
+  std::vector<std::int32_t> Triangles, Neighbors;
+  std::vector<std::int64_t> UsedPoints;
+  Pairs Edges; ///< That segments became.
+  std::vector<AddedPoint> Added;
+  FlipReport Report;
+};
+
+inline PlaneArray View(const Places& points)
+{
+  return PlaneArray(
+    points.empty() ? nullptr : points.front().data(), static_cast<std::int64_t>(points.size()), 2);
+}
+
+inline Triangulation Triangulate(const PointInput& input, const PointOptions& options = {})
+{
+  const FlipSession session = FlipPoints(input, options);
+  Triangulation result;
+  result.Report = session.GetReport();
+  result.Triangles = StoreTriangles(session);
+  result.Neighbors.resize(result.Triangles.size());
+  session.StoreNeighbors(result.Neighbors.data());
+  result.UsedPoints.resize(input.Points.Count);
+  session.StoreUsedPoints(result.UsedPoints.data());
+  const std::vector<std::int64_t> edges = session.ListSegmentEdges();
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+  {
+    result.Edges.push_back({ edges[i], edges[i + 1] });
+  }
+  result.Added = session.GetAddedPoints();
+  return result;
+}
+
+inline Triangulation Triangulate(const Drawing& drawing, const PointOptions& options = {})
+{
+  return Triangulate(drawing.View(), options);
+}
+
+inline Triangulation Triangulate(const Places& points, const FlipOptions& options = {})
+{
+  return Triangulate(PointInput{ View(points) }, PointOptions{ options });
+}
+
+inline Point3 ToPoint(const std::array<double, 2>& place) { return { place[0], place[1], 0.0 }; }
+
+inline int Turn(const Places& points, std::int64_t a, std::int64_t b, std::int64_t c)
+{
+  return RationalTurn(ToPoint(points[a]), ToPoint(points[b]), ToPoint(points[c]));
+}
+
+inline VertexPair Sorted(std::int64_t a, std::int64_t b)
+{
+  return std::minmax(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
+}
+
+inline std::set<VertexPair> ListEdges(const std::vector<std::int32_t>& triangles)
+{
+  std::set<VertexPair> edges;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    edges.insert(Sorted(triangles[i], triangles[i - i % 3 + (i + 1) % 3]));
+  }
+  return edges;
+}
+
+/// All triangles turn left, neighbours refer to each other, the segments' edges are there, and
+/// every other edge is locally Delaunay: so the whole is constrained Delaunay.
+inline void ExpectConstrainedDelaunay(const Places& points, const Triangulation& result)
+{
+  std::set<VertexPair> segments;
+  for (const auto& edge : result.Edges)
+  {
+    segments.insert(Sorted(edge[0], edge[1]));
+  }
+  const std::set<VertexPair> edges = ListEdges(result.Triangles);
+  ASSERT_TRUE(std::includes(edges.begin(), edges.end(), segments.begin(), segments.end()));
+  for (std::size_t i = 0; i < result.Triangles.size(); ++i)
+  {
+    const std::size_t first = i - i % 3;
+    const std::int32_t a = result.Triangles[i];
+    const std::int32_t b = result.Triangles[first + (i + 1) % 3];
+    const std::int32_t c = result.Triangles[first + (i + 2) % 3];
+    ASSERT_EQ(1, Turn(points, a, b, c));
+    const std::int32_t across = result.Neighbors[i];
+    if (across < 0)
+    {
+      continue;
+    }
+    const std::int32_t* other = &result.Triangles[3 * across];
+    const std::int32_t* opposite = std::find_if(
+      other, other + 3, [=](std::int32_t vertex) { return vertex != b && vertex != c; });
+    ASSERT_EQ(static_cast<std::int32_t>(i / 3), result.Neighbors[3 * across + (opposite - other)]);
+    if (segments.count(Sorted(b, c)) == 0)
+    {
+      ASSERT_GE(0,
+        RationalInCircle(
+          ToPoint(points[a]), ToPoint(points[b]), ToPoint(points[c]), ToPoint(points[*opposite])));
+    }
+  }
+}
+
+}
+
+#endif

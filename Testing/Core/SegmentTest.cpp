@@ -1,0 +1,511 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointTestSupport.h"
+#include "RandomInputs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+/// @file
+/// Triangulations of points with segments, outlines and holes, judged by rational numbers.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Whether two segments have one place in common that is an end of neither, and no point is there.
+bool DoCross(const Places& points, const std::array<std::int64_t, 2>& first,
+  const std::array<std::int64_t, 2>& second)
+{
+  const bool cross =
+    Turn(points, first[0], first[1], second[0]) * Turn(points, first[0], first[1], second[1]) < 0 &&
+    Turn(points, second[0], second[1], first[0]) * Turn(points, second[0], second[1], first[1]) < 0;
+  for (std::size_t i = 0; cross && i < points.size(); ++i)
+  {
+    const auto id = static_cast<std::int64_t>(i);
+    if (Turn(points, first[0], first[1], id) == 0 && Turn(points, second[0], second[1], id) == 0)
+    {
+      return false;
+    }
+  }
+  return cross;
+}
+
+Drawing DrawRandom(std::mt19937& random, std::size_t points, std::size_t segments, int size)
+{
+  Drawing drawing;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    drawing.Points.push_back({ static_cast<double>(DrawIndex(random, size)),
+      static_cast<double>(DrawIndex(random, size)) });
+  }
+  for (std::size_t i = 0; i < segments; ++i)
+  {
+    const auto count = static_cast<int>(points);
+    drawing.Segments.push_back({ DrawIndex(random, count), DrawIndex(random, count) });
+  }
+  return drawing;
+}
+
+/// The segments that are refused: those that cross an earlier one that is not.
+Pairs ListRefused(const Drawing& drawing)
+{
+  Pairs taken, refused;
+  for (const auto& segment : drawing.Segments)
+  {
+    const bool crosses = std::any_of(taken.begin(), taken.end(),
+      [&](const auto& earlier) { return DoCross(drawing.Points, earlier, segment); });
+    (crosses ? refused : taken).push_back(segment);
+  }
+  return refused;
+}
+
+/// The area of triangles, times two. Exact for small integers.
+double SumArea(const Places& points, const std::vector<std::int32_t>& triangles)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+  {
+    const auto& a = points[triangles[i]];
+    const auto& b = points[triangles[i + 1]];
+    const auto& c = points[triangles[i + 2]];
+    sum += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  return sum;
+}
+
+/// All edges of whole grids whose places are all used, so that few or many pass through points.
+TEST(Segments, OnSmallGrids)
+{
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000 / Reduction; ++i)
+  {
+    const Drawing drawing =
+      DrawRandom(random, 4 + random() % 30, 1 + random() % 12, 2 + DrawIndex(random, 9));
+    const Triangulation result = Triangulate(drawing);
+    const bool isLine = result.Triangles.empty();
+    if (!isLine)
+    {
+      ExpectConstrainedDelaunay(drawing.Points, result);
+      ASSERT_EQ(static_cast<std::int64_t>(ListRefused(drawing).size()),
+        result.Report.FromPoints.RefusedSegments);
+      const auto border = std::count(result.Neighbors.begin(), result.Neighbors.end(), -1);
+      const std::set<std::array<double, 2>> places(drawing.Points.begin(), drawing.Points.end());
+      ASSERT_EQ(2 * places.size() - 2 - border, result.Triangles.size() / 3);
+    }
+    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+  }
+}
+
+/// The triangles depend on the places and the segments, not on the order of the points.
+TEST(Segments, InAnyOrderOfPoints)
+{
+  std::mt19937 random(2);
+  for (int i = 0; i < 200 / Reduction; ++i)
+  {
+    const Drawing drawing = DrawRandom(random, 40, 12, 8);
+    std::vector<std::int64_t> order(drawing.Points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random);
+    Drawing shuffled;
+    shuffled.Points.resize(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+    {
+      shuffled.Points[order[k]] = drawing.Points[k];
+    }
+    for (const auto& segment : drawing.Segments)
+    {
+      shuffled.Segments.push_back({ order[segment[0]], order[segment[1]] });
+    }
+    const auto list = [](const Drawing& given)
+    {
+      std::set<std::set<std::array<double, 2>>> places;
+      const Triangulation result = Triangulate(given);
+      for (std::size_t t = 0; t < result.Triangles.size(); t += 3)
+      {
+        const std::int32_t* ids = &result.Triangles[t];
+        places.insert({ given.Points[ids[0]], given.Points[ids[1]], given.Points[ids[2]] });
+      }
+      return places;
+    };
+    ASSERT_EQ(list(drawing), list(shuffled)) << i;
+  }
+}
+
+/// Many segments in many points: short ones, and some that cross half of the points.
+TEST(Segments, InManyPoints)
+{
+  std::mt19937 random(3);
+  const int size = 1 << 20;
+  Drawing drawing = DrawRandom(random, 10000 / Reduction, 20, size);
+  for (int i = 0; i < 300 / Reduction; ++i)
+  {
+    const auto count = static_cast<int>(drawing.Points.size());
+    const std::int64_t from = DrawIndex(random, count);
+    std::int64_t to = from;
+    double nearest = INFINITY;
+    for (int k = 0; k < 200; ++k)
+    {
+      const std::int64_t other = DrawIndex(random, count);
+      const double distance = std::hypot(drawing.Points[from][0] - drawing.Points[other][0],
+        drawing.Points[from][1] - drawing.Points[other][1]);
+      to = distance > 0.0 && distance < nearest ? other : to;
+      nearest = to == other ? distance : nearest;
+    }
+    drawing.Segments.push_back({ from, to });
+  }
+  const Triangulation result = Triangulate(drawing);
+  ExpectConstrainedDelaunay(drawing.Points, result);
+  const Pairs refused = ListRefused(drawing);
+  EXPECT_EQ(static_cast<std::int64_t>(refused.size()), result.Report.FromPoints.RefusedSegments);
+
+  // No four points lie on a circle, so CGAL's mesh must be the same.
+  std::vector<double> xyz;
+  for (const auto& point : drawing.Points)
+  {
+    xyz.insert(xyz.end(), { point[0], point[1], 0.0 });
+  }
+  std::vector<std::int64_t> taken;
+  for (const auto& segment : drawing.Segments)
+  {
+    const bool isTaken = std::find(refused.begin(), refused.end(), segment) == refused.end();
+    taken.insert(taken.end(), segment.begin(), isTaken ? segment.end() : segment.begin());
+  }
+  TriangleMesh mesh;
+  mesh.Points = PointArray(xyz.data(), static_cast<std::int64_t>(drawing.Points.size()));
+  mesh.ConstraintEdges = taken.data();
+  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(taken.size() / 2);
+  EXPECT_TRUE(MakeCgalConstrainedDelaunay(mesh) == ToTriangleSet(result.Triangles));
+}
+
+TEST(Segments, NameWhatIsWrong)
+{
+  Drawing drawing;
+  drawing.Points = { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 }, { NAN, 0 } };
+  drawing.Segments = { { 0, 2 }, { 3, 1 }, { 0, 4 }, { 1, 1 } };
+  const FlipReport report = Triangulate(drawing).Report;
+  EXPECT_EQ(2, report.FromPoints.RefusedSegments);
+  EXPECT_EQ(1, report.FromPoints.SegmentEdges);
+  EXPECT_EQ("1 point with NaN or infinite coordinates (first: 4); 2 segments that cross an earlier "
+            "one or end at a point that is not finite (first: 3-1, 0-4)",
+    DescribeDefects(report.Defects));
+  drawing.Segments = { { 0, 5 } };
+  try
+  {
+    Triangulate(drawing);
+    ADD_FAILURE() << "a point that does not exist";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_STREQ("segment 0 names point 5, but there are points 0 to 4", error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The added points of random crossing segments are the exact crossings, rounded.
+TEST(SplitCrossings, LeavesNoCrossing)
+{
+  std::mt19937 random(4);
+  PointOptions options;
+  options.SplitCrossings = true;
+  for (int i = 0; i < 300 / Reduction; ++i)
+  {
+    const Drawing drawing =
+      DrawRandom(random, 4 + random() % 20, 2 + random() % 10, i % 2 == 0 ? 8 : 1 << 24);
+    const Triangulation result = Triangulate(drawing, options);
+    Places points = drawing.Points;
+    for (const AddedPoint& added : result.Added)
+    {
+      ASSERT_LT(added.From, static_cast<std::int64_t>(points.size()));
+      ASSERT_LT(added.To, static_cast<std::int64_t>(points.size()));
+      const auto& from = points[added.From];
+      const auto& to = points[added.To];
+      ASSERT_NEAR(from[0] + added.Share * (to[0] - from[0]), added.X, 1e-6);
+      ASSERT_NEAR(from[1] + added.Share * (to[1] - from[1]), added.Y, 1e-6);
+      points.push_back({ added.X, added.Y });
+    }
+    ExpectConstrainedDelaunay(points, result);
+    ASSERT_EQ(0, result.Report.FromPoints.RefusedSegments);
+    // Every segment is a path of edges from its start to its end.
+    std::map<std::int64_t, std::set<std::int64_t>> next;
+    for (const auto& edge : result.Edges)
+    {
+      next[edge[0]].insert(edge[1]);
+      next[edge[1]].insert(edge[0]);
+    }
+    for (const auto& segment : drawing.Segments)
+    {
+      std::set<std::int64_t> seen = { result.UsedPoints[segment[0]] };
+      for (std::vector<std::int64_t> stack(seen.begin(), seen.end()); !stack.empty();)
+      {
+        const std::int64_t at = stack.back();
+        stack.pop_back();
+        for (const std::int64_t to : next[at])
+        {
+          if (seen.insert(to).second)
+          {
+            stack.push_back(to);
+          }
+        }
+      }
+      ASSERT_EQ(1u, seen.count(result.UsedPoints[segment[1]]) + (result.Triangles.empty() ? 1 : 0));
+    }
+    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+  }
+}
+
+TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
+{
+  PointOptions options;
+  options.SplitCrossings = true;
+  Drawing drawing;
+  drawing.Points = { { 0, 0 }, { 3, 1 }, { 0, 1 }, { 1, 0 }, { 4, 4 }, { 6, 6 }, { 4, 6 }, { 6, 4 },
+    { 5, 5 } };
+  drawing.Segments = { { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 } };
+  const Triangulation result = Triangulate(drawing, options);
+  ASSERT_EQ(1u, result.Added.size()); // (3/4, 1/4); (5, 5) is there
+  EXPECT_EQ(0.75, result.Added[0].X);
+  EXPECT_EQ(0.25, result.Added[0].Y);
+  EXPECT_EQ(0.25, result.Added[0].Share);
+  EXPECT_EQ(0, result.Added[0].From);
+  EXPECT_EQ(1, result.Added[0].To);
+  EXPECT_EQ(0.0, result.Report.FromPoints.LargestShift);
+  EXPECT_EQ(8, result.Report.FromPoints.SegmentEdges);
+
+  drawing.Points = { { 0, 0 }, { 3, 1 }, { 0, 1 }, { 3, 0.5 } }; // cross at (2, 2/3)
+  drawing.Segments = { { 0, 1 }, { 2, 3 } };
+  const Triangulation rounded = Triangulate(drawing, options);
+  ASSERT_EQ(1u, rounded.Added.size());
+  EXPECT_EQ(2.0, rounded.Added[0].X);
+  EXPECT_EQ(2.0 / 3.0, rounded.Added[0].Y);
+  EXPECT_NEAR(3.7e-17, rounded.Report.FromPoints.LargestShift, 1e-18);
+}
+
+//------------------------------------------------------------------------------
+Places Square(double left, double lower, double size, bool isClockwise = false)
+{
+  Places corners = { { left, lower }, { left + size, lower }, { left + size, lower + size },
+    { left, lower + size } };
+  if (isClockwise)
+  {
+    std::reverse(corners.begin(), corners.end());
+  }
+  return corners;
+}
+
+struct OutlineCase
+{
+  const char* Name;
+  OutlineKind Outline;
+  std::vector<Places> Rings;
+  double Area;
+};
+
+void PrintTo(const OutlineCase& one, std::ostream* stream) { *stream << one.Name; }
+
+class OutlineTest : public testing::TestWithParam<OutlineCase>
+{
+};
+
+/// In a field of 20 x 20 = 400.
+TEST_P(OutlineTest, KeepsWhatIsInside)
+{
+  std::mt19937 random(5);
+  Drawing drawing = DrawRandom(random, 300, 0, 21);
+  for (const auto& corner : Square(0, 0, 20))
+  {
+    drawing.Points.push_back(corner);
+  }
+  for (const Places& ring : GetParam().Rings)
+  {
+    drawing.Rings.resize(drawing.Segments.size(), -1);
+    drawing.AddRing(ring);
+  }
+  PointOptions options;
+  options.Outline = GetParam().Outline;
+  const Triangulation result = Triangulate(drawing, options);
+  ExpectConstrainedDelaunay(drawing.Points, result);
+  EXPECT_EQ(2.0 * GetParam().Area, SumArea(drawing.Points, result.Triangles));
+  const FlipReport& report = result.Report;
+  EXPECT_EQ(
+    std::count(result.Neighbors.begin(), result.Neighbors.end(), -1), report.Edges.Boundary);
+  EXPECT_EQ(static_cast<std::int64_t>(ListEdges(result.Triangles).size()), report.Edges.Edges);
+  EXPECT_EQ(static_cast<std::int64_t>(result.Triangles.size()) / 3, report.Triangles);
+}
+
+INSTANTIATE_TEST_SUITE_P(Outlines, OutlineTest,
+  testing::Values(OutlineCase{ "Square", OutlineKind::EvenOdd, { Square(2, 2, 10) }, 100 },
+    OutlineCase{ "Hole", OutlineKind::EvenOdd, { Square(2, 2, 10), Square(4, 4, 3) }, 91 },
+    OutlineCase{
+      "Island", OutlineKind::EvenOdd, { Square(2, 2, 12), Square(4, 4, 8), Square(5, 5, 2) }, 84 },
+    OutlineCase{ "SharedSide", OutlineKind::EvenOdd, { Square(2, 2, 4), Square(6, 2, 4) }, 32 },
+    OutlineCase{ "Orientation", OutlineKind::Orientation,
+      { Square(2, 2, 10), Square(4, 4, 3, true), Square(5, 5, 1) }, 92 },
+    OutlineCase{ "Nested", OutlineKind::Orientation, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
+    OutlineCase{ "OnlyHoles", OutlineKind::Orientation,
+      { Square(2, 2, 3, true), Square(8, 8, 4, true) }, 375 }),
+  [](const auto& info) { return std::string(info.param.Name); });
+
+TEST(Outline, ReportsBrokenRings)
+{
+  Drawing drawing;
+  drawing.AddRing(Square(0, 0, 4));
+  drawing.Segments.back()[1] = 1;
+  try
+  {
+    Triangulate(drawing);
+    ADD_FAILURE() << "an open ring";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_STREQ("ring 0 is not closed at point 0: close it, or make its segments part of no ring",
+      error.what());
+  }
+  drawing = Drawing();
+  drawing.AddRing(Square(0, 0, 4));
+  drawing.AddRing(Square(2, 2, 4));
+  try
+  {
+    Triangulate(drawing);
+    ADD_FAILURE() << "rings that cross";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_STREQ("the segment of ring 1 from point 4 to point 5 cannot be inserted: it crosses an "
+                 "earlier segment, or a coordinate is not finite",
+      error.what());
+  }
+}
+
+TEST(Outline, SeedsRemoveHoles)
+{
+  Drawing drawing;
+  drawing.Points = Square(0, 0, 20);
+  for (const auto& square : { Square(2, 2, 4), Square(10, 10, 5) })
+  {
+    drawing.AddRing(square);
+  }
+  drawing.Rings.clear(); // all are breaklines
+  drawing.Seeds = { 3, 3, 11, 11, 30, 30 };
+  const Triangulation result = Triangulate(drawing);
+  EXPECT_EQ(2.0 * (400 - 16 - 25), SumArea(drawing.Points, result.Triangles));
+  EXPECT_EQ("1 hole seeds outside of all triangles", DescribeDefects(result.Report.Defects));
+}
+
+TEST(Outline, AlphaAndLongestEdgeKeepSegments)
+{
+  std::mt19937 random(6);
+  Drawing drawing = DrawRandom(random, 400, 0, 1 << 10);
+  drawing.Segments = { { 0, 1 }, { 2, 3 } };
+  for (const bool byAlpha : { true, false })
+  {
+    const Triangulation all = Triangulate(drawing);
+    PointOptions options;
+    (byAlpha ? options.Alpha : options.LongestEdge) = 60.0;
+    const Triangulation kept = Triangulate(drawing, options);
+    const auto list = [&](const Triangulation& from, bool onlySmall)
+    {
+      std::set<VertexPair> segments;
+      for (const auto& edge : from.Edges)
+      {
+        segments.insert(Sorted(edge[0], edge[1]));
+      }
+      std::set<std::array<std::int32_t, 3>> triangles;
+      for (std::size_t t = 0; t < from.Triangles.size(); t += 3)
+      {
+        double product = 1.0, longest = 0.0;
+        bool stays = false;
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          const std::int32_t a = from.Triangles[t + slot], b = from.Triangles[t + (slot + 1) % 3];
+          const double length = std::hypot(drawing.Points[a][0] - drawing.Points[b][0],
+            drawing.Points[a][1] - drawing.Points[b][1]);
+          product *= length;
+          longest = std::max(longest, length);
+          stays = stays || segments.count(Sorted(a, b)) > 0;
+        }
+        const std::vector<std::int32_t> ids(&from.Triangles[t], &from.Triangles[t] + 3);
+        const double radius = product / (2.0 * SumArea(drawing.Points, ids));
+        if (!onlySmall || stays || (byAlpha ? radius : longest) <= 60.0)
+        {
+          triangles.insert({ ids[0], ids[1], ids[2] });
+        }
+      }
+      return triangles;
+    };
+    EXPECT_EQ(list(all, true), list(kept, false));
+    EXPECT_EQ(static_cast<std::int64_t>(all.Triangles.size() - kept.Triangles.size()) / 3,
+      kept.Report.FromPoints.LargeTriangles);
+    EXPECT_LT(0, kept.Report.FromPoints.LargeTriangles);
+    EXPECT_EQ(all.Edges, kept.Edges);
+  }
+}
+
+/// Each point that is not used has one that is used, with a lower id, nearer than the tolerance;
+/// and no two points that are used are so near.
+TEST(PointTolerance, MergesNearPoints)
+{
+  std::mt19937 random(7);
+  const Drawing drawing = DrawRandom(random, 500, 0, 100);
+  PointOptions options;
+  options.PointTolerance = 5.0;
+  const Triangulation result = Triangulate(drawing, options);
+  const auto distance = [&](std::size_t a, std::size_t b)
+  {
+    return std::hypot(
+      drawing.Points[a][0] - drawing.Points[b][0], drawing.Points[a][1] - drawing.Points[b][1]);
+  };
+  std::int64_t near = 0;
+  for (std::size_t i = 0; i < drawing.Points.size(); ++i)
+  {
+    const auto used = static_cast<std::size_t>(result.UsedPoints[i]);
+    ASSERT_LE(used, i);
+    ASSERT_EQ(static_cast<std::int64_t>(used), result.UsedPoints[used]);
+    near += used != i ? 1 : 0;
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      const bool isNear =
+        result.UsedPoints[k] == static_cast<std::int64_t>(k) && distance(i, k) < 5.0;
+      ASSERT_FALSE(isNear && (used == i || k < used)) << i << ' ' << k;
+    }
+    ASSERT_GT(used == i ? 1.0 : 5.0, distance(i, used));
+  }
+  EXPECT_EQ(near, result.Report.FromPoints.TooNear);
+  EXPECT_EQ(0, result.Report.FromPoints.NotFinite);
+  for (const std::int32_t id : result.Triangles)
+  {
+    ASSERT_EQ(id, result.UsedPoints[id]);
+  }
+}
+
+/// An observer that stops the insertion leaves a mesh; the next call goes on.
+TEST(Segments, CanBeStopped)
+{
+  std::mt19937 random(8);
+  Drawing drawing = DrawRandom(random, 4000, 3000, 1 << 20);
+  const Triangulation expected = Triangulate(drawing);
+  int calls = 0;
+  FlipSession session(drawing.View(), PointOptions{ OnTestBackend({}) });
+  const auto stop = [&](double) { return ++calls % 7 != 0; };
+  int stops = 0;
+  while (session.Advance(-1, {}, stop) || session.GetReport().StopReason == StopReasonKind::Aborted)
+  {
+    ++stops;
+    ASSERT_GT(1000, stops);
+    EXPECT_TRUE(2 * 4000 >= session.GetReport().Triangles);
+    session.ListSegmentEdges();
+  }
+  EXPECT_LT(0, stops);
+  EXPECT_EQ(expected.Triangles, StoreTriangles(session));
+  EXPECT_EQ(expected.Report.FromPoints.SegmentEdges, session.GetReport().FromPoints.SegmentEdges);
+}
+
+}
+}

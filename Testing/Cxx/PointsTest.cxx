@@ -1,0 +1,512 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// vtkDelaunayFlipPoints: from points and segments to a mesh.
+
+#include "DelaunayFlip.h"
+#include "FilterTestSupport.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDelaunayFlipPoints.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPointData.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkStringArray.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTable.h"
+#include "vtkTransform.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace
+{
+
+using PointsFilter = Watched<vtkDelaunayFlipPoints>;
+using TriangleSet = std::set<std::set<vtkIdType>>;
+
+constexpr double Inf = std::numeric_limits<double>::infinity();
+
+/// Random points in a square of this size, with some height.
+Points MakeCloud(int count, double size = 10.0)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> draw(0.0, size);
+  Points points(count);
+  for (auto& point : points)
+  {
+    point = { draw(random), draw(random), 0.1 * draw(random) };
+  }
+  return points;
+}
+
+Mesh ToMesh(const Points& points) { return MakeMesh(points, {}); }
+
+/// A square of 4 x 4 units, whose points 0 to 3 are its corners, counter-clockwise.
+const Points Square = { { 0, 0, 1 }, { 4, 0, 2 }, { 4, 4, 3 }, { 0, 4, 4 } };
+
+TriangleSet GetTriangles(vtkPolyData* mesh)
+{
+  TriangleSet triangles;
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    EXPECT_EQ(cell.size(), 3u);
+    triangles.emplace(cell.begin(), cell.end());
+  }
+  return triangles;
+}
+
+/// What the engine makes of x and y, in its order.
+template <typename Real>
+Cells Triangulate(const std::vector<Real>& xyz)
+{
+  delaunayflip::PointInput input;
+  input.Points = delaunayflip::PlaneArray(xyz.data(), static_cast<std::int64_t>(xyz.size() / 3), 3);
+  delaunayflip::FlipSession session(input, delaunayflip::PointOptions());
+  session.Advance();
+  const std::int64_t count = session.GetReport().Triangles;
+  std::vector<std::int64_t> ids(3 * count);
+  session.StoreTriangles(delaunayflip::MutableTriangleArray(ids.data(), count));
+  Cells cells;
+  for (std::size_t i = 0; i < ids.size(); i += 3)
+  {
+    cells.push_back({ ids[i], ids[i + 1], ids[i + 2] });
+  }
+  return cells;
+}
+
+template <typename Real>
+std::vector<Real> ListCoordinates(vtkPolyData* mesh)
+{
+  std::vector<Real> xyz;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    for (const double value : { mesh->GetPoint(i)[0], mesh->GetPoint(i)[1], mesh->GetPoint(i)[2] })
+    {
+      xyz.push_back(static_cast<Real>(value));
+    }
+  }
+  return xyz;
+}
+
+template <typename ArrayT>
+void ExpectSameAsEngine()
+{
+  auto cloud = ToMesh(MakeCloud(500));
+  ReplacePoints<ArrayT>(cloud);
+  PointsFilter filter(cloud);
+  const auto output = RunCleanly(filter);
+  using Real = typename ArrayT::ValueType;
+  EXPECT_EQ(filter.GetPolygons(), Triangulate(ListCoordinates<Real>(cloud)));
+  EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
+}
+
+}
+
+TEST(FromPoints, TrianglesAreTheEngines)
+{
+  ExpectSameAsEngine<vtkFloatArray>();
+  ExpectSameAsEngine<vtkDoubleArray>();
+  ExpectSameAsEngine<vtkSOADataArrayTemplate<float>>();
+}
+
+TEST(FromPoints, WhatPassesAndWhatIsReported)
+{
+  auto cloud = ToMesh(MakeCloud(300));
+  AddNumbers(cloud->GetPointData(), "n", 300, 5);
+  cloud->SetVerts(MakeCells({ { 0 }, { 1 } }));
+  cloud->SetPolys(MakeCells({ { 0, 1, 2 } }));
+  AddNumbers(cloud->GetCellData(), "dropped", 3, 0);
+  cloud->GetFieldData()->AddArray(MakeArray<vtkIntArray>("kept", 1));
+  PointsFilter filter(cloud);
+  const auto output = RunCleanly(filter);
+  EXPECT_EQ(output->GetPointData()->GetArray("n"), cloud->GetPointData()->GetArray("n"));
+  EXPECT_EQ(output->GetCellData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(output->GetNumberOfVerts(), 0);
+  EXPECT_TRUE(output->GetFieldData()->HasArray("kept"));
+  EXPECT_EQ(GetText(output, "StopReason"), "converged");
+  EXPECT_EQ(GetTotal(output, "TotalFlips"), filter->GetTotalFlips());
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  EXPECT_EQ(GetTotal(output, "RepeatedPoints"), 0.0);
+  EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), filter->GetNumberOfIterations());
+  EXPECT_EQ(filter.GetRow("Flipped", 0), GetTotal(output, "Flipped"));
+}
+
+TEST(FromPoints, OtherPointSets)
+{
+  const auto cloud = ToMesh(MakeCloud(50));
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(cloud->GetPoints());
+  vtkNew<vtkStructuredGrid> lattice;
+  lattice->SetDimensions(10, 5, 1);
+  lattice->SetPoints(cloud->GetPoints());
+  PointsFilter expected(cloud);
+  RunCleanly(expected);
+  for (vtkPointSet* set : { static_cast<vtkPointSet*>(grid), static_cast<vtkPointSet*>(lattice) })
+  {
+    PointsFilter filter(set);
+    RunCleanly(filter);
+    EXPECT_EQ(filter.GetPolygons(), expected.GetPolygons());
+  }
+}
+
+TEST(FromPoints, DegenerateInput)
+{
+  struct Case
+  {
+    Points Given;
+    std::size_t Triangles;
+    const char* Warning;
+  };
+  const std::vector<Case> cases = {
+    { { { 0, 0, 0 }, { 1, 0, 0 } }, 0, "fewer than three places" },
+    { { { 0, 0, 0 }, { 1, 1, 9 }, { 2, 2, 0 }, { 3, 3, 0 } }, 0, "4 points that make no triangle" },
+    { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 7 } }, 1,
+      "1 point at the place of another one" },
+    { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { Inf, 0, 0 } }, 1, "NaN or infinite" },
+  };
+  for (const Case& each : cases)
+  {
+    PointsFilter filter(ToMesh(each.Given));
+    ExpectHolds(RunToWarning(filter), each.Warning);
+    EXPECT_EQ(filter.GetPolygons().size(), each.Triangles);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), static_cast<vtkIdType>(each.Given.size()));
+  }
+  PointsFilter heights(ToMesh({ { 0, 0, NAN }, { 1, 0, Inf }, { 0, 1, 0 } }));
+  RunCleanly(heights);
+  EXPECT_EQ(heights.GetPolygons().size(), 1u);
+  vtkNew<vtkPolyData> nothing;
+  PointsFilter empty(nothing);
+  EXPECT_EQ(RunCleanly(empty)->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(empty->GetConverged());
+}
+
+TEST(FromPoints, Projections)
+{
+  const Points flat = MakeCloud(200);
+  Points upright = flat;
+  for (auto& point : upright)
+  {
+    point = { 5.0, point[0] - 0.001 * point[2], point[1] };
+  }
+  // In x and y alone all of these are on one line, or nearly.
+  PointsFilter plane(ToMesh(upright));
+  plane->SetProjectionToBestFittingPlane();
+  const auto output = RunCleanly(plane);
+  EXPECT_EQ(output->GetPoints()->GetPoint(3)[0], 5.0);
+  EXPECT_GT(plane.GetPolygons().size(), 350u);
+  vtkNew<vtkTransform> transform; // y, z and x become x, y and z
+  transform->SetMatrix(
+    std::array<double, 16>{ 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1 }.data());
+  PointsFilter moved(ToMesh(upright));
+  moved->SetTransform(transform);
+  const TriangleSet byTransform = GetTriangles(RunCleanly(moved));
+  EXPECT_EQ(byTransform, GetTriangles(output));
+  const vtkMTimeType before = moved->GetMTime();
+  transform->RotateZ(30.0);
+  EXPECT_GT(moved->GetMTime(), before);
+  // One point that is not finite must not spoil the plane.
+  upright.push_back({ Inf, 0, 0 });
+  PointsFilter other(ToMesh(upright));
+  other->SetProjectionToBestFittingPlane();
+  RunToWarning(other);
+  EXPECT_EQ(GetTriangles(other->GetOutput()), byTransform);
+}
+
+//------------------------------------------------------------------------------
+TEST(FromPoints, PointsOfSegmentsAreAdded)
+{
+  auto cloud = ToMesh(Square);
+  AddNumbers(cloud->GetPointData(), "both", 4, 1);
+  AddNumbers(cloud->GetPointData(), "mine", 4, 11);
+  AddNumbers(cloud->GetPointData(), "kind", 4, 21);
+  cloud->GetPointData()->SetActiveScalars("mine");
+  auto ids = MakeArray<vtkIntArray>("ids", 4);
+  ids->FillValue(3);
+  cloud->GetPointData()->SetGlobalIds(ids);
+  // Points 0 and 2 are new and the same one; point 1 is a corner.
+  auto lines = MakeLines({ { 1, 2, 9 }, { 4, 4, 3 }, { 1, 2, 9 } }, { { 0, 1 }, { 2, 1 } });
+  AddNumbers(lines->GetPointData(), "both", 3, 100);
+  AddNumbers(lines->GetPointData(), "theirs", 3, 200);
+  lines->GetPointData()->AddArray(MakeArray<vtkDoubleArray>("kind", 3));
+  auto names = vtkSmartPointer<vtkStringArray>::New();
+  names->SetName("names");
+  names->InsertNextValue("new");
+  names->InsertNextValue("corner");
+  names->InsertNextValue("again");
+  lines->GetPointData()->AddArray(names);
+  PointsFilter filter(cloud);
+  filter->SetSegmentsData(lines);
+  const auto output = RunCleanly(filter);
+  ASSERT_EQ(output->GetNumberOfPoints(), 5);
+  EXPECT_EQ(output->GetPoint(4)[2], 9.0);
+  EXPECT_TRUE(HasEdge(output, 4, 2));
+  vtkPointData* data = output->GetPointData();
+  EXPECT_EQ(GetNumbers(data, "both"), (std::vector<int>{ 1, 2, 3, 4, 100 }));
+  EXPECT_EQ(GetNumbers(data, "mine"), (std::vector<int>{ 11, 12, 13, 14, 0 }));
+  EXPECT_EQ(GetNumbers(data, "kind"), (std::vector<int>{ 21, 22, 23, 24, 0 }));
+  EXPECT_EQ(GetNumbers(data, "theirs"), (std::vector<int>{ 0, 0, 0, 0, 200 }));
+  EXPECT_EQ(data->GetAbstractArray("names")->GetVariantValue(4).ToString(), "new");
+  EXPECT_EQ(data->GetScalars(), data->GetArray("mine"));
+  EXPECT_EQ(data->GetGlobalIds(), nullptr);
+  EXPECT_NE(data->GetPedigreeIds(), nullptr);
+  EXPECT_EQ(filter->GetNumberOfSegmentEdges(), 2); // the same edge
+  EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
+}
+
+TEST(FromPoints, IdsOfSegments)
+{
+  // With the shorter diagonal these would be Delaunay.
+  const Points points = { { 0, 0, 0 }, { 4, -1, 0 }, { 8, 0, 0 }, { 4, 1, 0 } };
+  auto lines = MakeLines(points, { { 0, 2 } });
+  vtkNew<vtkPolyData> idsOnly;
+  idsOnly->SetLines(lines->GetLines());
+  auto floats = MakeLines(points, { { 0, 2 } });
+  ReplacePoints<vtkFloatArray>(floats);
+  for (vtkPolyData* segments : { lines.Get(), idsOnly.Get(), floats.Get() })
+  {
+    PointsFilter filter(ToMesh(points));
+    filter->SetSegmentsData(segments);
+    const auto output = RunCleanly(filter);
+    EXPECT_TRUE(HasEdge(output, 0, 2));
+    EXPECT_EQ(output->GetNumberOfPoints(), 4);
+  }
+  for (const bool asSegments : { false, true })
+  {
+    PointsFilter filter(lines);
+    filter->SetLinesAsSegments(asSegments);
+    const auto output = RunCleanly(filter);
+    EXPECT_EQ(HasEdge(output, 0, 2), asSegments);
+    EXPECT_EQ(output->GetNumberOfLines(), 0);
+  }
+  PointsFilter wrong(ToMesh(points));
+  wrong->SetSegmentsData(MakeLines(points, { { 0, 1 }, { 0, 9 } }));
+  ExpectHolds(RunToError(wrong), "segment cell 1 names point 9, but there are 4 points");
+}
+
+TEST(FromPoints, Crossings)
+{
+  auto cloud = ToMesh(Square);
+  auto heights = MakeArray<vtkDoubleArray>("height", 4);
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    heights->SetValue(i, 10.0 * static_cast<double>(i));
+  }
+  cloud->GetPointData()->SetScalars(heights);
+  for (const bool splits : { false, true })
+  {
+    PointsFilter filter(cloud);
+    filter->SetSegmentsData(MakeLines(Square, { { 0, 2 }, { 1, 3 } }));
+    filter->SetSplitCrossings(splits);
+    if (!splits)
+    {
+      ExpectHolds(RunToWarning(filter), "cross");
+      EXPECT_EQ(filter->GetNumberOfRefusedSegments(), 1);
+      EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
+      continue;
+    }
+    const auto output = RunCleanly(filter);
+    ASSERT_EQ(output->GetNumberOfPoints(), 5);
+    EXPECT_EQ(output->GetPoint(4)[0], 2.0);
+    EXPECT_EQ(output->GetPoint(4)[1], 2.0);
+    EXPECT_EQ(output->GetPoint(4)[2], 2.0); // between 1 and 3, of the earlier segment
+    EXPECT_EQ(output->GetPointData()->GetScalars()->GetTuple1(4), 10.0);
+    EXPECT_EQ(GetTotal(output, "CrossingPoints"), 1.0);
+    EXPECT_EQ(filter.GetPolygons().size(), 4u);
+    EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
+  }
+}
+
+TEST(FromPoints, OutlinesAndHoles)
+{
+  Points points = MakeCloud(400);
+  const Points outline = { { 1, 1, 0 }, { 9, 1, 0 }, { 9, 9, 0 }, { 1, 9, 0 } };
+  const Points hole = { { 4, 4, 0 }, { 6, 4, 0 }, { 6, 6, 0 }, { 4, 6, 0 } };
+  Points both = outline;
+  both.insert(both.end(), hole.begin(), hole.end());
+  const auto measure = [](vtkPolyData* mesh)
+  {
+    double area = 0.0;
+    for (const Cell& cell : GetCells(mesh->GetPolys()))
+    {
+      double a[3], b[3], c[3];
+      mesh->GetPoint(cell[0], a);
+      mesh->GetPoint(cell[1], b);
+      mesh->GetPoint(cell[2], c);
+      area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]));
+    }
+    return area;
+  };
+  struct Case
+  {
+    Cells Rings;
+    bool ByOrientation;
+    double Area;
+  };
+  const std::vector<Case> cases = {
+    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, false, 60.0 },
+    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, true, 64.0 },
+    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, true, 60.0 },
+  };
+  for (const Case& each : cases)
+  {
+    PointsFilter filter(ToMesh(points));
+    filter->SetSegmentsData(MakeMesh(both, each.Rings));
+    filter->SetOutline(each.ByOrientation);
+    const auto output = RunCleanly(filter);
+    EXPECT_NEAR(measure(output), each.Area, 1e-9);
+    EXPECT_GT(GetTotal(output, "OutsideTriangles"), 0.0);
+  }
+  PointsFilter crossed(ToMesh(points));
+  crossed->SetSegmentsData(MakeMesh(Square, { { 0, 1, 3, 2 } }));
+  ExpectHolds(RunToError(crossed), "ring 0");
+}
+
+TEST(FromPoints, LargeTrianglesAndNearPoints)
+{
+  Points points = MakeCloud(200, 1.0);
+  points.push_back({ 50, 50, 0 });
+  points.push_back({ points[0][0] + 1e-9, points[0][1], 0 });
+  for (const bool byAlpha : { false, true })
+  {
+    PointsFilter filter(ToMesh(points));
+    byAlpha ? filter->SetAlpha(5.0) : filter->SetLongestEdge(5.0);
+    filter->SetPointTolerance(1e-6);
+    RunToWarning(filter);
+    EXPECT_EQ(GetTotal(filter->GetOutput(), "PointsTooNear"), 1.0);
+    EXPECT_GT(GetTotal(filter->GetOutput(), "LargeTriangles"), 0.0);
+    for (const Cell& cell : filter.GetPolygons())
+    {
+      EXPECT_FALSE(std::count(cell.begin(), cell.end(), 200));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(FromPoints, CompositeInput)
+{
+  const auto first = ToMesh(MakeCloud(100)), second = ToMesh(MakeCloud(60, 3.0));
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  vtkNew<vtkMultiBlockDataSet> blocks, segments;
+  blocks->SetBlock(0, first);
+  blocks->SetBlock(1, image);
+  blocks->SetBlock(2, second);
+  vtkNew<vtkPolyData> none;
+  segments->SetBlock(0, none);
+  segments->SetBlock(1, none);
+  segments->SetBlock(2, MakeLines({ { 1, 1, 5 }, { 2, 2, 5 } }, { { 0, 1 } }));
+  PointsFilter filter(blocks);
+  filter->SetInputDataObject(1, segments);
+  ExpectHolds(RunToWarning(filter), "block 2: has no points of its own, passed unchanged");
+  EXPECT_EQ(filter.GetBlock(0)->GetPoints(), first->GetPoints());
+  EXPECT_EQ(filter.GetBlock(2)->GetNumberOfPoints(), 62);
+  PointsFilter alone(first);
+  RunCleanly(alone);
+  EXPECT_EQ(GetCells(filter.GetBlock(0)->GetPolys()), alone.GetPolygons());
+  EXPECT_EQ(filter->GetTotalFlips(),
+    GetTotal(filter.GetBlock(0), "TotalFlips") + GetTotal(filter.GetBlock(2), "TotalFlips"));
+}
+
+TEST(FromPoints, PointsInPiecesAreAnError)
+{
+  vtkNew<vtkPartitionedDataSet> parts;
+  parts->SetPartition(0, ToMesh(MakeCloud(10)));
+  PointsFilter one(parts);
+  one->Update();
+  EXPECT_EQ(one.GetErrors().size(), 0u);
+  parts->SetPartition(1, ToMesh(MakeCloud(20)));
+  PointsFilter several(parts);
+  several->Update();
+  ASSERT_EQ(several.GetErrors().size(), 1u);
+  ExpectHolds(several.GetErrors()[0], "gather them in one dataset first");
+  EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+  PointsFilter piece(ToMesh(MakeCloud(10)));
+  piece->UpdatePiece(1, 2, 0);
+  ASSERT_EQ(piece.GetErrors().size(), 1u);
+  ExpectHolds(piece.GetErrors()[0], "gather them in one dataset first");
+}
+
+TEST(FromPoints, Abort)
+{
+  const auto cloud = ToMesh(MakeCloud(20000));
+  for (const double limit : { 0.0, 0.9 })
+  {
+    PointsFilter filter(cloud);
+    auto abort = [&]()
+    {
+      if (filter->GetProgress() >= limit)
+      {
+        filter->AbortExecuteOn();
+      }
+    };
+    OnProgress(filter.Get(), abort);
+    const auto output = RunCleanly(filter);
+    EXPECT_STREQ(filter->GetStopReasonAsString(), "aborted");
+    EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
+    EXPECT_EQ(output->GetNumberOfPolys() > 0, limit > 0.0);
+    filter->RemoveAllObservers();
+    filter->Modified();
+    filter->Update();
+    EXPECT_TRUE(filter->GetConverged());
+  }
+}
+
+TEST(FromPoints, LiveUpdate)
+{
+  auto cloud = ToMesh(MakeCloud(2000));
+  PointsFilter atOnce(cloud), live(cloud);
+  RunCleanly(atOnce);
+  live->LiveUpdateOn();
+  live->Update();
+  const Cells strips = live.GetPolygons();
+  EXPECT_EQ(strips.size(), atOnce.GetPolygons().size());
+  EXPECT_NE(strips, atOnce.GetPolygons());
+  EXPECT_EQ(live->GetNumberOfIterations(), 1);
+  EXPECT_GT(RunToTheEnd(live), 2);
+  EXPECT_EQ(live.GetPolygons(), atOnce.GetPolygons());
+  live->Update();
+  EXPECT_FALSE(live->GetNeedsUpdate());
+  MovePoints(cloud, [](double* x) { x[0] *= 1.5; });
+  live->Update();
+  EXPECT_EQ(live->GetNumberOfIterations(), 1);
+}
+
+TEST(FromPoints, AnyOrderGivesTheSame)
+{
+  Points points = MakeCloud(500);
+  for (auto& point : points)
+  {
+    point = { std::floor(point[0]), std::floor(point[1]), 0.0 };
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  PointsFilter forward(ToMesh(points));
+  const TriangleSet expected = GetTriangles(RunCleanly(forward));
+  std::reverse(points.begin(), points.end());
+  PointsFilter backward(ToMesh(points));
+  TriangleSet found;
+  const auto last = static_cast<vtkIdType>(points.size()) - 1;
+  for (const auto& triangle : GetTriangles(RunCleanly(backward)))
+  {
+    std::set<vtkIdType> ids;
+    for (const vtkIdType id : triangle)
+    {
+      ids.insert(last - id);
+    }
+    found.insert(ids);
+  }
+  EXPECT_EQ(found, expected);
+}

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delaunay From Points in pipelines: of tables and blocks, with segments, in steps; its proxy; and
+the example."""
+
+import glob
+import os
+import random
+import subprocess
+
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from PluginTesting import (
+    Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, refresh)
+from test_proxy import describe_class, list_properties
+
+EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
+                       "ParaView", "terrain_from_points.py")
+KITE = ((0, 0, 1), (4, -1, 2), (8, 0, 3), (4, 1, 4))  # without segments, 1 and 3 are joined
+
+
+def make_data(points, lines=(), polygons=()):
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    for point in points:
+        data.GetPoints().InsertNextPoint(point)
+    data.SetLines(make_cells(lines))
+    data.SetPolys(make_cells(polygons))
+    return data
+
+
+def make_cloud(count=300):
+    generator = random.Random(2)
+    return make_data([(generator.random(), generator.random(), 0) for _ in range(count)])
+
+
+class Points(PluginTest):
+
+    def apply(self, source, **properties):
+        """Applies the filter. Returns it, and the messages."""
+        with Messages() as messages:
+            points = simple.DelaunayFromPoints(Input=source, **properties)
+            refresh(points)
+        return points, messages.text
+
+    def test_segments(self):
+        kite = self.read(make_data(KITE))
+        points, text = self.apply(kite)
+        self.assertEqual(text, "")
+        self.assertIn(frozenset((1, 3)), get_edges(fetch(points)))
+        points.Segments = self.read(make_data(KITE, [(0, 2)], [(0, 1, 2)]), "segments.vtp")
+        refresh(points)
+        self.assertEqual(len(get_triangles(fetch(points))), 1)
+        self.assertEqual((points.NumberOfSegmentEdges, points.StopReason), (4, "converged"))
+        arrays = points.GetDataInformation().DataInformation.GetFieldDataInformation()
+        self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:OutsideTriangles"))
+
+    def test_table(self):
+        with open(self.path("points.csv"), "w", encoding="utf-8") as file:
+            file.write("east,north,up\n" + "".join(f"{x},{y},{z}\n" for x, y, z in KITE))
+        table = simple.CSVReader(FileName=[self.path("points.csv")])
+        source = simple.TableToPoints(Input=table, XColumn="east", YColumn="north", ZColumn="up")
+        points, text = self.apply(source)
+        self.assertEqual(text, "")
+        self.assertEqual(len(get_triangles(fetch(points))), 2)
+        self.assertTrue(fetch(points, 1).IsA("vtkTable"))
+
+    def test_blocks(self):
+        group = simple.GroupDatasets(
+            Input=[self.read(make_cloud(n), f"{n}.vtp") for n in (50, 80)])
+        points, text = self.apply(group)
+        self.assertEqual(text, "")
+        alone = [self.apply(self.read(make_cloud(n), f"{n}.vtp"))[0] for n in (50, 80)]
+        self.assertEqual(points.TotalFlips, sum(one.TotalFlips for one in alone))
+
+    def test_messages(self):
+        line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
+        _, text = self.apply(self.read(line))
+        self.assertIn("points that make no triangle", text)
+        wrong = self.read(make_data(KITE, (), [(0, 1, 3, 2)]), "wrong.vtp")
+        points, text = self.apply(self.read(make_data(KITE)), Segments=wrong)
+        self.assertIn("ring 0", text)
+        self.assertTrue(points.StopReason.startswith("failed: "))
+
+    def test_live_update(self):
+        """The strips become the Delaunay mesh."""
+        source = self.read(make_cloud())
+        at_once, live = self.apply(source)[0], self.apply(source, LiveUpdate=1)[0]
+        self.assertEqual((live.NumberOfIterations, live.StopReason), (1, "running"))
+        steps = 1
+        while live.StopReason == "running" and steps < 100:
+            live.SMProxy.InvokeCommand("Advance")
+            refresh(live)
+            steps += 1
+        self.assertGreater(steps, 3)
+        self.assertEqual(live.NumberOfIterations, at_once.NumberOfIterations)
+        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
+
+    def test_proxy(self):
+        points, _ = self.apply(self.read(make_data(KITE)))
+        hints = points.SMProxy.GetHints()
+        self.assertIsNotNone(hints.FindNestedElementByName("LiveSource"))
+        self.assertEqual(hints.FindNestedElementByName("ShowInMenu").GetAttribute("category"),
+                         "Delaunay Flip")
+        for name in points.ListProperties():
+            text = points.SMProxy.GetProperty(name).GetDocumentation()
+            self.assertTrue(text and text.GetDescription().strip(), name)
+        defaults = describe_class("vtkDelaunayFlipPoints")
+        for name in list_properties("vtkDelaunayFlipPoints") - {"Transform"}:
+            value = points.SMProxy.GetProperty(name).GetElement(0)
+            self.assertEqual(type(value)(defaults[name]), value, name)
+
+
+class Example(PluginTest):
+
+    def test_picture(self):
+        environment = dict(
+            os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["DELAUNAYFLIP_PLUGIN"]))
+        told = subprocess.run(
+            [os.environ["DELAUNAYFLIP_PVPYTHON"], EXAMPLE, self.folder], env=environment,
+            timeout=120, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, encoding="utf-8", check=True).stdout
+        self.assertRegex(told, "^[0-9]+ triangles, 1[0-9]+ edges along segments\n$")
+        self.assertEqual(len(glob.glob(os.path.join(self.folder, "terrain.png"))), 1)
+
+
+if __name__ == "__main__":
+    main()
