@@ -172,8 +172,7 @@ FileMesh ReadPoints(const InputFile& file)
   if (!lines.Words.empty())
   {
     const std::vector<std::size_t> columns = ChooseColumns(lines, names, file.GetName(), result);
-    const std::string_view rest = lines.GetRest();
-    coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
+    coordinates->Allocate(3 * (std::count(lines.Rest.begin(), lines.Rest.end(), '\n') + 2));
     do
     {
       for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
