@@ -55,7 +55,8 @@ def _require_no_other():
 
 def _read_properties():
     """The XML of the C++ plugin's properties, without the parts that need its libraries."""
-    (proxy,) = ElementTree.parse(_FOLDER / "DelaunayFlip.xml").iter("SourceProxy")
+    proxies = ElementTree.parse(_FOLDER / "DelaunayFlip.xml")
+    proxy = proxies.find(".//SourceProxy[@name='DelaunayFlip']")
     for element in proxy.iter():
         if element.get("panel_widget", "").startswith("DelaunayFlip"):
             del element.attrib["panel_widget"]
