@@ -172,7 +172,8 @@ FileMesh ReadPoints(const InputFile& file)
   if (!lines.Words.empty())
   {
     const std::vector<std::size_t> columns = ChooseColumns(lines, names, file.GetName(), result);
-    coordinates->Allocate(3 * (std::count(lines.Rest.begin(), lines.Rest.end(), '\n') + 2));
+    const std::string_view rest = lines.Rest;
+    coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do
     {
       for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
