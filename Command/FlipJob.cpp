@@ -181,10 +181,6 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
         }
       };
       std::vector<vtkIdType> ids(points, points + size);
-      for (const vtkIdType id : ids)
-      {
-        require(id >= 0 && id < mesh->GetNumberOfPoints(), " has a point that is not in the file");
-      }
       if (kind != SegmentKind::Breaklines)
       {
         const char* const few = " has fewer than three points, so it is no ring";

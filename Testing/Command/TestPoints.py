@@ -292,7 +292,7 @@ class Segments(PointTest):
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),
             (make_mesh(PLACES, [], [(0, 1, 0)]), ["line 0", "fewer than three"]),
             (make_mesh([(3, y, x) for x, y, _ in PLACES], [(0, 1, 2)]), ["polygon 0", "no area"]),
-            (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["line 0", "not in the file"]),
+            (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["cell 0 names point 7"]),
             (make_mesh(PLACES, []), ["no lines or polygons"]),
         ):
             path = write_mesh(mesh, self.path("ring.vtk"))
