@@ -266,7 +266,7 @@ extern "C"
   {
     DELAUNAYFLIP_EVEN_ODD = 0, /**< Triangles inside an odd number of rings are kept. */
     DELAUNAYFLIP_ORIENTATION = 1 /**< Those inside more counter-clockwise rings than clockwise ones;
-                                    if there are none, those inside as many of both. */
+                                    if no ring is counter-clockwise, those in no ring. */
   } delaunayflip_outline;
 
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each

@@ -359,7 +359,9 @@ private:
       {
         throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
       }
-      all->AddInputData(MakeSegments(mesh, path, kind));
+      const vtkSmartPointer<vtkPolyData> segments = MakeSegments(mesh, path, kind);
+      this->OutlineRings += kind == SegmentKind::Outline ? segments->GetNumberOfPolys() : 0;
+      all->AddInputData(segments);
       mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
     }
     if (all->GetNumberOfInputConnections(0) > 0)
@@ -388,9 +390,26 @@ private:
     }
   }
 
+  /// Names the file of the ring that cannot be inserted, and the number that it has there.
+  [[noreturn]] void FailOnRing(const std::smatch& message) const
+  {
+    const vtkIdType ring = std::stoll(message[1].str()) - this->Segments->GetNumberOfLines();
+    const bool isHole = ring >= this->OutlineRings;
+    throw CommandError(ExitCode::BadFile,
+      (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
+        std::to_string(ring - (isHole ? this->OutlineRings : 0)) + " cannot be used" +
+        message[2].str() + "; --split-crossings adds points where it crosses others");
+  }
+
   void ThrowErrors()
   {
     const std::string errors = this->Messages.TakeErrors();
+    static const std::regex ring("ring (\\d+) from .* cannot be inserted(.*)");
+    std::smatch found;
+    if (std::regex_search(errors, found, ring))
+    {
+      this->FailOnRing(found);
+    }
     if (!errors.empty())
     {
       const int failure = this->Filter->GetFailure();
@@ -420,6 +439,7 @@ private:
   ProgressBar Bar;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
+  vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   RunReport Run;
 };

@@ -67,6 +67,9 @@ std::string InSingular(const std::string& what)
     { "constraint edges that cannot be inserted because they cross ",
       "constraint edge that cannot be inserted because it crosses " },
     { "constraint edges ", "constraint edge " },
+    { "segments that cross an earlier one or end ",
+      "segment that crosses an earlier one or ends " },
+    { "hole seeds ", "hole seed " },
   };
   for (const auto& [several, one] : beginnings)
   {

@@ -33,8 +33,8 @@ enum class OutlineKind
 {
   EvenOdd, ///< Triangles inside an odd number of rings are kept.
   /// Counter-clockwise rings enclose what is kept, clockwise ones cut holes, as for vtkDelaunay2D's
-  /// Source: triangles inside more counter-clockwise rings than clockwise ones are kept. If there
-  /// are none, those inside as many of both are kept.
+  /// Source: triangles inside more counter-clockwise rings than clockwise ones are kept. If no ring
+  /// is counter-clockwise, those in no ring are kept.
   Orientation
 };
 
@@ -102,7 +102,7 @@ struct PointCounts
 {
   std::int64_t NotFinite = 0; ///< Points with NaN or infinite coordinates.
   std::int64_t Repeated = 0; ///< Points at the place of one with a lower id.
-  std::int64_t TooNear = 0; ///< Points within the tolerance of one with a lower id.
+  std::int64_t TooNear = 0; ///< Points within the tolerance of one elsewhere with a lower id.
   std::int64_t SegmentEdges = 0; ///< Edges that segments have become.
   std::int64_t RefusedSegments = 0; ///< They cross earlier ones, or an end is not finite.
   std::int64_t Crossings = 0; ///< Points added where segments cross.

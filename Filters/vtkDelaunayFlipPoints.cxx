@@ -22,7 +22,6 @@
 #include "vtkTransform.h"
 
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -163,10 +162,8 @@ private:
   {
     vtkPolyData* given = this->Given;
     const vtkIdType count = given->GetNumberOfPoints();
-    std::vector<vtkIdType> ids(count);
-    std::iota(ids.begin(), ids.end(), 0);
     this->AddCells(
-      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, ids, false);
+      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, false);
     if (!others)
     {
       return;
@@ -175,19 +172,18 @@ private:
     std::vector<double> storage, otherStorage;
     const PointArray points = ViewPoints(given, storage);
     const PointArray otherPoints = ViewPoints(segments, otherStorage);
-    if (otherPoints.Count > 0 && !HaveSameBits(points, otherPoints))
-    {
-      ids = this->AddPoints(points, otherPoints, segments);
-    }
-    const auto size = static_cast<vtkIdType>(ids.size());
+    const bool areSame = otherPoints.Count == 0 || HaveSameBits(points, otherPoints);
+    const auto ids =
+      areSame ? std::vector<vtkIdType>() : this->AddPoints(points, otherPoints, segments);
+    const vtkIdType size = areSame ? count : otherPoints.Count;
     const vtkIdType verts = segments->GetNumberOfVerts();
     this->AddCells(segments->GetLines(), { "segment cell", verts, size }, ids, false);
     this->AddCells(segments->GetPolys(),
       { "segment cell", verts + segments->GetNumberOfLines(), size }, ids, true);
   }
 
-  /// @param ids those of the points that the cells name. @param areRings whether the cells are
-  /// polygons, whose rings have the numbers of the cells.
+  /// @param ids of the points that the cells name; empty: their own. @param areRings whether the
+  /// cells are polygons, whose rings have the numbers of the cells.
   void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
     bool areRings)
   {
@@ -197,8 +193,9 @@ private:
       const bool isRing = areRings && count > 2;
       for (vtkIdType i = 0; i < (isRing ? count : count - 1); ++i)
       {
-        const vtkIdType from = ids[corners->GetId(i)];
-        const vtkIdType to = ids[corners->GetId((i + 1) % count)];
+        const vtkIdType ends[2] = { corners->GetId(i), corners->GetId((i + 1) % count) };
+        const vtkIdType from = ids.empty() ? ends[0] : ids[ends[0]];
+        const vtkIdType to = ids.empty() ? ends[1] : ids[ends[1]];
         if (from != to)
         {
           this->Segments.insert(this->Segments.end(), { from, to });
@@ -242,50 +239,48 @@ private:
     }
     if (added->GetNumberOfIds() > 0)
     {
-      this->SetPoints(this->Cloud,
-        ExtendArray(this->Given->GetPoints()->GetData(), points.Count,
-          segments->GetPoints()->GetData(), added));
-      this->ExtendData(TakeWholeArrays<Data>(segments->GetPointData(), otherPoints.Count), added);
+      Extend(this->Given, added, segments, this->Cloud);
     }
     return ids;
   }
 
-  static void SetPoints(vtkPolyData* mesh, vtkAbstractArray* coordinates)
+  /// Gives `result` the points and point data of `mesh`, and of some points of `others`; zeros if
+  /// that is null.
+  static void Extend(vtkPolyData* mesh, vtkIdList* added, vtkPolyData* others, vtkPolyData* result)
   {
+    const vtkIdType count = mesh->GetNumberOfPoints();
     vtkNew<vtkPoints> points;
-    points->SetData(vtkArrayDownCast<vtkDataArray>(coordinates));
-    mesh->SetPoints(points);
-  }
-
-  /// The point data of the cloud: those of the input, then those of added points.
-  void ExtendData(Data* others, vtkIdList* added)
-  {
-    const vtkIdType count = this->Given->GetNumberOfPoints();
-    const auto own = TakeWholeArrays<Data>(this->Given->GetPointData(), count);
-    Data* result = this->Cloud->GetPointData();
-    result->Initialize();
+    points->SetData(vtkArrayDownCast<vtkDataArray>(ExtendArray(mesh->GetPoints()->GetData(), count,
+      others ? others->GetPoints()->GetData() : nullptr, added)));
+    result->SetPoints(points);
+    vtkNew<vtkPointData> nothing;
+    const auto own = TakeWholeArrays<Data>(mesh->GetPointData(), count);
+    const auto more = TakeWholeArrays<Data>(
+      others ? others->GetPointData() : nothing, others ? others->GetNumberOfPoints() : 0);
     const auto find = [](Data* data, vtkAbstractArray* array)
     { return array->GetName() ? data->GetAbstractArray(array->GetName()) : nullptr; };
+    Data* data = result->GetPointData();
+    data->Initialize();
     for (int i = 0; i < own->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* array = own->GetAbstractArray(i);
-      vtkAbstractArray* other = find(others, array);
+      vtkAbstractArray* other = find(more, array);
       const bool fits = other && IsSameKind(array, other);
-      const int index = result->AddArray(ExtendArray(array, count, fits ? other : nullptr, added));
+      const int index = data->AddArray(ExtendArray(array, count, fits ? other : nullptr, added));
       if (own->IsArrayAnAttribute(i) >= 0)
       {
-        result->SetActiveAttribute(index, own->IsArrayAnAttribute(i));
+        data->SetActiveAttribute(index, own->IsArrayAnAttribute(i));
       }
     }
-    for (int i = 0; i < others->GetNumberOfArrays(); ++i)
+    for (int i = 0; i < more->GetNumberOfArrays(); ++i)
     {
-      vtkAbstractArray* other = others->GetAbstractArray(i);
+      vtkAbstractArray* other = more->GetAbstractArray(i);
       if (!find(own, other))
       {
-        result->AddArray(ExtendArray(MakeZeros(other, count), count, other, added));
+        data->AddArray(ExtendArray(MakeZeros(other, count), count, other, added));
       }
     }
-    DemoteGlobalIds(result);
+    DemoteGlobalIds(data);
   }
 
   /// A view of the points, or of a projection of them.
@@ -299,7 +294,6 @@ private:
     }
     vtkPoints* points = this->Cloud->GetPoints();
     vtkSmartPointer<vtkAbstractTransform> transform = request.Transform;
-    this->IsProjected = true;
     vtkNew<vtkPolyData> projected;
     this->Projected->SetDataTypeToDouble();
     (transform ? transform.Get() : FitPlane(points).Get())
@@ -314,38 +308,27 @@ private:
     const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
     const vtkIdType count = this->Cloud->GetNumberOfPoints();
     const auto places = MakeRange(0, static_cast<vtkIdType>(crossings.size()));
-    const auto whole = TakeWholeArrays<Data>(this->Cloud->GetPointData(), count);
-    const auto extend = [&](vtkAbstractArray* array)
+    Extend(this->Cloud, places, nullptr, output);
+    const auto interpolate = [&](vtkAbstractArray* array)
     {
-      auto made = ExtendArray(array, count, nullptr, places);
       for (const vtkIdType i : *places)
       {
         const AddedPoint& point = crossings[i];
-        made->InterpolateTuple(count + i, point.From, made, point.To, made, point.Share);
+        array->InterpolateTuple(count + i, point.From, array, point.To, array, point.Share);
       }
-      return made;
     };
-    Data* result = output->GetPointData();
-    for (int i = 0; i < whole->GetNumberOfArrays(); ++i)
+    for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
     {
-      const int index = result->AddArray(extend(whole->GetAbstractArray(i)));
-      if (whole->IsArrayAnAttribute(i) >= 0)
-      {
-        result->SetActiveAttribute(index, whole->IsArrayAnAttribute(i));
-      }
+      interpolate(output->GetPointData()->GetAbstractArray(i));
     }
-    DemoteGlobalIds(result);
-    const auto coordinates = extend(this->Cloud->GetPoints()->GetData());
-    for (const vtkIdType i : *places)
+    vtkDataArray* xyz = output->GetPoints()->GetData();
+    interpolate(xyz);
+    const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
+    for (vtkIdType i = 0; !isProjected && i < places->GetNumberOfIds(); ++i)
     {
-      if (!this->IsProjected)
-      {
-        auto* xyz = vtkArrayDownCast<vtkDataArray>(coordinates);
-        xyz->SetComponent(count + i, 0, crossings[i].X);
-        xyz->SetComponent(count + i, 1, crossings[i].Y);
-      }
+      xyz->SetComponent(count + i, 0, crossings[i].X);
+      xyz->SetComponent(count + i, 1, crossings[i].Y);
     }
-    SetPoints(output, coordinates);
   }
 
   std::vector<vtkMTimeType> Times;
@@ -355,7 +338,6 @@ private:
   vtkSmartPointer<vtkPolyData> Cloud; ///< With the points of the segments.
   std::vector<double> Storage; ///< Points that cannot be viewed in place.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
-  bool IsProjected = false;
   std::vector<std::int64_t> Segments; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.
   PointInput Input; ///< Views of these.

@@ -21,14 +21,6 @@ struct CertainSigns
 };
 }
 
-ConstraintFlips::ConstraintFlips(
-  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table)
-  : Mesh(mesh),
-    Table(table),
-    Fans(mesh, vertices, triangles, table == nullptr)
-{
-}
-
 PathResult ConstraintFlips::Insert(VertexId from, VertexId to)
 {
   ConstraintPath path = FindPath(this->Mesh, this->Fans, from, to);

@@ -8,6 +8,7 @@
 #include "EdgeTable.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -21,10 +22,23 @@ namespace delaunayflip
 class ConstraintFlips
 {
 public:
-  /// @param table of the vertex pairs of all edges; null for a triangulation, in which no flip can
-  /// make an edge that exists.
+  /// @param table of the vertex pairs of all edges.
   ConstraintFlips(
-    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table);
+    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table)
+    : Mesh(mesh),
+      Table(table),
+      Fans(mesh, vertices, triangles)
+  {
+  }
+
+  /// For a triangulation, in which no flip can make an edge that exists.
+  /// @param first as VertexFans takes it.
+  ConstraintFlips(const PlaneMesh& mesh, std::vector<HalfEdgeId> first)
+    : Mesh(mesh),
+      Table(nullptr),
+      Fans(mesh, std::move(first))
+  {
+  }
 
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
   PathResult Insert(VertexId from, VertexId to);

@@ -9,26 +9,10 @@
 namespace delaunayflip
 {
 
-VertexFans::VertexFans(
-  const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, bool areWhole)
+VertexFans::VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles)
   : Mesh(mesh),
     First(vertices, NoHalfEdge)
 {
-  for (std::int64_t t = 0; areWhole && t < triangles; ++t)
-  {
-    const TriangleRecord& triangle = mesh.Edges.Triangles[t];
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const HalfEdgeId leaves = triangle.HalfEdges[PreviousSlot(slot)];
-      HalfEdgeId& first = this->First[triangle.Vertices[slot]];
-      const bool isOpen = mesh.Edges.CornerOfHalfEdge[leaves ^ 1u] == NoCorner;
-      first = first == NoHalfEdge || isOpen ? leaves : first;
-    }
-  }
-  if (areWhole)
-  {
-    return;
-  }
   std::vector<bool> isKnown(4 * triangles, false);
   const auto addFans = [&](bool open)
   {

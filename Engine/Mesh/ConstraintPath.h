@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -103,8 +104,14 @@ class VertexFans
 {
 public:
   /// @param mesh must outlive this.
-  /// @param areWhole whether every vertex is known to have one fan at most.
-  VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, bool areWhole);
+  VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles);
+
+  /// @param first where every vertex has one fan at most: a half-edge of each, as described.
+  VertexFans(const PlaneMesh& mesh, std::vector<HalfEdgeId> first)
+    : Mesh(mesh),
+      First(std::move(first))
+  {
+  }
 
   /// Calls visit(corner) for the corners of a vertex until it returns true.
   template <typename Visit>

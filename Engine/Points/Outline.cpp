@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace delaunayflip
@@ -63,8 +64,7 @@ public:
         reach(side ^ 1u, depths[triangle]);
       }
     }
-    const bool hasLeftRings =
-      std::any_of(depths.begin(), depths.end(), [](std::int32_t depth) { return depth > 0; });
+    const bool hasLeftRings = this->HasLeftRings();
     for (std::size_t t = 0; t < depths.size(); ++t)
     {
       const bool isInside = outline == OutlineKind::EvenOdd
@@ -166,6 +166,23 @@ public:
   }
 
 private:
+  /// Whether a ring turns counter-clockwise, by its area.
+  bool HasLeftRings() const
+  {
+    std::map<std::int32_t, double> areas;
+    const PlanePoint origin = this->Mesh.GetPoint(0);
+    for (const SegmentEdge& segment : this->Segments)
+    {
+      const PlanePoint start = this->Mesh.GetPoint(this->Mesh.GetStart(segment.Side));
+      const PlanePoint end = this->Mesh.GetPoint(this->Mesh.GetEnd(segment.Side));
+      const double area =
+        (start.U - origin.U) * (end.V - origin.V) - (start.V - origin.V) * (end.U - origin.U);
+      areas[segment.Ring] += segment.IsOnLeft ? area : -area;
+    }
+    return std::any_of(areas.begin(), areas.end(),
+      [](const auto& ring) { return ring.first >= 0 && ring.second > 0.0; });
+  }
+
   std::array<Vector3, 3> GetCorners(const TriangleRecord& triangle) const
   {
     std::array<Vector3, 3> corners;

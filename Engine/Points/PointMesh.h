@@ -144,9 +144,8 @@ struct PointMeshBuilder
     return triangles;
   }
 
-  HullTriangles FillHullOnHost(std::int64_t firstTriangle)
+  HullTriangles FillHullOnHost(const Boundary& boundary, std::int64_t firstTriangle)
   {
-    const Boundary boundary = ListBoundary(this->HostStarts, this->HostGaps);
     const auto size = static_cast<std::int64_t>(boundary.Places.size());
     Array<std::uint32_t> listed = this->Device.template MakeArray<std::uint32_t>(size);
     this->Device.Upload(boundary.Places.data(), size, listed.Data());
@@ -244,38 +243,8 @@ struct PointMeshBuilder
   }
 };
 
-/// Triangulates the places of points.
+/// Triangulates the places of points by divide and conquer, on the host. They get another order.
 /// @param strips at least three points, merged by MergePlaces.
-template <typename Real, typename Backend>
-PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
-{
-  PointMesh<Real> mesh;
-  mesh.Points = std::move(strips);
-  PointMeshBuilder<Real, Backend> builder{ mesh, backend, {}, {}, {}, {}, {}, {} };
-  builder.Failed = backend.template MakeArray<std::int32_t>(1);
-  std::int32_t failed = 0;
-  backend.Upload(&failed, 1, builder.Failed.Data());
-  const std::int64_t inMountains = builder.MeasureGaps();
-  const HullTriangles hull = builder.FillHullOnHost(inMountains);
-  mesh.HullEdges = hull.HullEdges;
-  builder.MakeArrays(hull, inMountains);
-  if (mesh.Points.Strips > 1)
-  {
-    builder.CutAllMountains();
-  }
-  builder.StoreHull(hull, inMountains);
-  backend.Download(builder.Failed.Data(), 1, &failed);
-  if (failed != 0)
-  {
-    throw BeyondDevice();
-  }
-  builder.JoinSides();
-  RequireComplete(mesh);
-  NumberJoinedEdges(mesh.Edges, backend);
-  return mesh;
-}
-
-/// The same by divide and conquer, on the host. The places get another order.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backend)
 {
@@ -310,6 +279,44 @@ PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backen
   backend.Upload(divided.Triangles.data(), edges.NumberOfTriangles, edges.Triangles.Data());
   RequireComplete(mesh);
   NumberJoinedEdges(edges, backend);
+  return mesh;
+}
+
+/// Triangulates the places of points by strips; or by divide and conquer if nearly all points are
+/// on the boundary of the strips, as where they lie along one curve. From there flips would be a
+/// long chain.
+/// @param strips as above.
+template <typename Real, typename Backend>
+PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
+{
+  PointMesh<Real> mesh;
+  mesh.Points = std::move(strips);
+  PointMeshBuilder<Real, Backend> builder{ mesh, backend, {}, {}, {}, {}, {}, {} };
+  builder.Failed = backend.template MakeArray<std::int32_t>(1);
+  std::int32_t failed = 0;
+  backend.Upload(&failed, 1, builder.Failed.Data());
+  const std::int64_t inMountains = builder.MeasureGaps();
+  const Boundary boundary = ListBoundary(builder.HostStarts, builder.HostGaps);
+  if (static_cast<std::int64_t>(boundary.Places.size()) >= mesh.Points.Count / 10 * 9)
+  {
+    return BuildDividedMesh(std::move(mesh.Points), backend);
+  }
+  const HullTriangles hull = builder.FillHullOnHost(boundary, inMountains);
+  mesh.HullEdges = hull.HullEdges;
+  builder.MakeArrays(hull, inMountains);
+  if (mesh.Points.Strips > 1)
+  {
+    builder.CutAllMountains();
+  }
+  builder.StoreHull(hull, inMountains);
+  backend.Download(builder.Failed.Data(), 1, &failed);
+  if (failed != 0)
+  {
+    throw BeyondDevice();
+  }
+  builder.JoinSides();
+  RequireComplete(mesh);
+  NumberJoinedEdges(mesh.Edges, backend);
   return mesh;
 }
 

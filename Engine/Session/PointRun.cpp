@@ -94,6 +94,8 @@ void PointRun::Prepare(const ProgressObserver& observer)
   }
   const PointInput& input = this->Caller;
   this->Counts = PointCounts();
+  this->FirstRepeated.clear();
+  this->FirstNear.clear();
   this->Segments.clear();
   if (this->Options.PointTolerance > 0.0)
   {
@@ -117,7 +119,7 @@ void PointRun::Prepare(const ProgressObserver& observer)
     this->Counts.Crossings = static_cast<std::int64_t>(this->Added.size());
     this->Counts.LargestShift = split.LargestShift;
   }
-  if (!this->Added.empty() || this->Counts.TooNear > 0)
+  if (!this->Added.empty() || this->Counts.TooNear + this->Counts.Repeated > 0)
   {
     input.Points.Floats ? this->CopyCoordinates(this->Floats)
                         : this->CopyCoordinates(this->Doubles);
@@ -204,7 +206,11 @@ void PointRun::FindNearPoints(const ProgressObserver& observer)
     }
     else
     {
-      ++this->Counts.TooNear;
+      const std::int64_t near = this->NearPoint[i];
+      const bool isThere = points.Get(near, 0) == x && points.Get(near, 1) == y;
+      ++(isThere ? this->Counts.Repeated : this->Counts.TooNear);
+      std::vector<std::int64_t>& first = isThere ? this->FirstRepeated : this->FirstNear;
+      first.resize(std::min<std::size_t>(first.size() + 1, 3), i);
     }
   }
 }
@@ -233,19 +239,23 @@ void PointRun::CopyCoordinates(std::vector<Real>& copy)
 
 //------------------------------------------------------------------------------
 /// By point the place at which it is, or NoVertex.
-std::vector<VertexId> PointRun::ListPlaces(const PointMeshView& view, const LoadedMesh& mesh) const
+std::vector<VertexId> PointRun::ListPlaces(
+  const PointMeshView& view, const LoadedMesh& mesh, const ThreadBackend& backend) const
 {
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
   mesh.StoreUsedPoints(used.data());
   std::vector<VertexId> placeOf(used.size(), NoVertex);
-  for (std::int64_t place = 0; place < view.NumberOfPlaces; ++place)
-  {
-    placeOf[view.Ids[place]] = static_cast<VertexId>(place);
-  }
-  for (std::size_t i = 0; i < used.size(); ++i) // the used one has the lowest id of its place
-  {
-    placeOf[i] = used[i] < 0 ? NoVertex : placeOf[used[i]];
-  }
+  backend.ForEach(view.NumberOfPlaces,
+    [&](std::int64_t place) { placeOf[view.Ids[place]] = static_cast<VertexId>(place); });
+  // Repeated points are not the used one, so what is read here is not written.
+  backend.ForEach(static_cast<std::int64_t>(used.size()),
+    [&](std::int64_t i)
+    {
+      if (used[i] != i)
+      {
+        placeOf[i] = used[i] < 0 ? NoVertex : placeOf[used[i]];
+      }
+    });
   return placeOf;
 }
 
@@ -277,9 +287,9 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
   bool isComplete = true;
   const auto insert = [&](const PointMeshView& view)
   {
-    const std::vector<VertexId> placeOf = this->ListPlaces(view, mesh);
-    this->RequireClosedRings(placeOf);
     const ThreadBackend backend(this->Options.NumberOfThreads);
+    const std::vector<VertexId> placeOf = this->ListPlaces(view, mesh, backend);
+    this->RequireClosedRings(placeOf);
     SegmentInsertion insertion(view, backend);
     while (this->Taken < this->Segments.size() && isComplete)
     {
@@ -358,8 +368,9 @@ void PointRun::Finish(LoadedMesh& mesh)
 void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
 {
   PointCounts& counts = report.FromPoints;
-  const std::int64_t notFinite = counts.NotFinite - this->Counts.TooNear;
-  const std::int64_t repeated = counts.Repeated;
+  const std::int64_t merged = this->Counts.TooNear + this->Counts.Repeated; // before
+  const std::int64_t notFinite = counts.NotFinite - merged;
+  const std::int64_t repeated = counts.Repeated + this->Counts.Repeated;
   counts = this->Counts;
   counts.NotFinite = notFinite;
   counts.Repeated = repeated;
@@ -400,7 +411,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
     }
     return first;
   };
-  const auto isNear = [&](std::int64_t i)
+  const auto isMerged = [&](std::int64_t i)
   { return !this->NearPoint.empty() && this->NearPoint[i] != i; };
   const auto add = [&](const char* what, std::int64_t count, const auto& list, DefectIds kind)
   {
@@ -411,15 +422,19 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   };
   add(
     "points with NaN or infinite coordinates", notFinite,
-    [&] { return listFirst([&](std::int64_t i) { return used[i] < 0 && !isNear(i); }); },
+    [&] { return listFirst([&](std::int64_t i) { return used[i] < 0 && !isMerged(i); }); },
     DefectIds::Points);
   add(
     "points at the place of another one", repeated,
-    [&] { return listFirst([&](std::int64_t i) { return used[i] >= 0 && used[i] != i; }); },
+    [&]
+    {
+      return merged > 0 ? this->FirstRepeated
+                        : listFirst([&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
+    },
     DefectIds::Points);
   add(
     "points nearer than the tolerance to one with a lower id", counts.TooNear,
-    [&] { return listFirst(isNear); }, DefectIds::Points);
+    [&] { return this->FirstNear; }, DefectIds::Points);
   add(
     "segments that cross an earlier one or end at a point that is not finite",
     counts.RefusedSegments, [&] { return ListFirstEnds(this->Caller, this->Refused); },

@@ -17,6 +17,7 @@ namespace delaunayflip
 {
 
 class SegmentInsertion;
+class ThreadBackend;
 
 /// What a session from points does beside flips: it prepares points and segments, inserts segments,
 /// and removes triangles in the end.
@@ -73,7 +74,8 @@ private:
   void RequireClosedRings(const std::vector<VertexId>& placeOf) const;
   void InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf, std::size_t end,
     SegmentInsertion& insertion);
-  std::vector<VertexId> ListPlaces(const PointMeshView& view, const LoadedMesh& mesh) const;
+  std::vector<VertexId> ListPlaces(
+    const PointMeshView& view, const LoadedMesh& mesh, const ThreadBackend& backend) const;
 
   PointInput Caller;
   PointOptions Options;
@@ -81,6 +83,7 @@ private:
   std::vector<float> Floats;
   std::vector<double> Doubles;
   std::vector<std::int64_t> NearPoint; ///< By point: itself, or the one that it is too near to.
+  std::vector<std::int64_t> FirstRepeated, FirstNear; ///< Three of those that are merged before.
   std::vector<AddedPoint> Added;
   std::vector<Segment> Segments;
   PointCounts Counts;

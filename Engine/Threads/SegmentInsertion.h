@@ -37,7 +37,7 @@ public:
   SegmentInsertion(const PointMeshView& mesh, const ThreadBackend& backend)
     : Mesh(mesh),
       Backend(backend),
-      Flips(mesh, mesh.NumberOfPlaces, mesh.NumberOfTriangles, nullptr),
+      Flips(mesh, FindFans(mesh, backend)),
       TriangleClaims(mesh.NumberOfTriangles, NoClaim),
       EdgeClaims(mesh.NumberOfEdges, NoClaim)
   {
@@ -65,6 +65,36 @@ public:
 
 private:
   static constexpr std::uint32_t NoClaim = 0xFFFFFFFFu;
+
+  /// Of each vertex the half-edge that begins its fan: the one at the boundary, or the first.
+  static std::vector<HalfEdgeId> FindFans(const PointMeshView& mesh, const ThreadBackend& backend)
+  {
+    std::vector<HalfEdgeId> first(mesh.NumberOfPlaces, NoHalfEdge);
+    const auto visit = [&](const auto& take)
+    {
+      backend.ForEach(mesh.NumberOfTriangles,
+        [&](std::int64_t t)
+        {
+          const TriangleRecord& triangle = mesh.Edges.Triangles[t];
+          for (int slot = 0; slot < 3; ++slot)
+          {
+            const HalfEdgeId leaves = triangle.HalfEdges[PreviousSlot(slot)];
+            const bool isOpen = mesh.Edges.CornerOfHalfEdge[leaves ^ 1u] == NoCorner;
+            take(&first[triangle.Vertices[slot]], leaves, isOpen);
+          }
+        });
+    };
+    visit([](HalfEdgeId* of, HalfEdgeId leaves, bool) { AtomicMin(of, leaves); });
+    visit(
+      [](HalfEdgeId* of, HalfEdgeId leaves, bool isOpen)
+      {
+        if (isOpen)
+        {
+          AtomicStore(of, leaves);
+        }
+      });
+    return first;
+  }
 
   /// @param left the items that are not decided yet, ascending.
   void RunRound(std::vector<Item>& items, std::vector<std::uint32_t>& left)

@@ -301,8 +301,13 @@ class Segments(PointTest):
                                naming=["ring.vtk", *words])
 
     def test_ring_that_is_crossed(self):
-        bow = self.rings("bow.vtk", [(0.5, 0.5, 0), (3.5, 3.5, 0), (3.5, 0.5, 0), (0.5, 3.5, 0)])
-        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", bow)
+        good = [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)]
+        bow = self.rings(
+            "bow.vtk", good, [(0.5, 0.5, 0), (3.5, 3.5, 0), (3.5, 0.5, 0), (0.5, 3.0, 0)])
+        for options in (["--outline", bow], ["--outline", self.rings("a.vtk", good), "--holes", bow]):
+            self.fail_with(3, "in.xyz", "out.vtk", "--from-points", *options,
+                           naming=["bow.vtk: ring 1", "crosses", "--split-crossings"])
+        self.succeed("in.xyz", "out.vtk", "--from-points", "--outline", bow, "--split-crossings")
 
     def test_point_data_of_several_files(self):
         line = make_mesh([(0, 0, 0), (3.5, 1.25, 7)], [], [(0, 1)])

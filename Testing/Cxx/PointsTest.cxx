@@ -217,6 +217,23 @@ TEST(FromPoints, Projections)
   const vtkMTimeType before = moved->GetMTime();
   transform->RotateZ(30.0);
   EXPECT_GT(moved->GetMTime(), before);
+  // A tilted plane: the triangles are those before the tilt, and turn the same way seen from above.
+  vtkNew<vtkTransform> tilt;
+  tilt->RotateWXYZ(50.0, 1.0, 2.0, 0.0);
+  Points tilted = flat;
+  for (auto& point : tilted)
+  {
+    point[2] = 0.0;
+  }
+  PointsFilter level(ToMesh(tilted));
+  const TriangleSet expected = GetTriangles(RunCleanly(level));
+  for (auto& point : tilted)
+  {
+    tilt->TransformPoint(point.data(), point.data());
+  }
+  PointsFilter slope(ToMesh(tilted));
+  slope->SetProjectionToBestFittingPlane();
+  EXPECT_EQ(GetTriangles(RunCleanly(slope)), expected);
   // One point that is not finite must not spoil the plane.
   upright.push_back({ Inf, 0, 0 });
   PointsFilter other(ToMesh(upright));
@@ -442,9 +459,11 @@ TEST(FromPoints, PointsInPiecesAreAnError)
 TEST(FromPoints, Abort)
 {
   const auto cloud = ToMesh(MakeCloud(20000));
+  cloud->SetLines(MakeCells({ { 0, 1 } }));
   for (const double limit : { 0.0, 0.9 })
   {
     PointsFilter filter(cloud);
+    filter->LinesAsSegmentsOn();
     auto abort = [&]()
     {
       if (filter->GetProgress() >= limit)
@@ -457,6 +476,7 @@ TEST(FromPoints, Abort)
     EXPECT_STREQ(filter->GetStopReasonAsString(), "aborted");
     EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
     EXPECT_EQ(output->GetNumberOfPolys() > 0, limit > 0.0);
+    EXPECT_EQ(output->GetNumberOfLines(), 0);
     filter->RemoveAllObservers();
     filter->Modified();
     filter->Update();

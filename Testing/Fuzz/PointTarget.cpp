@@ -72,7 +72,7 @@ PointCase MakePointCase(const std::uint8_t* bytes, std::size_t size)
     }
     drawn.Input.Rings.assign(4, 0);
   }
-  for (std::uint32_t left = source.Draw(10); left > 0; --left)
+  for (std::uint32_t left = source.Draw(source.Once(8) ? 200 : 10); left > 0; --left)
   {
     drawn.Input.Segments.push_back({ drawPoint(), drawPoint() });
     drawn.Input.Rings.push_back(-1);
