@@ -29,31 +29,24 @@ vtkSmartPointer<vtkPolyData> GatherConstraints(
 {
   const auto own =
     constraints ? JoinConstraints({ { constraints, mesh } }) : vtkSmartPointer<vtkPolyData>();
-  bool areFloats = !own || own->GetPoints()->GetDataType() == VTK_FLOAT;
-  Packet message;
-  message.Put(areFloats);
+  const bool areFloats = !IsOnAnyRank(own && own->GetPoints()->GetDataType() != VTK_FLOAT, group);
+  Message message;
   for (vtkIdType i = 0; own && i < own->GetNumberOfPoints(); ++i)
   {
     const double* x = own->GetPoint(i);
-    message.Put(std::array<double, 3>{ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 }); // -0 becomes 0
+    Put(message, std::array<double, 3>{ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 }); // -0 becomes 0
   }
   std::vector<std::array<double, 3>> ends;
   std::set<Message> known;
-  for (Message& one : group.Gather(message.Bytes))
+  for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
-    Packet packet(std::move(one));
-    areFloats = packet.Get<bool>() && areFloats;
-    while (!packet.IsAtEnd())
+    const auto from = reader.Get<std::array<double, 3>>(), to = reader.Get<std::array<double, 3>>();
+    Message key; // of bytes, since coordinates may be NaN
+    Put(key, std::min(from, to));
+    Put(key, std::max(from, to));
+    if (from != to && known.insert(key).second)
     {
-      const auto from = packet.Get<std::array<double, 3>>(),
-                 to = packet.Get<std::array<double, 3>>();
-      Packet key; // of bytes, since coordinates may be NaN
-      key.Put(std::min(from, to));
-      key.Put(std::max(from, to));
-      if (from != to && known.insert(key.Bytes).second)
-      {
-        ends.insert(ends.end(), { from, to });
-      }
+      ends.insert(ends.end(), { from, to });
     }
   }
   if (ends.empty())
@@ -113,18 +106,15 @@ std::int64_t CountElsewhere(vtkPolyData* constraints, const TriangleMesh& mesh, 
 /// Gives regions the same labels on all ranks.
 void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
 {
-  Packet own;
+  Message own;
   for (const std::string& key : bridge.RegionKeys)
   {
-    own.Put(key);
+    Put(own, key);
   }
   std::set<std::string> all;
-  for (Message& message : group.Gather(own.Bytes))
+  for (MessageReader reader = GatherAll(own, group); !reader.IsAtEnd();)
   {
-    for (Packet packet(std::move(message)); !packet.IsAtEnd();)
-    {
-      all.insert(packet.GetText());
-    }
+    all.insert(reader.GetText());
   }
   std::vector<std::int32_t> labels;
   for (const std::string& key : bridge.RegionKeys)

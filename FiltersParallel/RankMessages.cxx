@@ -22,7 +22,7 @@ std::int64_t CountBytes(vtkDataArray* array)
 }
 
 /// Writes tuples of all arrays that have them.
-void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Packet& packet)
+void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
 {
   const vtkIdType count = ids->GetNumberOfIds();
   const vtkIdType last = count > 0 ? *std::max_element(ids->begin(), ids->end()) : 0;
@@ -35,55 +35,55 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Packet& packet)
       continue;
     }
     taken->InsertTuples(MakeRange(0, count), ids, array);
-    packet.Put(std::string(taken->GetName() ? taken->GetName() : ""));
-    packet.Put(taken->GetDataType());
-    packet.Put(taken->GetNumberOfComponents());
-    packet.Put(data->IsArrayAnAttribute(i));
+    Put(message, std::string(taken->GetName() ? taken->GetName() : ""));
+    Put(message, taken->GetDataType());
+    Put(message, taken->GetNumberOfComponents());
+    Put(message, data->IsArrayAnAttribute(i));
     if (auto* numbers = vtkArrayDownCast<vtkDataArray>(taken))
     {
       const auto* bytes = static_cast<const char*>(numbers->GetVoidPointer(0));
-      packet.Bytes.insert(packet.Bytes.end(), bytes, bytes + CountBytes(numbers));
+      message.insert(message.end(), bytes, bytes + CountBytes(numbers));
       continue;
     }
     for (vtkIdType value = 0; value < taken->GetNumberOfValues(); ++value)
     {
-      packet.Put(std::string(taken->GetVariantValue(value).ToString()));
+      Put(message, std::string(taken->GetVariantValue(value).ToString()));
     }
   }
 }
 
 /// Reads an array of `count` tuples. @param attribute receives what it is, or -1.
-vtkSmartPointer<vtkAbstractArray> GetTuples(Packet& packet, vtkIdType count, int& attribute)
+vtkSmartPointer<vtkAbstractArray> GetTuples(MessageReader& reader, vtkIdType count, int& attribute)
 {
-  const std::string name = packet.GetText();
+  const std::string name = reader.GetText();
   const auto array =
-    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(packet.Get<int>()));
+    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(reader.Get<int>()));
   array->SetName(name.empty() ? nullptr : name.c_str());
-  array->SetNumberOfComponents(packet.Get<int>());
+  array->SetNumberOfComponents(reader.Get<int>());
   array->SetNumberOfTuples(count);
-  attribute = packet.Get<int>();
+  attribute = reader.Get<int>();
   if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
   {
-    packet.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
+    reader.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
     return array;
   }
   for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
   {
-    array->SetVariantValue(value, vtkVariant(packet.GetText()));
+    array->SetVariantValue(value, vtkVariant(reader.GetText()));
   }
   return array;
 }
 
-std::vector<Message> TakeMessages(std::vector<Packet>& packets)
-{
-  std::vector<Message> messages;
-  for (Packet& packet : packets)
-  {
-    messages.push_back(std::move(packet.Bytes));
-  }
-  return messages;
 }
 
+MessageReader GatherAll(const Message& message, PieceGroup& group)
+{
+  Message all;
+  for (const Message& one : group.Gather(message))
+  {
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return MessageReader(std::move(all));
 }
 
 bool IsOnAnyRank(bool flag, PieceGroup& group)
@@ -97,17 +97,17 @@ void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* 
   const std::function<vtkIdType(std::int64_t)>& tupleOf, PieceGroup& group,
   vtkDataSetAttributes* result)
 {
-  std::vector<Packet> requests(group.GetSize()), answers;
+  std::vector<Message> requests(group.GetSize()), answers;
   std::vector<vtkNew<vtkIdList>> places(group.GetSize()); // in the result
   const auto size = static_cast<vtkIdType>(origins.size());
   for (vtkIdType i = 0; i < size; ++i)
   {
-    requests[origins[i].Rank].Put(origins[i].Id);
+    Put(requests[origins[i].Rank], origins[i].Id);
     places[origins[i].Rank]->InsertNextId(i);
   }
-  for (Message& message : group.Exchange(TakeMessages(requests)))
+  for (Message& message : group.Exchange(std::move(requests)))
   {
-    Packet wanted(std::move(message));
+    MessageReader wanted(std::move(message));
     vtkNew<vtkIdList> ids;
     while (!wanted.IsAtEnd())
     {
@@ -116,7 +116,7 @@ void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* 
     answers.emplace_back();
     PutTuples(given, ids, answers.back());
   }
-  std::vector<Message> received = group.Exchange(TakeMessages(answers));
+  std::vector<Message> received = group.Exchange(std::move(answers));
   for (int i = 0; i < given->GetNumberOfArrays(); ++i)
   {
     if (const auto zeros = MakeZeros(given->GetAbstractArray(i), size))
@@ -126,12 +126,12 @@ void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* 
   }
   for (int rank = 0; rank < group.GetSize(); ++rank)
   {
-    Packet packet(std::move(received[rank]));
+    MessageReader reader(std::move(received[rank]));
     const vtkIdType count = places[rank]->GetNumberOfIds();
-    while (!packet.IsAtEnd())
+    while (!reader.IsAtEnd())
     {
       int attribute = -1;
-      const auto values = GetTuples(packet, count, attribute);
+      const auto values = GetTuples(reader, count, attribute);
       const char* name = values->GetName() ? values->GetName() : "";
       vtkSmartPointer<vtkAbstractArray> target = result->GetAbstractArray(name);
       if (!target && given->GetNumberOfArrays() == 0 && *name)

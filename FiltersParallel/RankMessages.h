@@ -22,27 +22,27 @@ class vtkDataSetAttributes;
 namespace delaunayflip
 {
 
-/// Writes a message, or reads one in the same order.
-class Packet
+/// Adds a number to a message, of a type that has the same bytes on all ranks.
+template <typename Number>
+void Put(Message& message, Number number)
+{
+  static_assert(!std::is_base_of<std::string, Number>::value, "a text");
+  const char* bytes = reinterpret_cast<const char*>(&number);
+  message.insert(message.end(), bytes, bytes + sizeof(number));
+}
+inline void Put(Message& message, const std::string& text)
+{
+  Put(message, static_cast<std::int64_t>(text.size()));
+  message.insert(message.end(), text.begin(), text.end());
+}
+
+/// Reads a message in the order in which it was written.
+class MessageReader
 {
 public:
-  explicit Packet(Message bytes = {})
+  explicit MessageReader(Message bytes)
     : Bytes(std::move(bytes))
   {
-  }
-
-  /// @param number of a type that has the same bytes on all ranks.
-  template <typename Number>
-  void Put(Number number)
-  {
-    static_assert(!std::is_base_of<std::string, Number>::value, "a text");
-    const char* bytes = reinterpret_cast<const char*>(&number);
-    this->Bytes.insert(this->Bytes.end(), bytes, bytes + sizeof(number));
-  }
-  void Put(const std::string& text)
-  {
-    this->Put(static_cast<std::int64_t>(text.size()));
-    this->Bytes.insert(this->Bytes.end(), text.begin(), text.end());
   }
 
   bool IsAtEnd() const { return this->At >= this->Bytes.size(); }
@@ -65,11 +65,13 @@ public:
     return std::string(this->Bytes.data() + this->At - size, size);
   }
 
-  Message Bytes;
-
 private:
+  Message Bytes;
   std::size_t At = 0;
 };
+
+/// Sends a message to all ranks. @returns those of all ranks, one behind the other.
+MessageReader GatherAll(const Message& message, PieceGroup& group);
 
 bool IsOnAnyRank(bool flag, PieceGroup& group);
 

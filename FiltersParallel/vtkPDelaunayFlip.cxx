@@ -44,32 +44,29 @@ namespace
 /// The blocks that any rank has, in the same order on all ranks, each with the leaves of this rank.
 std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup& group)
 {
-  Packet message;
+  Message message;
   for (const MeshBlock& block : own)
   {
-    message.Put(static_cast<std::int64_t>(block.Place.size()));
+    Put(message, static_cast<std::int64_t>(block.Place.size()));
     for (const std::int64_t number : block.Place)
     {
-      message.Put(number);
+      Put(message, number);
     }
-    message.Put(block.Name);
-    message.Put(block.Size);
+    Put(message, block.Name);
+    Put(message, block.Size);
   }
   std::map<std::vector<std::int64_t>, MeshBlock> shared;
-  for (Message& one : group.Gather(message.Bytes))
+  for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
-    for (Packet packet(std::move(one)); !packet.IsAtEnd();)
+    std::vector<std::int64_t> place(reader.Get<std::int64_t>());
+    for (std::int64_t& number : place)
     {
-      std::vector<std::int64_t> place(packet.Get<std::int64_t>());
-      for (std::int64_t& number : place)
-      {
-        number = packet.Get<std::int64_t>();
-      }
-      const std::string name = packet.GetText();
-      MeshBlock& block =
-        shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
-      block.Size += packet.Get<double>();
+      number = reader.Get<std::int64_t>();
     }
+    const std::string name = reader.GetText();
+    MeshBlock& block =
+      shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
+    block.Size += reader.Get<double>();
   }
   for (const MeshBlock& block : own)
   {
@@ -90,21 +87,18 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
 /// The notes of all ranks, in their order, with the rank's number.
 std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
 {
-  Packet message;
+  Message message;
   for (const Note& note : own)
   {
-    message.Put(
+    Put(message,
       "rank " + std::to_string(group.GetRank()) + (note.Where.empty() ? "" : ", " + note.Where));
-    message.Put(note.Text);
+    Put(message, note.Text);
   }
   std::vector<Note> notes;
-  for (Message& one : group.Gather(message.Bytes))
+  for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
-    for (Packet packet(std::move(one)); !packet.IsAtEnd();)
-    {
-      const std::string where = packet.GetText();
-      notes.push_back({ where, packet.GetText() });
-    }
+    const std::string where = reader.GetText();
+    notes.push_back({ where, reader.GetText() });
   }
   return notes;
 }
