@@ -297,7 +297,9 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   backend.Upload(&failed, 1, builder.Failed.Data());
   const std::int64_t inMountains = builder.MeasureGaps();
   const Boundary boundary = ListBoundary(builder.HostStarts, builder.HostGaps);
-  if (static_cast<std::int64_t>(boundary.Places.size()) >= mesh.Points.Count / 10 * 9)
+  constexpr std::int64_t SmallestCurve = 10000; // below, flips take milliseconds
+  const auto boundaryPoints = static_cast<std::int64_t>(boundary.Places.size());
+  if (mesh.Points.Count >= SmallestCurve && boundaryPoints >= mesh.Points.Count / 10 * 9)
   {
     return BuildDividedMesh(std::move(mesh.Points), backend);
   }
