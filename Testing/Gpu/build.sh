@@ -21,7 +21,7 @@ if [ ! -f "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
   options+=(-G Ninja)
 fi
 targets=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
-  delaunay-flip-point-benchmark DelaunayFlipC
+  delaunay-flip-point-benchmark delaunay-flip-fuzz-points DelaunayFlipC
   delaunayflip-c-device-test "${@:2}")
 if cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then
   targets+=(DelaunayFlipCxxTests)

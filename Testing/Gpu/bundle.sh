@@ -22,7 +22,7 @@ if [ "${1:-}" = --window ]; then
 fi
 output=${1:-delaunay-flip-gpu.tar.gz}
 programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
-  delaunay-flip-point-benchmark
+  delaunay-flip-point-benchmark delaunay-flip-fuzz-points
   delaunayflip-c-device-test "${window[@]}")
 
 # Usage: fill FOLDER

@@ -59,7 +59,7 @@ output=$(cd "$output" && pwd)
 (
   cd "$output"
   rm -f results.* machine.json steps.tsv benchmarks.* gpu-tests.* {engine,filter}-tests-on-cuda.* \
-    gpus-in-turn.* sanitizer-*.log {c,python}-device-arrays.log window-*.{json,log}
+    gpus-in-turn.* sanitizer-*.log points-*.log {c,python}-device-arrays.log window-*.{json,log}
 )
 
 if [ -x "$here/DelaunayFlipGpuTests" ]; then
@@ -134,6 +134,12 @@ run_all_tests()
     # Several GPUs whose launches run one after the other.
     CUDA_LAUNCH_BLOCKING=1 run_tests gpus-in-turn DelaunayFlipGpuTests \
       'SharedMeshTest.Plane:SharedMeshTest.Surface*'
+    if [ "$has_gpu" = yes ]; then
+      run_step points-fuzzed env DELAUNAYFLIP_TEST_BACKEND=cuda \
+        "$programs/delaunay-flip-fuzz-points" --cases 20000
+    else
+      note points-fuzzed skipped "no GPU"
+    fi
     run_step c-device-arrays "$programs/delaunayflip-c-device-test"
     run_step python-device-arrays env "PYTHONPATH=$package${PYTHONPATH:+:$PYTHONPATH}" \
       python3 "$here/test_device_arrays.py"
@@ -169,6 +175,9 @@ run_benchmarks()
   "$programs/delaunay-flip-gpu-benchmark" "${quick[@]}" "${real[@]}" \
     --json "$output/benchmarks.json" 2>&1 | tee "$output/benchmarks.log" || status=$?
   note benchmarks "$status"
+  if [ ${#quick[@]} -eq 0 ]; then
+    run_step points-benchmark "$programs/delaunay-flip-point-benchmark"
+  fi
 }
 
 # A machine without a display often has the driver's EGL, but not the file that names it, nor its
