@@ -3,7 +3,8 @@
 /// Usage: FlipArrays
 ///
 /// The engine without VTK: flips a mesh in plain arrays. The mesh is the worst case of the
-/// literature: two rows of points, one far to the right of the other, joined by slivers.
+/// literature: two rows of points, one far to the right of the other, joined by slivers. Then makes
+/// triangles from its points alone.
 #include <DelaunayFlip.h>
 
 #include <cstdint>
@@ -62,6 +63,16 @@ int main()
 
     std::cout << report.TotalFlips << " flips in " << report.Iterations.size() << " iterations, "
               << report.NonDelaunayAfter << " bad edges left\n";
+
+    delaunayflip::PointInput input;
+    input.Points = delaunayflip::PlaneArray(xyz.data(), numberOfPoints, 3); // x, y, z: 3 numbers
+    delaunayflip::FlipSession session(input, {});
+    session.Advance();
+    std::vector<std::int32_t> made(3 * session.GetReport().Triangles);
+    session.StoreTriangles(
+      delaunayflip::MutableTriangleArray(made.data(), session.GetReport().Triangles));
+
+    std::cout << made.size() / 3 << " triangles from the points alone\n";
     return report.Converged() ? 0 : 1;
   }
   catch (const std::exception& error) // see FlipError.h

@@ -117,11 +117,12 @@ class Python(Examples):
 
 class Engine(unittest.TestCase):
 
-    def test_snippet_is_the_one_of_the_example(self):
+    def test_snippets_are_those_of_the_example(self):
         example = " ".join(read("Examples/Cxx/FlipArrays.cpp").split())
-        (snippet,) = [text for text in snippets("cpp", "Documentation/start/cpp.md")
-                      if "delaunayflip::" in text]
-        for part in snippet.split("\n\n"):
+        found = [text for text in snippets("cpp", "Documentation/start/cpp.md")
+                 if "delaunayflip::" in text]
+        self.assertEqual(len(found), 2)
+        for part in "\n\n".join(found).split("\n\n"):
             self.assertTrue(" ".join(part.split()) in example, f"not in the example:\n{part}")
 
 
