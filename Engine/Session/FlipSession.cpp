@@ -393,31 +393,30 @@ void FlipSession::Work::Abort()
 void FlipSession::Work::DivideIfLong()
 {
   // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an
-  // iteration as long as some hundred flips. Other points than those along curves make few flips in
-  // iteration 12 (at most 0.08 per point), and hardly any in iteration 64.
+  // iteration as long as some hundred flips.
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
   constexpr std::int64_t Least = 100000;
-  const auto isLong = [](std::size_t iteration, double flipsPerPoint)
-  {
-    return (iteration == 12 && flipsPerPoint > 0.15) || (iteration == 64 && flipsPerPoint > 0.0025);
-  };
   if (!this->Cloud || this->ByDivision || this->Cloud->AreInserted())
   {
     return;
   }
   const std::int64_t points = this->Cloud->GetPoints().Points.Count;
+  std::vector<IterationRecord>& made = this->Report.Iterations;
+  // Or if flips do not become fewer. In iteration 12 there are at most 0.5 times as many as in
+  // iteration 4, also for points on rings and lines; on contours and spirals 0.7 to 1.2 times.
+  const auto isSteady = [&](std::size_t iteration)
+  {
+    return iteration == 12 && points >= Least / 10 && made[11].Flipped > points / 7 &&
+      made[11].Flipped > made[3].Flipped / 10 * 7;
+  };
   std::int64_t done = 0;
   std::size_t iterations = 0;
   bool isDue = false;
-  std::vector<IterationRecord>& made = this->Report.Iterations;
   while (iterations < made.size() && !isDue)
   {
-    const std::int64_t flips = made[iterations++].Flipped;
-    done += flips + FlipsPerIteration;
-    isDue = done >= FlipsPerPoint * points + Least ||
-      (points >= Least / 10 &&
-        isLong(iterations, static_cast<double>(flips) / static_cast<double>(points)));
+    done += made[iterations++].Flipped + FlipsPerIteration;
+    isDue = done >= FlipsPerPoint * points + Least || isSteady(iterations);
   }
   if (!isDue || (iterations == made.size() && !this->IsRunning()))
   {

@@ -293,7 +293,7 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
     SegmentInsertion insertion(view, backend);
     while (this->Taken < this->Segments.size() && isComplete)
     {
-      constexpr std::size_t SegmentsPerCall = 8192;
+      constexpr std::size_t SegmentsPerCall = 2048;
       const std::size_t end = std::min(this->Segments.size(), this->Taken + SegmentsPerCall);
       this->InsertBatch(view, placeOf, end, insertion);
       isComplete = !observer || observer(0.0);

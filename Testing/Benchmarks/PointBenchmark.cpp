@@ -278,14 +278,17 @@ Result TimeCgal(const PointInput& input)
     triangulation;
   triangulation.insert(points.begin(), points.end());
   const double before = watch.GetMilliseconds();
+  std::vector<std::pair<std::size_t, std::size_t>> pairs; // CGAL's fastest way, by indices
   for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
   {
-    triangulation.insert_constraint(
-      points[input.Segments[2 * i]], points[input.Segments[2 * i + 1]]);
+    pairs.emplace_back(input.Segments[2 * i], input.Segments[2 * i + 1]);
   }
+  const StopWatch all;
+  triangulation.clear();
+  triangulation.insert_constraints(points.begin(), points.end(), pairs.begin(), pairs.end());
   char note[64];
   std::snprintf(note, sizeof note, "%.1f without segments", before);
-  return { watch.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+  return { all.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
     note };
 }
 

@@ -493,11 +493,11 @@ TEST(PointTolerance, MergesNearPoints)
 TEST(Segments, CanBeStopped)
 {
   std::mt19937 random(8);
-  Drawing drawing = DrawRandom(random, 4000, 3000, 1 << 20);
+  Drawing drawing = DrawRandom(random, 4000, 6000, 1 << 20);
   const Triangulation expected = Triangulate(drawing);
   int calls = 0;
   FlipSession session(drawing.View(), PointOptions{ OnTestBackend({}) });
-  const auto stop = [&](double) { return ++calls % 7 != 0; };
+  const auto stop = [&](double) { return ++calls % 3 != 0; };
   int stops = 0;
   while (session.Advance(-1, {}, stop) || session.GetReport().StopReason == StopReasonKind::Aborted)
   {
