@@ -10,6 +10,7 @@
 #include "UpdateReport.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -248,9 +249,16 @@ private:
   static void Extend(vtkPolyData* mesh, vtkIdList* added, vtkPolyData* others, vtkPolyData* result)
   {
     const vtkIdType count = mesh->GetNumberOfPoints();
+    vtkSmartPointer<vtkDataArray> xyz = mesh->GetPoints()->GetData();
+    if (xyz->GetDataType() != VTK_FLOAT && xyz->GetDataType() != VTK_DOUBLE)
+    {
+      const auto wide = vtkSmartPointer<vtkDoubleArray>::New(); // integers would cut what is added
+      wide->DeepCopy(xyz);
+      xyz = wide;
+    }
     vtkNew<vtkPoints> points;
-    points->SetData(vtkArrayDownCast<vtkDataArray>(ExtendArray(mesh->GetPoints()->GetData(), count,
-      others ? others->GetPoints()->GetData() : nullptr, added)));
+    points->SetData(vtkArrayDownCast<vtkDataArray>(
+      ExtendArray(xyz, count, others ? others->GetPoints()->GetData() : nullptr, added)));
     result->SetPoints(points);
     vtkNew<vtkPointData> nothing;
     const auto own = TakeWholeArrays<Data>(mesh->GetPointData(), count);

@@ -107,7 +107,7 @@ T TextLines::Number(std::size_t place) const
   const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
   if (last != end || error == std::errc::invalid_argument)
   {
-    this->FailOn(word, " is not a number of its type");
+    this->FailOn(word, " is not a number, or is out of range");
   }
   if (error == std::errc::result_out_of_range)
   {

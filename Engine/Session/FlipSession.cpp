@@ -118,6 +118,16 @@ struct FlipSession::Work
     return isStored;
   }
 
+  /// @throws InvalidOptions
+  const PointRun& RequirePoints() const
+  {
+    if (!this->Cloud)
+    {
+      throw InvalidOptions("the session is not one from points");
+    }
+    return *this->Cloud;
+  }
+
   void Build();
   void Load();
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend);
@@ -736,13 +746,14 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
 {
-  this->Own->TryOnBackend(
-    [&](const LoadedMesh& mesh) { this->Own->Cloud->StoreNeighbors(mesh, neighbors); });
+  const PointRun& points = this->Own->RequirePoints();
+  this->Own->TryOnBackend([&](const LoadedMesh& mesh) { points.StoreNeighbors(mesh, neighbors); });
 }
 
 void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 {
-  const auto store = [&](const LoadedMesh& mesh) { this->Own->Cloud->StoreUsedPoints(mesh, ids); };
+  const PointRun& points = this->Own->RequirePoints();
+  const auto store = [&](const LoadedMesh& mesh) { points.StoreUsedPoints(mesh, ids); };
   if (!this->Own->TryOnBackend(store))
   {
     std::fill_n(ids, this->Own->Report.Points, -1);
@@ -751,14 +762,14 @@ void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 
 const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
 {
-  return this->Own->Cloud->GetAddedPoints();
+  return this->Own->RequirePoints().GetAddedPoints();
 }
 
 std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
 {
+  const PointRun& points = this->Own->RequirePoints();
   std::vector<std::int64_t> pairs;
-  this->Own->TryOnBackend(
-    [&](LoadedMesh& mesh) { pairs = this->Own->Cloud->ListSegmentEdges(mesh); });
+  this->Own->TryOnBackend([&](LoadedMesh& mesh) { pairs = points.ListSegmentEdges(mesh); });
   return pairs;
 }
 
@@ -802,7 +813,8 @@ void FlipSession::StoreTriangles(
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
 {
-  const std::int64_t size = this->Own->Report.Triangles;
+  const Work& work = *this->Own;
+  const std::int64_t size = work.Cloud ? work.Report.Triangles : work.Mesh.CountTriangles();
   RequireOnDevice(counts, size, "the array for flip counts is");
   const bool isStored = !this->Own->Insertion.HasFlips() &&
     this->Own->StoreOnDevice(
@@ -816,6 +828,7 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const
 {
+  this->Own->RequirePoints();
   const std::int64_t size = 3 * this->Own->Report.Triangles;
   RequireOnDevice(neighbors, size, "the array for neighbours is");
   const bool isStored = this->Own->StoreOnDevice(

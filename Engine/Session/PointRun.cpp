@@ -37,7 +37,8 @@ void CheckInput(const PointInput& input, const PointOptions& options)
   {
     if (!(length >= 0.0 && length < INFINITY))
     {
-      throw InvalidOptions("the point tolerance, alpha and the longest edge must be 0 or more");
+      throw InvalidOptions(
+        "the point tolerance, alpha and the longest edge must be finite and 0 or more");
     }
   }
   if (options.NumberOfPieces > 1)
@@ -379,8 +380,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   counts.OutsideTriangles = this->Kept.Outside;
   counts.LargeTriangles = this->Kept.Large;
   report.Points = this->Caller.Points.Count;
-  report.InsertedConstraints =
-    static_cast<std::int64_t>(this->Segments.size() - this->Refused.size());
+  report.InsertedConstraints = static_cast<std::int64_t>(this->Taken - this->Refused.size());
   report.UnmatchedConstraints = counts.RefusedSegments;
   report.ConstraintFlips = this->Flips;
   report.Edges.Constraint = counts.SegmentEdges;

@@ -216,6 +216,14 @@ TEST_F(DeviceMeshTest, AnySessionStoresOnADevice)
     EXPECT_TRUE(std::vector<std::int32_t>(ids.begin(), ids.end()) == expected.Triangles);
     EXPECT_TRUE(expected.FlipCounts == device.FlipCounts.Get());
   }
+  FlipOptions inPieces = On(BackendKind::Threads);
+  inPieces.NumberOfPieces = 3;
+  FlipSession divided(this->Mesh.View(), inPieces);
+  divided.Advance();
+  const DeviceArrays<double, std::int64_t> device(this->Mesh.View(), 3);
+  divided.StoreFlipCounts(device.FlipCounts.Data(), {});
+  EXPECT_EQ(StoreFlipCounts(divided), device.FlipCounts.Get());
+  EXPECT_THROW(divided.GetAddedPoints(), InvalidOptions);
 }
 
 TEST_F(DeviceMeshTest, AnAbortedBuildGivesTheInput)

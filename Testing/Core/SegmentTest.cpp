@@ -494,6 +494,8 @@ TEST(Segments, CanBeStopped)
 {
   std::mt19937 random(8);
   Drawing drawing = DrawRandom(random, 4000, 6000, 1 << 20);
+  EXPECT_EQ(0,
+    FlipSession(drawing.View(), PointOptions{ OnTestBackend({}) }).GetReport().InsertedConstraints);
   const Triangulation expected = Triangulate(drawing);
   int calls = 0;
   FlipSession session(drawing.View(), PointOptions{ OnTestBackend({}) });

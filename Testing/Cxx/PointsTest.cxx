@@ -16,6 +16,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
@@ -344,6 +345,22 @@ TEST(FromPoints, Crossings)
     EXPECT_EQ(filter.GetPolygons().size(), 4u);
     EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
   }
+  // Integers would cut the crossing.
+  vtkNew<vtkPoints> corners;
+  corners->SetDataTypeToInt();
+  for (const auto& [x, y] : { std::pair(0, 0), { 1, 0 }, { 1, 1 }, { 0, 1 } })
+  {
+    corners->InsertNextPoint(x, y, 0);
+  }
+  cloud->SetPoints(corners);
+  cloud->SetLines(MakeLines(Square, { { 0, 2 }, { 1, 3 } })->GetLines());
+  PointsFilter filter(cloud);
+  filter->LinesAsSegmentsOn();
+  filter->SplitCrossingsOn();
+  const auto output = RunCleanly(filter);
+  ASSERT_EQ(output->GetNumberOfPoints(), 5);
+  EXPECT_EQ(output->GetPoint(4)[0], 0.5);
+  EXPECT_EQ(output->GetPoint(4)[1], 0.5);
 }
 
 TEST(FromPoints, OutlinesAndHoles)
