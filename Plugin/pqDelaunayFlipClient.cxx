@@ -6,6 +6,7 @@
 #include "pqCoreUtilities.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqPresetGroupsManager.h"
 #include "pqPropertyWidget.h"
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
@@ -18,6 +19,7 @@
 #include "vtkSMProxy.h"
 #include "vtkSMSettings.h"
 #include "vtkSMTrace.h"
+#include "vtkSMTransferFunctionPresets.h"
 
 #if __has_include("vtkPVRepresentedArrayListSettings.h")
 #include "vtkPVRepresentedArrayListSettings.h"
@@ -326,14 +328,37 @@ private:
   QTimer Changes; ///< Fires once after one or more changes.
 };
 
+/// Makes the colours of angles the defaults of two arrays, and a preset that the user may choose.
+void AddColors()
+{
+  QFile file(":/DelaunayFlip/AngleColors.json");
+  file.open(QIODevice::ReadOnly);
+  const std::string colors = file.readAll().toStdString();
+  const std::string table = "\": {\"PVLookupTable\": " + colors + "}";
+  constexpr double Priority = 0.5; // below what the user chooses
+  vtkSMSettings::GetInstance()->AddCollectionFromString(
+    "{\"array_lookup_tables\": {\"Smallestanglebeforedegrees" + table +
+      ", \"Smallestangleafterdegrees" + table + "}}",
+    Priority);
+  const char* const name = "Smallest angle";
+  vtkSMTransferFunctionPresets* presets = vtkSMTransferFunctionPresets::GetInstance();
+  if (!presets->HasPreset(name)) // the user may have changed it
+  {
+    presets->AddPreset(name, colors);
+  }
+  auto* groups = qobject_cast<pqPresetGroupsManager*>(
+    pqApplicationCore::instance()->manager("PRESET_GROUP_MANAGER"));
+  if (groups && groups->presetRankInGroup(name, "Default") < 0)
+  {
+    groups->addToGroup("Default", name);
+  }
+}
+
 }
 
 void pqDelaunayFlipClient::startup()
 {
-  QFile colors(":/DelaunayFlip/AngleColors.json");
-  colors.open(QIODevice::ReadOnly);
-  constexpr double Priority = 0.5; // below what the user chooses
-  vtkSMSettings::GetInstance()->AddCollectionFromString(colors.readAll().toStdString(), Priority);
+  AddColors();
   QObject::connect(
     GetModel(), &pqServerManagerModel::dataUpdated, this, &pqDelaunayFlipClient::refresh);
   QObject::connect(GetModel(), &pqServerManagerModel::representationAdded, this,

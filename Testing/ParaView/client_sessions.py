@@ -58,7 +58,24 @@ def look_at_panel(client, panel):
         yield idle(0.3)
         points = simple.GetColorTransferFunction(name).RGBPoints
         expect((points[0], points[-4]) == (0, 60) and points[1] > 0.6 and points[-1] > 0.5, points)
+    flip_colors = simple.GetColorTransferFunction("Smallest angle after (degrees)")
+    flip_colors.ApplyPreset("Cool to Warm", False)
+    expect(flip_colors.ApplyPreset("Smallest angle", False), "no preset")
+    expect((flip_colors.RGBPoints[0], flip_colors.RGBPoints[-4]) == (0, 60), flip_colors.RGBPoints)
+    yield from choose_preset(client)
     client.save_picture("applied.png")
+
+
+def choose_preset(client):
+    """The dialog of presets lists the colours of angles, without a search."""
+    client.window.findChildren(QtWidgets.QToolButton, "ChoosePreset")[0].click()
+    yield idle(0.5)
+    (dialog,) = [widget for widget in client.application.topLevelWidgets()
+                 if widget.metaObject().className() == "pqPresetDialog" and widget.isVisible()]
+    model = dialog.findChild(QtWidgets.QAbstractItemView, "gradients").model()
+    names = [model.index(row, 0).data() for row in range(model.rowCount())]
+    expect("Smallest angle" in names, names)
+    dialog.close()
 
 
 def watch_live(client, panel, flip):
@@ -233,6 +250,24 @@ def use_panel(client):
     read_results(panel, flip)
 
 
+def open_chart(client):
+    """Chooses Plot Delaunay Flips. Returns the chart."""
+    client.select("Iterations")
+    yield idle(0.3)
+    client.choose("Delaunay Flip", "Plot Delaunay Flips")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
+    client.apply()
+    yield lambda: simple.GetActiveView().GetXMLName() == "DelaunayFlipChartView"
+    return simple.GetActiveView().SMProxy.GetContextItem()
+
+
+def count_points(chart):
+    """[iterations that the line Flipped shows]."""
+    lines = map(chart.GetPlot, range(chart.GetNumberOfPlots()))
+    return [line.GetInput().GetNumberOfRows() for line in lines
+            if line.GetVisible() and line.GetLabel() == "Flipped"]
+
+
 def use_chart(client):
     """Plot Delaunay Flips follows a live run, and has the axis for which its filter made the data."""
     client.window.resize(1500, 900)
@@ -240,28 +275,16 @@ def use_chart(client):
     flip.MaximumIterations = 1
     client.apply()
     yield lambda: flip.NumberOfIterations == 1
-    client.select("Iterations")
-    yield idle(0.3)
-    client.choose("Delaunay Flip", "Plot Delaunay Flips")
-    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
-    client.apply()
-    yield lambda: simple.GetActiveView().GetXMLName() == "DelaunayFlipChartView"
-    chart = simple.GetActiveView().SMProxy.GetContextItem()
-
-    def count_points():
-        lines = map(chart.GetPlot, range(chart.GetNumberOfPlots()))
-        return [line.GetInput().GetNumberOfRows() for line in lines
-                if line.GetVisible() and line.GetLabel() == "Flipped"]
-
-    yield lambda: count_points() == [2]  # a single point is not a line
+    chart = yield from open_chart(client)
+    yield lambda: count_points(chart) == [2]  # a single point is not a line
     client.select("DelaunayFlip1")
     yield idle(0.3)
     Panel(client).write("MaximumIterations", "-1")
     Panel(client).click("LiveUpdate")
     client.apply()
-    yield lambda: 3 < count_points()[0] < 12
+    yield lambda: 3 < count_points(chart)[0] < 12
     yield has_converged(flip)
-    yield lambda: count_points() == [flip.NumberOfIterations]
+    yield lambda: count_points(chart) == [flip.NumberOfIterations]
     client.select("PlotDelaunayFlips1")
     yield idle(0.3)
     for is_log in (True, False):
@@ -290,8 +313,8 @@ def expect_text(flip):
 
 
 def use_statistics(client):
-    """Delaunay Flip Statistics: a text in the render view, which follows a live run."""
-    client.window.resize(1200, 800)
+    """Delaunay Flip Statistics: a text in the render view, which follows a live run, and the chart."""
+    client.window.resize(1500, 800)
     mesh = read_mesh("long.vtp")
     flip = yield from start_filter(client, mesh)
     client.apply()
@@ -304,16 +327,21 @@ def use_statistics(client):
     expect(simple.GetDisplayProperties(statistics).Justification == "Left", "lines are centred")
     expect(len(simple.GetViews()) == 1, "another view was opened")
     expect_text(flip)
+    view = simple.GetActiveView()
+    chart = yield from open_chart(client)
+    simple.SetActiveView(view)
     flip.LiveUpdate = 1
     client.application.processEvents()
     simple.Render()
-    yield lambda: flip.NumberOfIterations >= 3
-    flip.Paused = 1
-    yield idle(0.5)
-    expect(flip.StopReason == "running", flip.StopReason)
-    expect_text(flip)
-    client.save_picture("statistics.png")
-    flip.Paused = 0
+    for iterations in (3, 6, 9):
+        yield lambda: flip.NumberOfIterations >= iterations
+        flip.Paused = 1
+        yield idle(0.5)
+        expect(flip.StopReason == "running", flip.StopReason)
+        expect_text(flip)
+        expect(count_points(chart) == [flip.NumberOfIterations], "the chart is out of step")
+        client.save_picture("statistics.png")
+        flip.Paused = 0
     yield has_converged(flip)
     yield idle(0.5)
     expect_text(flip)

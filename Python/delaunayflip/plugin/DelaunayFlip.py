@@ -17,6 +17,7 @@ Each plugin can read the state files of the other, but only one of the two can b
 It has a folder of its own, because ParaView loads all files of a folder in PV_PLUGIN_PATH.
 """
 import itertools
+import json
 import pathlib
 import sys
 from xml.etree import ElementTree
@@ -28,6 +29,7 @@ if str(_FOLDER.parent) not in sys.path:
 
 from paraview import servermanager
 from paraview.modules.vtkRemotingServerManager import vtkSMSettings
+from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkVersion
@@ -75,6 +77,17 @@ def _read_properties(file, left_out=None):
     hints.remove(hints.find("LiveSource"))
     hints.find("ShowInMenu").attrib.pop("icon", None)
     return "".join(ElementTree.tostring(element, encoding="unicode") for element in proxy)
+
+
+def _add_colors():
+    """Makes the colours of angles the defaults of two arrays, and a preset that the user may choose."""
+    colors, name = _find("AngleColors.json").read_text(), "Smallest angle"
+    tables = {f"Smallestangle{when}degrees": {"PVLookupTable": json.loads(colors)}
+              for when in ("before", "after")}
+    vtkSMSettings.GetInstance().AddCollectionFromString(json.dumps({"array_lookup_tables": tables}), 0.5)
+    presets = vtkSMTransferFunctionPresets.GetInstance()
+    if not presets.HasPreset(name):  # the user may have changed it
+        presets.AddPreset(name, colors)
 
 
 #: The kinds of cells of a vtkPolyData, and the types of cells that become such.
@@ -154,7 +167,7 @@ def _get_corners(data, cell):
 
 
 _require_no_other()
-vtkSMSettings.GetInstance().AddCollectionFromString(_find("AngleColors.json").read_text(), 0.5)
+_add_colors()
 
 
 @smproxy.filter(name="DelaunayFlip", label="Delaunay Flip", support_reload=False)
