@@ -284,6 +284,7 @@ void KeptReport::Fill(delaunayflip_report& target) const
   c.largest_shift = report.FromPoints.LargestShift;
   c.triangles_outside = report.FromPoints.OutsideTriangles;
   c.triangles_large = report.FromPoints.LargeTriangles;
+  c.keeps_sliver = report.KeepsSliver ? 1 : 0;
   c.size = target.size;
   std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
 }

@@ -232,6 +232,8 @@ extern "C"
     double largest_shift; /**< How far rounding has moved one of these at most. */
     int64_t triangles_outside; /**< Removed outside rings and around hole seeds. */
     int64_t triangles_large; /**< Removed by alpha and longest_edge. */
+    int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
+                               the smallest angles, with one below 5 degrees; else 0. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns

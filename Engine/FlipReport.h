@@ -102,6 +102,9 @@ struct FlipReport
   double MinimumAngleBefore =
     0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
   double MinimumAngleAfter = 0.0;
+  /// Whether feature edges or constraints keep one of the ten triangles with the smallest angles at
+  /// the end, with an angle below 5 degrees. False for points, and for meshes in parts.
+  bool KeepsSliver = false;
 
   StopReasonKind StopReason = StopReasonKind::NotStarted;
   bool Converged() const { return this->StopReason == StopReasonKind::Converged; }

@@ -103,6 +103,7 @@ void UpdateReport::Add(const UpdateReport& other)
   }
   this->HasMixedGeometry = this->HasMixedGeometry || other.HasMixedGeometry ||
     (other.GeometryUsed != GeometryKind::Auto && other.GeometryUsed != this->GeometryUsed);
+  this->KeepsSliver = this->KeepsSliver || other.KeepsSliver;
   AddText(this->GeometryReason, other.GeometryReason);
   AddText(this->Tolerance, other.Tolerance);
   AddText(this->Backend, other.Backend);
@@ -283,14 +284,15 @@ std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kin
   return text + (text.empty() ? "" : ")");
 }
 
-/// What to change if more than a tenth of the inner edges stay because the user wants it so.
+/// What to change if more than a tenth of the inner edges, or one of the worst slivers, stay
+/// because the user wants it so.
 std::string Advise(const FlipReport& report)
 {
   const EdgeCounts& edges = report.Edges;
   const std::int64_t inner = edges.Edges - edges.Boundary;
   const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
   const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
-  if (10 * kept <= inner || isFromPoints)
+  if ((10 * kept <= inner && !report.KeepsSliver) || isFromPoints)
   {
     return "";
   }
@@ -298,8 +300,10 @@ std::string Advise(const FlipReport& report)
     { edges.Feature, "a larger feature angle" }, { edges.Constraint, "fewer constraints" } };
   const auto most = std::max_element(std::begin(remedies), std::end(remedies),
     [](const auto& one, const auto& other) { return one.first < other.first; });
-  return "hint: " + std::to_string(100 * kept / inner) + " % of the inner edges are kept; with " +
-    most->second + " more can flip\n";
+  const std::string what = 10 * kept > inner
+    ? std::to_string(100 * kept / inner) + " % of the inner edges are kept; with "
+    : "an edge is kept at one of the ten triangles with the smallest angles; with ";
+  return "hint: " + what + most->second + " more can flip\n";
 }
 
 /// A line, or nothing if there are no constraints.

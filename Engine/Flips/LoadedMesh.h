@@ -116,6 +116,9 @@ public:
   /// nearly one; else none.
   virtual Defect FindTurnedTriangles() const = 0;
 
+  /// As KeepsWorstSliver (SmallestAngle.h).
+  virtual bool KeepsSliver() = 0;
+
   /// Throws std::logic_error if the edge mesh is inconsistent, which is a bug of the engine.
   virtual void Audit() const = 0;
 };

@@ -13,6 +13,7 @@
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
 #include "PointMesh.h"
+#include "SmallestAngle.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 
@@ -218,6 +219,8 @@ public:
       ? delaunayflip::FindTurnedTriangles(this->Mesh, this->Points, this->Turns, this->Backend)
       : Defect();
   }
+
+  bool KeepsSliver() override { return KeepsWorstSliver(this->Mesh, this->Points, this->Backend); }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 

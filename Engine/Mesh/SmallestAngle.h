@@ -7,6 +7,7 @@
 #include "FilteredPredicates.h"
 #include "HostDevice.h"
 #include "MeshSurvey.h"
+#include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 #include "WideAngles.h"
@@ -77,6 +78,63 @@ private:
     return { point.U, point.V, point.W };
   }
 };
+
+/// Measures triangles beside fixed edges that would flip if they were free.
+struct KeptEdgeSurvey
+{
+  EdgeMeshView Mesh;
+  PackedPointsView Points;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t e, LargestValue& sum) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(static_cast<EdgeId>(e));
+    if (this->Mesh.States[e] != EdgeState::Fixed || corners.B == NoCorner)
+    {
+      return;
+    }
+    const Quad quad = this->Mesh.GetQuad(corners);
+    const TriangleRecord& other = this->Mesh.Triangles[TriangleOf(corners.B)];
+    const bool isWound = GetAt(other.Vertices, NextSlot(SlotOf(corners.B))) == quad.Q;
+    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
+      this->Get(quad.B) };
+    const double atA = this->Measure(TriangleOf(corners.A));
+    const double atB = this->Measure(TriangleOf(corners.B));
+    const bool isFinite = atA > -INFINITY && atB > -INFINITY;
+    if (isWound && isFinite && SumWide(WideLegs(points)).ExceedsPi({}))
+    {
+      sum += { atA > atB ? atA : atB };
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE double Measure(std::int64_t t) const
+  {
+    const TriangleRecord& triangle = this->Mesh.Triangles[t];
+    return LargestSquaredCotangentWide(this->Get(triangle.Vertices[0]),
+      this->Get(triangle.Vertices[1]), this->Get(triangle.Vertices[2]));
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE Vector3 Get(VertexId vertex) const
+  {
+    return { this->Points.Get(vertex, 0), this->Points.Get(vertex, 1),
+      this->Points.Components == 3 ? this->Points.Get(vertex, 2) : 0.0 };
+  }
+};
+
+/// Whether one of the ten triangles with the smallest angles is a sliver that a fixed edge keeps:
+/// it has an angle below five degrees, and an edge that would flip if it were free.
+template <typename Backend>
+bool KeepsWorstSliver(EdgeMesh& mesh, const PackedPoints& points, const Backend& backend)
+{
+  constexpr std::int64_t Worst = 10;
+  constexpr double SliverAngle = 5.0;
+  const KeptEdgeSurvey survey{ mesh.View(), points.View() };
+  const double kept = backend.template Sum<LargestValue>(mesh.NumberOfEdges, survey).Value;
+  return ToDegrees(kept) < SliverAngle &&
+    backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & worse)
+      { worse += survey.Measure(t) > kept ? 1 : 0; }) < Worst;
+}
 
 /// The angle between two edges from a corner, in degrees.
 DELAUNAYFLIP_HOST_DEVICE inline double AngleBetween(const Vector3& first, const Vector3& second)

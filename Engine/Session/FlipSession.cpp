@@ -547,6 +547,10 @@ void FlipSession::Work::MeasureEnd()
       this->Report.Defects.push_back(turned);
     }
   }
+  const EdgeCounts& edges = this->Report.Edges;
+  this->Report.KeepsSliver = !this->IsRunning() && !this->Cloud &&
+    edges.Feature + edges.Constraint > 0 &&
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
 }
 
 /// Those of the input, without what flips have caused.
@@ -624,7 +628,10 @@ try
   const std::int64_t limit = iterations < 0 ? NoLimit : work.CountIterations() + iterations;
   work.Resume();
   work.InsertIfDone();
-  work.IsMeasured = work.IsMeasured && !work.Cloud; // triangles may be removed
+  const EdgeCounts& edges = report.Edges;
+  const bool mayKeepSliver = edges.Feature + edges.Constraint > 0;
+  // Triangles of points may be removed.
+  work.IsMeasured = work.IsMeasured && !work.Cloud && !mayKeepSliver;
   while (work.IsRunning() && work.CountIterations() < limit)
   {
     // At least one iteration; with observers no more than they can wait for.

@@ -114,7 +114,7 @@ class Report(ctypes.Structure):
         *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
         *_of(c_int64, """number_of_points number_of_triangles points_not_finite points_repeated
              points_too_near segment_edges segments_refused crossings"""),
-        *_of(c_double, "largest_shift"), *_of(c_int64, "triangles_outside triangles_large"),
+        *_of(c_double, "largest_shift"), *_of(c_int64, "triangles_outside triangles_large keeps_sliver"),
     ]
 
 

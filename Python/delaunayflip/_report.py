@@ -29,7 +29,7 @@ _KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
 _BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
             "blocked: would fold": "blocked_by_shape"}
 _SUMMED = {*COUNTS.values(), *_KINDS.values(), "number_of_points", "number_of_triangles", "edges",
-           "non_delaunay_before"}
+           "non_delaunay_before", "keeps_sliver"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
@@ -86,6 +86,7 @@ class Report:
     largest_shift: float = 0.0  #: How far rounding has moved one of these at most.
     triangles_outside: int = 0  #: Removed outside the outline and in holes.
     triangles_large: int = 0  #: Removed by alpha and longest_edge.
+    keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
 
     @property
     def converged(self) -> bool:
@@ -189,12 +190,13 @@ class Totals:
         inner = n["edges"] - n["boundary_edges"]
         kept = n["fixed_edges"] + inner - n["edges"] - n["non_manifold_edges"] - n["wrongly_wound_edges"]
         is_from_points = self.texts["geometry_reason"].startswith("points are triangulated")
-        if 10 * kept <= inner or is_from_points:
+        if (10 * kept <= inner and not n["keeps_sliver"]) or is_from_points:
             return ""
         remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
                     "constraint_edges": "fewer constraints"}
-        return (f"hint: {100 * kept // inner} % of the inner edges are kept; with "
-                f"{remedies[max(remedies, key=n.get)]} more can flip")
+        what = (f"{100 * kept // inner} % of the inner edges are kept" if 10 * kept > inner else
+                "an edge is kept at one of the ten triangles with the smallest angles")
+        return f"hint: {what}; with {remedies[max(remedies, key=n.get)]} more can flip"
 
     def _describe_constraints(self):
         n = self.counts

@@ -65,6 +65,7 @@ protected:
     EXPECT_TRUE(this->Expected.Triangles == result.Triangles);
     EXPECT_TRUE(this->Expected.FlipCounts == result.FlipCounts);
     ExpectSameStatistics(this->Expected.Report, result.Report);
+    EXPECT_EQ(this->Expected.Report.KeepsSliver, result.Report.KeepsSliver);
   }
 
   OwnedMesh<double> Mesh;

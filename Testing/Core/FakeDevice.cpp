@@ -113,6 +113,7 @@ public:
   void EditOnHost(const HostView& edit) override { this->Engine->EditOnHost(edit); }
   HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
+  bool KeepsSliver() override { return this->Engine->KeepsSliver(); }
   void Audit() const override { this->Engine->Audit(); }
 
 private:

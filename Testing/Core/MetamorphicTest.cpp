@@ -121,6 +121,7 @@ protected:
     EXPECT_TRUE(expected.Triangles == result.Triangles) << what;
     EXPECT_EQ(expected.FlipCounts, result.FlipCounts) << what;
     ExpectSameStatistics(expected.Report, result.Report);
+    EXPECT_EQ(expected.Report.KeepsSliver, result.Report.KeepsSliver);
   }
 
   /// The same set of triangles, where the rule makes it unique. Else what any order of flips must

@@ -43,6 +43,7 @@ inline void ExpectSameResult(const FlipResult& expected, const FlipResult& actua
   EXPECT_TRUE(expected.Triangles == actual.Triangles);
   EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
   ExpectSameStatistics(expected.Report, actual.Report);
+  EXPECT_EQ(expected.Report.KeepsSliver, actual.Report.KeepsSliver);
 }
 
 /// Flips the mesh on the CPU and on the GPU, expects the same bits, and returns the GPU's result.

@@ -4,7 +4,7 @@
 /// without, and the drawing and the iteration alone. Prints a JSON object per line as soon as it is
 /// measured. Ends with 77 where EGL has no GPU of CUDA.
 ///
-/// Usage: delaunay-flip-window-benchmark [--any] [--frames N] [POINTS...]
+/// Usage: delaunay-flip-window-benchmark [--any] [--frames N] [--moving POINTS] [POINTS...]
 #include "BenchmarkMesh.h"
 #include "DelaunayFlip.h"
 #include "EglWindow.h"
@@ -17,6 +17,7 @@
 #include "vtkDelaunayFlipLiveView.h"
 #include "vtkDelaunayFlipMapper.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
 
@@ -24,6 +25,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -38,6 +40,7 @@ struct Arguments
 {
   bool AllowsOthers = false;
   int Frames = 20;
+  std::int64_t Moving = 0;
   std::vector<std::int64_t> Sizes;
 };
 
@@ -143,6 +146,44 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
   }
 }
 
+/// Lifts the points of a plane into a hill that grows and shrinks.
+void Swell(vtkPoints* points, double time)
+{
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    points->GetPoint(i, x);
+    const double square = (x[0] - 0.5) * (x[0] - 0.5) + (x[1] - 0.5) * (x[1] - 0.5);
+    points->SetPoint(i, x[0], x[1], std::sin(time) * std::exp(-12.0 * square));
+  }
+  points->Modified();
+}
+
+/// Frames of an animation: in each of them the points move, and the surface is made Delaunay again.
+void TimeMovingPoints(std::int64_t points, const Arguments& arguments)
+{
+  const BenchmarkMesh mesh = MakeRandomMesh(points);
+  for (const std::string what : { "no copies", "copies" })
+  {
+    const vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
+    Scene scene(data, !arguments.AllowsOthers);
+    scene.View->SetZeroCopy(what == "no copies");
+    scene.View->SetEdgeVisibility(vtkDelaunayFlipLiveView::EDGE_VISIBILITY_OFF);
+    scene.Filter->SetGeometryToSurface();
+    scene.Filter->SetFeatureAngle(180.0); // no edge stays because it is sharp
+    scene.Filter->SetIterationsPerUpdate(1000000); // each frame to its end
+    scene.View->Step();
+    int frame = 0;
+    Measure(mesh, "moving points, " + what, 3 * arguments.Frames,
+      [&]()
+      {
+        Swell(data->GetPoints(), 0.05 * ++frame);
+        scene.View->Step();
+        return scene.Filter->GetNumberOfNonDelaunayEdges() == 0;
+      });
+  }
+}
+
 void TimeSize(std::int64_t points, const Arguments& arguments)
 {
   const BenchmarkMesh mesh = MakeRandomMesh(points);
@@ -167,6 +208,7 @@ int main(int argc, char* argv[])
   CLI::App app("What a frame of a live view costs");
   app.add_flag("--any", arguments.AllowsOthers, "without CUDA, too");
   app.add_option("--frames", arguments.Frames, "to time");
+  app.add_option("--moving", arguments.Moving, "points of a mesh whose points all move");
   app.add_option("sizes", arguments.Sizes, "points of the other meshes");
   CLI11_PARSE(app, argc, argv);
   const std::string obstacle = OpenEgl(arguments.AllowsOthers);
@@ -178,6 +220,10 @@ int main(int argc, char* argv[])
   for (const std::int64_t points : arguments.Sizes)
   {
     TimeSize(points, arguments);
+  }
+  if (arguments.Moving > 0)
+  {
+    TimeMovingPoints(arguments.Moving, arguments);
   }
   return 0;
 }

@@ -200,9 +200,9 @@ prepare_egl()
 
 run_window()
 {
-  local frames=30 sizes=(1000000 5000000)
+  local frames=30 moving=100000 sizes=(1000000 5000000)
   if [ ${#quick[@]} -gt 0 ]; then
-    frames=5 sizes=(50000)
+    frames=5 moving=20000 sizes=(50000)
   fi
   prepare_egl
   if [ "$tests" = yes ]; then
@@ -211,7 +211,7 @@ run_window()
   fi
   if [ "$benchmarks" = yes ]; then
     run_step window-benchmark timeout 300 "$programs/delaunay-flip-window-benchmark" \
-      --frames "$frames" "${sizes[@]}"
+      --frames "$frames" --moving "$moving" "${sizes[@]}"
     cat "$output/window-benchmark.log"
     if [ "$has_gpu" = yes ]; then
       run_step window-example "$programs/SwellingSurface" --points "${sizes[0]}" --backend cuda

@@ -184,6 +184,27 @@ class Meshes(unittest.TestCase):
             self.assertEqual(FLIPPED in get_edges(watched.run()), not is_kept)
 
 
+    def test_kept_sliver(self):
+        """A hint follows if a constraint keeps one of the worst triangles; not for a good one, nor
+        without."""
+        width, points = 9, [(x, y + 0.3 * (x % 2), 0) for y in range(9) for x in range(9)]
+        triangles = [corners for i in range(width * (width - 1)) if i % width + 1 < width
+                     for corners in ((i, i + 1, i + width + 1), (i, i + width + 1, i + width))]
+        points += [(20, 0, 0), (23, -0.05, 0), (26, 0, 0), (23, 0.05, 0)]
+        triangles += [(81, 82, 83), (81, 83, 84)]
+        mesh = make_mesh(points, triangles)
+        for kept, expected in (((81, 83), True), ((0, 1), False), ((30, 31), False), (None, False)):
+            lines = vtkPolyData()
+            lines.SetLines(make_cells([kept] if kept else []))
+            watched = Watched(mesh)
+            watched.filter.SetConstraintsData(lines)
+            watched.run()
+            hint = ("hint: an edge is kept at one of the ten triangles with the smallest angles; "
+                    "with fewer constraints more can flip\n")
+            self.assertEqual(hint in watched.filter.GetSummary(), expected, watched.filter.GetSummary())
+            self.assertEqual("hint" in watched.filter.GetSummary(), expected)
+
+
 class Faults(unittest.TestCase):
 
     def test_ten_errors_in_a_row(self):
