@@ -4,8 +4,9 @@
 
 #include "FlipError.h"
 
-#include <array>
-#include <charconv>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -16,8 +17,17 @@ std::string Write(bool value) { return value ? "on" : "off"; }
 
 std::string Write(double value)
 {
-  std::array<char, 32> text{};
-  return { text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr };
+  // GCC 10, which makes the wheel, has no std::to_chars for it.
+  const auto write = [value](int digits)
+  {
+    std::stringstream text;
+    text.imbue(std::locale::classic());
+    text << std::setprecision(digits) << value;
+    return text;
+  };
+  double read = 0.0;
+  const bool isShort = (write(15) >> read) && read == value;
+  return write(isShort ? 15 : 17).str();
 }
 }
 
