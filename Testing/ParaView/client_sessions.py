@@ -10,6 +10,7 @@ import html
 import os
 
 from paraview import servermanager, simple
+from paraview.modules.vtkRemotingCore import vtkProcessModule
 
 from ClientTesting import FOLDER, Panel, QtWidgets, expect, idle, load_plugin, play, start_filter
 
@@ -369,8 +370,18 @@ def use_points(client):
     client.save_picture("points.png")
 
 
+def start_with_plugin(client):
+    """The plugin in Python, loaded while the client starts, opens no second session."""
+    yield idle(0.5)
+    sessions = vtkProcessModule.GetProcessModule().NewSessionIterator()
+    sessions.GoToNextItem()
+    expect(sessions.IsDoneWithTraversal(), "there are several sessions")
+    expect(client.find_actions("Delaunay Flip"), "the plugin is not loaded")
+
+
 def session(client):
-    load_plugin()
+    if "PV_PLUGIN_PATH" not in os.environ:
+        load_plugin()
     yield from globals()[os.environ["DELAUNAYFLIP_SESSION"]](client)
 
 

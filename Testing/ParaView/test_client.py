@@ -37,14 +37,14 @@ def find_client():
 class Client(PluginTest):
     """Each test starts a client, whose script plays a session."""
 
-    def play(self, session):
-        """Plays a session in a client. Returns its output."""
+    def play(self, session, **variables):
+        """Plays a session in a client, with more variables in its environment. Returns its output."""
         self.save(make_fan(14))
         self.save(make_fan(30), "long.vtp")  # 17 iterations
         self.save(make_line(make_fan(30), 15, 29), "lines.vtp")
         self.save(make_cloud(1000), "cloud.vtp")
         environment = dict(os.environ, DELAUNAYFLIP_FOLDER=self.folder, HOME=self.folder,
-                           DELAUNAYFLIP_SESSION=session)
+                           DELAUNAYFLIP_SESSION=session, **variables)
         environment["PYTHONPATH"] = HERE + os.pathsep + environment.get("PYTHONPATH", "")
         client = subprocess.run(
             [find_client(), "--script=" + os.path.join(HERE, "client_sessions.py")], env=environment,
@@ -61,6 +61,9 @@ class Client(PluginTest):
                         "use_points"):
             with self.subTest(session):
                 self.assertNotRegex(self.play(session), "ERR[|]|WARN[|]|warning:")
+
+    def test_start_with_plugin_in_python(self):
+        self.play("start_with_plugin", PV_PLUGIN_PATH=os.environ["DELAUNAYFLIP_PYTHON_PLUGINS"])
 
 
 if __name__ == "__main__":

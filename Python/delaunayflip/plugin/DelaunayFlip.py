@@ -27,8 +27,8 @@ _FOLDER = pathlib.Path(__file__).resolve().parent.parent
 if str(_FOLDER.parent) not in sys.path:
     sys.path.append(str(_FOLDER.parent))
 
-from paraview import servermanager
-from paraview.modules.vtkRemotingServerManager import vtkSMSettings
+# Not paraview.servermanager: while the client starts, importing it would open a second session.
+from paraview.modules.vtkRemotingServerManager import vtkSMProxyManager, vtkSMSettings
 from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
@@ -49,7 +49,7 @@ paraview_plugin_version = delaunayflip.__version__
 
 def _require_no_other():
     """Raises RuntimeError if the plugin in C++ is loaded."""
-    manager = servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
+    manager = vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
     known = manager.GetPrototypeProxy("filters", "DelaunayFlip") if manager else None
     if known is not None and known.GetVTKClassName() == "vtkPVDelaunayFlip":
         raise RuntimeError(
