@@ -10,7 +10,6 @@ if(DELAUNAYFLIP_WHEEL)
   install(TARGETS DelaunayFlipC
     LIBRARY DESTINATION delaunayflip COMPONENT wheel NAMELINK_SKIP)
   install(FILES "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml"
-    "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFromPoints.xml"
     "${PROJECT_SOURCE_DIR}/Plugin/AngleColors.json"
     DESTINATION delaunayflip COMPONENT wheel)
   return()
@@ -24,8 +23,7 @@ set(DELAUNAYFLIP_PYTHONPATH "${CMAKE_BINARY_DIR}/${delaunayflip_packages}")
 file(GLOB delaunayflip_python_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Python/delaunayflip/*.py")
 list(APPEND delaunayflip_python_files "${PROJECT_SOURCE_DIR}/Python/delaunayflip/py.typed"
   # For plugin/DelaunayFlip.py, a plugin of ParaView:
-  "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml"
-  "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFromPoints.xml" "${PROJECT_SOURCE_DIR}/Plugin/AngleColors.json")
+  "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml" "${PROJECT_SOURCE_DIR}/Plugin/AngleColors.json")
 foreach(file IN LISTS delaunayflip_python_files)
   get_filename_component(name "${file}" NAME)
   configure_file("${file}" "${DELAUNAYFLIP_PYTHONPATH}/delaunayflip/${name}" COPYONLY)

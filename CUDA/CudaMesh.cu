@@ -8,7 +8,6 @@
 #include "MeshOnBackend.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -73,22 +72,11 @@ public:
     return true;
   }
 
-  DeviceTriangles ViewTriangles() const override
-  {
-    const StoreStep store = this->GetStoreStep();
-    const CudaContext& context = this->GetBackend().GetContext();
-    return { store.Triangles, store.Order, this->GetInputReport().Triangles, context.Device,
-      { context.Stream }, this->Number };
-  }
-
 private:
   bool IsHere(const void* memory) const
   {
     return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
   }
-
-  inline static std::atomic<std::uint64_t> Meshes{ 0 };
-  const std::uint64_t Number = ++Meshes;
 };
 
 /// @param view the caller's arrays, wherever they are.

@@ -21,7 +21,6 @@
 namespace delaunayflip
 {
 
-struct DeviceTriangles;
 struct HostTriangles;
 
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
@@ -120,8 +119,6 @@ public:
   void StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const;
 
 private:
-  friend class DrawnTriangles; // of DeviceColors.h
-  DeviceTriangles ViewTriangles() const;
   friend class PartRun;
   HostTriangles ViewHostTriangles() const;
 

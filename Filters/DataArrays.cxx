@@ -197,6 +197,15 @@ vtkSmartPointer<vtkAbstractArray> ExtendArray(
   return made;
 }
 
+void AddArrayAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* data)
+{
+  const int index = data->AddArray(array);
+  if (attribute >= 0 && !data->GetAbstractAttribute(attribute))
+  {
+    data->SetActiveAttribute(index, attribute);
+  }
+}
+
 bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b)
 {
   return a->GetDataType() == b->GetDataType() &&

@@ -118,6 +118,11 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> ExtendArray(
   vtkAbstractArray* array, vtkIdType count, vtkAbstractArray* others, vtkIdList* places);
 
+/// Adds an array to data, as an attribute (vtkDataSetAttributes::SCALARS and so on) that they do
+/// not have yet, or -1: as none.
+DELAUNAYFLIP_EXPORT void AddArrayAs(
+  int attribute, vtkAbstractArray* array, vtkDataSetAttributes* data);
+
 /// Whether values may be copied from one to the other.
 DELAUNAYFLIP_EXPORT bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b);
 

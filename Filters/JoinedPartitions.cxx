@@ -393,12 +393,7 @@ void JoinedPartitions::JoinData(
     if (!isKnown)
     {
       target->SetName(name.c_str());
-      const int index = joined->AddArray(target);
-      const int attribute = own->IsArrayAnAttribute(i);
-      if (attribute >= 0 && !joined->GetAbstractAttribute(attribute))
-      {
-        joined->SetActiveAttribute(index, attribute);
-      }
+      AddArrayAs(own->IsArrayAnAttribute(i), target, joined);
     }
     target->InsertTuples(places, sources, array);
   }
@@ -536,16 +531,9 @@ void JoinedPartitions::DivideData(vtkDataSetAttributes* own, vtkIdType count,
     vtkAbstractArray* array = own->GetAbstractArray(i);
     vtkAbstractArray* source = flipped->GetAbstractArray(FindName(own, i, joined).c_str());
     const bool isWhole = source && array->GetNumberOfTuples() >= count;
-    const auto made = isWhole ? ExtendArray(array, count, source, places) : nullptr;
-    if (!made)
+    if (const auto made = isWhole ? ExtendArray(array, count, source, places) : nullptr)
     {
-      continue;
-    }
-    const int index = result->AddArray(made);
-    const int attribute = own->IsArrayAnAttribute(i);
-    if (attribute >= 0)
-    {
-      result->SetActiveAttribute(index, attribute);
+      AddArrayAs(own->IsArrayAnAttribute(i), made, result);
     }
   }
   for (int i = 0; areCells && i < flipped->GetNumberOfArrays(); ++i)

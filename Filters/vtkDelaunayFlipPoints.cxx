@@ -273,11 +273,8 @@ private:
       vtkAbstractArray* array = own->GetAbstractArray(i);
       vtkAbstractArray* other = find(more, array);
       const bool fits = other && IsSameKind(array, other);
-      const int index = data->AddArray(ExtendArray(array, count, fits ? other : nullptr, added));
-      if (own->IsArrayAnAttribute(i) >= 0)
-      {
-        data->SetActiveAttribute(index, own->IsArrayAnAttribute(i));
-      }
+      AddArrayAs(
+        own->IsArrayAnAttribute(i), ExtendArray(array, count, fits ? other : nullptr, added), data);
     }
     for (int i = 0; i < more->GetNumberOfArrays(); ++i)
     {

@@ -137,11 +137,7 @@ void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* 
       if (!target && given->GetNumberOfArrays() == 0 && *name)
       {
         target = MakeZeros(values, size);
-        const int index = result->AddArray(target);
-        if (attribute >= 0)
-        {
-          result->SetActiveAttribute(index, attribute);
-        }
+        AddArrayAs(attribute, target, result);
       }
       if (target && IsSameKind(target, values))
       {

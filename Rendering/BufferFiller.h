@@ -5,9 +5,6 @@
 
 #include "vtkDelaunayFlipRenderingModule.h" // For export macro
 
-#include "DeviceColors.h"
-#include "TriangleMesh.h"
-
 #include <cstdint>
 #include <memory>
 
@@ -18,67 +15,47 @@ namespace delaunayflip
 
 class FlipSession;
 
-/// Buffers of OpenGL that hold a drawn mesh, by OpenGL's names.
-struct DrawnBuffers
+/// A buffer of OpenGL with the triangles that it draws: three point ids of 32 bits each.
+struct TriangleBuffer
 {
-  unsigned int Triangles = 0; ///< Three point ids of 32 bits per triangle.
-  unsigned int Colors = 0; ///< Red, green, blue and alpha per triangle, a byte each.
+  unsigned int Name = 0; ///< OpenGL's.
   std::int64_t Count = 0; ///< The number of triangles.
 };
 
-/// What is to be written into them.
-struct FilledMesh
-{
-  const FlipSession* Session; ///< Of Count triangles. If null, those that follow are drawn.
-  TriangleArray Triangles; ///< In the host's memory, as are the points.
-  const std::int32_t* FlipCounts; ///< One per triangle, or null: none has been flipped.
-  PointArray Points;
-  std::uint64_t PointsTime = 0; ///< Another one than in the last call if points have moved.
-  DrawnColors Colors;
-};
-
-/// Writes triangles and their colours into the buffers that OpenGL draws. All calls but the
+/// Writes the triangles of a session on a GPU into the buffer that OpenGL draws. All calls but the
 /// destructor are made with OpenGL's context current, and none after one has thrown an exception.
-/// What the buffers hold is undefined then.
+/// What the buffer holds is undefined then.
 class BufferFiller
 {
 public:
   virtual ~BufferFiller() = default;
 
-  /// Takes the buffers from OpenGL, which must not use them until Fill() or Unmap(). If they are
-  /// taken already, nothing happens. Fill() does this by itself. It takes less time if this is
-  /// called before the session makes its step: then the GPU finishes drawing, and switches from
-  /// OpenGL to CUDA, while the step is being made.
+  /// Takes the buffer from OpenGL, which must not use it until Fill() or Unmap(). If it is taken
+  /// already, nothing happens. Fill() does this by itself. It takes less time if this is called
+  /// before the session makes its step: then the GPU finishes drawing, and switches from OpenGL to
+  /// CUDA, while the step is being made.
   /// @throws std::exception.
-  virtual void Map() {}
+  virtual void Map() = 0;
 
-  /// Gives the buffers back as they are, if they are taken.
+  /// Gives the buffer back as it is, if it is taken.
   /// @throws std::exception.
-  virtual void Unmap() {}
+  virtual void Unmap() = 0;
 
-  /// Writes the mesh and gives the buffers back to OpenGL. May return before they are written, as
-  /// long as OpenGL waits for that.
+  /// Writes the triangles and gives the buffer back to OpenGL.
+  /// @param session of as many triangles as the buffer.
   /// @throws std::exception.
-  virtual void Fill(const FilledMesh& mesh) = 0;
-
-  /// The smallest angle of the mesh in the buffers in degrees; NaN if there is none, or if it
-  /// cannot be found out.
-  virtual double GetSmallestAngle() noexcept = 0;
+  virtual void Fill(const FlipSession& session) = 0;
 };
 
-/// Makes a filler of buffers of the current context, for sessions of a filter. Their memory must
-/// stay as it is as long as the filler exists.
-/// @throws std::exception that says why it cannot fill them.
+/// Makes a filler of a buffer of the current context, for sessions of a filter. The buffer's memory
+/// must stay as it is as long as the filler exists.
+/// @throws std::exception that says why it cannot fill it.
 using FillerMaker = std::unique_ptr<BufferFiller> (*)(
-  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
+  vtkDelaunayFlip* filter, const TriangleBuffer& buffer);
 
 /// By CUDA, for sessions on the GPU that draws.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
-  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
-
-/// From the host, for any mesh. The filter may be null.
-VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeHostFiller(
-  vtkDelaunayFlip* filter, const DrawnBuffers& buffers);
+  vtkDelaunayFlip* filter, const TriangleBuffer& buffer);
 
 /// What mappers use where they need not fill from the host: MakeCudaFiller, or what a test has put
 /// in its place.

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -84,33 +83,18 @@ Resource Register(unsigned int buffer)
     });
 }
 
-/// The memory of a mapped buffer.
-void* GetMemory(const Resource& resource, std::int64_t bytes)
-{
-  void* memory = nullptr;
-  std::size_t size = 0;
-  Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, resource.get()),
-    "find the memory of a buffer of OpenGL");
-  if (size < static_cast<std::size_t>(bytes))
-  {
-    throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
-  }
-  return memory;
-}
-
 class CudaFiller : public BufferFiller
 {
 public:
-  CudaFiller(int device, const DrawnBuffers& buffers)
+  CudaFiller(int device, const TriangleBuffer& buffer)
     : Device(device),
-      Count(buffers.Count),
-      Triangles(Register(buffers.Triangles)),
-      Colors(Register(buffers.Colors))
+      Count(buffer.Count),
+      Buffer(Register(buffer.Name))
   {
   }
   ~CudaFiller() override
   {
-    if (this->AreMapped)
+    if (this->IsMapped)
     {
       this->Call(cudaGraphicsUnmapResources);
       cudaGetLastError();
@@ -119,94 +103,57 @@ public:
 
   void Map() override
   {
-    if (!std::exchange(this->AreMapped, true))
+    if (!std::exchange(this->IsMapped, true))
     {
       const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsMapResources), "map the buffers of OpenGL");
+      Require(this->Call(cudaGraphicsMapResources), "map a buffer of OpenGL");
     }
   }
 
   void Unmap() override
   {
-    if (std::exchange(this->AreMapped, false))
+    if (std::exchange(this->IsMapped, false))
     {
       const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsUnmapResources), "return the buffers to OpenGL");
+      Require(this->Call(cudaGraphicsUnmapResources), "return a buffer to OpenGL");
     }
   }
 
-  void Fill(const FilledMesh& mesh) override
+  void Fill(const FlipSession& session) override
   {
-    if (!IsOnGpu(mesh.Session->GetReport().Backend))
+    if (!IsOnGpu(session.GetReport().Backend))
     {
       throw std::runtime_error("the filter no longer works on the GPU");
     }
     const CurrentGpu current(this->Device);
-    this->CopyPoints(mesh);
     this->Map();
-    auto* triangles = static_cast<std::int32_t*>(GetMemory(this->Triangles, 12 * this->Count));
-    auto* colors = static_cast<std::uint32_t*>(GetMemory(this->Colors, 4 * this->Count));
-    const void* points = this->Points.get();
-    this->Drawn.Update(*mesh.Session,
-      { mesh.Points.Floats
-          ? DevicePointArray(static_cast<const float*>(points), mesh.Points.Count)
-          : DevicePointArray(static_cast<const double*>(points), mesh.Points.Count),
-        MutableTriangleArray(triangles, this->Count), colors, { this->Queue.get() } },
-      mesh.Colors);
+    void* memory = nullptr;
+    std::size_t size = 0;
+    Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, this->Buffer.get()),
+      "find the memory of a buffer of OpenGL");
+    if (size < 12 * static_cast<std::size_t>(this->Count))
+    {
+      throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
+    }
+    session.StoreTriangles(
+      MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count), { this->Queue.get() });
     this->Unmap();
   }
 
-  double GetSmallestAngle() noexcept override
-  {
-    try
-    {
-      return this->Drawn.GetSmallestAngle();
-    }
-    catch (const std::exception&) // the next call of Fill says why
-    {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-
 private:
-  /// Maps or unmaps the buffers.
+  /// Maps or unmaps the buffer.
   template <typename Function>
   cudaError_t Call(Function function) const
   {
-    cudaGraphicsResource_t both[] = { this->Triangles.get(), this->Colors.get() };
-    return function(2, both, this->Queue.get());
-  }
-
-  void CopyPoints(const FilledMesh& mesh)
-  {
-    const bool areFloats = mesh.Points.Floats != nullptr;
-    const auto bytes = static_cast<std::size_t>(mesh.Points.Count) * (areFloats ? 12 : 24);
-    if (std::exchange(this->PointsTime, mesh.PointsTime) == mesh.PointsTime)
-    {
-      return;
-    }
-    if (std::exchange(this->PointBytes, bytes) != bytes)
-    {
-      void* memory = nullptr;
-      this->Points.reset();
-      Require(cudaMalloc(&memory, bytes), "allocate memory");
-      this->Points.reset(memory, [](void* allocated) { cudaFree(allocated); });
-    }
-    const void* host =
-      areFloats ? static_cast<const void*>(mesh.Points.Floats) : mesh.Points.Doubles;
-    Require(cudaMemcpy(this->Points.get(), host, bytes, cudaMemcpyHostToDevice), "copy points");
-    this->Drawn.Forget();
+    cudaGraphicsResource_t buffer = this->Buffer.get();
+    return function(1, &buffer, this->Queue.get());
   }
 
   int Device;
   std::int64_t Count;
   Stream Queue = MakeStream();
-  Resource Triangles, Colors;
-  bool AreMapped = false;
-  std::shared_ptr<void> Points; ///< A copy in the memory of the GPU.
-  std::size_t PointBytes = 0;
-  std::uint64_t PointsTime = 0; ///< When they were copied.
-  DrawnTriangles Drawn;
+  Resource Buffer;
+  bool IsMapped = false;
 };
 
 #endif
@@ -216,7 +163,7 @@ private:
 FillerMaker DeviceFillerMaker = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const DrawnBuffers& buffers)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const TriangleBuffer& buffer)
 {
   if (!IsOnGpu(filter->GetBackendUsed()))
   {
@@ -237,10 +184,10 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const Draw
     throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
   }
   const CurrentGpu current(device);
-  return std::make_unique<CudaFiller>(device, buffers);
+  return std::make_unique<CudaFiller>(device, buffer);
 }
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, const DrawnBuffers&)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, const TriangleBuffer&)
 {
   throw std::runtime_error("this build has no CUDA backend");
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveScene.h"
 
+#include "UpdateReport.h"
+
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
 
@@ -61,23 +63,6 @@ int GetViewAxis(const double* bounds)
   return isFlat(2) ? 2 : isFlat(1) ? 1 : isFlat(0) ? 0 : 2;
 }
 
-/// 1234567 -> "1,234,567"
-std::string Group(vtkIdType number)
-{
-  std::string text = std::to_string(number);
-  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3)
-  {
-    text.insert(static_cast<std::size_t>(i), ",");
-  }
-  return text;
-}
-
-/// 2, "flip" -> "2 flips"
-std::string Count(vtkIdType number, const std::string& things)
-{
-  return Group(number) + " " + things + (number == 1 ? "" : "s");
-}
-
 std::string DescribeCounts(vtkDelaunayFlip* filter)
 {
   return Count(filter->GetTotalFlips(), "flip") + ", " +
@@ -127,7 +112,7 @@ std::string DescribeMesh(const LiveStatus& status)
   const std::string triangles = Count(status.Triangles, "triangle");
   if (status.State == LiveState::Failed)
   {
-    return state + "\nthe mesh of frame " + Group(status.Frame);
+    return state + "\nthe mesh of frame " + Count(status.Frame);
   }
   if (status.Frame == 0)
   {
@@ -137,7 +122,7 @@ std::string DescribeMesh(const LiveStatus& status)
   {
     return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
   }
-  return "iteration " + Group(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
+  return "iteration " + Count(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
     DescribeCounts(status.Filter);
 }
 

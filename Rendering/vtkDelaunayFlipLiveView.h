@@ -48,7 +48,7 @@
  * is updated, which makes no step, and at the end of a run. A program that reads the output after a
  * step of the view calls Update() of the filter first.
  *
- * Cost per step: a step of the filter, and passes over the triangles, on the GPU if CUDA writes
+ * Cost per step: a step of the filter, and a pass over the triangles, on the GPU if CUDA writes
  * what is drawn. No timer runs after the end of a run.
  *
  * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
@@ -147,9 +147,9 @@ public:
   /**
    * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
    * the run continues; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of
-   * the filter); the smallest angle of the mesh that is shown, in space, in degrees. For the input
-   * the second line is the number of triangles. Default on. A failure is always shown. Takes effect
-   * at the next frame or Render().
+   * the filter); the smallest angle of the mesh that is shown, in degrees, in space or, after a
+   * step with PLANAR_XY, in the projection. For the input the second line is the number of
+   * triangles. Default on. A failure is always shown. Takes effect at the next frame or Render().
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);
@@ -169,10 +169,9 @@ public:
   ///@{
   /**
    * Whether the mesh is drawn without copies where that is possible: CUDA writes the triangles of
-   * the run, and their colours, into the buffers that OpenGL draws. That takes a filter that works
-   * on a GPU by CUDA, and OpenGL on the same GPU. Otherwise they are sent from the host. Default
-   * on. Takes effect at the next step. The picture is the same, but for triangles whose value is at
-   * the edge of two colours.
+   * the run into the buffer that OpenGL draws. That takes a filter that works on a GPU by CUDA, and
+   * OpenGL on the same GPU. Otherwise they are sent from the host, as flip counts always are.
+   * Default on. Takes effect at the next step. The picture is the same.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);

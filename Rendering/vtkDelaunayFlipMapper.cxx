@@ -4,6 +4,7 @@
 
 #include "BufferFiller.h"
 #include "DelaunayFlip.h"
+#include "MeshAudit.h"
 #include "OpenGLFunctions.h"
 
 #include "vtkActor.h"
@@ -38,7 +39,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -49,6 +49,7 @@ namespace
 {
 
 constexpr int MostPlanes = 6; ///< As in VTK's own mapper.
+constexpr int Bands = 12; ///< Of colours.
 constexpr const char* NoRun = "there is no live run of one mesh";
 
 /// Places are relative to the centre of the mesh, in units of half its diagonal.
@@ -70,22 +71,38 @@ constexpr const char* FragmentShader = R"(//VTK::System::Dec
 in vec3 drawnPlace;
 uniform mat4 placeToClip;
 uniform mat4 dataToView;
-uniform samplerBuffer colors;
-uniform isamplerBuffer corners;
 uniform samplerBuffer places;
+uniform isamplerBuffer corners;
+uniform isamplerBuffer counts;
+uniform vec3 bands[12];  // colours
+uniform float bandsPerUnit;
+uniform int byFlipCount; // else by smallest angle
 uniform int numberOfPlanes;
 uniform vec4 planes[6];
 uniform vec2 light;      // ambient, diffuse
-uniform vec4 plainColor; // where alpha is not 0
+uniform vec4 plainColor; // if alpha is not 0
 uniform vec4 viewport;   // its middle and half its size
 uniform vec4 edge;       // its colour, and half its width in pixels or 0
 
-vec3 findCorner(int slot)
+vec3 findPlace(int slot)
 {
   int first = 3 * texelFetch(corners, 3 * gl_PrimitiveID + slot).r;
-  vec4 clip = placeToClip * vec4(texelFetch(places, first).r, texelFetch(places, first + 1).r,
-    texelFetch(places, first + 2).r, 1.0);
+  return vec3(texelFetch(places, first).r, texelFetch(places, first + 1).r,
+    texelFetch(places, first + 2).r);
+}
+
+vec3 findPixel(vec3 place)
+{
+  vec4 clip = placeToClip * vec4(place, 1.0);
   return vec3(clip.xy * viewport.zw, clip.w);
+}
+
+// The smallest angle of a triangle has the largest cosine.
+float findAngle(vec3 a, vec3 b, vec3 c)
+{
+  float area = length(cross(b - a, c - a));
+  float most = max(dot(b - a, c - a), max(dot(c - b, a - b), dot(a - c, b - c)));
+  return degrees(atan(area, most));
 }
 
 float findDistance(vec3 line)
@@ -93,11 +110,8 @@ float findDistance(vec3 line)
   return abs(dot(line, vec3(gl_FragCoord.xy - viewport.xy, 1.0))) / length(line.xy);
 }
 
-float findEdge()
+float findEdge(vec3 a, vec3 b, vec3 c)
 {
-  vec3 a = findCorner(0);
-  vec3 b = findCorner(1);
-  vec3 c = findCorner(2);
   float distance = min(findDistance(cross(b, c)),
     min(findDistance(cross(c, a)), findDistance(cross(a, b))));
   float strength = 1.0;
@@ -123,11 +137,24 @@ void main()
       discard;
     }
   }
-  vec3 color = plainColor.a > 0.0 ? plainColor.rgb : texelFetch(colors, gl_PrimitiveID).rgb;
+  vec3 color = plainColor.rgb;
+  vec3 a, b, c;
+  if (plainColor.a == 0.0 || edge.w > 0.0)
+  {
+    a = findPlace(0);
+    b = findPlace(1);
+    c = findPlace(2);
+  }
+  if (plainColor.a == 0.0)
+  {
+    float value =
+      byFlipCount != 0 ? float(texelFetch(counts, gl_PrimitiveID).r) : findAngle(a, b, c);
+    color = bands[int(clamp(value * bandsPerUnit, 0.0, 11.0))];
+  }
   color *= light.x + light.y * (size > 0.0 ? abs(normal.z) / size : 1.0);
   if (edge.w > 0.0)
   {
-    color = mix(color, edge.rgb, findEdge());
+    color = mix(color, edge.rgb, findEdge(findPixel(a), findPixel(b), findPixel(c)));
   }
   gl_FragData[0] = vec4(color, 1.0);
 }
@@ -179,7 +206,6 @@ TriangleArray ViewTriangles(vtkPolyData* faces)
 /// Fills the table, for flip counts or angles, with twelve bands between a few colours.
 void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
 {
-  constexpr int bands = 12;
   using Colors = std::vector<std::array<double, 3>>;
   // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
   const Colors colors = byFlipCount
@@ -187,10 +213,10 @@ void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
         { 0.46, 0.32, 0.66 }, { 0.25, 0.0, 0.49 } }
     : Colors{ { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 },
         { 0.82, 0.90, 0.94 }, { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } };
-  table->SetNumberOfTableValues(bands);
-  for (int i = 0; i < bands; ++i)
+  table->SetNumberOfTableValues(Bands);
+  for (int i = 0; i < Bands; ++i)
   {
-    const double place = static_cast<double>(i) / (bands - 1) * (colors.size() - 1.0);
+    const double place = static_cast<double>(i) / (Bands - 1) * (colors.size() - 1.0);
     const std::size_t low = std::min(static_cast<std::size_t>(place), colors.size() - 2);
     double rgb[3];
     for (int k = 0; k < 3; ++k)
@@ -203,23 +229,24 @@ void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
   table->SetRange(0.0, byFlipCount ? 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0) : 60.0);
 }
 
-ColorBands GetBands(vtkLookupTable* table)
-{
-  ColorBands bands;
-  bands.Colors.resize(static_cast<std::size_t>(table->GetNumberOfTableValues()));
-  std::memcpy(bands.Colors.data(), table->GetPointer(0), 4 * bands.Colors.size());
-  bands.First = table->GetRange()[0];
-  bands.Last = table->GetRange()[1];
-  std::memcpy(&bands.OfNaN, table->GetNanColorAsUnsignedChars(), sizeof(bands.OfNaN));
-  return bands;
-}
-
 void MakeCurrent(vtkOpenGLRenderWindow* window)
 {
   if (!window->IsCurrent()) // else a context may be flushed for nothing
   {
     window->MakeCurrent();
   }
+}
+
+void SetBands(vtkShaderProgram* program, vtkLookupTable* table, bool byFlipCount)
+{
+  float bands[Bands][3];
+  for (int i = 0; i < Bands; ++i)
+  {
+    std::copy_n(table->GetTableValue(i), 3, bands[i]);
+  }
+  program->SetUniform3fv("bands", Bands, bands);
+  program->SetUniformf("bandsPerUnit", static_cast<float>(Bands / table->GetRange()[1]));
+  program->SetUniformi("byFlipCount", byFlipCount);
 }
 
 void SetMatrix(
@@ -258,7 +285,7 @@ struct vtkDelaunayFlipMapper::Parts
   {
     Places,
     Corners,
-    Colors
+    Counts ///< Of flips.
   };
   bool HasBuffers = false;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
@@ -268,11 +295,13 @@ struct vtkDelaunayFlipMapper::Parts
   std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers.
   vtkMTimeType UploadTime = 0; ///< Of the points in the buffer.
 
-  std::unique_ptr<BufferFiller> Filler;
+  std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
   bool MayTryDevice = true;
-  bool IsBehind = true; ///< The buffers hold an earlier mesh or other colours.
-  bool ByFlipCount = false; ///< What the colours in the buffer show.
+  bool IsBehind = true; ///< The buffers hold an earlier mesh.
+  bool HasCounts = false; ///< Flip counts are those of the triangles.
+  bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
+  double SmallestAngle = -1.0; ///< Of the triangles in the buffer; less than 0: not measured yet.
   bool HasWarned = false;
   double TableKind = -2.0; ///< What the table was filled for: a largest count, or -1 for angles.
 
@@ -343,7 +372,7 @@ struct vtkDelaunayFlipMapper::Parts
     this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
     this->MakeBuffer(
       Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
-    this->MakeBuffer(Colors, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_RGBA8);
+    this->MakeBuffer(Counts, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_R32I);
   }
 
   /// Every value has four bytes.
@@ -358,8 +387,7 @@ struct vtkDelaunayFlipMapper::Parts
     vtkTextureObject* texture = this->Textures[name];
     texture->SetContext(this->Window);
     texture->SetInternalFormat(format);
-    texture->CreateTextureBuffer(static_cast<unsigned int>(count), name == Colors ? 4 : 1,
-      name == Colors ? VTK_UNSIGNED_CHAR : VTK_FLOAT, buffer);
+    texture->CreateTextureBuffer(static_cast<unsigned int>(count), 1, VTK_FLOAT, buffer);
   }
 
   void UploadPoints()
@@ -394,7 +422,7 @@ struct vtkDelaunayFlipMapper::Parts
       window->MakeCurrent();
     }
     this->Filler.reset();
-    for (const int name : { Places, Corners, Colors })
+    for (const int name : { Places, Corners, Counts })
     {
       this->Textures[name]->ReleaseGraphicsResources(window);
       this->Buffers[name]->ReleaseGraphicsResources();
@@ -410,12 +438,9 @@ struct vtkDelaunayFlipMapper::Parts
   /// session is gone, but the mesh in the buffers stays.
   void ChooseFiller(bool allowsDevice)
   {
-    const DrawnBuffers buffers{ static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()),
-      static_cast<unsigned int>(this->Buffers[Colors]->GetHandle()), this->Count };
-    const bool isOnDevice = this->Obstacle.empty();
     const bool hasSession = this->FindSession() != nullptr;
     const bool hasOther = this->Filter && this->Filter->GetSession();
-    if (this->Filter && !hasOther && this->Filler)
+    if (this->Filter && !hasOther && !this->IsBehind)
     {
       return;
     }
@@ -425,13 +450,15 @@ struct vtkDelaunayFlipMapper::Parts
         : hasOther                ? "the mesh has other cells than triangles"
                                   : NoRun;
       this->MayTryDevice = true;
-      this->Filler = isOnDevice ? nullptr : std::move(this->Filler);
+      this->IsBehind = this->IsBehind || this->Filler;
+      this->Filler.reset();
     }
-    else if (!isOnDevice && std::exchange(this->MayTryDevice, false))
+    else if (!this->Filler && std::exchange(this->MayTryDevice, false))
     {
       try
       {
-        this->Filler = DeviceFillerMaker(this->Filter, buffers);
+        this->Filler = DeviceFillerMaker(this->Filter,
+          { static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()), this->Count });
         this->Obstacle.clear();
         this->IsBehind = true;
       }
@@ -439,11 +466,6 @@ struct vtkDelaunayFlipMapper::Parts
       {
         this->Obstacle = error.what();
       }
-    }
-    if (!this->Filler)
-    {
-      this->Filler = MakeHostFiller(this->Filter, buffers);
-      this->IsBehind = true;
     }
   }
 
@@ -455,24 +477,107 @@ struct vtkDelaunayFlipMapper::Parts
     this->IsBehind = true;
   }
 
-  FilledMesh DescribeMesh(vtkLookupTable* table)
+  /// Brings the buffers of triangles and, if colours show them, of flip counts up to date.
+  void Fill()
   {
-    // The table changes only if it must, since what is drawn with it is then drawn anew.
-    const auto choose = [this, table](double largestCount)
+    const FlipSession* session = this->FindSession();
+    if (!this->IsBehind && this->Filler)
     {
-      this->LargestCount = std::max(this->LargestCount, largestCount);
-      const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
-      if (std::exchange(this->TableKind, kind) != kind)
+      this->Filler->Unmap();
+    }
+    else if (this->IsBehind)
+    {
+      this->Filler ? this->Filler->Fill(*session) : this->UploadTriangles(session);
+      this->SmallestAngle = session ? session->GetReport().MinimumAngleAfter : -1.0;
+      this->HasCounts = false;
+      this->IsBehind = false;
+    }
+    if (this->ByFlipCount && !std::exchange(this->HasCounts, true))
+    {
+      this->UploadFlipCounts(session);
+    }
+  }
+
+  /// Ids of points that do not exist become 0: the mesh may be one that no filter has checked.
+  void UploadTriangles(const FlipSession* session)
+  {
+    std::vector<std::int32_t> ids(3 * static_cast<std::size_t>(this->Count));
+    const TriangleArray triangles = ViewTriangles(this->Faces);
+    for (std::size_t i = 0; i < ids.size() && !session; ++i)
+    {
+      const std::int64_t id = triangles.Get(static_cast<std::int64_t>(i / 3), i % 3);
+      ids[i] = id >= 0 && id < this->PointCount ? static_cast<std::int32_t>(id) : 0;
+    }
+    if (session)
+    {
+      session->StoreTriangles(MutableTriangleArray(ids.data(), this->Count));
+    }
+    this->Upload(Corners, ids);
+  }
+
+  void UploadFlipCounts(const FlipSession* session)
+  {
+    std::vector<std::int32_t> counts(static_cast<std::size_t>(this->Count));
+    vtkDataArray* given = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
+    const int* flips = FindValues<vtkIntArray>(given);
+    if (session)
+    {
+      session->StoreFlipCounts(counts.data());
+    }
+    else if (flips && given->GetNumberOfValues() >= this->Faces->GetNumberOfCells())
+    {
+      const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
+      std::copy_n(flips + first, counts.size(), counts.begin());
+    }
+    this->Upload(Counts, counts);
+    this->LargestCount =
+      std::max<double>(this->LargestCount, *std::max_element(counts.begin(), counts.end()));
+  }
+
+  void Upload(BufferName name, const std::vector<std::int32_t>& values)
+  {
+    glBindBuffer(GL_COPY_WRITE_BUFFER, static_cast<GLuint>(this->Buffers[name]->GetHandle()));
+    glBufferSubData(
+      GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(4 * values.size()), values.data());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  }
+
+  /// Of a mesh without a run in space; of a run, as its report.
+  double GetSmallestAngle()
+  {
+    if (this->SmallestAngle < 0.0)
+    {
+      TriangleMesh mesh;
+      mesh.Points = ViewPoints(this->Points);
+      mesh.Triangles = ViewTriangles(this->Faces);
+      this->SmallestAngle = std::numeric_limits<double>::quiet_NaN();
+      try
       {
-        FillTable(table, this->ByFlipCount, this->LargestCount);
+        this->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
       }
-      return GetBands(table);
-    };
-    vtkDataArray* counts = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
-    const int* flips = FindValues<vtkIntArray>(counts);
-    const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
-    return { this->FindSession(), ViewTriangles(this->Faces), flips ? flips + first : nullptr,
-      ViewPoints(this->Points), this->PointsTime, { this->ByFlipCount, choose } };
+      catch (const std::exception&) // a triangle names a point that does not exist
+      {
+      }
+    }
+    return this->SmallestAngle;
+  }
+
+  /// The table changes only if it must, since VTK then makes the scale anew.
+  void UpdateTable(vtkLookupTable* table)
+  {
+    const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
+    if (std::exchange(this->TableKind, kind) != kind)
+    {
+      FillTable(table, this->ByFlipCount, this->LargestCount);
+    }
+  }
+
+  /// Whether a shader can read buffers of these sizes.
+  bool IsReadable() const
+  {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+    return 3 * std::max(this->Count, this->PointCount) <= largest;
   }
 
   void Draw(vtkShaderProgram* program)
@@ -481,14 +586,14 @@ struct vtkDelaunayFlipMapper::Parts
     this->Array->AddAttributeArray(
       program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
     this->Buffers[Corners]->Bind();
-    const char* const names[] = { "places", "corners", "colors" };
-    for (const int name : { Places, Corners, Colors })
+    const char* const names[] = { "places", "corners", "counts" };
+    for (const int name : { Places, Corners, Counts })
     {
       this->Textures[name]->Activate();
       program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
     }
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
-    for (const int name : { Places, Corners, Colors })
+    for (const int name : { Places, Corners, Counts })
     {
       this->Textures[name]->Deactivate();
     }
@@ -543,8 +648,8 @@ vtkIdType vtkDelaunayFlipMapper::GetNumberOfTriangles()
 
 double vtkDelaunayFlipMapper::GetSmallestAngle()
 {
-  return this->Own->Filler ? this->Own->Filler->GetSmallestAngle()
-                           : std::numeric_limits<double>::quiet_NaN();
+  this->ReadInput();
+  return this->Own->GetSmallestAngle();
 }
 
 std::string vtkDelaunayFlipMapper::GetDrawing() const
@@ -556,7 +661,7 @@ std::string vtkDelaunayFlipMapper::GetDrawing() const
 /// If something is drawn before Fill(), the buffers are given back for that.
 void vtkDelaunayFlipMapper::BeginStep()
 {
-  if (this->Own->Filler && this->Own->Obstacle.empty() && this->Own->Window)
+  if (this->Own->Filler && this->Own->Window)
   {
     try
     {
@@ -624,18 +729,15 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   if (own.ByFlipCount != byFlipCount && (!own.Filter || own.FindSession()))
   {
     own.ByFlipCount = byFlipCount;
-    own.IsBehind = true;
   }
   for (bool isOnDevice = true; isOnDevice;)
   {
     try
     {
       own.ChooseFiller(this->ZeroCopy);
-      isOnDevice = own.Obstacle.empty();
-      own.IsBehind
-        ? own.Filler->Fill(own.DescribeMesh(vtkLookupTable::SafeDownCast(this->LookupTable)))
-        : own.Filler->Unmap();
-      own.IsBehind = false;
+      isOnDevice = own.Filler != nullptr;
+      own.Fill();
+      own.UpdateTable(vtkLookupTable::SafeDownCast(this->LookupTable));
       return true;
     }
     catch (const std::exception& error)
@@ -714,18 +816,17 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   program->SetUniformi("numberOfPlanes", count);
   program->SetUniform4fv("planes", MostPlanes, planes);
 
-  GLint largest = 0; // what a shader can read of a buffer
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
-  const bool hasColors = this->ColorBy != COLOR_BY_SOLID && own.Count <= largest;
-  const bool hasEdges = 3 * std::max(own.Count, own.PointCount) <= largest;
+  const bool isReadable = own.IsReadable();
+  SetBands(program, vtkLookupTable::SafeDownCast(this->LookupTable), own.ByFlipCount);
   vtkProperty* property = actor->GetProperty();
-  const float light[2] = { property->GetLighting() ? static_cast<float>(property->GetAmbient())
-                                                   : 1.0f,
-    property->GetLighting() ? static_cast<float>(property->GetDiffuse()) : 0.0f };
+  const bool isLit = property->GetLighting();
+  const float light[2] = { isLit ? static_cast<float>(property->GetAmbient()) : 1.0f,
+    isLit ? static_cast<float>(property->GetDiffuse()) : 0.0f };
   program->SetUniform2f("light", light);
-  SetColor(program, "plainColor", property->GetColor(), hasColors ? 0.0 : 1.0);
+  SetColor(program, "plainColor", property->GetColor(),
+    isReadable && this->ColorBy != COLOR_BY_SOLID ? 0.0 : 1.0);
   SetColor(program, "edge", property->GetEdgeColor(),
-    property->GetEdgeVisibility() && hasEdges ? 0.5 * property->GetLineWidth() : 0.0);
+    property->GetEdgeVisibility() && isReadable ? 0.5 * property->GetLineWidth() : 0.0);
   int width, height, left, bottom;
   renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
   const float viewport[4] = { left + 0.5f * width, bottom + 0.5f * height, 0.5f * width,

@@ -5,17 +5,17 @@
  * @brief   draw triangles that change in every frame
  *
  * vtkDelaunayFlipMapper draws the polygons and strips of its input as triangles, by OpenGL. It
- * keeps points, triangles and one colour per triangle in three buffers of its own, and one shader
- * draws them. Triangles are shaded flat and coloured by what they are, see ColorBy.
+ * keeps points, triangles and flip counts in three buffers of its own, and one shader draws them.
+ * Triangles are shaded flat and coloured by what they are, see ColorBy.
  *
  *     mapper->SetInputConnection(flip->GetOutputPort());
  *     actor->SetMapper(mapper);
  *
  * With SetFilter() it draws the live run of a vtkDelaunayFlip, whose steps need not be put out: the
  * points of the input with the triangles that the run has now. If the filter works on a GPU by CUDA
- * and OpenGL draws on the same one, CUDA writes them into the buffers. Otherwise they are written
- * from the memory of the host. Both give the same picture, but for triangles whose value is at the
- * edge of two colours. vtkDelaunayFlipLiveView draws with this mapper.
+ * and OpenGL draws on the same one, CUDA writes them into the buffer. Otherwise they are written
+ * from the memory of the host. Both give the same picture. vtkDelaunayFlipLiveView draws with this
+ * mapper.
  *
  * Of the actor's property it uses ambient and diffuse coefficient, lighting, edge visibility, edge
  * colour and line width, and the colour if ColorBy is SOLID. Edges fade where triangles are smaller
@@ -55,7 +55,7 @@ public:
    * What the colour of a triangle shows. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
    * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: in how many flips it took part,
    * from 0 to the largest count so far or 12, whichever is larger; without a live run this is the
-   * cell array vtkDelaunayFlipCount, or 0.
+   * cell array vtkDelaunayFlipCount, or 0. Flip counts are sent from the host.
    */
   enum ColorByType
   {
@@ -79,7 +79,7 @@ public:
 
   ///@{
   /**
-   * Whether CUDA may write into the buffers. Default on.
+   * Whether CUDA may write into the buffer of triangles. Default on.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);
@@ -108,7 +108,8 @@ public:
   bool Fill();
 
   /**
-   * The smallest angle of the mesh in the buffers, in degrees; NaN if there is none.
+   * The smallest angle of the mesh in the buffers, in degrees; NaN if there is none. It is measured
+   * in space, but that of a run with PLANAR_XY in the projection.
    */
   double GetSmallestAngle();
 

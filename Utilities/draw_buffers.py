@@ -17,18 +17,16 @@ COLORS = {"CUDA": "#76b7b2", "OpenGL": "#f28e2b", "CPU": "#9c9ede"}
 IDLE = "#eeeeee"
 
 # Each row: the memory, and its users from left to right: (first phase, last phase, user, text).
-COPYING = ("from copies", ("step", "store", "colours", "upload", "draw"), (
+COPYING = ("from copies", ("step", "store", "upload", "draw"), (
     ("session (GPU)", ((0, 0, "CUDA", "flips"), (1, 1, "CUDA", "read"))),
-    ("mesh of the filter (host)", ((1, 1, "CPU", "triangles"), (2, 2, "CPU", "angles, colours"),
-                                   (3, 3, "CPU", "read"))),
-    ("triangles, colours (GPU)", ((3, 3, "CPU", "written"), (4, 4, "OpenGL", "read"))),
-    ("vertices (GPU)", ((4, 4, "OpenGL", "read"),)),
+    ("mesh of the filter (host)", ((1, 1, "CPU", "triangles"), (2, 2, "CPU", "read"))),
+    ("triangles (GPU)", ((2, 2, "CPU", "written"), (3, 3, "OpenGL", "read"))),
+    ("vertices (GPU)", ((3, 3, "OpenGL", "read"),)),
 ))
 SHARING = ("without copies", ("map", "step", "write", "unmap", "draw"), (
     ("session (GPU)", ((1, 1, "CUDA", "flips"), (2, 2, "CUDA", "read"))),
-    ("points (GPU)", ((2, 2, "CUDA", "angles"),)),
-    ("triangles, colours (GPU)", ((0, 1, "CUDA", ""), (2, 2, "CUDA", "written"),
-                                  (3, 3, "CUDA", ""), (4, 4, "OpenGL", "read"))),
+    ("triangles (GPU)", ((0, 1, "CUDA", ""), (2, 2, "CUDA", "written"), (3, 3, "CUDA", ""),
+                         (4, 4, "OpenGL", "read"))),
     ("vertices (GPU)", ((4, 4, "OpenGL", "read"),)),
 ))
 

@@ -27,18 +27,7 @@ public:
   virtual ~DeviceScope() = default;
 };
 
-/// The triangles of a loaded mesh in the memory of a GPU, to be read until the next flips.
-struct DeviceTriangles
-{
-  const TriangleRecord* Records = nullptr; ///< Null if they are in no GPU's memory.
-  SpatialOrderView Order{};
-  std::int64_t Count = 0;
-  int Device = -1; ///< CUDA's number of the GPU.
-  DeviceStream Stream; ///< The backend's. What is in it may still write the records.
-  std::uint64_t Engine = 0; ///< Another number for every loaded mesh of the process.
-};
-
-/// The same where they are in the memory of the host.
+/// The triangles of a loaded mesh in the memory of the host, to be read until the next flips.
 struct HostTriangles
 {
   const TriangleRecord* Records = nullptr; ///< Null if they are not.
@@ -107,9 +96,7 @@ public:
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
 
-  /// The triangles as they are in device memory, if they are.
-  virtual DeviceTriangles ViewTriangles() const { return {}; }
-  /// The same in the host's memory.
+  /// The triangles as they are in the host's memory, if they are.
   virtual HostTriangles ViewHostTriangles() const = 0;
 
   /// The triangles that flips have turned over in x and y, on a surface that was a height field or

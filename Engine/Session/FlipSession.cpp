@@ -848,12 +848,6 @@ void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& st
 }
 
 /// None if constraints were inserted: those flips would be missing.
-DeviceTriangles FlipSession::ViewTriangles() const
-{
-  return this->Own->Loaded && !this->Own->Insertion.HasFlips() ? this->Own->Loaded->ViewTriangles()
-                                                               : DeviceTriangles();
-}
-
 HostTriangles FlipSession::ViewHostTriangles() const
 {
   return this->Own->Loaded && !this->Own->Insertion.HasFlips()

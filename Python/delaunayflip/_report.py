@@ -28,8 +28,6 @@ _KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
           "constraints": "constraint_edges", "regions": "region_edges"}
 _BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
             "blocked: would fold": "blocked_by_shape"}
-_SUMMED = {*COUNTS.values(), *_KINDS.values(), "number_of_points", "number_of_triangles", "edges",
-           "non_delaunay_before", "keeps_sliver"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
@@ -99,7 +97,8 @@ def from_struct(struct: _library.Report) -> Report:
     values: typing.Dict[str, typing.Any] = {}
     for name, _ in struct._fields_[1:]:
         value = getattr(struct, name)
-        values[name] = value.decode(errors="replace") if isinstance(value, bytes) else value
+        is_text = value is None or isinstance(value, bytes)
+        values[name] = (value or b"").decode(errors="replace") if is_text else value
     values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
     values["geometry_used"] = _library.GEOMETRIES[struct.geometry_used]
     if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
@@ -108,105 +107,92 @@ def from_struct(struct: _library.Report) -> Report:
 
 
 class Totals:
-    """The report on one mesh, or the sum over several. Attributes that are not counts have the
-    names of those of `Report`; `geometry_used` may be "mixed"."""
+    """The report on one mesh, or the sum over several, of which `report.geometry_used` may be
+    "mixed"; and the rows of its iterations."""
 
     def __init__(self, stop_reason="not started"):
-        self.stop_reason = stop_reason
-        self.counts = dict.fromkeys(_SUMMED, 0)
-        self.texts = dict.fromkeys(TEXTS.values(), "")
-        self.geometry_used = "auto"
+        self.report = dataclasses.replace(from_struct(_library.Report()), stop_reason=stop_reason,
+                                          minimum_angle_before=numpy.nan, minimum_angle_after=numpy.nan)
         self.iterations = numpy.empty(0, dtype=ITERATION)
-        self.minimum_angle_before = self.minimum_angle_after = numpy.inf
-        self.has_triangles = False
-        self.has_angles = False  #: Some triangle has no coordinate that is NaN.
 
     @classmethod
-    def of_run(cls, session, data):
-        """Of a session for `data`, a MeshInput with triangles."""
-        report = session.report
-        totals = cls(report.stop_reason)
-        totals.counts = {name: max(getattr(report, name), 0) for name in totals.counts}
-        totals.counts["unmatched_constraints"] += data.constraints.unmatched
-        totals.texts = {name: getattr(report, name) for name in totals.texts}
-        totals.geometry_used = report.geometry_used
-        totals.iterations = session.iterations
-        totals.minimum_angle_before = report.minimum_angle_before
-        totals.minimum_angle_after = report.minimum_angle_after
-        totals.has_triangles = True
-        totals.has_angles = not numpy.isnan(report.minimum_angle_before)
+    def of_run(cls, report, iterations, unmatched=0):
+        """Of a run; `unmatched` more constraints than it knows have no edge."""
+        totals = cls()
+        totals.iterations = iterations
+        totals.report = dataclasses.replace(
+            report, non_delaunay_before=max(report.non_delaunay_before, 0),
+            non_delaunay_after=max(report.non_delaunay_after, 0),
+            unmatched_constraints=report.unmatched_constraints + unmatched)
         return totals
 
-    @property
-    def converged(self):
-        return self.stop_reason == "converged"
+    def change(self, **values):
+        self.report = dataclasses.replace(self.report, **values)
 
     def add(self, other):
         """Adds the report on another mesh. Keeps the smaller angles and the worse stop reason."""
         self.iterations = _join_iterations(self, other)
-        for name, count in other.counts.items():
-            self.counts[name] += count
-        for name, text in other.texts.items():
-            if text not in self.texts[name]:
-                self.texts[name] += (", " if self.texts[name] else "") + text
-        if self.geometry_used == "auto":
-            self.geometry_used = other.geometry_used
-        elif other.geometry_used not in ("auto", self.geometry_used):
-            self.geometry_used = "mixed"
-        if other.has_angles:
-            for name in ("minimum_angle_before", "minimum_angle_after"):
-                setattr(self, name, numpy.minimum(getattr(self, name), getattr(other, name)))
-        self.has_triangles = self.has_triangles or other.has_triangles
-        self.has_angles = self.has_angles or other.has_angles
-        self.stop_reason = max(self.stop_reason, other.stop_reason, key=_FROM_BEST_TO_WORST.index)
+        values = {}
+        for field in dataclasses.fields(Report):
+            own, more = getattr(self.report, field.name), getattr(other.report, field.name)
+            if isinstance(own, str):
+                values[field.name] = own if more in own else ", ".join(filter(None, (own, more)))
+            else:
+                values[field.name] = own + more if isinstance(own, int) else numpy.fmin(own, more)
+        reasons = self.report.stop_reason, other.report.stop_reason
+        values["stop_reason"] = max(reasons, key=_FROM_BEST_TO_WORST.index)
+        kinds = {self.report.geometry_used, other.report.geometry_used} - {"auto"}
+        values["geometry_used"] = "mixed" if len(kinds) > 1 else "".join(kinds) or "auto"
+        self.change(**values)
 
     def summarize(self):
         """What was done, in lines of a title, ": " and a text; "" without triangles."""
-        if not self.counts["number_of_triangles"]:
+        n, iterations = self.report, len(self.iterations)
+        if not n.number_of_triangles:
             return ""
-        n, reason, iterations = self.counts, self.texts["geometry_reason"], len(self.iterations)
-        angles = [f"{angle:.4g}" if self.has_angles and not numpy.isnan(angle) else "none"
-                  for angle in (self.minimum_angle_before, self.minimum_angle_after)]
+        angles = ["none" if numpy.isnan(angle) else f"{angle:.4g}"
+                  for angle in (n.minimum_angle_before, n.minimum_angle_after)]
         lines = [
-            f"mesh: {_count(n['number_of_points'], 'point')}, "
-            f"{_count(n['number_of_triangles'], 'triangle')}, {_count(n['edges'], 'edge')}",
-            f"kept edges: {n['fixed_edges']:,}" + self._list(_KINDS),
+            f"mesh: {_count(n.number_of_points, 'point')}, "
+            f"{_count(n.number_of_triangles, 'triangle')}, {_count(n.edges, 'edge')}",
+            f"kept edges: {n.fixed_edges:,}" + self._list(_KINDS),
             self._advise(),
-            f"geometry: {self.geometry_used}" + (f": {reason}" if reason else ""),
+            f"geometry: {n.geometry_used}" + (f": {n.geometry_reason}" if n.geometry_reason else ""),
             self._describe_constraints(),
-            f"bad edges: {n['non_delaunay_before']:,} -> {n['non_delaunay_after']:,}"
+            f"bad edges: {n.non_delaunay_before:,} -> {n.non_delaunay_after:,}"
             + self._list(_BLOCKED),
             f"smallest angle: {angles[0]} -> {angles[1]} degrees",
-            f"flips: {n['total_flips']:,} in {_count(iterations, 'iteration')}, {self.stop_reason}"]
+            f"flips: {n.total_flips:,} in {_count(iterations, 'iteration')}, {n.stop_reason}"]
         return "".join(line + "\n" for line in lines if line)
 
     def _list(self, kinds):
         """" (1,000 boundary, 6 constraints)"; kinds of which there are none are left out."""
-        texts = [f"{self.counts[name]:,} {kind}" for kind, name in kinds.items() if self.counts[name]]
+        counts = {kind: getattr(self.report, name) for kind, name in kinds.items()}
+        texts = [f"{count:,} {kind}" for kind, count in counts.items() if count]
         return f" ({', '.join(texts)})" if texts else ""
 
     def _advise(self):
-        n = self.counts
-        inner = n["edges"] - n["boundary_edges"]
-        kept = n["fixed_edges"] + inner - n["edges"] - n["non_manifold_edges"] - n["wrongly_wound_edges"]
-        is_from_points = self.texts["geometry_reason"].startswith("points are triangulated")
-        if (10 * kept <= inner and not n["keeps_sliver"]) or is_from_points:
+        n = self.report
+        inner = n.edges - n.boundary_edges
+        kept = n.fixed_edges + inner - n.edges - n.non_manifold_edges - n.wrongly_wound_edges
+        is_from_points = n.geometry_reason.startswith("points are triangulated")
+        if (10 * kept <= inner and not n.keeps_sliver) or is_from_points:
             return ""
         remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
                     "constraint_edges": "fewer constraints"}
         what = (f"{100 * kept // inner} % of the inner edges are kept" if 10 * kept > inner else
                 "an edge is kept at one of the ten triangles with the smallest angles")
-        return f"hint: {what}; with {remedies[max(remedies, key=n.get)]} more can flip"
+        return f"hint: {what}; with {remedies[max(remedies, key=vars(n).get)]} more can flip"
 
     def _describe_constraints(self):
-        n = self.counts
-        if n["constraint_edges"] + n["unmatched_constraints"] == 0:
+        n = self.report
+        if n.constraint_edges + n.unmatched_constraints == 0:
             return ""
-        inserted = n["inserted_constraints"]
-        return (f"constraints: {_count(n['constraint_edges'], 'edge')} kept"
-                + (f", {inserted:,} inserted by {_count(n['constraint_flips'], 'flip')}"
+        inserted = n.inserted_constraints
+        return (f"constraints: {_count(n.constraint_edges, 'edge')} kept"
+                + (f", {inserted:,} inserted by {_count(n.constraint_flips, 'flip')}"
                    if inserted else "")
-                + f", {n['unmatched_constraints']:,} not in the mesh")
+                + f", {n.unmatched_constraints:,} not in the mesh")
 
     def list_columns(self):
         """(name, values) with a value per iteration."""
@@ -216,14 +202,14 @@ class Totals:
     def list_fields(self):
         """(name, value) of VTK's field data: numbers, texts, then columns. ParaView lists no field data
         when the first array is empty."""
-        yield "Converged", numpy.int32(self.converged)
-        yield "StopReason", self.stop_reason
+        yield "Converged", numpy.int32(self.report.converged)
+        yield "StopReason", self.report.stop_reason
         yield "Summary", self.summarize()
         for name, count in COUNTS.items():
-            yield name, self.counts[count]
-        yield "GeometryUsed", self.geometry_used
+            yield name, getattr(self.report, count)
+        yield "GeometryUsed", self.report.geometry_used
         for name, text in TEXTS.items():
-            yield name, self.texts[text]
+            yield name, getattr(self.report, text)
         yield from self.list_columns()
 
 
@@ -235,15 +221,16 @@ def _join_iterations(a, b):
     """Adds row by row. A mesh that made fewer iterations keeps its last angle; one without angles
     does not count."""
     rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
-    rows["minimum_angle"] = numpy.inf if a.has_angles or b.has_angles else numpy.nan
-    for totals in (a, b):
-        known = len(totals.iterations)
-        if totals.has_angles:
-            angles = numpy.full(len(rows), totals.minimum_angle_after)
-            angles[:known] = totals.iterations["minimum_angle"]
+    meshes = [one for one in (a, b) if not numpy.isnan(one.report.minimum_angle_before)]
+    rows["minimum_angle"] = numpy.inf if meshes else numpy.nan
+    for one in (a, b):
+        known = len(one.iterations)
+        if one in meshes:
+            angles = numpy.full(len(rows), one.report.minimum_angle_after)
+            angles[:known] = one.iterations["minimum_angle"]
             rows["minimum_angle"] = numpy.minimum(rows["minimum_angle"], angles)
         for name in set(ITERATION.names) - {"iteration", "minimum_angle"}:
-            rows[name][:known] += totals.iterations[name]
+            rows[name][:known] += one.iterations[name]
     rows["iteration"] = numpy.arange(1, len(rows) + 1)
     return rows
 

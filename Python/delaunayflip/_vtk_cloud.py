@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts points and segments of any VTK to arrays for `triangulate`, and the result back."""
-from types import SimpleNamespace
-
 import numpy
 
 from . import _library
@@ -75,8 +73,7 @@ class Cloud(Input):
 
     def sum_up(self, report):
         """The Totals of a run."""
-        run = SimpleNamespace(report=report, iterations=self.iterations)
-        return Totals.of_run(run, SimpleNamespace(constraints=SimpleNamespace(unmatched=0)))
+        return Totals.of_run(report, self.iterations)
 
     def write(self, result, output):
         """Writes the mesh, with its data and its counts. Returns the text of a warning, or ""."""

@@ -255,12 +255,13 @@ class Filter(VTKPythonAlgorithmBase):
 
 
 def _get_stop_reason(update):
-    return "failed: " + update.error_message if update.failure else update.totals.stop_reason
+    return ("failed: " + update.error_message if update.failure
+            else update.totals.report.stop_reason)
 
 
 def count_answers(**names):
     """Methods that return counts of the update's report."""
-    return {"Get" + name: lambda update, count=count: update.totals.counts[count]
+    return {"Get" + name: lambda update, count=count: getattr(update.totals.report, count)
             for name, count in names.items()}
 
 
@@ -270,13 +271,13 @@ _COMMON_ANSWERS = {
     "Step": lambda update: False,
     "GetNeedsUpdate": lambda update: False,
     "GetNumberOfIterations": lambda update: len(update.totals.iterations),
-    "GetConverged": lambda update: not update.failure and update.totals.converged,
+    "GetConverged": lambda update: not update.failure and update.totals.report.converged,
     "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
-    else _library.STOP_REASONS.index(update.totals.stop_reason),
+    else _library.STOP_REASONS.index(update.totals.report.stop_reason),
     "GetStopReasonAsString": _get_stop_reason,
     "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
     else update.totals.summarize(),
-    "GetBackendUsed": lambda update: update.totals.texts["backend"],
+    "GetBackendUsed": lambda update: update.totals.report.backend,
     "GetFailure": lambda update: int(update.failure),
     "GetErrorMessage": lambda update: update.error_message,
     "GetErrorCode": lambda update: int(update.failure and _USER_ERROR + update.failure),
@@ -340,9 +341,9 @@ class vtkDelaunayFlip(Filter):
 _ANSWERS = {
     **_COMMON_ANSWERS,
     "GetGeometryUsed":
-    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.geometry_used),
-    "GetGeometryUsedAsString": lambda update: update.totals.geometry_used,
-    "GetGeometryReason": lambda update: update.totals.texts["geometry_reason"],
+    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.report.geometry_used),
+    "GetGeometryUsedAsString": lambda update: update.totals.report.geometry_used,
+    "GetGeometryReason": lambda update: update.totals.report.geometry_reason,
     **count_answers(NumberOfConstraintEdges="constraint_edges",
                     NumberOfUnmatchedConstraintEdges="unmatched_constraints",
                     NumberOfInsertedConstraintEdges="inserted_constraints",

@@ -8,7 +8,7 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._report import FIELD_PREFIX
+from ._report import FIELD_PREFIX, Totals
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
 
@@ -176,6 +176,10 @@ class MeshInput:
         ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
         return texts + ([f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else [])
+
+    def sum_up(self, session):
+        """The Totals of a run."""
+        return Totals.of_run(session.report, session.iterations, self.constraints.unmatched)
 
     def report(self, session, output, options, totals):
         """Adds the numbers of the run to the output's field data. Returns the text of a warning, or "".

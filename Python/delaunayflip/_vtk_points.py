@@ -8,7 +8,7 @@ from ._library import InvalidMesh
 from ._options import CHOICES
 from ._points import triangulate
 from ._vtk_cloud import OUTLINES, Cloud
-from ._vtk_filter import Filter, Property, finish
+from ._vtk_filter import Filter, Property, count_answers, finish
 from ._vtk_update import Failure, Update
 
 _IN_PARTITIONS = ("the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
@@ -16,8 +16,6 @@ _IN_PARTITIONS = ("the points are in several partitions; join them first, by vtk
 
 
 class _PointUpdate(Update):
-
-    segment_edges = refused_segments = 0
 
     def __init__(self, filter_, pieces=1):
         super().__init__(filter_, pieces)
@@ -44,7 +42,7 @@ class _PointUpdate(Update):
             raise InvalidMesh("points on several ranks; gather them on one process first")
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
             self._pass_after_abort(data, output)
-            self.totals.stop_reason = "aborted" if data.GetNumberOfPoints() else "converged"
+            self.totals.change(stop_reason="aborted" if data.GetNumberOfPoints() else "converged")
             return ""
         cloud = Cloud(data, segments, filter_.lines_as_segments, OUTLINES[filter_.outline])
         keywords = {name: getattr(filter_, name) for name in (
@@ -54,8 +52,6 @@ class _PointUpdate(Update):
             device=filter_.device_id, progress=self._observe_part(0.0, 1.0),
             on_iteration=self._observe, **keywords)
         self.totals = cloud.sum_up(result.report)
-        self.segment_edges += result.report.segment_edges
-        self.refused_segments += result.report.segments_refused
         return cloud.write(result, output)
 
 
@@ -87,5 +83,4 @@ finish(vtkDelaunayFlipPoints, (
     *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
     *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
     Property("Outline", 0, 0, 1, ("EvenOdd", "Orientation")),
-), {"GetNumberOfSegmentEdges": lambda update: update.segment_edges,
-    "GetNumberOfRefusedSegments": lambda update: update.refused_segments})
+), count_answers(NumberOfSegmentEdges="segment_edges", NumberOfRefusedSegments="segments_refused"))

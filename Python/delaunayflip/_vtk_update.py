@@ -78,7 +78,7 @@ class Update:
         if self._filter.GetLiveUpdate():
             self._warnings.append(
                 ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
-        if self._pieces > 1 and self._sum.has_triangles:
+        if self._pieces > 1 and self._sum.report.number_of_triangles:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _flip_mesh(self, source, constraints, output):
@@ -96,7 +96,7 @@ class Update:
             self._try_to_flip(mesh, constraints, output)
 
     def _flip_blocks(self, source, constraints, output):
-        self._sum.stop_reason = "converged"  # the result for an input without blocks
+        self._sum.change(stop_reason="converged")  # the result for an input without blocks
         blocks = _copy(source)  # observers may change the input meanwhile
         output.CopyStructure(blocks)
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
@@ -111,7 +111,7 @@ class Update:
             self._block = (before / total, leaf.cells / total)
             before += leaf.cells
             result = self._flip_leaf(leaf, edges.get(leaf.place, constraints))
-            if leaf.is_partition and self.totals.has_triangles:
+            if leaf.is_partition and self.totals.report.number_of_triangles:
                 of_partitions.append(leaf.place[:-1])
             output.SetDataSet(leaf.iterator, result)
         if len(set(of_partitions)) < len(of_partitions):
@@ -128,7 +128,7 @@ class Update:
             return result
         if mesh is None and leaf.cells:
             self._warnings.append((leaf.name, self._filter.no_mesh))
-        if mesh is None or self._sum.stop_reason == "aborted":
+        if mesh is None or self._sum.report.stop_reason == "aborted":
             return _copy(leaf.data)
         self._try_to_flip(mesh, constraints, result, leaf.name)
         return result
@@ -170,15 +170,15 @@ class Update:
         except _library.Stopped:
             return self._pass_after_abort(mesh, output)
         with session:
-            self.totals = Totals.of_run(session, data)
+            self.totals = data.sum_up(session)
             if session.report.stop_reason != "aborted":
                 session.advance(progress=observe, on_iteration=self._observe)
             angles = filter_.GetGenerateQuality()
             is_whole = not angles or self._observe_part(_FLIPPED, 1.0)(0.0)
             data.store(session, output, filter_.GetGenerateFlipCount(), angles and is_whole)
-            self.totals = Totals.of_run(session, data)
+            self.totals = data.sum_up(session)
             if not is_whole:
-                self.totals.stop_reason = "aborted"
+                self.totals.change(stop_reason="aborted")
             return data.report(session, output, options, self.totals)
 
     def _get_options(self):
@@ -204,7 +204,7 @@ class Update:
     def _observe(self, record):
         row = numpy.array([tuple(record[name] for name in ITERATION.names)], dtype=ITERATION)
         self.totals.iterations = numpy.concatenate([self.totals.iterations, row])
-        self.totals.counts["total_flips"] += record["flipped"]
+        self.totals.change(total_flips=self.totals.report.total_flips + record["flipped"])
 
     def _observe_part(self, begin, end):
         """An observer of a part of the current block's update."""

@@ -24,7 +24,6 @@ from ._session import smallest_angles as _angles_of_arrays
 from ._options import Array, check_integer
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
-from ._report import Totals
 from ._surface import Settings, Slots
 from ._vtk_cloud import Cloud
 from ._vtk_mesh import MeshInput, vtk_of
@@ -279,8 +278,8 @@ class _Run:
         if len(self._input.slots.triangles) == 0:
             return made
         self._input.store(self.session, made, flip_counts, quality)
-        totals = Totals.of_run(self.session, self._input)
-        trouble = self._input.report(self.session, made, self._options, totals)
+        trouble = self._input.report(
+            self.session, made, self._options, self._input.sum_up(self.session))
         if trouble:
             warnings.warn(trouble, stacklevel=3)
         return made

@@ -3,6 +3,7 @@
 #include "TestFiller.h"
 
 #include "BufferFiller.h"
+#include "DelaunayFlip.h"
 #include "OpenGLFunctions.h"
 #include "TestBackend.h"
 
@@ -15,7 +16,7 @@ namespace
 {
 
 TestFiller Plan;
-DrawnBuffers Last;
+TriangleBuffer Last;
 
 /// Counts a call, and lets it fail as planned.
 void Count(int& calls, int failing, const char* message)
@@ -26,6 +27,7 @@ void Count(int& calls, int failing, const char* message)
   }
 }
 
+/// Fills by another filler, or, without one, from the host.
 class WatchedFiller : public BufferFiller
 {
 public:
@@ -42,7 +44,10 @@ public:
     if (!std::exchange(Plan.AreMapped, true))
     {
       Count(Plan.Maps, Plan.FailingMap, "no mapping");
-      this->Own->Map();
+      if (this->Own)
+      {
+        this->Own->Map();
+      }
     }
   }
   void Unmap() override
@@ -50,56 +55,56 @@ public:
     if (std::exchange(Plan.AreMapped, false))
     {
       Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
-      this->Own->Unmap();
+      if (this->Own)
+      {
+        this->Own->Unmap();
+      }
     }
   }
-  void Fill(const FilledMesh& mesh) override
+  void Fill(const FlipSession& session) override
   {
     this->Map();
     Count(Plan.Fills, Plan.FailingFill, "no filling");
-    this->Own->Fill(mesh);
+    this->Own ? this->Own->Fill(session) : FillFromHost(session);
     Plan.AreMapped = false;
     Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
   }
-  double GetSmallestAngle() noexcept override { return this->Own->GetSmallestAngle(); }
 
 private:
+  static void FillFromHost(const FlipSession& session)
+  {
+    std::vector<std::int32_t> ids(static_cast<std::size_t>(3 * Last.Count));
+    session.StoreTriangles(MutableTriangleArray(ids.data(), Last.Count));
+    glBindBuffer(GL_COPY_WRITE_BUFFER, Last.Name);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, 12 * Last.Count, ids.data());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  }
+
   std::unique_ptr<BufferFiller> Own;
 };
 
 std::unique_ptr<BufferFiller> MakeWatchedFiller(
-  vtkDelaunayFlip* filter, const DrawnBuffers& buffers)
+  vtkDelaunayFlip* filter, const TriangleBuffer& buffer)
 {
   if (!Plan.Obstacle.empty())
   {
     throw std::runtime_error(Plan.Obstacle);
   }
-  Last = buffers;
+  Last = buffer;
   Plan.AreMapped = false;
   return std::make_unique<WatchedFiller>(
-    (IsTestBackendCuda() ? MakeCudaFiller : MakeHostFiller)(filter, buffers));
-}
-
-template <typename T>
-std::vector<T> Read(unsigned int buffer, std::int64_t count)
-{
-  std::vector<T> values(static_cast<std::size_t>(count));
-  glBindBuffer(GL_COPY_READ_BUFFER, buffer);
-  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, 4 * count, values.data());
-  glBindBuffer(GL_COPY_READ_BUFFER, 0);
-  return values;
+    IsTestBackendCuda() ? MakeCudaFiller(filter, buffer) : nullptr);
 }
 
 }
 
 std::vector<std::int32_t> TestFiller::GetTriangles() const
 {
-  return Read<std::int32_t>(Last.Triangles, 3 * Last.Count);
-}
-
-std::vector<std::uint32_t> TestFiller::GetColors() const
-{
-  return Read<std::uint32_t>(Last.Colors, Last.Count);
+  std::vector<std::int32_t> values(static_cast<std::size_t>(3 * Last.Count));
+  glBindBuffer(GL_COPY_READ_BUFFER, Last.Name);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, 12 * Last.Count, values.data());
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  return values;
 }
 
 TestFiller& TestFiller::Install()

@@ -24,11 +24,10 @@ struct TestFiller
   int Unmaps = 0;
   int Fills = 0;
   int Living = 0; ///< How many fillers there are now.
-  bool AreMapped = false; ///< OpenGL must not use the buffers.
+  bool AreMapped = false; ///< OpenGL must not use the buffer.
 
-  /// What the buffers of the last filler hold. Needs their context.
+  /// What the buffer of the last filler holds. Needs its context.
   std::vector<std::int32_t> GetTriangles() const;
-  std::vector<std::uint32_t> GetColors() const;
 
   /// Puts the filler in the place of the mappers' own, with nothing that fails.
   static TestFiller& Install();

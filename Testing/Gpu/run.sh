@@ -207,7 +207,6 @@ run_window()
   prepare_egl
   if [ "$tests" = yes ]; then
     run_tests window-tests DelaunayFlipWindowTests "$filter"
-    run_tests window-colors DelaunayFlipGpuTests 'DrawnTriangles*'
   fi
   if [ "$benchmarks" = yes ]; then
     run_step window-benchmark timeout 300 "$programs/delaunay-flip-window-benchmark" \

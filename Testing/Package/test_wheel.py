@@ -155,7 +155,7 @@ class Wheel(unittest.TestCase):
                    for path in pathlib.Path(ROOT, "Python", "delaunayflip").glob("*.py")}
         sources |= {"delaunayflip/py.typed", "delaunayflip/plugin/DelaunayFlip.py",
                     "delaunayflip/AngleColors.json", "delaunayflip/libdelaunayflip.so.1",
-                    "delaunayflip/DelaunayFlip.xml", "delaunayflip/DelaunayFromPoints.xml"}
+                    "delaunayflip/DelaunayFlip.xml"}
         package = {name for name in names if name.startswith("delaunayflip/")}
         self.assertEqual(package, sources)
         others = {name for name in names - package if ".dist-info/" not in name}

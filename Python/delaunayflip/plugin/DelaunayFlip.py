@@ -62,10 +62,10 @@ def _find(name):
     return next(path for path in (_FOLDER / name, _FOLDER.parents[1] / "Plugin" / name) if path.exists())
 
 
-def _read_properties(file, left_out=None):
-    """The XML of the C++ plugin's properties, without the parts that need its libraries, and without
-    one property."""
-    (proxy,) = ElementTree.parse(_find(file)).iter("SourceProxy")
+def _read_properties(name, left_out=None):
+    """The XML of a filter's properties in the C++ plugin, without the parts that need its libraries,
+    and without one property."""
+    proxy = ElementTree.parse(_find("DelaunayFlip.xml")).find(f".//SourceProxy[@name='{name}']")
     for element in proxy.iter():
         for child in [child for child in element if left_out and child.get("name") == left_out]:
             element.remove(child)
@@ -171,7 +171,7 @@ _add_colors()
 
 
 @smproxy.filter(name="DelaunayFlip", label="Delaunay Flip", support_reload=False)
-@smproperty.xml(_read_properties("DelaunayFlip.xml"))
+@smproperty.xml(_read_properties("DelaunayFlip"))
 class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView, which accepts any surface."""
 
@@ -193,6 +193,6 @@ class DelaunayFlip(vtkDelaunayFlip):
 
 
 @smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
-@smproperty.xml(_read_properties("DelaunayFromPoints.xml", left_out="Projection"))
+@smproperty.xml(_read_properties("DelaunayFromPoints", left_out="Projection"))
 class DelaunayFromPoints(vtkDelaunayFlipPoints):
     """vtkDelaunayFlipPoints for ParaView."""
