@@ -7,7 +7,7 @@
 #include "CallerMesh.h"
 #include "ConstraintInsertion.h"
 #include "CudaDevice.h"
-#include "DividedCopy.h"
+#include "DividedSession.h"
 #include "HostMemory.h"
 #include "InputChecks.h"
 #include "LoadedMesh.h"
@@ -159,7 +159,8 @@ struct FlipSession::Work
   FlipOptions Options;
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   FlipReport Report;
-  std::unique_ptr<DividedCopy> Divided; ///< Null unless in several parts. Then only this is used.
+  std::unique_ptr<DividedSession>
+    Divided; ///< Null unless in several parts. Then only this is used.
 
   ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
@@ -184,7 +185,7 @@ FlipSession::Work::Work(
   }
   if (!mesh.GetOnDevice() && CountPieces(options, mesh.CountTriangles()) > 1)
   {
-    this->Divided = std::make_unique<DividedCopy>(this->Mesh.GetOnHost(), options, progress);
+    this->Divided = std::make_unique<DividedSession>(this->Mesh.GetOnHost(), options, progress);
     return;
   }
   CheckOptions(options);

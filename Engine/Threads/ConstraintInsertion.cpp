@@ -153,6 +153,7 @@ ConstraintInsertion::ConstraintInsertion(
   {
     return;
   }
+  this->Tried = missing.First;
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
   this->HasEdges = true; // all but the missing ones as they are
