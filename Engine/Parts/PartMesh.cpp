@@ -5,15 +5,11 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
-#include "PartSurvey.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace delaunayflip
 {

@@ -8,7 +8,6 @@
 #include "PieceGroup.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>

@@ -3,10 +3,8 @@
 #include "SeamSurvey.h"
 
 #include "DelaunayFlip.h"
-#include "Records.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace delaunayflip

@@ -5,15 +5,12 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "PartSurvey.h"
-#include "Records.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {

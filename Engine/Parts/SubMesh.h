@@ -5,7 +5,6 @@
 
 #include "Array.h"
 #include "Atomics.h"
-#include "PartSurvey.h"
 #include "Records.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"

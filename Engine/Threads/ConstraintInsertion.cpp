@@ -6,7 +6,6 @@
 #include "EdgeMeshBuilder.h"
 #include "MeshOnBackend.h"
 #include "MeshSurveyBuilder.h"
-#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <iterator>
