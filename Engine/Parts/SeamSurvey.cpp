@@ -168,15 +168,32 @@ public:
     return first;
   }
 
-  /// Adds the counts of the edges, and one flag per point: whether an edge with two triangles that
-  /// begins there is fixed.
-  std::vector<bool> Count(EdgeTotals& totals, std::int64_t factor) const
+  /// One flag per point: whether an edge with two triangles that begins there is fixed.
+  std::vector<bool> FindFixed() const
   {
     std::vector<bool> isFixed(this->CountPoints());
-    if (this->Triangles.empty())
-    {
-      return isFixed;
-    }
+    this->Visit(
+      [&](const TriangleMesh& mesh, const FlipOptions& options)
+      {
+        for (const std::int64_t point : FindFixedEdges(mesh, options))
+        {
+          isFixed[point] = true;
+        }
+      });
+    return isFixed;
+  }
+
+  void AddTo(EdgeTotals& totals, std::int64_t factor) const
+  {
+    this->Visit([&](const TriangleMesh& mesh, const FlipOptions& options)
+      { totals.Add(FlipSession(mesh, options).GetReport(), factor); });
+  }
+
+private:
+  /// Calls visit(mesh, options) unless there are none.
+  template <typename Function>
+  void Visit(const Function& visit) const
+  {
     TriangleMesh mesh;
     const std::vector<float> floats(this->Points.begin(), this->Points.end());
     mesh.Points = this->Job.Survey.IsFloat ? PointArray(floats.data(), this->CountPoints())
@@ -190,16 +207,13 @@ public:
     mesh.Whole = this->Job.Survey.Whole;
     FlipOptions options = GetPartOptions(this->Job.Survey, this->Job.Options);
     options.FeatureAngle = this->Job.Options.FeatureAngle;
-    for (const std::int64_t point : FindFixedEdges(mesh, options))
-    {
-      isFixed[point] = true;
-    }
     options.MaximumIterations = 0;
-    totals.Add(FlipSession(mesh, options).GetReport(), factor);
-    return isFixed;
+    if (mesh.Triangles.Count > 0)
+    {
+      visit(mesh, options);
+    }
   }
 
-private:
   std::int64_t CountPoints() const { return static_cast<std::int64_t>(this->Points.size()) / 3; }
 
   const PartJob& Job;
@@ -251,8 +265,9 @@ struct SeamJudge
     ForEachRun(
       triangles, [](const SeamTriangle& a, const SeamTriangle& b) { return a.Ends == b.Ends; },
       add);
-    const std::vector<bool> isFixed = together.Count(this->Totals, 1);
-    alone.Count(this->Totals, -1);
+    together.AddTo(this->Totals, 1);
+    alone.AddTo(this->Totals, -1);
+    const std::vector<bool> isFixed = together.FindFixed();
     for (const Edge& edge : edges)
     {
       const bool isSeam = edge.IsQuad && !isFixed[edge.Point];
