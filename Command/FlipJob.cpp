@@ -14,7 +14,6 @@
 #include <vtkCellArray.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipPoints.h>
-#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>

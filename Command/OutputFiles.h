@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 /// @file
 /// Files that get their names only when they are complete, and streams, which are written at once.

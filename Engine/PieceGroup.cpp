@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <new>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 /// @file
 /// Groups of one rank and of threads, and how a failure of one rank reaches the others.

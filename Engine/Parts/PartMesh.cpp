@@ -5,15 +5,11 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "FlipLoop.h"
-#include "PartSurvey.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace delaunayflip
 {
@@ -188,38 +184,29 @@ void PartMesh::MakeTriangle(std::int64_t t)
   PartTriangle& triangle = this->Triangles[t];
   triangle = PartTriangle{};
   this->GetPoints(t, triangle.Points);
-  triangle.Origin = this->FirstOrigin + t;
-  if (this->Made.Records)
+  const TriangleRecord* const record = this->Made.Records ? this->Made.Records + t : nullptr;
+  const std::int64_t slot = record ? record->InputTriangle : t;
+  triangle.Origin = this->FirstOrigin + slot;
+  triangle.Flips = (record ? static_cast<std::int32_t>(record->Flips / OneFlip) : 0) +
+    (this->PastFlips.empty() ? 0 : this->PastFlips[slot]);
+  for (int corner = 0; corner < 3 && record; ++corner)
   {
-    const TriangleRecord& record = this->Made.Records[t];
-    triangle.Origin = this->FirstOrigin + record.InputTriangle;
-    triangle.Flips = static_cast<std::int32_t>(record.Flips / OneFlip) +
-      (this->PastFlips.empty() ? 0 : this->PastFlips[record.InputTriangle]);
-  }
-  for (int slot = 0; slot < 3 && this->Made.Records; ++slot)
-  {
-    triangle.SetMarks(slot, this->Marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
-    const CornerId other = this->Made.GetOtherCorner(t, slot);
-    this->Mates[GetNumber({ t, slot })] = other == NoCorner
+    triangle.SetMarks(corner, this->Marks.Get(triangle.GetStart(corner), triangle.GetEnd(corner)));
+    const CornerId other = this->Made.GetOtherCorner(t, corner);
+    this->Mates[GetNumber({ t, corner })] = other == NoCorner
       ? NoMate
       : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
   }
   this->Listed[t] = 1;
   ++this->NumberListed;
-  for (int slot = 0; slot < 3 && this->HasStars; ++slot)
+  for (int corner = 0; corner < 3 && this->HasStars; ++corner)
   {
-    this->Stars.Add({ t, slot }, triangle.Points[slot]);
+    this->Stars.Add({ t, corner }, triangle.Points[corner]);
   }
 }
 
 void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
 {
-  for (std::size_t t = 0; t < this->Triangles.size() && this->AreAllListed(); ++t)
-  {
-    this->PastFlips.push_back(this->Triangles[t].Flips);
-  }
-  std::fill(this->Listed.begin(), this->Listed.end(), 0);
-  this->NumberListed = 0;
   this->Made = made;
   this->Marks = std::move(marks);
   this->Mates.reserve(3 * this->Triangles.capacity());

@@ -224,6 +224,13 @@ public:
   /// Starts with the triangles of the caller, none of them listed.
   /// @param firstOrigin the number of the first of them among the triangles of all ranks.
   PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
+  /// Starts with others in their slots, which flips have made.
+  /// @param flips how many, by triangle.
+  void Begin(const TriangleArray& triangles, std::vector<std::int32_t> flips)
+  {
+    this->Caller = triangles;
+    this->PastFlips = std::move(flips);
+  }
 
   PartTriangles Triangles; ///< A place may be empty (HasLeft), or not listed.
 
@@ -295,6 +302,11 @@ public:
   bool HasEdge(const PointPair& ends) const;
 
   bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
+  /// Whether two different points are shared.
+  bool AreShared(const std::int64_t* ends) const
+  {
+    return ends[0] != ends[1] && this->IsShared(ends[0]) && this->IsShared(ends[1]);
+  }
   /// One flag per point: whether other ranks may have triangles at it.
   const std::vector<unsigned char>& GetShared() const { return this->Shared; }
   /// What is known of the points of all ranks, without the arrays with one value per point.
@@ -350,7 +362,8 @@ private:
   TriangleArray Caller;
   HostTriangles Made;
   std::int64_t FirstOrigin;
-  std::vector<std::int32_t> PastFlips; ///< Before the first flips; empty if there were none.
+  std::vector<std::int32_t>
+    PastFlips; ///< By slot: before the first flips. Empty if there were none.
   MarkedEdges Marks;
   std::vector<unsigned char> Listed; ///< One flag per triangle.
   std::size_t NumberListed = 0;

@@ -3,7 +3,6 @@
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "HostMemory.h"
-#include "MeshAudit.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
 #include "PieceFlip.h"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -66,10 +64,9 @@ public:
       Origins(job.Piece.Mesh.Triangles.Count, job.Group),
       Mesh(job.Piece, std::move(keys), job.Group.GetRank(), Origins.Firsts[job.Group.GetRank()]),
       Judge(job.Survey, job.Options),
-      Constraints(Job, Mesh),
-      Seams(std::move(Constraints.Seams))
+      Constraints(Job, Mesh)
   {
-    this->Whole.SeamEdges = this->Seams.Counts.Seams;
+    this->Whole.SeamEdges = this->Constraints.Seams.Seams;
     this->Whole.AmbiguousPoints = this->Mesh.GetWholeKeys().Ambiguous;
   }
 
@@ -101,6 +98,7 @@ public:
     {
       this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
       this->First->StoreFlipCounts(flipped.FlipCounts.data());
+      this->Constraints.AddFlipCounts(flipped.FlipCounts.data());
     }
     std::vector<std::int64_t> own, others;
     this->FindTriangles(flipped.GoneTriangles, own, others);
@@ -207,11 +205,7 @@ private:
   /// Flips the part by itself, with the constraints that other ranks know of.
   void FlipFirst()
   {
-    TriangleMesh mesh = this->Constraints.Piece.Mesh;
-    mesh.ConstraintEdges = this->Seams.Constraints.data();
-    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Seams.ToInsert.size());
-    mesh.ConstraintsToInsert = this->Seams.ToInsert.data();
-    mesh.Whole = this->Job.Survey.Whole;
+    TriangleMesh mesh = this->Constraints.Mesh;
     mesh.Whole.SharedPoints =
       this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
     FlipOptions options = this->Job.Options;
@@ -235,7 +229,6 @@ private:
   /// @param mesh what they started from.
   void TakeFirst(const TriangleMesh& mesh)
   {
-    const bool haveChanged = this->Mesh.AreAllListed(); // by constraints
     MarkedEdges marks = this->MarkEdges(mesh);
     const HostTriangles made = this->First->ViewHostTriangles();
     if (made.Records)
@@ -252,7 +245,7 @@ private:
       this->First->StoreFlipCounts(flips.data());
       this->Mesh.TakeTriangles(ids.data(), flips.data(), marks);
     }
-    if (haveChanged || this->Job.Survey.NeedsGuard())
+    if (this->Job.Survey.NeedsGuard())
     {
       this->Mesh.ListAll();
     }
@@ -270,11 +263,7 @@ private:
   /// have others on other ranks.
   MarkedEdges MarkEdges(const TriangleMesh& mesh)
   {
-    MarkedEdges edges;
-    for (const MarkedCorner& mark : this->Seams.Marks)
-    {
-      edges.Add(this->Mesh.GetEdge(mark.Triangle, mark.Slot), mark.Mark);
-    }
+    MarkedEdges edges = std::move(this->Constraints.Seams.Marks);
     FlipOptions options = this->Job.Options;
     options.Geometry = this->Job.Survey.Geometry;
     const std::vector<std::int64_t> fixed = ListFixedEdges(mesh, options, this->Own.Edges);
@@ -294,12 +283,7 @@ private:
       this->StopReason == StopReasonKind::IterationLimit ? 1 : 0, isUncounted ? 1 : 0,
       this->CountRows() - this->EarlierRows };
     this->EarlierRows = this->CountRows();
-    std::vector<std::int64_t> most(own.size());
-    for (const std::vector<std::int64_t>& state : GatherRecords(this->Job.Group, own))
-    {
-      std::transform(state.begin(), state.end(), most.begin(), most.begin(),
-        [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-    }
+    const std::vector<std::int64_t> most = FindMaxima(this->Job.Group, own);
     this->IsCounted = most[2] == 0;
     this->Iterations += most[3];
     if (most[0] != 0)
@@ -465,21 +449,20 @@ private:
 
   PiecesReport MakeReport()
   {
-    const SeamCounts& seams = this->Seams.Counts;
     const PointKeys& keys = this->Mesh.GetWholeKeys();
+    const EdgeTotals& seams = this->Constraints.Seams.Totals;
+    AddCounts(this->Own.Edges, seams.Edges, 1);
+    this->Own.NonDelaunayBefore += seams.NonDelaunay;
     PiecesReport report = this->Whole;
     static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Job.Group);
     CountIterations(report);
     report.Points = keys.Owners.Firsts.back() - keys.Repeated;
-    AddCounts(report.Edges, seams.Edges, 1);
     report.EulerCharacteristic = keys.UsedPoints - report.Edges.Edges + report.Triangles;
     if (!this->IsCounted)
     {
       report.Edges = EdgeCounts();
       report.EulerCharacteristic = 0;
     }
-    report.UnmatchedConstraints += seams.MissingConstraints;
-    report.NonDelaunayBefore += seams.NonDelaunay;
     report.NonDelaunayAfter += this->BadSeams;
     report.BlockedByShape += this->FoldedSeams;
     const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
@@ -491,14 +474,7 @@ private:
     {
       report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
     }
-    const Defect onSurface{ Describe(Refusal::OnSurface), seams.MissingToInsert, {},
-      DefectIds::PointPairs };
-    const Defect missing{ "constraint edges that are not edges of the mesh",
-      seams.MissingConstraints - seams.MissingToInsert, {}, DefectIds::Points };
-    for (const Defect& defect : { this->Job.Survey.NearlyHeightField, onSurface, missing })
-    {
-      AddDefect(defect, report.Defects);
-    }
+    AddDefect(this->Job.Survey.NearlyHeightField, report.Defects);
     return report;
   }
 
@@ -509,7 +485,6 @@ private:
   SeamTester Tester;
   std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (AskForFlips).
   PartConstraints Constraints;
-  SeamSurvey Seams; ///< Of the mesh with the constraints inserted.
 
   // Of this rank:
   FlipReport Own; ///< Starts as the report of the first flips. Has the iterations of all rounds.

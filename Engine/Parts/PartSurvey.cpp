@@ -7,24 +7,16 @@
 #include "ExactPredicates.h"
 #include "FlipError.h"
 #include "InputChecks.h"
-#include "MeshInParts.h"
 #include "MeshSurveyBuilder.h"
 #include "PlanarSurvey.h"
-#include "Records.h"
-#include "SmallestAngle.h"
+#include "SubMesh.h"
 #include "SurfaceAngles.h"
-#include "ThreadBackend.h"
 #include "TriangleAngles.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
-#include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Records.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 
 namespace delaunayflip
 {

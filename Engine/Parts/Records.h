@@ -8,7 +8,6 @@
 #include "PieceGroup.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -107,6 +106,18 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
     sum += part.front();
   }
   return sum;
+}
+
+/// Of each value the largest of all ranks.
+template <typename Value>
+std::vector<Value> FindMaxima(PieceGroup& group, std::vector<Value> values)
+{
+  for (const std::vector<Value>& others : GatherRecords(group, values))
+  {
+    std::transform(others.begin(), others.end(), values.begin(), values.begin(),
+      [](Value a, Value b) { return std::max(a, b); });
+  }
+  return values;
 }
 
 /// The records of all ranks in one list, by rank.

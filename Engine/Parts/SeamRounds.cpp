@@ -360,11 +360,7 @@ PairMap<PointPair> GrantFlips(
     const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
     exists.push_back(a >= 0 && b >= 0 && mesh.HasEdge({ a, b }) ? 1 : 0);
   }
-  for (const std::vector<unsigned char>& answers : GatherRecords(group, exists))
-  {
-    std::transform(answers.begin(), answers.end(), exists.begin(), exists.begin(),
-      [](unsigned char a, unsigned char b) { return static_cast<unsigned char>(a | b); });
-  }
+  exists = FindMaxima(group, std::move(exists));
   PairMap<PointPair> granted;
   for (std::size_t i = 0; i < all.size(); ++i)
   {

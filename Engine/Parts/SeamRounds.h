@@ -5,7 +5,6 @@
 
 #include "FlipReport.h"
 #include "PartMesh.h"
-#include "Records.h"
 #include "SeamSurvey.h"
 
 #include <cstdint>

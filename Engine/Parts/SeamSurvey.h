@@ -29,6 +29,7 @@ struct SeamSide
   double Opposite[3];
   bool RunsForward; ///< The triangle runs through the edge from the first end to the second.
   bool IsFrozen;
+  bool IsConstraint; ///< Whether its rank knows of a constraint along the edge.
   std::int32_t Region;
 };
 
@@ -83,42 +84,31 @@ private:
   RuleChoice Rule;
 };
 
-/// Counts of seam edges, and of constraints between shared points.
-struct SeamCounts
+/// Counts of the edges of a mesh.
+///
+/// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
+/// correct the sum, add the counts of triangles at seams, taken as one mesh, and subtract the
+/// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
+/// seam edge is counted once.
+struct EdgeTotals
 {
-  EdgeCounts Edges; ///< A correction to the sum of the counts of all ranks; may be negative.
-  std::int64_t Seams = 0; ///< Seam edges: those with triangles on two ranks that are not fixed.
-  std::int64_t NonDelaunay = 0; ///< Seam edges that are bad.
-  std::int64_t MissingConstraints = 0; ///< Constraints between shared points, edges on no rank.
-  std::int64_t MissingToInsert = 0; ///< Of these, the ones that are to be inserted.
-  /// Other constraints to be inserted, which one rank can look up alone.
-  std::int64_t ToInsert = 0;
+  EdgeCounts Edges;
+  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByEdge = 0;
 
-  SeamCounts& operator+=(const SeamCounts& part);
-};
-
-/// A mark for the edge opposite to a corner of a triangle of this rank.
-struct MarkedCorner
-{
-  std::int64_t Triangle;
-  std::int32_t Slot;
-  EdgeMark Mark;
+  /// @param report of a run without iterations.
+  /// @param factor 1 to add, -1 to subtract.
+  void Add(const FlipReport& report, std::int64_t factor);
 };
 
 /// What is known about the edges with triangles on several ranks before the first flip. Decided
 /// once for all ranks.
 struct SeamSurvey
 {
-  std::vector<MarkedCorner> Marks;
-  /// Two ids for each edge: first those that have two triangles here and are fixed because of
-  /// triangles or constraints of other ranks; then the constraints of the caller that this rank can
-  /// look up alone.
-  std::vector<std::int64_t> Constraints;
-  std::size_t NumberToFix = 0; ///< Of the first ones.
-  std::vector<unsigned char> ToInsert; ///< One flag for each of them.
-  /// The constraints of all ranks between shared points that are to be inserted: keys, ascending.
-  std::vector<PointPair> Missing;
-  SeamCounts Counts; ///< Sums over all ranks.
+  MarkedEdges Marks; ///< Of those that have triangles on this rank.
+  /// Two ids for each of those that have two triangles here and are fixed because of others.
+  std::vector<std::int64_t> ToFix;
+  EdgeTotals Totals; ///< To be added to the counts of this rank.
+  std::int64_t Seams = 0; ///< Those that have triangles on two ranks and may flip, over all ranks.
 };
 
 /// The mesh that the first flips start from, and its seams. In planar geometry, this is the
@@ -132,31 +122,40 @@ class PartConstraints
 {
 public:
   /// All ranks must call this together.
-  /// @param mesh before BeginRounds; receives the changed triangles.
-  PartConstraints(const PartJob& job, PartMesh& mesh);
+  /// @param part receives the changed triangles.
+  PartConstraints(const PartJob& job, PartMesh& part);
 
-  MeshPiece Piece; ///< Views of the caller's arrays and of arrays of this object.
+  TriangleMesh Mesh; ///< Views of the caller's arrays and of arrays of this object.
   SeamSurvey Seams;
   bool IsAborted = false; ///< Whether an observer of any rank has stopped the insertion.
   double Share = 0.0; ///< Of the run that is done after the insertion.
 
-  /// Adds the constraints that this rank has inserted and refused.
+  /// Adds what is known of constraints on this rank.
   void AddTo(FlipReport& report) const;
+  /// Adds the flips that inserted them, by triangle slot.
+  void AddFlipCounts(std::int32_t* counts) const { this->Insertion.AddFlipCounts(counts); }
 
 private:
-  void Run();
-  void Count(const ConstraintInsertion& insertion, std::vector<char> fates);
-  void Keep(const ConstraintInsertion& insertion, const TriangleMesh& mesh);
+  /// A constraint between shared points, which any rank may have given.
+  struct SharedConstraint
+  {
+    PointPair Ends; ///< Keys.
+    std::int64_t IsToInsert; ///< 0 or 1.
+  };
 
-  PartJob Job;
-  PartMesh& Mesh;
-  std::int64_t Inserted = 0;
-  std::int64_t Flips = 0;
+  std::vector<SharedConstraint> List(const PartJob& job, const PartMesh& part);
+  void Insert(const PartJob& job);
+  void FindFates(const PartMesh& part);
+  void CountShared(const std::vector<SharedConstraint>& shared, const std::vector<char>& fates);
+
+  std::vector<std::int64_t> Ends; ///< Of the constraints that this rank can look up.
+  std::vector<unsigned char> ToInsert; ///< One flag for each of them.
+  ConstraintInsertion Insertion;
+  PairMap<char> Fates; ///< Of those between shared points, by keys.
+  std::vector<std::int64_t> Edges; ///< Of the constraints that Mesh has.
+  std::int64_t NumberInserted = 0;
+  std::int64_t Unmatched = 0; ///< That were not to be inserted.
   std::vector<RefusedConstraint> Refused; ///< Those that this rank counts.
-
-  // What Piece views:
-  std::vector<std::int64_t> Constraints;
-  std::vector<std::int32_t> Ids;
 };
 
 }

@@ -8,7 +8,6 @@
 #include "SegmentInsertion.h"
 #include "Strips.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -445,65 +444,6 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
 }
 
 //------------------------------------------------------------------------------
-/// Keeps of `width` numbers per triangle those of the triangles that are kept.
-template <typename Value>
-void KeepValues(const std::vector<std::int32_t>& numbers, const std::vector<Value>& values,
-  int width, Value* kept)
-{
-  for (std::size_t t = 0; t < numbers.size(); ++t)
-  {
-    if (numbers[t] >= 0)
-    {
-      std::copy_n(&values[width * t], width, kept + static_cast<std::int64_t>(width) * numbers[t]);
-    }
-  }
-}
-
-void PointRun::StoreTriangles(const LoadedMesh& mesh, const MutableTriangleArray& triangles) const
-{
-  if (!this->HasRemoved())
-  {
-    mesh.StoreTriangles(triangles);
-    return;
-  }
-  const auto store = [&](auto* ids)
-  {
-    std::vector<std::remove_pointer_t<decltype(ids)>> all(3 * this->Kept.Numbers.size());
-    mesh.StoreTriangles(
-      MutableTriangleArray(all.data(), static_cast<std::int64_t>(this->Kept.Numbers.size())));
-    KeepValues(this->Kept.Numbers, all, 3, ids);
-  };
-  triangles.Ids32 ? store(triangles.Ids32) : store(triangles.Ids64);
-}
-
-void PointRun::StoreNeighbors(const LoadedMesh& mesh, std::int32_t* neighbors) const
-{
-  if (!this->HasRemoved())
-  {
-    mesh.StoreNeighbors(neighbors);
-    return;
-  }
-  std::vector<std::int32_t> all(3 * this->Kept.Numbers.size());
-  mesh.StoreNeighbors(all.data());
-  for (std::int32_t& neighbor : all)
-  {
-    neighbor = neighbor < 0 ? -1 : this->Kept.Numbers[neighbor];
-  }
-  KeepValues(this->Kept.Numbers, all, 3, neighbors);
-}
-
-void PointRun::StoreFlipCounts(const LoadedMesh& mesh, std::int32_t* counts) const
-{
-  if (!this->HasRemoved())
-  {
-    mesh.StoreFlipCounts(counts);
-    return;
-  }
-  std::vector<std::int32_t> all(this->Kept.Numbers.size());
-  mesh.StoreFlipCounts(all.data());
-  KeepValues(this->Kept.Numbers, all, 1, counts);
-}
-
 void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 {
   std::vector<std::int64_t> used(this->Prepared.Points.Count);

@@ -9,8 +9,8 @@
 #include "PointTriangulation.h"
 #include "SegmentCrossings.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace delaunayflip
@@ -58,14 +58,34 @@ public:
   void AddTo(FlipReport& report, LoadedMesh& mesh) const;
 
   /// The same as FlipSession's.
-  void StoreTriangles(const LoadedMesh& mesh, const MutableTriangleArray& triangles) const;
-  void StoreNeighbors(const LoadedMesh& mesh, std::int32_t* neighbors) const;
-  void StoreFlipCounts(const LoadedMesh& mesh, std::int32_t* counts) const;
   void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
   const std::vector<AddedPoint>& GetAddedPoints() const { return this->Added; }
   std::vector<std::int64_t> ListSegmentEdges(LoadedMesh& mesh) const;
 
   bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
+
+  /// Copies of `width` values per triangle those of the triangles that are kept.
+  template <typename Value>
+  void CopyKept(const Value* values, int width, Value* kept) const
+  {
+    for (std::size_t t = 0; t < this->Kept.Numbers.size(); ++t)
+    {
+      if (this->Kept.Numbers[t] >= 0)
+      {
+        std::copy_n(values + width * t, width,
+          kept + static_cast<std::int64_t>(width) * this->Kept.Numbers[t]);
+      }
+    }
+  }
+
+  /// Names triangles by the numbers that they have among those that are kept; -1: none.
+  void Renumber(std::int32_t* triangles, std::int64_t count) const
+  {
+    for (std::int64_t i = 0; i < count && this->HasRemoved(); ++i)
+    {
+      triangles[i] = triangles[i] < 0 ? -1 : this->Kept.Numbers[triangles[i]];
+    }
+  }
 
 private:
   void FindNearPoints(const ProgressObserver& observer);

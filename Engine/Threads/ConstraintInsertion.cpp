@@ -6,7 +6,6 @@
 #include "EdgeMeshBuilder.h"
 #include "MeshOnBackend.h"
 #include "MeshSurveyBuilder.h"
-#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <iterator>
@@ -153,6 +152,7 @@ ConstraintInsertion::ConstraintInsertion(
   {
     return;
   }
+  this->Tried = missing.First;
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
   this->HasEdges = true; // all but the missing ones as they are

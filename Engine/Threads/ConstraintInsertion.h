@@ -59,7 +59,9 @@ public:
 
   std::int64_t GetNumberInserted() const { return this->Inserted; }
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
-  /// In the caller's order.
+  /// The numbers of the constraints that were no edges, ascending; of equal ones the first.
+  const std::vector<std::int64_t>& GetTried() const { return this->Tried; }
+  /// Those of them that are not inserted, in the caller's order.
   const std::vector<RefusedConstraint>& GetRefused() const { return this->Refused; }
 
   /// About the share of a run that an insertion takes, because it builds an edge mesh of its own.
@@ -97,6 +99,7 @@ private:
   std::string GeometryReason;
   std::int64_t Inserted = 0;
   std::int64_t Flips = 0;
+  std::vector<std::int64_t> Tried;
   std::vector<RefusedConstraint> Refused;
 };
 

@@ -8,7 +8,6 @@
 #include "Outline.h"
 #include "ThreadBackend.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <utility>

@@ -1,22 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshInParts.h"
+#include "SubMesh.h"
 
-#include "EdgeMeshBuilder.h"
 #include "FlipError.h"
 #include "InputChecks.h"
-#include "MeshSurveyBuilder.h"
 #include "PartSurvey.h"
-#include "Records.h"
-#include "TriangleMesh.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {
@@ -129,15 +123,10 @@ TriangleMesh SubMesh::View(bool withLabels) const
 //------------------------------------------------------------------------------
 namespace
 {
-/// Divides a mesh into parts with about the same number of triangles by recursive bisection. Each
-/// cut is perpendicular to the axis along which what is cut is longest.
-///
-/// The cuts of a large mesh are computed from a sample of its triangles. Which triangles are in the
-/// sample depends only on their number.
+/// The cuts of FindParts.
 class PartCuts
 {
 public:
-  /// @param axes the coordinate axes to cut across, ascending.
   PartCuts(const TriangleMesh& mesh, const std::vector<int>& axes, int parts)
     : Axes(axes)
   {
@@ -235,88 +224,16 @@ void CopyTriangles(
   }
 }
 
-namespace
+Array<unsigned char> FindParts(
+  const TriangleMesh& mesh, const std::vector<int>& axes, int parts, const ThreadBackend& threads)
 {
-ConstraintInsertion InsertConstraints(
-  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-{
-  CheckOptions(options);
-  if (!ConstraintInsertion::IsRequested(mesh))
-  {
-    return {};
-  }
-  CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count,
-    "where constraints are to be inserted; give constraints that are edges of the mesh");
-  return ConstraintInsertion(mesh, options,
-    [&](double share) { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });
-}
+  const PartCuts cuts(mesh, axes, parts);
+  Array<unsigned char> partOf = threads.MakeArray<unsigned char>(mesh.Triangles.Count);
+  threads.ForEach(mesh.Triangles.Count,
+    [&](std::int64_t t) { partOf[t] = static_cast<unsigned char>(cuts.FindPart(mesh, t)); });
+  return partOf;
 }
 
-MeshInParts::MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
-  const FlipOptions& options, const ProgressObserver& progress)
-  : Insertion(InsertConstraints(mesh, options, progress)),
-    Options(this->Insertion.GetOptions(options)),
-    Mesh(this->Insertion.GetMesh(mesh)),
-    Triangles(triangles),
-    Parts(CountPieces(options, mesh.Triangles.Count)),
-    Threads(options.NumberOfThreads)
-{
-  for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
-  {
-    CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
-  }
-  this->Survey = PartSurvey(
-    BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
-    this->Mesh.Points.Floats != nullptr);
-  CheckTieRule(options, this->Survey.Geometry);
-  std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (this->Survey.Geometry == GeometryKind::Surface || axis != this->Survey.Projection.AxisW)
-    {
-      axes.push_back(axis);
-    }
-  }
-  if (this->Survey.Geometry != GeometryKind::Surface)
-  {
-    SurveyStars(this->Mesh, this->Threads, this->Survey);
-  }
-  this->Mesh.Whole = this->Survey.Whole;
-  const std::int64_t count = this->Mesh.Triangles.Count;
-  const PartCuts cuts(this->Mesh, axes, this->Parts);
-  this->PartOf = this->Threads.MakeArray<unsigned char>(count);
-  this->Threads.ForEach(count,
-    [&](std::int64_t t)
-    { this->PartOf[t] = static_cast<unsigned char>(cuts.FindPart(this->Mesh, t)); });
-  CopyTriangles(this->Mesh.Triangles, triangles, this->Threads);
-  this->Mesh.Triangles = AsConst(triangles);
-}
-
-PiecesReport MeshInParts::GetReport() const
-{
-  PiecesReport report;
-  report.Points = this->Mesh.Points.Count;
-  report.Triangles = this->Mesh.Triangles.Count;
-  report.GeometryUsed = this->Survey.Geometry;
-  report.GeometryReason = this->Survey.GeometryReason;
-  report.Tolerance = DescribeTolerance(this->Options, report.GeometryUsed);
-  report.Defects = this->Survey.ListDefects();
-  this->Insertion.AddTo(report);
-  return report;
-}
-
-PiecesReport StopBeforeFlips(
-  const TriangleMesh& mesh, const MutableTriangleArray& triangles, const ThreadBackend& threads)
-{
-  CopyTriangles(mesh.Triangles, triangles, threads);
-  PiecesReport report;
-  report.Points = mesh.Points.Count;
-  report.Triangles = mesh.Triangles.Count;
-  report.StopReason = StopReasonKind::Aborted;
-  return report;
-}
-
-//------------------------------------------------------------------------------
 SubMesh MeshInParts::GetPart(int number) const
 {
   const auto isIn = [&](std::int64_t t) { return this->PartOf[t] == number; };

@@ -1,46 +1,50 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_DIVIDEDCOPY_H
-#define DELAUNAYFLIP_DIVIDEDCOPY_H
+#ifndef DELAUNAYFLIP_DIVIDEDSESSION_H
+#define DELAUNAYFLIP_DIVIDEDSESSION_H
 
 #include "Array.h"
-#include "MeshInParts.h"
 #include "PieceFlip.h"
 #include "ThreadBackend.h"
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 
 namespace delaunayflip
 {
 
-/// A session's copy of the triangles of a mesh, which is flipped in parts, in one go. The functions
-/// are those of FlipSession.
-class DividedCopy
+/// A session with a mesh that is flipped in parts, in one go. The functions are those of
+/// FlipSession.
+class DividedSession
 {
 public:
-  DividedCopy(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+  /// @param triangles receives the triangles, as FlipInPieces says. Empty: a copy of this object
+  /// does; then it also has flip counts.
+  /// @throws as FlipInPieces.
+  DividedSession(const TriangleMesh& mesh, const FlipOptions& options,
+    const ProgressObserver& progress, const MutableTriangleArray& triangles = {});
+  ~DividedSession();
 
   bool Advance(
     std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress);
-  const FlipReport& GetReport() const { return this->Report; }
+  const PiecesReport& GetReport() const { return this->Report; }
   void StoreTriangles(const MutableTriangleArray& triangles) const;
   void StoreFlipCounts(std::int32_t* counts) const;
 
 private:
+  struct Run;
+
   bool Prepare(const ProgressObserver& progress);
-  bool IsOver() const;
 
   TriangleMesh Mesh; ///< The caller's.
   FlipOptions Options;
   ThreadBackend Threads;
   Array<std::int32_t> Ids32; ///< Three per triangle, if the caller's ids have 32 bits.
   Array<std::int64_t> Ids64; ///< If they have 64 bits.
-  MutableTriangleArray Triangles; ///< These.
+  MutableTriangleArray Triangles; ///< These, or the array that was given.
   Array<std::int32_t> FlipCounts; ///< Empty before a run.
-  std::optional<MeshInParts> Parts; ///< None before the mesh is divided and after a run.
-  FlipReport Report;
+  std::unique_ptr<Run> Own; ///< None before the mesh is divided and after a run.
+  PiecesReport Report;
 };
 
 }

@@ -1,26 +1,28 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DividedSession.h"
+
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
-#include "MeshInParts.h"
+#include "EdgeMeshBuilder.h"
+#include "InputChecks.h"
+#include "MeshSurveyBuilder.h"
 #include "PartMesh.h"
-#include "PieceFlip.h"
 #include "Records.h"
 #include "SeamSurvey.h"
 #include "SmallestAngle.h"
+#include "SubMesh.h"
 #include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 /// @file
-/// FlipInTurn: one mesh of this process, whose parts are flipped one after the other.
+/// One mesh of this process, whose parts are flipped one after the other.
 
 namespace delaunayflip
 {
@@ -35,55 +37,92 @@ constexpr double PartsShare = 0.9;
 /// On surfaces, where nothing proves that flips end, so many regions are flipped at most.
 constexpr std::int64_t MostRegions = 1000;
 
-/// Counts of the edges of a mesh.
-///
-/// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
-/// correct the sum, add the counts of the triangles at seams, taken as one mesh, and subtract the
-/// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
-/// seam edge is counted once.
-struct EdgeTotals
+ConstraintInsertion InsertConstraints(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
 {
-  EdgeCounts Edges;
-  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByEdge = 0;
-
-  /// @param report of a run without iterations.
-  /// @param factor 1 to add, -1 to subtract.
-  void Add(const FlipReport& report, std::int64_t factor)
+  CheckOptions(options);
+  if (!ConstraintInsertion::IsRequested(mesh))
   {
-    AddCounts(this->Edges, report.Edges, factor);
-    this->NonDelaunay += factor * report.NonDelaunayAfter;
-    this->BlockedByShape += factor * report.BlockedByShape;
-    this->BlockedByEdge += factor * report.BlockedByEdge;
+    return {};
   }
-};
+  CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count,
+    "where constraints are to be inserted; give constraints that are edges of the mesh");
+  return ConstraintInsertion(mesh, options,
+    [&](double share) { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });
+}
+}
 
+/// What is known of a divided mesh, and its run.
+///
 /// First each part is flipped by itself. The edges between parts, the seam edges, are treated as
 /// boundary edges and do not flip. Then the triangles around the points of seam edges, a region,
 /// are flipped as one mesh. If flips reach points at the border of the region, the triangles around
 /// these points are the next region. The run ends when no flip has reached a border. So every edge
 /// is judged after the last flip of a triangle next to it.
-class DividedRun
+struct DividedSession::Run : MeshInParts
 {
-public:
-  DividedRun(MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress)
-    : Mesh(mesh),
-      Options(mesh.GetOptions()),
-      FlipCounts(flipCounts),
-      Progress(progress),
-      Constraints(mesh.View().ConstraintEdges,
-        mesh.View().ConstraintEdges + 2 * mesh.View().NumberOfConstraintEdges),
-      Seam(mesh.FindSeamPoints()),
-      Shares(mesh.GetNumberOfParts()),
-      Reports(mesh.GetNumberOfParts())
+  /// Inserts the constraints, surveys the mesh as a whole, divides it, and copies its triangles.
+  /// @param triangles receives the copy, which flips change. May be the mesh's own array.
+  /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
+  Run(const TriangleMesh& mesh, const MutableTriangleArray& triangles, const FlipOptions& options,
+    const ProgressObserver& progress)
+    : MeshInParts(options.NumberOfThreads),
+      Insertion(InsertConstraints(mesh, options, progress)),
+      Options(this->Insertion.GetOptions(options)),
+      Triangles(triangles),
+      Parts(CountPieces(options, mesh.Triangles.Count)),
+      Seam(0, Threads),
+      Shares(Parts),
+      Reports(Parts)
   {
+    this->Mesh = this->Insertion.GetMesh(mesh);
+    this->Constraints.assign(this->Mesh.ConstraintEdges,
+      this->Mesh.ConstraintEdges + 2 * this->Mesh.NumberOfConstraintEdges);
+    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
+    {
+      CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
+    }
+    this->Survey = PartSurvey(
+      BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
+      this->Mesh.Points.Floats != nullptr);
+    CheckTieRule(options, this->Survey.Geometry);
+    std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (this->Survey.Geometry == GeometryKind::Surface || axis != this->Survey.Projection.AxisW)
+      {
+        axes.push_back(axis);
+      }
+    }
+    if (this->Survey.Geometry != GeometryKind::Surface)
+    {
+      SurveyStars(this->Mesh, this->Threads, this->Survey);
+    }
+    this->Mesh.Whole = this->Survey.Whole;
+    this->PartOf = FindParts(this->Mesh, axes, this->Parts, this->Threads);
+    CopyTriangles(this->Mesh.Triangles, triangles, this->Threads);
+    this->Mesh.Triangles = AsConst(triangles);
+    this->Report.Points = this->Mesh.Points.Count;
+    this->Report.Triangles = this->Mesh.Triangles.Count;
+    this->Report.GeometryUsed = this->Survey.Geometry;
+    this->Report.GeometryReason = this->Survey.GeometryReason;
+    this->Report.Tolerance = DescribeTolerance(this->Options, this->Survey.Geometry);
+    this->Report.Defects = this->Survey.ListDefects();
+    this->Insertion.AddTo(this->Report);
   }
 
-  PiecesReport Run()
+  /// @param flipCounts is set to the number of flips of each triangle slot; or null.
+  void FlipAll(std::int32_t* flipCounts, const ProgressObserver& progress)
   {
+    const double begin = this->Insertion.GetShare();
+    this->FlipCounts = flipCounts;
+    this->Progress = [&progress, begin](double share)
+    { return !progress || progress(begin + (1.0 - begin) * share); };
+    this->Seam = this->FindSeamPoints();
     if (this->FlipCounts)
     {
-      this->Mesh.GetThreads().ForEach(
-        this->Mesh.View().Triangles.Count, [this](std::int64_t t) { this->FlipCounts[t] = 0; });
+      this->Threads.ForEach(
+        this->Mesh.Triangles.Count, [this](std::int64_t t) { this->FlipCounts[t] = 0; });
     }
     this->ExamineSeams();
     this->FlipParts();
@@ -94,15 +133,18 @@ public:
     }
     this->CountRest();
     this->AddDefects();
-    return this->Report;
+    this->Insertion.AddTo(this->Report);
+    if (this->FlipCounts)
+    {
+      this->Insertion.AddFlipCounts(this->FlipCounts);
+    }
   }
 
-private:
   //------------------------------------------------------------------------------
   /// The options for parts of the mesh in which no edge is flipped.
   FlipOptions GetCountingOptions() const
   {
-    FlipOptions options = GetPartOptions(this->Mesh.GetSurvey(), this->Options);
+    FlipOptions options = GetPartOptions(this->Survey, this->Options);
     options.MaximumIterations = 0;
     if (!this->Options.Devices.empty())
     {
@@ -123,21 +165,21 @@ private:
       this->Seams.Add(session.GetReport(), factor);
       return session.GetReport().Edges;
     };
-    SubMesh strip = this->Mesh.GetTrianglesAt(this->Seam);
+    SubMesh strip = this->GetTrianglesAt(this->Seam);
     strip.FixEdges(this->Constraints);
     this->KeepFixedEdges(strip, options, count(strip, 1));
     this->FixedAtSeams = this->Fixed;
-    for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
+    for (int number = 0; number < this->Parts; ++number)
     {
-      SubMesh part = this->Mesh.GetPartOf(strip, number);
+      SubMesh part = this->GetPartOf(strip, number);
       part.FixEdges(this->Constraints);
       part.FixEdges(this->FixedAtSeams);
       count(part, -1);
     }
-    TriangleMesh mesh = this->Mesh.View();
+    TriangleMesh mesh = this->Mesh;
     const std::vector<unsigned char> all(mesh.NumberOfConstraintEdges, 1);
     mesh.ConstraintsToInsert = all.data();
-    const MissingConstraints missing = FindMissingConstraints(mesh, this->Mesh.GetThreads());
+    const MissingConstraints missing = FindMissingConstraints(mesh, this->Threads);
     this->Unmatched = std::count(missing.IsMissing.begin(), missing.IsMissing.end(), true);
   }
 
@@ -158,7 +200,7 @@ private:
   {
     // One worker prepares a part while another's is on the GPU.
     const int devices = static_cast<int>(this->Options.Devices.size());
-    const int workers = devices == 0 ? 1 : std::min(this->Mesh.GetNumberOfParts(), 2 * devices);
+    const int workers = devices == 0 ? 1 : std::min(this->Parts, 2 * devices);
     std::vector<int> turns;
     for (int worker = 0; worker < workers && devices > 0; ++worker)
     {
@@ -168,7 +210,7 @@ private:
     {
       try
       {
-        for (int part = group.GetRank(); part < this->Mesh.GetNumberOfParts(); part += workers)
+        for (int part = group.GetRank(); part < this->Parts; part += workers)
         {
           this->FlipPart(part, group);
         }
@@ -185,17 +227,17 @@ private:
   /// In one of several threads. Rank 0 is the calling thread, whose observer is asked.
   void FlipPart(int number, PieceGroup& group)
   {
-    SubMesh part = this->Mesh.GetPart(number);
+    SubMesh part = this->GetPart(number);
     part.FixEdges(this->Constraints);
     part.FixEdges(this->FixedAtSeams);
-    if (this->Mesh.GetSurvey().NeedsGuard())
+    if (this->Survey.NeedsGuard())
     {
       part.GuardPoints([this](std::int64_t point) { return this->Seam.Has(point); });
     }
     FlipOptions options = this->Options;
     options.NumberOfPieces = 1;
     options.TrackQuality = false;
-    options.Geometry = this->Mesh.GetSurvey().Geometry;
+    options.Geometry = this->Survey.Geometry;
     if (!this->Options.Devices.empty())
     {
       options.Device = this->Options.Devices[number % this->Options.Devices.size()];
@@ -208,8 +250,7 @@ private:
       if (isCaller && this->Progress)
       {
         const double sum = std::accumulate(this->Shares.begin(), this->Shares.end(), 0.0);
-        this->GoesOn =
-          this->Progress(PartsShare * sum / this->Mesh.GetNumberOfParts()) && this->GoesOn;
+        this->GoesOn = this->Progress(PartsShare * sum / this->Parts) && this->GoesOn;
       }
       return this->GoesOn.load();
     };
@@ -230,13 +271,13 @@ private:
       if (this->FlipCounts)
       {
         Array<std::int32_t> counts =
-          this->Mesh.GetThreads().MakeArray<std::int32_t>(part.GetNumberOfTriangles());
+          this->Threads.MakeArray<std::int32_t>(part.GetNumberOfTriangles());
         session.StoreFlipCounts(counts.Data());
         this->KeepFlips(part, counts.Data());
       }
     };
     group.Work(flip);
-    part.Store(this->Mesh.GetTriangles());
+    part.Store(this->Triangles);
   }
 
   /// Adds the flips of a part's triangles. Parts that are flipped at the same time have no triangle
@@ -245,7 +286,7 @@ private:
   {
     if (this->FlipCounts)
     {
-      this->Mesh.GetThreads().ForEach(part.GetNumberOfTriangles(),
+      this->Threads.ForEach(part.GetNumberOfTriangles(),
         [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += counts[t]; });
     }
   }
@@ -256,9 +297,9 @@ private:
     static_cast<FlipReport&>(this->Report) = JoinReports(this->Reports);
     this->Report.UnmatchedConstraints = this->Unmatched;
     this->Report.SeamEdges = -this->Seams.Edges.Edges;
-    this->Report.Points = this->Mesh.View().Points.Count;
-    this->Report.GeometryUsed = this->Mesh.GetSurvey().Geometry;
-    this->Report.GeometryReason = this->Mesh.GetSurvey().GeometryReason;
+    this->Report.Points = this->Mesh.Points.Count;
+    this->Report.GeometryUsed = this->Survey.Geometry;
+    this->Report.GeometryReason = this->Survey.GeometryReason;
     this->Report.Rounds = 1;
     this->Report.StopReason = StopReasonKind::Converged;
     // The seconds of all parts that have the same GPU; of several GPUs the largest.
@@ -282,11 +323,11 @@ private:
   void FlipRegions()
   {
     PointSet active = std::move(this->Seam);
-    active.Number(this->Mesh.GetThreads());
+    active.Number(this->Threads);
     for (std::int64_t regions = 1;
          active.GetSize() > 0 && this->Report.StopReason == StopReasonKind::Converged; ++regions)
     {
-      if (regions > MostRegions && this->Mesh.GetSurvey().Geometry == GeometryKind::Surface)
+      if (regions > MostRegions && this->Survey.Geometry == GeometryKind::Surface)
       {
         this->Report.StopReason = StopReasonKind::IterationLimit;
         return;
@@ -305,12 +346,11 @@ private:
   /// of the two is reached.
   PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress)
   {
-    const ThreadBackend& threads = this->Mesh.GetThreads();
-    const PointSet inner =
-      this->Mesh.FindPointsAround(active); // all of whose triangles belong to it
-    SubMesh region = this->Mesh.GetTrianglesAt(inner);
+    const ThreadBackend& threads = this->Threads;
+    const PointSet inner = this->FindPointsAround(active); // all of whose triangles belong to it
+    SubMesh region = this->GetTrianglesAt(inner);
     region.FixEdges(this->Fixed);
-    if (this->Mesh.GetSurvey().NeedsGuard())
+    if (this->Survey.NeedsGuard())
     {
       region.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
     }
@@ -342,8 +382,8 @@ private:
     session.StoreFlipCounts(flips.data());
     this->KeepFlips(region, flips.data());
     session.StoreTriangles(region.GetTriangles());
-    region.Store(this->Mesh.GetTriangles());
-    PointSet next(this->Mesh.View().Points.Count, threads);
+    region.Store(this->Triangles);
+    PointSet next(this->Mesh.Points.Count, threads);
     for (std::int64_t t = 0; t < region.GetNumberOfTriangles(); ++t)
     {
       for (int slot = 0; slot < 3 && flips[t] > 0; ++slot)
@@ -364,8 +404,7 @@ private:
   {
     PiecesReport& report = this->Report;
     AddCounts(report.Edges, this->Seams.Edges, 1);
-    report.EulerCharacteristic =
-      this->Mesh.GetSurvey().UsedPoints - report.Edges.Edges + report.Triangles;
+    report.EulerCharacteristic = this->Survey.UsedPoints - report.Edges.Edges + report.Triangles;
     report.NonDelaunayBefore += this->Seams.NonDelaunay;
     if (!this->AreCounted)
     {
@@ -375,9 +414,9 @@ private:
     }
     if (report.Rounds > 1)
     {
-      const TriangleMesh& mesh = this->Mesh.View();
-      report.MinimumAngleAfter = ToDegrees(
-        FindLargestCotangent(mesh.Triangles.Count, this->Mesh.GetSurvey(), this->Mesh.GetThreads(),
+      const TriangleMesh& mesh = this->Mesh;
+      report.MinimumAngleAfter =
+        ToDegrees(FindLargestCotangent(mesh.Triangles.Count, this->Survey, this->Threads,
           [&](std::int64_t t, double(&x)[3][3])
           {
             for (int i = 0; i < 9; ++i)
@@ -409,12 +448,12 @@ private:
       const FlipSession session(part.View(false), options);
       totals.Add(session.GetReport(), factor);
     };
-    SubMesh strip = this->Mesh.GetTrianglesAt(this->Mesh.FindSeamPoints());
+    SubMesh strip = this->GetTrianglesAt(this->FindSeamPoints());
     count(strip, 1);
-    for (int number = 0; number < this->Mesh.GetNumberOfParts(); ++number)
+    for (int number = 0; number < this->Parts; ++number)
     {
-      SubMesh whole = this->Mesh.GetPart(number);
-      SubMesh atSeams = this->Mesh.GetPartOf(strip, number);
+      SubMesh whole = this->GetPart(number);
+      SubMesh atSeams = this->GetPartOf(strip, number);
       count(whole, 1);
       count(atSeams, -1);
     }
@@ -428,7 +467,7 @@ private:
   /// What is known of the whole mesh takes the place of what parts have found.
   void AddDefects()
   {
-    std::vector<Defect> defects = this->Mesh.GetSurvey().ListDefects();
+    std::vector<Defect> defects = this->Survey.ListDefects();
     AddDefect({ "constraint edges that are not edges of the mesh",
                 this->Report.UnmatchedConstraints, {}, DefectIds::Points },
       defects);
@@ -444,10 +483,13 @@ private:
     this->Report.Defects = defects;
   }
 
-  MeshInParts& Mesh;
-  const FlipOptions& Options;
-  std::int32_t* const FlipCounts; ///< Of the mesh; or null.
-  const ProgressObserver& Progress;
+  ConstraintInsertion Insertion;
+  FlipOptions Options; ///< With the geometry that was chosen before the insertion.
+  MutableTriangleArray Triangles;
+  int Parts;
+  PartSurvey Survey;
+  std::int32_t* FlipCounts = nullptr; ///< Of the mesh; or null.
+  ProgressObserver Progress;
 
   std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.
   PointSet Seam; ///< The points of seam edges before the first flip.
@@ -465,37 +507,106 @@ private:
   PiecesReport Report; ///< Of the whole mesh.
   bool HasBadEdges = false; ///< Whether a session has left some.
 };
+
+//------------------------------------------------------------------------------
+DividedSession::DividedSession(const TriangleMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, const MutableTriangleArray& triangles)
+  : Mesh(mesh),
+    Options(options),
+    Threads(options.NumberOfThreads),
+    Triangles(triangles)
+{
+  const std::int64_t count = mesh.Triangles.Count;
+  if (!triangles.Data() && mesh.Triangles.Ids32)
+  {
+    this->Ids32 = this->Threads.MakeArray<std::int32_t>(3 * count);
+    this->Triangles = MutableTriangleArray(this->Ids32.Data(), count);
+  }
+  else if (!triangles.Data())
+  {
+    this->Ids64 = this->Threads.MakeArray<std::int64_t>(3 * count);
+    this->Triangles = MutableTriangleArray(this->Ids64.Data(), count);
+  }
+  this->Prepare(progress);
 }
 
-PiecesReport FlipInTurn(
-  MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress)
+DividedSession::~DividedSession() = default;
+
+/// Begins at the triangles of the caller.
+/// @returns whether the observer did not stop it.
+bool DividedSession::Prepare(const ProgressObserver& progress)
 {
-  const ConstraintInsertion& insertion = mesh.GetInsertion();
-  const double begin = insertion.GetShare();
-  const ProgressObserver rest = [&](double share)
-  { return !progress || progress(begin + (1.0 - begin) * share); };
-  PiecesReport report = DividedRun(mesh, flipCounts, rest).Run();
-  insertion.AddTo(report);
-  if (flipCounts)
+  this->Own.reset();
+  this->FlipCounts = {};
+  this->Report = PiecesReport();
+  try
   {
-    insertion.AddFlipCounts(flipCounts);
+    this->Own = std::make_unique<Run>(this->Mesh, this->Triangles, this->Options, progress);
+    this->Report = this->Own->Report;
   }
-  return report;
+  catch (const RunAborted&)
+  {
+    CopyTriangles(this->Mesh.Triangles, this->Triangles, this->Threads);
+    this->Report.Points = this->Mesh.Points.Count;
+    this->Report.Triangles = this->Mesh.Triangles.Count;
+    this->Report.StopReason = StopReasonKind::Aborted;
+  }
+  return this->Own != nullptr;
+}
+
+bool DividedSession::Advance(
+  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+{
+  const auto isOver = [this]()
+  {
+    return this->Report.StopReason == StopReasonKind::Converged ||
+      this->Report.StopReason == StopReasonKind::IterationLimit;
+  };
+  if (iterations == 0 || isOver())
+  {
+    return !isOver();
+  }
+  if (!this->Own && !this->Prepare(progress))
+  {
+    return false;
+  }
+  const bool isCopy = this->Ids32.Size() + this->Ids64.Size() > 0; // else they are not asked for
+  this->FlipCounts = this->Threads.MakeArray<std::int32_t>(isCopy ? this->Triangles.Count : 0);
+  const std::unique_ptr<Run> run = std::move(this->Own); // its triangles change
+  run->FlipAll(isCopy ? this->FlipCounts.Data() : nullptr, progress);
+  this->Report = run->Report;
+  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
+  {
+    observer(this->Report.Iterations[i]);
+  }
+  if (progress && isOver())
+  {
+    progress(1.0);
+  }
+  return false;
+}
+
+void DividedSession::StoreTriangles(const MutableTriangleArray& triangles) const
+{
+  CopyTriangles(AsConst(this->Triangles), triangles, this->Threads);
+}
+
+void DividedSession::StoreFlipCounts(std::int32_t* counts) const
+{
+  const bool areKnown = this->FlipCounts.Size() > 0;
+  this->Threads.ForEach(this->Mesh.Triangles.Count,
+    [&](std::int64_t t) { counts[t] = areKnown ? this->FlipCounts[t] : 0; });
 }
 
 PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const ProgressObserver& progress)
 {
-  std::optional<MeshInParts> parts;
-  try
+  DividedSession session(mesh, options, progress, triangles);
+  if (session.GetReport().StopReason != StopReasonKind::Aborted)
   {
-    parts.emplace(mesh, triangles, options, progress);
+    session.Advance(-1, {}, progress);
   }
-  catch (const RunAborted&)
-  {
-    return StopBeforeFlips(mesh, triangles, ThreadBackend(options.NumberOfThreads));
-  }
-  return FlipInTurn(*parts, nullptr, progress);
+  return session.GetReport();
 }
 
 }

@@ -1,19 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_MESHINPARTS_H
-#define DELAUNAYFLIP_MESHINPARTS_H
+#ifndef DELAUNAYFLIP_SUBMESH_H
+#define DELAUNAYFLIP_SUBMESH_H
 
 #include "Array.h"
 #include "Atomics.h"
-#include "ConstraintInsertion.h"
-#include "FlipOptions.h"
-#include "PartSurvey.h"
-#include "PieceFlip.h"
 #include "Records.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -201,28 +196,23 @@ inline TriangleArray AsConst(const MutableTriangleArray& triangles)
 void CopyTriangles(
   const TriangleArray& from, const MutableTriangleArray& to, const ThreadBackend& threads);
 
-/// A mesh of this process whose triangle slots are divided among parts, with its constraints
-/// inserted. Flips change its triangles in place.
-class MeshInParts
-{
-public:
-  /// Inserts the constraints, surveys the mesh as a whole, divides it, and copies its triangles.
-  /// @param triangles receives the copy, which flips change. May be the mesh's own array.
-  /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
-  MeshInParts(const TriangleMesh& mesh, const MutableTriangleArray& triangles,
-    const FlipOptions& options, const ProgressObserver& progress);
-  MeshInParts(const MeshInParts&) = delete;
-  MeshInParts& operator=(const MeshInParts&) = delete;
+/// Divides a mesh into parts with about the same number of triangles by recursive bisection. Each
+/// cut is perpendicular to the axis along which what is cut is longest.
+///
+/// The cuts of a large mesh are computed from a sample of its triangles. Which triangles are in the
+/// sample depends only on their number.
+/// @param axes the coordinate axes to cut across, ascending.
+/// @returns the part of each triangle, 0 to parts - 1.
+Array<unsigned char> FindParts(
+  const TriangleMesh& mesh, const std::vector<int>& axes, int parts, const ThreadBackend& threads);
 
-  const TriangleMesh& View() const { return this->Mesh; }
-  const MutableTriangleArray& GetTriangles() const { return this->Triangles; }
-  const FlipOptions& GetOptions() const { return this->Options; }
-  const ConstraintInsertion& GetInsertion() const { return this->Insertion; }
-  int GetNumberOfParts() const { return this->Parts; }
-  const PartSurvey& GetSurvey() const { return this->Survey; }
-  const ThreadBackend& GetThreads() const { return this->Threads; }
-  /// What is known before the first flip.
-  PiecesReport GetReport() const;
+/// A mesh whose triangles are divided among parts, and which flips change in place.
+struct MeshInParts
+{
+  explicit MeshInParts(int threads)
+    : Threads(threads)
+  {
+  }
 
   SubMesh GetPart(int number) const;
   /// The points that triangles of several parts share at the moment.
@@ -234,25 +224,10 @@ public:
   /// All points of the triangles that have one of these points.
   PointSet FindPointsAround(const PointSet& points) const;
 
-private:
-  ConstraintInsertion Insertion;
-  FlipOptions Options; ///< With the geometry that was chosen before the insertion.
   TriangleMesh Mesh;
-  MutableTriangleArray Triangles;
-  int Parts;
   ThreadBackend Threads;
-  PartSurvey Survey;
   Array<unsigned char> PartOf; ///< By triangle slot.
 };
-
-/// Flips the parts, one after the other on each device, and the edges between them.
-/// @param flipCounts is set to the number of flips of each triangle slot; or null.
-PiecesReport FlipInTurn(
-  MeshInParts& mesh, std::int32_t* flipCounts, const ProgressObserver& progress);
-
-/// What a run does that was stopped before there was such a mesh: copies the triangles.
-PiecesReport StopBeforeFlips(
-  const TriangleMesh& mesh, const MutableTriangleArray& triangles, const ThreadBackend& threads);
 
 }
 
