@@ -283,6 +283,12 @@ struct SurfaceRule : AnglePoints<Real>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
     const QuadPoints points = this->Get(quad);
+#if !DELAUNAYFLIP_ON_DEVICE // where some edge of a warp would always need the rest
+    if (this->Range == CoordinateRange::Usual && AreAcute(points))
+    {
+      return EdgeState::Good;
+    }
+#endif
     const AngleSum sum(points);
     if (!this->ExceedsPi(quad, sum))
     {

@@ -99,11 +99,17 @@ public:
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
-    if (!isSurface)
+    // To find feature edges takes the caller's points, or the packed ones, which are nearer.
+    const bool packsLate = isSurface && BackendT::MemoryIsScarce;
+    EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
+    if (!packsLate)
     {
       this->PackPoints(local, survey, options.Criterion);
+      const PackedPointsView packed = this->Points.View();
+      const std::int64_t count = isSurface ? mesh.Points.Count : 0;
+      edges.Packed =
+        packed.Floats ? PointArray(packed.Floats, count) : PointArray(packed.Doubles, count);
     }
-    const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
     // This is the peak of memory use, with the caller's triangles and the engine's. So a device
     // first frees what can be recomputed.
     if (BackendT::MemoryIsScarce)
@@ -121,7 +127,7 @@ public:
     progress.Reach(survey.Geometry, BuildStep::Loaded);
     EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend, progress);
     progress.Reach(survey.Geometry, BuildStep::Fixed);
-    if (isSurface)
+    if (packsLate)
     {
       this->PackPoints(local, survey, options.Criterion);
     }
@@ -374,8 +380,7 @@ private:
     }
   }
 
-  /// In the plane the caller's points are not needed once they are packed; on surfaces feature
-  /// edges are found first.
+  /// After this the caller's points are not needed any more.
   void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
   {
     const PointArray points = local.View().Points;

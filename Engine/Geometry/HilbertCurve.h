@@ -11,6 +11,18 @@
 namespace delaunayflip
 {
 
+/// Moves bit i to bit Axes * i.
+template <int Axes>
+DELAUNAYFLIP_HOST_DEVICE std::uint32_t SpreadBits(std::uint32_t x)
+{
+  static_assert(Axes == 2 || Axes == 3, "bits move by 1 or 2 times 8, 4, 2 and 1");
+  constexpr bool IsPlane = Axes == 2;
+  x = (x | (x << 8 * (Axes - 1))) & (IsPlane ? 0x00ff00ffu : 0x030000ffu);
+  x = (x | (x << 4 * (Axes - 1))) & (IsPlane ? 0x0f0f0f0fu : 0x0300f00fu);
+  x = (x | (x << 2 * (Axes - 1))) & (IsPlane ? 0x33333333u : 0x030c30c3u);
+  return (x | (x << (Axes - 1))) & (IsPlane ? 0x55555555u : 0x09249249u);
+}
+
 /// Position along the Hilbert curve of a cell, each coordinate of `bits` bits (Skilling,
 /// Programming the Hilbert curve, 2004), level after level.
 template <int Axes>
@@ -29,12 +41,9 @@ DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes],
     }
   }
   std::uint32_t index = 0;
-  for (int bit = bits - 1; bit >= 0; --bit)
+  for (const std::uint32_t x : cell)
   {
-    for (const std::uint32_t x : cell)
-    {
-      index = (index << 1) | ((x >> bit) & 1);
-    }
+    index = (index << 1) | SpreadBits<Axes>(x);
   }
   // Every bit becomes the parity of itself and all above it.
   for (int distance = 1; distance < 32; distance *= 2)
@@ -68,15 +77,6 @@ struct HilbertTurns
   }
 };
 
-/// Moves bit i to bit 2 i.
-DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t SpreadBits(std::uint32_t x)
-{
-  x = (x | (x << 8)) & 0x00ff00ffu;
-  x = (x | (x << 4)) & 0x0f0f0f0fu;
-  x = (x | (x << 2)) & 0x33333333u;
-  return (x | (x << 1)) & 0x55555555u;
-}
-
 /// The same in the plane, by doubling the distance over which turns are known, in a third of the
 /// time.
 /// @param u, v of at most 16 bits.
@@ -95,7 +95,7 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
   const std::uint32_t exchanged = turns.E0 >> 1;
   const std::uint32_t inverted = turns.I0 >> 1;
   const std::uint32_t turnedU = u ^ inverted ^ (exchanged & differ);
-  return (SpreadBits(turnedU) << 1) | SpreadBits(differ);
+  return (SpreadBits<2>(turnedU) << 1) | SpreadBits<2>(differ);
 }
 
 /// The cell, of 2^bits, of a coordinate in [lower, lower + width]; 0 if it is not in it or NaN.

@@ -38,8 +38,26 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsSharp(const QuadPoints& quad, double cosi
 {
   const Vector3 upper = AreaVector(quad.A, quad.P, quad.Q);
   const Vector3 lower = AreaVector(quad.B, quad.Q, quad.P);
+  const double squares = Dot(upper, upper) * Dot(lower, lower), dot = Dot(upper, lower);
+  // Most edges are so far from sharp that no root need be taken.
+  constexpr double Rounding = 1.0 + 0x1p-40, Smallest = 0x1p-900;
+  if (dot > 0.0 && squares > Smallest && dot * dot > Rounding * cosine * cosine * squares)
+  {
+    return false;
+  }
   const double lengths = Length(upper) * Length(lower);
-  return lengths > 0.0 && Dot(upper, lower) < cosine * lengths;
+  return lengths > 0.0 && dot < cosine * lengths;
+}
+
+/// Whether the angles at a and b are surely acute, so that their sum is below pi: a filter before
+/// AngleSum for coordinates of CoordinateRange::Usual, without roots.
+DELAUNAYFLIP_HOST_DEVICE inline bool AreAcute(const QuadPoints& quad)
+{
+  // Products as large as this do not vanish in an AngleSum.
+  constexpr double Smallest = 0x1p-200;
+  const double atA = Dot(quad.P - quad.A, quad.Q - quad.A);
+  const double atB = Dot(quad.P - quad.B, quad.Q - quad.B);
+  return atA > 0.0 && atB > 0.0 && atA * atB > Smallest;
 }
 
 /// Whether flipping p-q to a-b would fold the surface over: whether a new normal points away from

@@ -40,6 +40,7 @@ struct EdgeMeshInput
   const MeshSurvey& Survey;
   const SpatialOrder& Order;
   double FeatureAngle; ///< Degrees; 180 fixes none. Surfaces only.
+  PointArray Packed = {}; ///< The points of a surface by rank, or none if they are not packed yet.
 };
 
 struct EdgeMeshResult
@@ -142,8 +143,10 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
 {
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
-  const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
-    input.Order.View(), input.Survey.Range, hasFeatures,
+  const bool arePacked = input.Packed.Count > 0;
+  const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions,
+    arePacked ? input.Packed : input.Input.Local.Points,
+    arePacked ? SpatialOrderView{} : input.Order.View(), input.Survey.Range, hasFeatures,
     std::cos(input.FeatureAngle * DegreesToRadians) };
   const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
   EdgeCounts& counts = result.Counts;

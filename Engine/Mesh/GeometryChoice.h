@@ -103,6 +103,10 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b,
 /// @param normal of length twice the area.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const Vector3& normal)
 {
+  if (normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y)
+  {
+    return true;
+  }
   constexpr double Fifth = 0.2;
   const double squaredArea = Dot(normal, normal);
   bool isSliver = false;
@@ -111,11 +115,11 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const
   {
     const Vector3 edge = corners[(slot + 1) % 3] - corners[slot];
     const double square = Dot(edge, edge);
-    isSliver = isSliver || squaredArea < Fifth * Fifth * square * square;
-    areEdgesGentle = areEdgesGentle && edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
+    // Without branches, which could not be predicted.
+    isSliver |= squaredArea < Fifth * Fifth * square * square;
+    areEdgesGentle &= edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
   }
-  const bool isPlaneGentle = normal.Z * normal.Z > normal.X * normal.X + normal.Y * normal.Y;
-  return isPlaneGentle || (isSliver && areEdgesGentle);
+  return isSliver && areEdgesGentle;
 }
 
 /// A sum of areas in units of 2^-60, in two words so that a billion of them fit.

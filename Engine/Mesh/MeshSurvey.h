@@ -35,7 +35,10 @@ struct IdSample
 
   DELAUNAYFLIP_HOST_DEVICE void Note(std::int64_t id)
   {
-    this->Keep(id, this->Count);
+    if (this->Count < Kept || id < this->Smallest[Kept - 1])
+    {
+      this->Keep(id, this->Count);
+    }
     ++this->Count;
   }
 

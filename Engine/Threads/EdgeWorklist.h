@@ -75,7 +75,11 @@ public:
   template <typename... Steps>
   StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
   {
-    this->Gather(UnitsPerTask);
+    // So few units that a mesh of 50,000 points has tasks for many threads.
+    constexpr std::int64_t WantedTasks = 64;
+    this->Gather();
+    this->Divide(std::clamp<std::int64_t>(
+      static_cast<std::int64_t>(this->Units.size()) / WantedTasks, 1, UnitsPerGroup));
     return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
   }
 
@@ -83,7 +87,8 @@ public:
   template <typename... Steps>
   StepCounts Detect(const Steps&... steps)
   {
-    this->Gather(static_cast<std::int64_t>(this->Flags.size()) + 1);
+    this->Gather();
+    this->Divide(static_cast<std::int64_t>(this->Flags.size()) + 1);
     return this->Tasks.empty() ? StepCounts{} : this->DetectIn(this->Tasks[0], steps...);
   }
 
@@ -159,7 +164,8 @@ public:
 private:
   static constexpr int UnitBits = UnitFlags::UnitBits;
   static constexpr std::int64_t UnitSize = std::int64_t(1) << UnitBits;
-  static constexpr std::int64_t UnitsPerTask = 8;
+  /// Whose edges a step works on together.
+  static constexpr std::int64_t UnitsPerGroup = 8;
   static constexpr std::int64_t SetSize = StatesPerSet;
   /// Edges between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 16;
@@ -176,8 +182,8 @@ private:
     std::int64_t Size = 0; ///< Without padding.
   };
 
-  /// Divides the flagged units into tasks.
-  void Gather(std::int64_t unitsPerTask)
+  /// Lists the flagged units.
+  void Gather()
   {
     this->Units.clear();
     for (std::size_t unit = 0; unit < this->Flags.size(); ++unit)
@@ -187,6 +193,11 @@ private:
         this->Units.push_back(this->FirstUnit + static_cast<std::int64_t>(unit));
       }
     }
+  }
+
+  /// Divides them into tasks.
+  void Divide(std::int64_t unitsPerTask)
+  {
     const auto size = static_cast<std::int64_t>(this->Units.size());
     this->Tasks.resize((size + unitsPerTask - 1) / unitsPerTask);
     std::int64_t begin = 0;
@@ -213,10 +224,10 @@ private:
   StepCounts DetectIn(Task& task, const Steps&... steps)
   {
     StepCounts counts;
-    for (std::int64_t begin = task.Begin; begin < task.End; begin += UnitsPerTask)
+    for (std::int64_t begin = task.Begin; begin < task.End; begin += UnitsPerGroup)
     {
       StepCounts group;
-      const std::int64_t end = std::min(task.End, begin + UnitsPerTask);
+      const std::int64_t end = std::min(task.End, begin + UnitsPerGroup);
       (this->RunOnUnits(steps, begin, end, group), ...);
       for (std::int64_t i = begin; i < end; ++i)
       {
@@ -273,7 +284,7 @@ private:
   template <typename Step>
   void RunOnUnits(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
-    EdgeId edges[UnitsPerTask * UnitSize + Padding];
+    EdgeId edges[UnitsPerGroup * UnitSize + Padding];
     const std::int64_t size = this->FindAll(Step::Wanted, begin, end, edges);
     ForEdges(
       step, edges, size, [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
@@ -289,7 +300,7 @@ private:
       this->RunOnUnits<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
       return;
     }
-    EdgeId edges[UnitsPerTask * UnitSize + Padding];
+    EdgeId edges[UnitsPerGroup * UnitSize + Padding];
     const std::int64_t size =
       this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
     Batch batch(step.Mesh, step.Decision);

@@ -18,7 +18,9 @@ namespace
 {
 
 #if defined(DELAUNAYFLIP_MAPS_MEMORY)
-constexpr std::size_t SmallestMapped = std::size_t(1) << 20; // half a huge page
+/// Smaller arrays come from the heap, which gives the pages of freed ones to the next: to have them
+/// from the system takes a fifth of the time of 100,000 points on two threads.
+constexpr std::size_t SmallestMapped = std::size_t(16) << 20;
 #endif
 
 void* AllocateAny(std::size_t bytes, [[maybe_unused]] bool usesHugePages)

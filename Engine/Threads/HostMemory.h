@@ -12,8 +12,8 @@
 namespace delaunayflip
 {
 
-/// Memory of this process. Large allocations use huge pages, because otherwise almost every
-/// scattered access to gigabytes misses the TLB; when freed, they are returned to the system.
+/// Memory of this process. Allocations of 16 MiB and more use huge pages, because otherwise almost
+/// every scattered access to gigabytes misses the TLB; when freed, they are returned to the system.
 /// Thread-safe.
 class HostMemory : public Memory
 {

@@ -73,17 +73,31 @@ public:
   /// twentieth of a second. It may throw, which ends the tasks. Null: no more.
   void SetPoll(std::function<void()> poll);
 
+  /// How many items a piece of a range has: enough that its start costs little, and so few that
+  /// a mesh of 50,000 points still has work for many threads.
+  static constexpr std::int64_t GetGrain(std::int64_t size)
+  {
+    constexpr std::int64_t Fewest = 2048, Most = 16384, WantedPieces = 64;
+    return std::clamp(size / WantedPieces, Fewest, Most);
+  }
+
   /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
   template <typename Work>
-  void ForRange(std::int64_t size, const Work& work, std::int64_t grain = DefaultGrain) const
+  void ForRange(std::int64_t size, const Work& work, std::int64_t grain) const
   {
     this->ForTasks((size + grain - 1) / grain,
       [&](std::int64_t piece) { work(piece * grain, std::min(size, (piece + 1) * grain)); });
   }
 
+  template <typename Work>
+  void ForRange(std::int64_t size, const Work& work) const
+  {
+    this->ForRange(size, work, GetGrain(size));
+  }
+
   /// The sum, by operator+=, of work(begin, end) over pieces of [0, size), in their order.
   template <typename Result, typename Work>
-  Result SumRanges(std::int64_t size, const Work& work, std::int64_t grain = DefaultGrain) const
+  Result SumRanges(std::int64_t size, const Work& work, std::int64_t grain) const
   {
     std::vector<Result> parts((size + grain - 1) / grain);
     this->ForRange(
@@ -111,13 +125,15 @@ public:
   template <typename Result, typename Work>
   Result Sum(std::int64_t size, const Work& work) const
   {
-    return this->SumRanges<Result>(size,
+    return this->SumRanges<Result>(
+      size,
       [&work](std::int64_t begin, std::int64_t end)
       {
         Result part{};
         Loop(begin, end, work, [&work, &part](std::int64_t i) { work(i, part); });
         return part;
-      });
+      },
+      GetGrain(size));
   }
 
   using Numbering = ThreadNumbering;
@@ -127,13 +143,14 @@ public:
   Numbering Count(std::int64_t size, const CountOf& count) const
   {
     Numbering numbering;
-    numbering.FirstOfPiece.assign(size / DefaultGrain + 1, 0);
+    const std::int64_t grain = GetGrain(size);
+    numbering.FirstOfPiece.assign(size / grain + 1, 0);
     this->ForRange(size,
       [&](std::int64_t begin, std::int64_t end)
       {
         std::int64_t items = 0;
         Loop(begin, end, count, [&count, &items](std::int64_t i) { items += count(i); });
-        numbering.FirstOfPiece[begin / DefaultGrain] = items;
+        numbering.FirstOfPiece[begin / grain] = items;
       });
     for (std::int64_t& first : numbering.FirstOfPiece)
     {
@@ -153,7 +170,7 @@ public:
     this->ForRange(size,
       [&](std::int64_t begin, std::int64_t end)
       {
-        std::int64_t next = numbering.FirstOfPiece[begin / DefaultGrain];
+        std::int64_t next = numbering.FirstOfPiece[begin / GetGrain(size)];
         Loop(begin, end, visit,
           [&](std::int64_t i)
           {
@@ -246,8 +263,6 @@ public:
     this->ForEach(size, [&](std::int64_t i) { store(i, all); });
   }
 
-  static constexpr std::int64_t DefaultGrain = 16384;
-
 private:
   /// Runs the poll where that is due.
   void TakePoll() const;
@@ -300,18 +315,20 @@ private:
   std::vector<std::uint32_t> PlaceByDigit(std::int64_t size, std::uint32_t digits,
     const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
   {
-    constexpr std::int64_t Grain = 1 << 17;
-    const std::int64_t pieces = (size + Grain - 1) / Grain;
+    // A piece has a count of every digit.
+    constexpr std::int64_t Fewest = 1 << 13, Most = 1 << 17, WantedPieces = 16;
+    const std::int64_t grain = std::clamp(size / WantedPieces, Fewest, Most);
+    const std::int64_t pieces = (size + grain - 1) / grain;
     std::vector<std::uint32_t> starts(pieces * digits, 0);
     const auto count = [&](std::int64_t begin, std::int64_t end)
     {
-      std::uint32_t* counts = &starts[begin / Grain * digits];
+      std::uint32_t* counts = &starts[begin / grain * digits];
       for (std::int64_t i = begin; i < end; ++i)
       {
         ++counts[digitOf(i)];
       }
     };
-    this->ForRange(size, count, Grain);
+    this->ForRange(size, count, grain);
     std::vector<std::uint32_t> firsts(1, 0);
     for (std::uint32_t digit = 0; digit < digits; ++digit)
     {
@@ -330,13 +347,13 @@ private:
     }
     const auto place = [&](std::int64_t begin, std::int64_t end)
     {
-      std::uint32_t* next = &starts[begin / Grain * digits];
+      std::uint32_t* next = &starts[begin / grain * digits];
       for (std::int64_t i = begin; i < end; ++i)
       {
         put(i, next[digitOf(i)]++);
       }
     };
-    this->ForRange(size, place, Grain);
+    this->ForRange(size, place, grain);
     return firsts;
   }
 
