@@ -47,25 +47,31 @@ private:
   int Size = 0; ///< The same in all lanes.
 };
 
-/// The same as Detect, but also lists the bad edges, and warns if the list is too short. Bad edges
-/// that are not candidates are judged again to be listed; they do not count as tested.
+/// The same as RunDetection, but also lists the bad edges, and warns if the list is too short. Bad
+/// edges that are not candidates are judged again to be listed; they do not count as tested.
 template <typename Rule>
 __device__ void DetectAndList(
   const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
 {
+  const bool hasGuard = HasGuard<WarpWorklist>(loop);
   DetectionCounts counts;
+  unsigned blockedByEdge = 0;
   list.Clear();
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, false, counts); },
+    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, hasGuard, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      BadEdge found{ edge, corners, {} };
+      BadEdge found{ edge, corners, {}, 0, 0, NoClaim };
       EdgeState state = EdgeState::Good;
       if (edge != NoEdge)
       {
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
-        state = JudgeAndNote(loop, edge, corners, counts);
+        const Quad quad = loop.Mesh.GetQuad(corners);
+        found.A = quad.A;
+        found.B = quad.B;
+        state = JudgeAndNote(loop, edge, quad, hasGuard, counts);
+        blockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
       list.Add(state == EdgeState::Bad, found);
     });
@@ -76,48 +82,97 @@ __device__ void DetectAndList(
     if (worklist.IsAny(counts.Uncertain))
     {
       ResolveUncertain(loop, worklist, team);
+      if (hasGuard)
+      {
+        __syncwarp();
+        GuardBadEdges(loop, worklist, team);
+      }
+      return;
+    }
+  }
+  if (hasGuard)
+  {
+    team.Add(IterationSum::AllBad, counts.IsBad);
+    team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
+  }
+}
+
+/// Chooses among the bad edges, all of which are in the lists of the warps; winners claim their new
+/// edges.
+template <typename Rule>
+__device__ void ClaimListed(const LoopView<Rule>& loop, const BadList& list)
+{
+  for (int i = threadIdx.x % WarpSize; i < list.GetSize(); i += WarpSize)
+  {
+    BadEdge& bad = list[i];
+    if (Wins(loop, bad.Edge, bad.Outer))
+    {
+      bad.ClaimedSlot = loop.Guard.Claims.Claim(bad.A, bad.B, Priority(bad.Edge));
     }
   }
 }
 
-/// Chooses among the bad edges, all of which are in the lists of the warps, and flips the winners.
-/// Winners stay marked as bad until the next DetectAndList, because other choices depend on it.
+/// Whether a listed edge flips. With a guard it has made its claim, and releases it here if it
+/// holds it.
+template <typename Rule>
+__device__ bool MayFlipListed(const LoopView<Rule>& loop, const BadEdge& bad)
+{
+  if (!HasGuard<WarpWorklist>(loop))
+  {
+    return Wins(loop, bad.Edge, bad.Outer);
+  }
+  const bool holds = bad.ClaimedSlot != NoClaim &&
+    loop.Guard.Claims.HoldsSlot(bad.ClaimedSlot, bad.A, bad.B, Priority(bad.Edge));
+  if (holds)
+  {
+    loop.Guard.Claims.ReleaseSlot(bad.ClaimedSlot);
+  }
+  return holds;
+}
+
+/// Flips those of the listed edges that win, without a guard, or that hold their claims. They stay
+/// marked as bad until the next DetectAndList, because other choices depend on it.
 template <typename Rule>
 __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
 {
-  unsigned flips = 0;
+  StepCounts counts;
   const int lane = threadIdx.x % WarpSize;
   for (int i = lane; i - lane < list.GetSize(); i += WarpSize)
   {
     FlippedRecords flipped;
-    bool wins = false;
+    Quad quad{};
     BadEdge bad{};
+    bool flips = false;
     if (i < list.GetSize())
     {
       bad = list[i];
       const RecordPair records(loop.Mesh, bad.Corners);
-      wins = Wins(loop, bad.Edge, bad.Outer);
-      if (wins)
+      flips = MayFlipListed(loop, bad);
+      if (flips)
       {
-        FlipEdge(
-          loop.Mesh, bad.Edge, records.GetQuad(), records.Upper, records.Lower, flipped.Keep());
+        quad = records.GetQuad();
+        FlipEdge(loop.Mesh, bad.Edge, quad, records.Upper, records.Lower, flipped.Keep());
       }
     }
     flipped.Store(loop.Mesh.Triangles);
-    if (wins)
+    if (flips)
     {
-      ++flips;
+      ++counts.Flipped;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
       MarkOuter(loop, bad.Outer);
+      if (HasGuard<WarpWorklist>(loop))
+      {
+        UpdateGuard(loop.Guard.Edges, quad, counts);
+      }
     }
   }
-  team.Add(IterationSum::Flipped, flips);
+  AddFlips(loop, team, counts);
 }
 
 //------------------------------------------------------------------------------
 
-/// The most waits per iteration: four in RunFlips, with a guard, and one in RunDetection.
-constexpr int MostWaits = 5;
+/// The most waits per iteration: three in RunFlips, with a guard, and one in RunDetection.
+constexpr int MostWaits = 4;
 
 /// The most iterations per launch of IterateKernel: few enough for an observer to be called and to
 /// stop the run in time.
@@ -130,8 +185,7 @@ static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIte
 
 /// Passes 4 to 6.
 template <typename Rule, typename Worklist>
-__device__ void RunFlips(
-  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
+__device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, Team& team)
 {
   if (!HasGuard<Worklist>(loop))
   {
@@ -139,15 +193,12 @@ __device__ void RunFlips(
     team.Wait();
     return;
   }
-  Choose(loop, worklist, team);
-  team.Wait();
-  Claim(loop, worklist, team);
+  ChooseAndClaim(loop, worklist, team);
   team.Wait();
   Confirm(loop, worklist, team);
   team.Wait();
   FlipWinners(loop, worklist, team);
-  // The sums decide whether to continue.
-  team.Wait(iteration);
+  team.Wait();
 }
 
 /// Passes 1 to 3.
@@ -209,9 +260,8 @@ public:
       Limits(limits),
       Members(loop.Teams, gridDim.x, loop.Parts, loop.Splits > 0),
       Bad(limits.Bad),
-      // A quarter of the room, because bad edges are not spread evenly. No lists with a guard.
-      MostListed(
-        loop.Guard.Active ? 0 : Members.GetNumberOfThreads() / WarpSize * (MostListedByWarp / 4))
+      // A quarter of the room, because bad edges are not spread evenly.
+      MostListed(Members.GetNumberOfThreads() / WarpSize * (MostListedByWarp / 4))
   {
   }
 
@@ -222,14 +272,10 @@ public:
     for (bool isRunning = this->Members.Meet(); isRunning;)
     {
       IterationSums* iteration = &this->Loop.Sums[done++];
-      this->Flip(iteration);
-      isRunning = this->HasRoom(iteration);
-      if (isRunning)
-      {
-        this->Detect(iteration);
-        isRunning =
-          this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(iteration);
-      }
+      this->Flip();
+      this->Detect(iteration);
+      isRunning = this->Bad > 0 && done < this->Limits.Iterations && this->HasRoom &&
+        !this->IsUncertain(iteration);
     }
     return done;
   }
@@ -237,27 +283,20 @@ public:
   __device__ bool IsFirstThread() const { return this->Members.IsFirstThread(); }
 
 private:
-  __device__ void Flip(IterationSums* iteration)
+  __device__ void Flip()
   {
-    if (this->IsListed)
+    if (!this->IsListed)
     {
-      FlipListed(this->Loop, this->Members, this->List);
-      this->Members.Wait();
+      RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members);
       return;
     }
-    RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
-  }
-
-  /// Whether a detection may follow: false if the guard's table must be rebuilt first.
-  __device__ bool HasRoom(const IterationSums* iteration)
-  {
-    if (!this->Loop.Guard.Active)
+    if (this->Loop.Guard.Active)
     {
-      return true;
+      ClaimListed(this->Loop, this->List);
+      this->Members.Wait();
     }
-    this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
-    return this->FreshSlots <= this->Limits.FreshSlots &&
-      LoadSum(*iteration, IterationSum::LostInserts) == 0;
+    FlipListed(this->Loop, this->Members, this->List);
+    this->Members.Wait();
   }
 
   /// Makes a detection. Lists the bad edges if they are few, or if the last detection listed them.
@@ -275,8 +314,14 @@ private:
     {
       RunDetection(this->Loop, worklist, this->Members, iteration);
     }
-    this->Bad = this->Loop.Guard.Active ? LoadSum(*iteration, IterationSum::AllBad)
-                                        : this->Limits.Bad + this->Members.GetBadChange();
+    this->Bad = this->Limits.Bad + this->Members.GetBadChange();
+    if (this->Loop.Guard.Active)
+    {
+      this->Bad = LoadSum(*iteration, IterationSum::AllBad);
+      this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
+      this->HasRoom = this->FreshSlots <= this->Limits.FreshSlots &&
+        LoadSum(*iteration, IterationSum::LostInserts) == 0;
+    }
     // After a list was too short, lists are tried again when there are half as many bad edges.
     this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
   }
@@ -295,10 +340,11 @@ private:
   long long Bad; ///< Edges.
   long long MostListed; ///< Up to this many bad edges, detections make lists.
   unsigned long long FreshSlots = 0;
+  bool HasRoom = true; ///< False if the guard's table must be rebuilt.
 };
 
 /// Iterations on the whole mesh after a detection, each counted in an entry of Sums. If the guard's
-/// table must be rebuilt, the last detection is left out.
+/// table must be rebuilt, the last detection may have missed edges that found no room in it.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)
@@ -327,7 +373,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
     team.Wait(&loop.Sums[iterations]);
     for (int i = 0; i < iterations; ++i)
     {
-      RunFlips(loop, worklist, team, &loop.Sums[i]);
+      RunFlips(loop, worklist, team);
       RunDetection(loop, worklist, team, &loop.Sums[i]);
     }
   }

@@ -106,7 +106,10 @@ struct BadEdge
   EdgeId Edge;
   CornerPair Corners;
   OuterHalfEdges Outer;
+  VertexId A, B; ///< Of the edge that would replace it.
+  std::uint32_t ClaimedSlot; ///< Of EdgeClaims, with a guard; NoClaim if the edge does not win.
 };
+constexpr std::uint32_t NoClaim = 0xFFFFFFFFu;
 /// Room for the bad edges that a warp lists where there are few.
 constexpr int MostListedByWarp = 48;
 
