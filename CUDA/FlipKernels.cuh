@@ -19,135 +19,151 @@ namespace delaunayflip
 // winners may flip while other threads still choose, and there are fewer dependent loads, which
 // are most of the time of such an iteration.
 
-/// The bad edges that a warp has found, in shared memory.
+/// The bad edges that a block has found, in shared memory.
 class BadList
 {
 public:
-  __device__ BadEdge& operator[](int i) const
+  __device__ static BadEdge& Get(int i) { return GetTeamMemory().Listed[i]; }
+  __device__ static ListedClaim& GetClaim(int i) { return GetTeamMemory().Claims[i]; }
+  __device__ static int GetSize() { return GetTeamMemory().NumberListed; }
+  __device__ static bool HasOverflown() { return GetSize() > MostListed; }
+
+  /// Empties the list, before a barrier.
+  __device__ static void Clear()
   {
-    return GetTeamMemory().Listed[threadIdx.x / WarpSize][i];
+    if (threadIdx.x == 0)
+    {
+      GetTeamMemory().NumberListed = 0;
+    }
   }
-  __device__ int GetSize() const { return this->Size; }
-  __device__ bool HasOverflown() const { return this->Size > MostListedByWarp; }
-  __device__ void Clear() { this->Size = 0; }
 
   /// Adds the bad edges among those of the warp's lanes, as long as there is room.
-  __device__ void Add(bool isBad, const BadEdge& edge)
+  /// @returns where, or -1.
+  __device__ static int Add(bool isBad, const BadEdge& edge)
   {
     const unsigned bad = __ballot_sync(WholeWarp, isBad);
-    const int place = this->Size + __popc(bad & ((1u << (threadIdx.x % WarpSize)) - 1));
-    if (isBad && place < MostListedByWarp)
+    if (bad == 0)
     {
-      (*this)[place] = edge;
+      return -1;
     }
-    this->Size += __popc(bad);
+    const unsigned lane = threadIdx.x % WarpSize;
+    int place = lane == 0 ? atomicAdd(&GetTeamMemory().NumberListed, __popc(bad)) : 0;
+    place = __shfl_sync(WholeWarp, place, 0) + __popc(bad & ((1u << lane) - 1));
+    if (!isBad || place >= MostListed)
+    {
+      return -1;
+    }
+    Get(place) = edge;
+    return place;
   }
-
-private:
-  int Size = 0; ///< The same in all lanes.
 };
 
 /// The same as RunDetection, but also lists the bad edges, and warns if the list is too short. Bad
 /// edges that are not candidates are judged again to be listed; they do not count as tested.
-template <typename Rule>
+template <bool HasGuard, typename Rule>
 __device__ void DetectAndList(
-  const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
+  const LoopView<Rule>& loop, const BlockWorklist& worklist, const Team& team)
 {
-  const bool hasGuard = HasGuard<WarpWorklist>(loop);
   DetectionCounts counts;
   unsigned blockedByEdge = 0;
-  list.Clear();
+  BadList::Clear();
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, hasGuard, counts); },
+    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, HasGuard, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
-      BadEdge found{ edge, corners, {}, 0, 0, NoClaim };
+      BadEdge found{ edge, corners, {} };
+      Quad quad{};
       EdgeState state = EdgeState::Good;
       if (edge != NoEdge)
       {
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
-        const Quad quad = loop.Mesh.GetQuad(corners);
-        found.A = quad.A;
-        found.B = quad.B;
-        state = JudgeAndNote(loop, edge, quad, hasGuard, counts);
+        quad = loop.Mesh.GetQuad(corners);
+        state = JudgeAndNote(loop, edge, quad, HasGuard, counts);
         blockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
-      list.Add(state == EdgeState::Bad, found);
+      const int place = BadList::Add(state == EdgeState::Bad, found);
+      if (HasGuard && place >= 0)
+      {
+        BadList::GetClaim(place) = { quad.A, quad.B, NoClaim };
+      }
     });
   counts.AddTo<Rule>(team);
-  team.Warn(counts.Uncertain || list.HasOverflown());
+  team.Warn(counts.Uncertain || BadList::HasOverflown());
   if constexpr (Rule::MayBeUncertain)
   {
     if (worklist.IsAny(counts.Uncertain))
     {
       ResolveUncertain(loop, worklist, team);
-      if (hasGuard)
+      if (HasGuard)
       {
-        __syncwarp();
         GuardBadEdges(loop, worklist, team);
       }
       return;
     }
   }
-  if (hasGuard)
+  if (HasGuard)
   {
     team.Add(IterationSum::AllBad, counts.IsBad);
     team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
   }
 }
 
-/// Chooses among the bad edges, all of which are in the lists of the warps; winners claim their new
-/// edges.
+/// Chooses among the bad edges, all of which are in the lists of the blocks; winners claim their
+/// new edges.
 template <typename Rule>
-__device__ void ClaimListed(const LoopView<Rule>& loop, const BadList& list)
+__device__ void ClaimListed(const LoopView<Rule>& loop)
 {
-  for (int i = threadIdx.x % WarpSize; i < list.GetSize(); i += WarpSize)
+  for (int i = threadIdx.x; i < BadList::GetSize(); i += LoopThreads)
   {
-    BadEdge& bad = list[i];
+    const BadEdge& bad = BadList::Get(i);
     if (Wins(loop, bad.Edge, bad.Outer))
     {
-      bad.ClaimedSlot = loop.Guard.Claims.Claim(bad.A, bad.B, Priority(bad.Edge));
+      ListedClaim& claim = BadList::GetClaim(i);
+      claim.Slot = loop.Guard.Claims.Claim(claim.A, claim.B, Priority(bad.Edge));
     }
   }
 }
 
 /// Whether a listed edge flips. With a guard it has made its claim, and releases it here if it
 /// holds it.
-template <typename Rule>
-__device__ bool MayFlipListed(const LoopView<Rule>& loop, const BadEdge& bad)
+template <bool HasGuard, typename Rule>
+__device__ bool MayFlipListed(const LoopView<Rule>& loop, const BadEdge& bad, int i)
 {
-  if (!HasGuard<WarpWorklist>(loop))
+  if (!HasGuard)
   {
     return Wins(loop, bad.Edge, bad.Outer);
   }
-  const bool holds = bad.ClaimedSlot != NoClaim &&
-    loop.Guard.Claims.HoldsSlot(bad.ClaimedSlot, bad.A, bad.B, Priority(bad.Edge));
+  const ListedClaim& claim = BadList::GetClaim(i);
+  const bool holds = claim.Slot != NoClaim &&
+    loop.Guard.Claims.HoldsSlot(claim.Slot, claim.A, claim.B, Priority(bad.Edge));
   if (holds)
   {
-    loop.Guard.Claims.ReleaseSlot(bad.ClaimedSlot);
+    loop.Guard.Claims.ReleaseSlot(claim.Slot);
   }
   return holds;
 }
 
 /// Flips those of the listed edges that win, without a guard, or that hold their claims. They stay
 /// marked as bad until the next DetectAndList, because other choices depend on it.
-template <typename Rule>
-__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
+template <bool HasGuard, typename Rule>
+__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
 {
   StepCounts counts;
-  const int lane = threadIdx.x % WarpSize;
-  for (int i = lane; i - lane < list.GetSize(); i += WarpSize)
+  const int size = BadList::GetSize();
+  const int firstOfWarp = threadIdx.x / WarpSize * WarpSize;
+  for (int first = firstOfWarp; first < size; first += LoopThreads)
   {
+    const int i = first + threadIdx.x % WarpSize;
     FlippedRecords flipped;
     Quad quad{};
     BadEdge bad{};
     bool flips = false;
-    if (i < list.GetSize())
+    if (i < size)
     {
-      bad = list[i];
+      bad = BadList::Get(i);
       const RecordPair records(loop.Mesh, bad.Corners);
-      flips = MayFlipListed(loop, bad);
+      flips = MayFlipListed<HasGuard>(loop, bad, i);
       if (flips)
       {
         quad = records.GetQuad();
@@ -160,7 +176,7 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const B
       ++counts.Flipped;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
       MarkOuter(loop, bad.Outer);
-      if (HasGuard<WarpWorklist>(loop))
+      if (HasGuard)
       {
         UpdateGuard(loop.Guard.Edges, quad, counts);
       }
@@ -261,7 +277,7 @@ public:
       Members(loop.Teams, gridDim.x, loop.Parts, loop.Splits > 0),
       Bad(limits.Bad),
       // A quarter of the room, because bad edges are not spread evenly.
-      MostListed(Members.GetNumberOfThreads() / WarpSize * (MostListedByWarp / 4))
+      MostToList(Members.GetNumberOfThreads() / LoopThreads * (MostListed / 4))
   {
   }
 
@@ -292,27 +308,32 @@ private:
     }
     if (this->Loop.Guard.Active)
     {
-      ClaimListed(this->Loop, this->List);
+      ClaimListed(this->Loop);
       this->Members.Wait();
+      FlipListed<true>(this->Loop, this->Members);
     }
-    FlipListed(this->Loop, this->Members, this->List);
+    else
+    {
+      FlipListed<false>(this->Loop, this->Members);
+    }
     this->Members.Wait();
   }
 
   /// Makes a detection. Lists the bad edges if they are few, or if the last detection listed them.
   __device__ void Detect(IterationSums* iteration)
   {
-    const WarpWorklist worklist = this->Loop.GetWorklist();
-    const bool list = this->IsListed || this->Bad <= this->MostListed;
+    const bool list = this->IsListed || this->Bad <= this->MostToList;
     if (list)
     {
-      DetectAndList(this->Loop, worklist, this->Members, this->List);
+      const BlockWorklist worklist = this->Loop.GetSpreadWorklist();
+      this->Loop.Guard.Active ? DetectAndList<true>(this->Loop, worklist, this->Members)
+                              : DetectAndList<false>(this->Loop, worklist, this->Members);
       this->Members.Wait(iteration);
       this->IsListed = !this->Members.IsWarned();
     }
     else
     {
-      RunDetection(this->Loop, worklist, this->Members, iteration);
+      RunDetection(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
     }
     this->Bad = this->Limits.Bad + this->Members.GetBadChange();
     if (this->Loop.Guard.Active)
@@ -323,7 +344,7 @@ private:
         LoadSum(*iteration, IterationSum::LostInserts) == 0;
     }
     // After a list was too short, lists are tried again when there are half as many bad edges.
-    this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
+    this->MostToList = list && !this->IsListed ? this->Bad / 2 : this->MostToList;
   }
 
   /// Whether there is an edge that a device cannot decide. The thread that found it has warned.
@@ -335,10 +356,9 @@ private:
   const LoopView<Rule>& Loop;
   const IterationLimits& Limits;
   Team Members;
-  BadList List; ///< The bad edges that this warp has found, while IsListed.
-  bool IsListed = false; ///< Whether the lists of all warps hold all bad edges.
+  bool IsListed = false; ///< Whether the lists of all blocks hold all bad edges.
   long long Bad; ///< Edges.
-  long long MostListed; ///< Up to this many bad edges, detections make lists.
+  long long MostToList; ///< Up to this many bad edges, detections make lists.
   unsigned long long FreshSlots = 0;
   bool HasRoom = true; ///< False if the guard's table must be rebuilt.
 };

@@ -409,8 +409,8 @@ struct DetectionCounts
 /// Judges an edge by floating-point arithmetic. An edge that this cannot decide stays a candidate.
 /// @param asksGuard whether the guard decides about a bad edge, too.
 template <typename Rule>
-__device__ EdgeState JudgeAndNote(
-  const LoopView<Rule>& loop, EdgeId edge, const Quad& quad, bool asksGuard, DetectionCounts& counts)
+__device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const Quad& quad,
+  bool asksGuard, DetectionCounts& counts)
 {
   EdgeState state = loop.Decision.Judge(quad);
   if (asksGuard && state == EdgeState::Bad)
@@ -447,7 +447,8 @@ __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& b
   byte.Clear(bits.Winners, winners, winners);
   byte.Clear(bits.Bad, seenBad, takeBad ? seenBad : winners | (candidates & bad));
   byte.Clear(bits.BlockedByShape, blockedByShape, candidates & blockedByShape);
-  byte.Clear(bits.BlockedByEdge, blockedByEdge, takeBad ? blockedByEdge : candidates & blockedByEdge);
+  byte.Clear(
+    bits.BlockedByEdge, blockedByEdge, takeBad ? blockedByEdge : candidates & blockedByEdge);
   counts.Tested += __popc(candidates);
   counts.WasBad += __popc(takeBad ? bad : candidates & bad);
   counts.WasBlockedByShape += __popc(candidates & blockedByShape);
