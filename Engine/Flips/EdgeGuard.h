@@ -34,8 +34,7 @@ struct EdgeClaims
   static std::int64_t GetSize(std::int64_t edges) { return edges / 2 + 64; }
 
   /// @returns the slot of the edge, which HoldsSlot() takes.
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Claim(
-    VertexId a, VertexId b, std::uint32_t priority) const
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Claim(VertexId a, VertexId b, std::uint32_t priority) const
   {
     const std::uint64_t word = MakeWord(a, b, priority);
     std::uint32_t slot = this->FirstSlot(word);
