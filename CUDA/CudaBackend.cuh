@@ -305,6 +305,9 @@ public:
   void SortBy(
     Array<std::uint32_t>& order, std::int64_t size, int keyBits, const KeyOf& keyOf) const;
 
+  /// Sorts `size` numbers, none of which is NaN.
+  void SortNumbers(Array<double>& numbers, std::int64_t size) const;
+
   /// Calls work(task) for task = 0 .. count - 1 on CPU threads.
   void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const
   {
@@ -683,6 +686,18 @@ private:
   ContextLease Context;
   ThreadBackend Threads;
 };
+
+inline void CudaBackend::SortNumbers(Array<double>& numbers, std::int64_t size) const
+{
+  Array<double> sorted = this->MakeArrayOnFirst<double>(size);
+  this->RunCub(
+    [&](void* temporary, std::size_t& bytes)
+    {
+      return cub::DeviceRadixSort::SortKeys(temporary, bytes, numbers.Data(), sorted.Data(), size,
+        0, 8 * static_cast<int>(sizeof(double)), this->GetStream());
+    });
+  numbers = std::move(sorted);
+}
 
 template <typename Key, typename KeyOf>
 void CudaBackend::SortBy(

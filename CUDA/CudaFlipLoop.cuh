@@ -461,7 +461,9 @@ private:
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
       if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
       {
-        this->Detect(); // the kernel did not make it
+        const std::int64_t tested = this->Found.Tested;
+        this->Detect(); // again, now that the table holds all edges
+        this->Found.Tested = tested;
       }
     }
     return iterations;

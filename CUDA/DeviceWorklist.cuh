@@ -87,11 +87,15 @@ public:
   static constexpr int UnitSize = 1 << UnitBits;
   static constexpr int MostSplits = 3;
 
-  /// Edges [first, last). @param splits 2^splits warps share a unit, at most 8.
-  __device__ EdgeUnits(EdgeId first, EdgeId last, int splits = 0)
+  /// Edges [first, last).
+  /// @param splits 2^splits warps share a unit, at most 8.
+  /// @param isSpread whether neighbouring units go to different blocks, so that all blocks have
+  /// work where edges crowd.
+  __device__ EdgeUnits(EdgeId first, EdgeId last, int splits = 0, bool isSpread = false)
     : First(first),
       Last(last),
-      Splits(splits)
+      Splits(splits),
+      IsSpread(isSpread)
   {
   }
 
@@ -120,7 +124,8 @@ protected:
   {
     const unsigned first = this->First >> UnitBits;
     const unsigned end = this->First < this->Last ? ((this->Last - 1) >> UnitBits) + 1 : first;
-    return { (first << this->Splits) + team.GetThread() / WarpSize, end << this->Splits,
+    const unsigned warp = this->IsSpread ? team.GetSpreadWarp() : team.GetThread() / WarpSize;
+    return { (first << this->Splits) + warp, end << this->Splits,
       team.GetNumberOfThreads() / WarpSize };
   }
 
@@ -177,6 +182,7 @@ protected:
 private:
   EdgeId First, Last;
   int Splits;
+  bool IsSpread;
 };
 
 /// Every warp works on the edges that it finds.
@@ -300,6 +306,11 @@ struct LoopView
   __device__ WarpWorklist GetWorklist() const
   {
     return { this->FirstEdge, this->LastEdge, this->Splits };
+  }
+  /// The same edges, for blocks.
+  __device__ BlockWorklist GetSpreadWorklist() const
+  {
+    return { this->FirstEdge, this->LastEdge, this->Splits, true };
   }
   __device__ BlockWorklist GetWorklist(const DeviceChunk& chunk) const
   {

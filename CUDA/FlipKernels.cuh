@@ -19,105 +19,176 @@ namespace delaunayflip
 // winners may flip while other threads still choose, and there are fewer dependent loads, which
 // are most of the time of such an iteration.
 
-/// The bad edges that a warp has found, in shared memory.
+/// The bad edges that a block has found, in shared memory.
 class BadList
 {
 public:
-  __device__ BadEdge& operator[](int i) const
+  __device__ static BadEdge& Get(int i) { return GetTeamMemory().Listed[i]; }
+  __device__ static ListedClaim& GetClaim(int i) { return GetTeamMemory().Claims[i]; }
+  __device__ static int GetSize() { return GetTeamMemory().NumberListed; }
+  __device__ static bool HasOverflown() { return GetSize() > MostListed; }
+
+  /// Empties the list, before a barrier.
+  __device__ static void Clear()
   {
-    return GetTeamMemory().Listed[threadIdx.x / WarpSize][i];
+    if (threadIdx.x == 0)
+    {
+      GetTeamMemory().NumberListed = 0;
+    }
   }
-  __device__ int GetSize() const { return this->Size; }
-  __device__ bool HasOverflown() const { return this->Size > MostListedByWarp; }
-  __device__ void Clear() { this->Size = 0; }
 
   /// Adds the bad edges among those of the warp's lanes, as long as there is room.
-  __device__ void Add(bool isBad, const BadEdge& edge)
+  /// @returns where, or -1.
+  __device__ static int Add(bool isBad, const BadEdge& edge)
   {
     const unsigned bad = __ballot_sync(WholeWarp, isBad);
-    const int place = this->Size + __popc(bad & ((1u << (threadIdx.x % WarpSize)) - 1));
-    if (isBad && place < MostListedByWarp)
+    if (bad == 0)
     {
-      (*this)[place] = edge;
+      return -1;
     }
-    this->Size += __popc(bad);
+    const unsigned lane = threadIdx.x % WarpSize;
+    int place = lane == 0 ? atomicAdd(&GetTeamMemory().NumberListed, __popc(bad)) : 0;
+    place = __shfl_sync(WholeWarp, place, 0) + __popc(bad & ((1u << lane) - 1));
+    if (!isBad || place >= MostListed)
+    {
+      return -1;
+    }
+    Get(place) = edge;
+    return place;
   }
-
-private:
-  int Size = 0; ///< The same in all lanes.
 };
 
-/// The same as Detect, but also lists the bad edges, and warns if the list is too short. Bad edges
-/// that are not candidates are judged again to be listed; they do not count as tested.
-template <typename Rule>
+/// The same as RunDetection, but also lists the bad edges, and warns if the list is too short. Bad
+/// edges that are not candidates are judged again to be listed; they do not count as tested.
+template <bool HasGuard, typename Rule>
 __device__ void DetectAndList(
-  const LoopView<Rule>& loop, const WarpWorklist& worklist, const Team& team, BadList& list)
+  const LoopView<Rule>& loop, const BlockWorklist& worklist, const Team& team)
 {
   DetectionCounts counts;
-  list.Clear();
+  unsigned blockedByEdge = 0;
+  BadList::Clear();
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, false, counts); },
+    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, HasGuard, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       BadEdge found{ edge, corners, {} };
+      Quad quad{};
       EdgeState state = EdgeState::Good;
       if (edge != NoEdge)
       {
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
-        state = JudgeAndNote(loop, edge, corners, counts);
+        quad = loop.Mesh.GetQuad(corners);
+        state = JudgeAndNote(loop, edge, quad, HasGuard, counts);
+        blockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
-      list.Add(state == EdgeState::Bad, found);
+      const int place = BadList::Add(state == EdgeState::Bad, found);
+      if (HasGuard && place >= 0)
+      {
+        BadList::GetClaim(place) = { quad.A, quad.B, NoClaim };
+      }
     });
   counts.AddTo<Rule>(team);
-  team.Warn(counts.Uncertain || list.HasOverflown());
+  team.Warn(counts.Uncertain || BadList::HasOverflown());
   if constexpr (Rule::MayBeUncertain)
   {
     if (worklist.IsAny(counts.Uncertain))
     {
       ResolveUncertain(loop, worklist, team);
+      if (HasGuard)
+      {
+        GuardBadEdges(loop, worklist, team);
+      }
+      return;
+    }
+  }
+  if (HasGuard)
+  {
+    team.Add(IterationSum::AllBad, counts.IsBad);
+    team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
+  }
+}
+
+/// Chooses among the bad edges, all of which are in the lists of the blocks; winners claim their
+/// new edges.
+template <typename Rule>
+__device__ void ClaimListed(const LoopView<Rule>& loop)
+{
+  for (int i = threadIdx.x; i < BadList::GetSize(); i += LoopThreads)
+  {
+    const BadEdge& bad = BadList::Get(i);
+    if (Wins(loop, bad.Edge, bad.Outer))
+    {
+      ListedClaim& claim = BadList::GetClaim(i);
+      claim.Slot = loop.Guard.Claims.Claim(claim.A, claim.B, Priority(bad.Edge));
     }
   }
 }
 
-/// Chooses among the bad edges, all of which are in the lists of the warps, and flips the winners.
-/// Winners stay marked as bad until the next DetectAndList, because other choices depend on it.
-template <typename Rule>
-__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team, const BadList& list)
+/// Whether a listed edge flips. With a guard it has made its claim, and releases it here if it
+/// holds it.
+template <bool HasGuard, typename Rule>
+__device__ bool MayFlipListed(const LoopView<Rule>& loop, const BadEdge& bad, int i)
 {
-  unsigned flips = 0;
-  const int lane = threadIdx.x % WarpSize;
-  for (int i = lane; i - lane < list.GetSize(); i += WarpSize)
+  if (!HasGuard)
   {
+    return Wins(loop, bad.Edge, bad.Outer);
+  }
+  const ListedClaim& claim = BadList::GetClaim(i);
+  const bool holds = claim.Slot != NoClaim &&
+    loop.Guard.Claims.HoldsSlot(claim.Slot, claim.A, claim.B, Priority(bad.Edge));
+  if (holds)
+  {
+    loop.Guard.Claims.ReleaseSlot(claim.Slot);
+  }
+  return holds;
+}
+
+/// Flips those of the listed edges that win, without a guard, or that hold their claims. They stay
+/// marked as bad until the next DetectAndList, because other choices depend on it.
+template <bool HasGuard, typename Rule>
+__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
+{
+  StepCounts counts;
+  const int size = BadList::GetSize();
+  const int firstOfWarp = threadIdx.x / WarpSize * WarpSize;
+  for (int first = firstOfWarp; first < size; first += LoopThreads)
+  {
+    const int i = first + threadIdx.x % WarpSize;
     FlippedRecords flipped;
-    bool wins = false;
+    Quad quad{};
     BadEdge bad{};
-    if (i < list.GetSize())
+    bool flips = false;
+    if (i < size)
     {
-      bad = list[i];
+      bad = BadList::Get(i);
       const RecordPair records(loop.Mesh, bad.Corners);
-      wins = Wins(loop, bad.Edge, bad.Outer);
-      if (wins)
+      flips = MayFlipListed<HasGuard>(loop, bad, i);
+      if (flips)
       {
-        FlipEdge(
-          loop.Mesh, bad.Edge, records.GetQuad(), records.Upper, records.Lower, flipped.Keep());
+        quad = records.GetQuad();
+        FlipEdge(loop.Mesh, bad.Edge, quad, records.Upper, records.Lower, flipped.Keep());
       }
     }
     flipped.Store(loop.Mesh.Triangles);
-    if (wins)
+    if (flips)
     {
-      ++flips;
+      ++counts.Flipped;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
       MarkOuter(loop, bad.Outer);
+      if (HasGuard)
+      {
+        UpdateGuard(loop.Guard.Edges, quad, counts);
+      }
     }
   }
-  team.Add(IterationSum::Flipped, flips);
+  AddFlips(loop, team, counts);
 }
 
 //------------------------------------------------------------------------------
 
-/// The most waits per iteration: four in RunFlips, with a guard, and one in RunDetection.
-constexpr int MostWaits = 5;
+/// The most waits per iteration: three in RunFlips, with a guard, and one in RunDetection.
+constexpr int MostWaits = 4;
 
 /// The most iterations per launch of IterateKernel: few enough for an observer to be called and to
 /// stop the run in time.
@@ -130,8 +201,7 @@ static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIte
 
 /// Passes 4 to 6.
 template <typename Rule, typename Worklist>
-__device__ void RunFlips(
-  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
+__device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, Team& team)
 {
   if (!HasGuard<Worklist>(loop))
   {
@@ -139,15 +209,12 @@ __device__ void RunFlips(
     team.Wait();
     return;
   }
-  Choose(loop, worklist, team);
-  team.Wait();
-  Claim(loop, worklist, team);
+  ChooseAndClaim(loop, worklist, team);
   team.Wait();
   Confirm(loop, worklist, team);
   team.Wait();
   FlipWinners(loop, worklist, team);
-  // The sums decide whether to continue.
-  team.Wait(iteration);
+  team.Wait();
 }
 
 /// Passes 1 to 3.
@@ -209,9 +276,8 @@ public:
       Limits(limits),
       Members(loop.Teams, gridDim.x, loop.Parts, loop.Splits > 0),
       Bad(limits.Bad),
-      // A quarter of the room, because bad edges are not spread evenly. No lists with a guard.
-      MostListed(
-        loop.Guard.Active ? 0 : Members.GetNumberOfThreads() / WarpSize * (MostListedByWarp / 4))
+      // A quarter of the room, because bad edges are not spread evenly.
+      MostToList(Members.GetNumberOfThreads() / LoopThreads * (MostListed / 4))
   {
   }
 
@@ -222,14 +288,10 @@ public:
     for (bool isRunning = this->Members.Meet(); isRunning;)
     {
       IterationSums* iteration = &this->Loop.Sums[done++];
-      this->Flip(iteration);
-      isRunning = this->HasRoom(iteration);
-      if (isRunning)
-      {
-        this->Detect(iteration);
-        isRunning =
-          this->Bad > 0 && done < this->Limits.Iterations && !this->IsUncertain(iteration);
-      }
+      this->Flip();
+      this->Detect(iteration);
+      isRunning = this->Bad > 0 && done < this->Limits.Iterations && this->HasRoom &&
+        !this->IsUncertain(iteration);
     }
     return done;
   }
@@ -237,48 +299,52 @@ public:
   __device__ bool IsFirstThread() const { return this->Members.IsFirstThread(); }
 
 private:
-  __device__ void Flip(IterationSums* iteration)
+  __device__ void Flip()
   {
-    if (this->IsListed)
+    if (!this->IsListed)
     {
-      FlipListed(this->Loop, this->Members, this->List);
-      this->Members.Wait();
+      RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members);
       return;
     }
-    RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
-  }
-
-  /// Whether a detection may follow: false if the guard's table must be rebuilt first.
-  __device__ bool HasRoom(const IterationSums* iteration)
-  {
-    if (!this->Loop.Guard.Active)
+    if (this->Loop.Guard.Active)
     {
-      return true;
+      ClaimListed(this->Loop);
+      this->Members.Wait();
+      FlipListed<true>(this->Loop, this->Members);
     }
-    this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
-    return this->FreshSlots <= this->Limits.FreshSlots &&
-      LoadSum(*iteration, IterationSum::LostInserts) == 0;
+    else
+    {
+      FlipListed<false>(this->Loop, this->Members);
+    }
+    this->Members.Wait();
   }
 
   /// Makes a detection. Lists the bad edges if they are few, or if the last detection listed them.
   __device__ void Detect(IterationSums* iteration)
   {
-    const WarpWorklist worklist = this->Loop.GetWorklist();
-    const bool list = this->IsListed || this->Bad <= this->MostListed;
+    const bool list = this->IsListed || this->Bad <= this->MostToList;
     if (list)
     {
-      DetectAndList(this->Loop, worklist, this->Members, this->List);
+      const BlockWorklist worklist = this->Loop.GetSpreadWorklist();
+      this->Loop.Guard.Active ? DetectAndList<true>(this->Loop, worklist, this->Members)
+                              : DetectAndList<false>(this->Loop, worklist, this->Members);
       this->Members.Wait(iteration);
       this->IsListed = !this->Members.IsWarned();
     }
     else
     {
-      RunDetection(this->Loop, worklist, this->Members, iteration);
+      RunDetection(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
     }
-    this->Bad = this->Loop.Guard.Active ? LoadSum(*iteration, IterationSum::AllBad)
-                                        : this->Limits.Bad + this->Members.GetBadChange();
+    this->Bad = this->Limits.Bad + this->Members.GetBadChange();
+    if (this->Loop.Guard.Active)
+    {
+      this->Bad = LoadSum(*iteration, IterationSum::AllBad);
+      this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
+      this->HasRoom = this->FreshSlots <= this->Limits.FreshSlots &&
+        LoadSum(*iteration, IterationSum::LostInserts) == 0;
+    }
     // After a list was too short, lists are tried again when there are half as many bad edges.
-    this->MostListed = list && !this->IsListed ? this->Bad / 2 : this->MostListed;
+    this->MostToList = list && !this->IsListed ? this->Bad / 2 : this->MostToList;
   }
 
   /// Whether there is an edge that a device cannot decide. The thread that found it has warned.
@@ -290,15 +356,15 @@ private:
   const LoopView<Rule>& Loop;
   const IterationLimits& Limits;
   Team Members;
-  BadList List; ///< The bad edges that this warp has found, while IsListed.
-  bool IsListed = false; ///< Whether the lists of all warps hold all bad edges.
+  bool IsListed = false; ///< Whether the lists of all blocks hold all bad edges.
   long long Bad; ///< Edges.
-  long long MostListed; ///< Up to this many bad edges, detections make lists.
+  long long MostToList; ///< Up to this many bad edges, detections make lists.
   unsigned long long FreshSlots = 0;
+  bool HasRoom = true; ///< False if the guard's table must be rebuilt.
 };
 
 /// Iterations on the whole mesh after a detection, each counted in an entry of Sums. If the guard's
-/// table must be rebuilt, the last detection is left out.
+/// table must be rebuilt, the last detection may have missed edges that found no room in it.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)
@@ -327,7 +393,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
     team.Wait(&loop.Sums[iterations]);
     for (int i = 0; i < iterations; ++i)
     {
-      RunFlips(loop, worklist, team, &loop.Sums[i]);
+      RunFlips(loop, worklist, team);
       RunDetection(loop, worklist, team, &loop.Sums[i]);
     }
   }

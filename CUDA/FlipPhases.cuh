@@ -240,9 +240,10 @@ __device__ void ChooseAndFlip(
   team.Add(IterationSum::Flipped, flips);
 }
 
-/// Chooses without flipping, if winners must make claims first; sets Winners.
+/// Chooses without flipping: winners claim their new edges. Sets Winners.
 template <typename Rule, typename Worklist>
-__device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+__device__ void ChooseAndClaim(
+  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
   worklist.Run(
     team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Bad); },
@@ -250,48 +251,42 @@ __device__ void Choose(const LoopView<Rule>& loop, const Worklist& worklist, con
     {
       if (edge != NoEdge && Wins(loop, edge, GetOuterHalfEdges(loop.Mesh, corners.A, corners.B)))
       {
+        const Quad quad = loop.Mesh.GetQuad(corners);
+        loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge));
         EdgeBits::Set(loop.Bits.Winners, edge);
       }
     });
-}
-
-/// Calls work(edge, quad) for the winners.
-template <typename Rule, typename Worklist, typename Work>
-__device__ void ForWinners(
-  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team, const Work& work)
-{
-  worklist.Run(
-    team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Winners); },
-    [&](EdgeId edge, const CornerPair& corners)
-    {
-      if (edge != NoEdge)
-      {
-        work(edge, loop.Mesh.GetQuad(corners));
-      }
-    });
-}
-
-/// Winners claim their new edges.
-template <typename Rule, typename Worklist>
-__device__ void Claim(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
-{
-  ForWinners(loop, worklist, team,
-    [&](EdgeId edge, const Quad& quad)
-    { loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge)); });
 }
 
 /// Winners that lost their claim stay bad.
 template <typename Rule, typename Worklist>
 __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
-  ForWinners(loop, worklist, team,
-    [&](EdgeId edge, const Quad& quad)
+  worklist.Run(
+    team, loop.Mesh, [&](const EdgeByte& byte) { return byte.Load(loop.Bits.Winners); },
+    [&](EdgeId edge, const CornerPair& corners)
     {
+      if (edge == NoEdge)
+      {
+        return;
+      }
+      const Quad quad = loop.Mesh.GetQuad(corners);
       if (!loop.Guard.Claims.Holds(quad.A, quad.B, Priority(edge)))
       {
         AtomicAnd(&loop.Bits.Winners[edge / 32], ~(1u << (edge % 32)));
       }
     });
+}
+
+template <typename Rule>
+__device__ void AddFlips(const LoopView<Rule>& loop, const Team& team, const StepCounts& counts)
+{
+  team.Add(IterationSum::Flipped, static_cast<unsigned>(counts.Flipped));
+  if (loop.Guard.Active)
+  {
+    team.Add(IterationSum::FreshSlots, static_cast<unsigned>(counts.FreshSlots));
+    team.Add(IterationSum::LostInserts, static_cast<unsigned>(counts.LostInserts));
+  }
 }
 
 /// Flips the winners and makes their outer edges candidates.
@@ -325,17 +320,13 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
         ++counts.Flipped;
         if (HasGuard<Worklist>(loop))
         {
-          UpdateGuard(loop.Guard, edge, quad, counts);
+          loop.Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+          UpdateGuard(loop.Guard.Edges, quad, counts);
         }
         MarkOuter(loop, outer);
       }
     });
-  team.Add(IterationSum::Flipped, static_cast<unsigned>(counts.Flipped));
-  if (HasGuard<Worklist>(loop))
-  {
-    team.Add(IterationSum::FreshSlots, static_cast<unsigned>(counts.FreshSlots));
-    team.Add(IterationSum::LostInserts, static_cast<unsigned>(counts.LostInserts));
-  }
+  AddFlips(loop, team, counts);
 }
 
 //------------------------------------------------------------------------------
@@ -346,6 +337,10 @@ template <typename Rule>
 __device__ bool NoteState(
   const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
 {
+  if (state == EdgeState::BlockedByEdge)
+  {
+    EdgeBits::Set(loop.Bits.BlockedByEdge, edge);
+  }
   if (state == EdgeState::Bad)
   {
     EdgeBits::Set(loop.Bits.Bad, edge);
@@ -412,11 +407,16 @@ struct DetectionCounts
 };
 
 /// Judges an edge by floating-point arithmetic. An edge that this cannot decide stays a candidate.
+/// @param asksGuard whether the guard decides about a bad edge, too.
 template <typename Rule>
-__device__ EdgeState JudgeAndNote(
-  const LoopView<Rule>& loop, EdgeId edge, const CornerPair& corners, DetectionCounts& counts)
+__device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const Quad& quad,
+  bool asksGuard, DetectionCounts& counts)
 {
-  const EdgeState state = loop.Decision.Judge(loop.Mesh.GetQuad(corners));
+  EdgeState state = loop.Decision.Judge(quad);
+  if (asksGuard && state == EdgeState::Bad)
+  {
+    state = DecideByGuard(loop.Guard.Edges, quad);
+  }
   if (state == EdgeState::Uncertain)
   {
     EdgeBits::Set(loop.Bits.Candidates, edge);
@@ -427,7 +427,8 @@ __device__ EdgeState JudgeAndNote(
 }
 
 /// Takes the edges to judge from a byte and clears their bits: its candidates and, with takeBad,
-/// the other bad edges. Edges that have flipped since the last detection are no longer bad.
+/// the other bad edges and those that the guard blocks. Edges that have flipped since the last
+/// detection are no longer bad.
 template <typename Rule>
 __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad,
   bool hasGuard, DetectionCounts& counts)
@@ -446,11 +447,12 @@ __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& b
   byte.Clear(bits.Winners, winners, winners);
   byte.Clear(bits.Bad, seenBad, takeBad ? seenBad : winners | (candidates & bad));
   byte.Clear(bits.BlockedByShape, blockedByShape, candidates & blockedByShape);
-  byte.Clear(bits.BlockedByEdge, blockedByEdge, candidates & blockedByEdge);
+  byte.Clear(
+    bits.BlockedByEdge, blockedByEdge, takeBad ? blockedByEdge : candidates & blockedByEdge);
   counts.Tested += __popc(candidates);
   counts.WasBad += __popc(takeBad ? bad : candidates & bad);
   counts.WasBlockedByShape += __popc(candidates & blockedByShape);
-  return takeBad ? candidates | bad : candidates;
+  return takeBad ? candidates | bad | blockedByEdge : candidates;
 }
 
 /// Judges the candidates.
@@ -466,7 +468,7 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
     {
       if (edge != NoEdge)
       {
-        JudgeAndNote(loop, edge, corners, counts);
+        JudgeAndNote(loop, edge, loop.Mesh.GetQuad(corners), false, counts);
       }
     });
   counts.AddTo<Rule>(team);

@@ -107,15 +107,24 @@ struct BadEdge
   CornerPair Corners;
   OuterHalfEdges Outer;
 };
-/// Room for the bad edges that a warp lists where there are few.
-constexpr int MostListedByWarp = 48;
+/// The claim of a bad edge, with a guard.
+struct ListedClaim
+{
+  VertexId A, B; ///< Of the edge that would replace it.
+  std::uint32_t Slot; ///< Of EdgeClaims; NoClaim if the edge does not win.
+};
+constexpr std::uint32_t NoClaim = 0xFFFFFFFFu;
+/// Room for the bad edges that a block lists where there are few.
+constexpr int MostListed = 48 * LoopWarps;
 
 /// Shared memory of a block.
 struct TeamMemory
 {
   EdgeId Lists[LoopWarps][WarpListSize];
-  BadEdge Listed[LoopWarps][MostListedByWarp];
   int SizeOfList; ///< Of all lists as one.
+  BadEdge Listed[MostListed];
+  ListedClaim Claims[MostListed]; ///< Of the listed edges.
+  int NumberListed; ///< Bad edges, also those that found no room.
   unsigned int Sums[NumberOfIterationSums];
   unsigned int Expected; ///< Arrivals up to and including the last wait.
   unsigned int Warns; ///< Whether this block warns at the next wait.
@@ -193,6 +202,7 @@ public:
     {
       memory.Expected = 0;
       memory.SizeOfList = 0;
+      memory.NumberListed = 0;
       memory.Warns = 0;
       memory.BadChange = 0;
       memory.News = {};
@@ -242,6 +252,12 @@ public:
   __device__ unsigned GetThread() const
   {
     return (blockIdx.x % this->Size) * LoopThreads + threadIdx.x;
+  }
+  /// This warp among those of the team on this GPU, so that consecutive ones are in different
+  /// blocks.
+  __device__ unsigned GetSpreadWarp() const
+  {
+    return blockIdx.x % this->Size + this->Size * (threadIdx.x / WarpSize);
   }
   __device__ unsigned GetNumberOfThreads() const { return this->Size * LoopThreads; }
   __device__ bool IsFirstThread() const { return this->GetThread() == 0; }

@@ -33,7 +33,8 @@ struct EdgeClaims
   /// win.
   static std::int64_t GetSize(std::int64_t edges) { return edges / 2 + 64; }
 
-  DELAUNAYFLIP_HOST_DEVICE void Claim(VertexId a, VertexId b, std::uint32_t priority) const
+  /// @returns the slot of the edge, which HoldsSlot() takes.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Claim(VertexId a, VertexId b, std::uint32_t priority) const
   {
     const std::uint64_t word = MakeWord(a, b, priority);
     std::uint32_t slot = this->FirstSlot(word);
@@ -46,12 +47,12 @@ struct EdgeClaims
       }
       if (seen == Empty)
       {
-        return;
+        return slot;
       }
       if (seen >> 32 == word >> 32)
       {
         AtomicMin(&this->Words[slot], word);
-        return;
+        return slot;
       }
       slot = this->Next(slot);
     }
@@ -69,6 +70,13 @@ struct EdgeClaims
     return AtomicLoad(&this->Words[slot]) == word;
   }
 
+  /// The same for the slot that Claim() returned. Others may be released at the same time.
+  DELAUNAYFLIP_HOST_DEVICE bool HoldsSlot(
+    std::uint32_t slot, VertexId a, VertexId b, std::uint32_t priority) const
+  {
+    return AtomicLoad(&this->Words[slot]) == MakeWord(a, b, priority);
+  }
+
   /// Releases a claim that is held. Others may be released at the same time.
   DELAUNAYFLIP_HOST_DEVICE void Release(VertexId a, VertexId b, std::uint32_t priority) const
   {
@@ -78,6 +86,10 @@ struct EdgeClaims
     {
       slot = this->Next(slot);
     }
+    this->ReleaseSlot(slot);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void ReleaseSlot(std::uint32_t slot) const
+  {
     AtomicStore(&this->Words[slot], Empty);
   }
 

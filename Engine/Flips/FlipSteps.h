@@ -42,15 +42,13 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
   return earlier == 0;
 }
 
-/// Pass 6, after a flip with a guard: releases the claim and replaces the old vertex pair by the
-/// new one.
+/// Pass 6, after a flip with a guard: replaces the old vertex pair by the new one.
 DELAUNAYFLIP_HOST_DEVICE inline void UpdateGuard(
-  const EdgeGuardView& guard, EdgeId edge, const Quad& quad, StepCounts& counts)
+  const GuardedEdges& edges, const Quad& quad, StepCounts& counts)
 {
   bool fresh = false;
-  guard.Claims.Release(quad.A, quad.B, Priority(edge));
-  guard.Edges.Table.Remove(EdgeKey(quad.P, quad.Q));
-  counts.LostInserts += guard.Edges.Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
+  edges.Table.Remove(EdgeKey(quad.P, quad.Q));
+  counts.LostInserts += edges.Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
   counts.FreshSlots += fresh ? 1 : 0;
 }
 

@@ -67,6 +67,7 @@ struct EdgeTableView
   static constexpr std::uint32_t NearProbes = 8;
   static constexpr std::uint32_t FarSlots = 1u << 12;
   static constexpr int StrideBits = 24;
+  static constexpr int BatchSize = DELAUNAYFLIP_ON_DEVICE ? 4 : 1;
 
   std::uint64_t* Keys;
   std::uint32_t* First; ///< Two words per key, for the user of the table.
@@ -83,30 +84,40 @@ struct EdgeTableView
     return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
   }
 
-  /// Calls visit(slot) for the slots at which `key` may be, in the order of search, until it
-  /// returns true. @returns that slot, or NoSlot.
-  template <typename Visit>
+  /// Calls visit(slot, key there) for the slots at which `key` may be, in the order of search,
+  /// until it returns true. Keys are loaded several at a time, so that a device waits less often;
+  /// with Batch = 0 they are not loaded. @returns that slot, or NoSlot.
+  template <int Batch, typename Visit>
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Search(std::uint64_t key, const Visit& visit) const
   {
+    constexpr std::uint32_t Step = Batch > 0 ? Batch : 1;
+    static_assert(NearProbes % Step == 0 && FarSlots % Step == 0, "whole batches");
     const VertexId smaller = static_cast<VertexId>(key >> 32);
     std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
-    std::uint32_t slot = this->NearSlot(smaller, scattered);
-    for (std::uint32_t i = 0; i < NearProbes; ++i)
+    const std::uint32_t near = this->NearSlot(smaller, scattered);
+    for (std::uint32_t first = 0; first < NearProbes + FarSlots; first += Step)
     {
-      if (visit(slot))
+      std::uint32_t slots[Step];
+      std::uint64_t keys[Step];
+      for (std::uint32_t i = 0; i < Step; ++i)
       {
-        return slot;
+        std::uint64_t slot = near + first + i;
+        slot = slot < this->Capacity ? slot : slot - this->Capacity;
+        if (first >= NearProbes)
+        {
+          // Scattered, because vertices with many edges fill thousands of consecutive slots.
+          scattered = Scatter(scattered + 0x9e3779b9u);
+          slot = (std::uint64_t(scattered) * this->Capacity) >> 32;
+        }
+        slots[i] = static_cast<std::uint32_t>(slot);
+        keys[i] = Batch > 0 ? AtomicLoad(&this->Keys[slots[i]]) : Empty;
       }
-      slot = slot + 1 < this->Capacity ? slot + 1 : 0;
-    }
-    // Scattered places, because vertices with many edges fill thousands of consecutive slots.
-    for (std::uint32_t i = 0; i < FarSlots; ++i)
-    {
-      scattered = Scatter(scattered + 0x9e3779b9u);
-      slot = static_cast<std::uint32_t>((std::uint64_t(scattered) * this->Capacity) >> 32);
-      if (visit(slot))
+      for (std::uint32_t i = 0; i < Step; ++i)
       {
-        return slot;
+        if (visit(slots[i], keys[i]))
+        {
+          return slots[i];
+        }
       }
     }
     return NoSlot;
@@ -127,10 +138,10 @@ struct EdgeTableView
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Find(std::uint64_t key) const
   {
     std::uint64_t seen = Empty;
-    const std::uint32_t slot = this->Search(key,
-      [&](std::uint32_t candidate)
+    const std::uint32_t slot = this->Search<BatchSize>(key,
+      [&](std::uint32_t, std::uint64_t there)
       {
-        seen = AtomicLoad(&this->Keys[candidate]);
+        seen = there;
         return seen == key || seen == Empty;
       });
     return seen == key ? slot : NoSlot;
@@ -141,32 +152,28 @@ struct EdgeTableView
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindOrInsert(std::uint64_t key, bool& inserted) const
   {
     inserted = false;
-    return this->Search(key,
-      [&](std::uint32_t candidate)
-      {
-#if DELAUNAYFLIP_ON_DEVICE
-        // A single access to memory, whether the key is there or not.
-        std::uint64_t seen = Empty;
-#else
-        std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
-#endif
-        if (seen == Empty)
-        {
-          seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);
-          inserted = seen == Empty;
-        }
-        return inserted || seen == key;
-      });
+    // On a device a single access to memory, whether the key is there or not.
+    return this->Search < DELAUNAYFLIP_ON_DEVICE
+      ? 0
+      : 1 > (key,
+              [&](std::uint32_t candidate, std::uint64_t seen)
+              {
+                if (seen == Empty)
+                {
+                  seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);
+                  inserted = seen == Empty;
+                }
+                return inserted || seen == key;
+              });
   }
 
   /// Uses the first free slot for a `key` that is not in the table. @returns whether there was one;
   /// `fresh` receives whether the slot had never been used.
   DELAUNAYFLIP_HOST_DEVICE bool InsertNew(std::uint64_t key, bool& fresh) const
   {
-    const std::uint32_t slot = this->Search(key,
-      [&](std::uint32_t candidate)
+    const std::uint32_t slot = this->Search<BatchSize>(key,
+      [&](std::uint32_t candidate, std::uint64_t seen)
       {
-        const std::uint64_t seen = AtomicLoad(&this->Keys[candidate]);
         fresh = seen == Empty;
         return seen >= Removed && AtomicCompareExchange(&this->Keys[candidate], seen, key) == seen;
       });

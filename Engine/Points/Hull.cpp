@@ -119,8 +119,30 @@ public:
     this->Chains.Failed = &this->Failed;
   }
 
-  /// What is left of a path from its first vertex to `right`.
-  LabelledPath Cut(const LabelledPath& path, std::uint32_t right)
+  /// The boundary after each of its parts has been filled alone.
+  LabelledPath CutParts(const Boundary& boundary)
+  {
+    LabelledPath whole;
+    std::uint32_t begin = 0;
+    for (const std::size_t partEnd : boundary.PartEnds)
+    {
+      const auto end = static_cast<std::uint32_t>(partEnd);
+      for (std::uint32_t i = begin; i + 2 < end; ++i)
+      {
+        this->Stored[i - begin].InputTriangle = i + 1;
+        this->Stored[i - begin].Flips = this->FirstLabel + i;
+      }
+      if (begin + 1 < end)
+      {
+        this->Cut(begin, end - begin - 2, end - 1, this->FirstLabel + end - 2, whole);
+      }
+      begin = end;
+    }
+    return whole;
+  }
+
+  /// Cuts all of a closed path but its hull.
+  LabelledPath CutClosed(const LabelledPath& path)
   {
     const auto inner = static_cast<std::uint32_t>(path.Vertices.size() - 1);
     for (std::uint32_t i = 0; i < inner; ++i)
@@ -128,43 +150,9 @@ public:
       this->Stored[i].InputTriangle = path.Vertices[i + 1];
       this->Stored[i].Flips = path.Labels[i];
     }
-    EarCutter<double, BoundaryEdges> cutter{ this->Chains, this->Stored.data(), inner,
-      path.Vertices[0], right, path.Labels[inner], 1, this->Next, this->Open };
-    cutter.Cut();
-    this->Next = cutter.Next;
-    LabelledPath left;
-    left.Vertices.push_back(path.Vertices[0]);
-    for (std::uint32_t i = 0; i < cutter.Size; ++i)
-    {
-      left.Vertices.push_back(this->Stored[i].InputTriangle);
-      left.Labels.push_back(this->Stored[i].Flips);
-    }
-    left.Labels.push_back(cutter.LastLabel);
-    return left;
-  }
-
-  /// The boundary after each of its parts has been filled alone.
-  LabelledPath CutParts(const Boundary& boundary)
-  {
-    LabelledPath whole;
-    std::size_t begin = 0;
-    for (const std::size_t end : boundary.PartEnds)
-    {
-      LabelledPath part;
-      for (std::size_t i = begin; i + 1 < end; ++i)
-      {
-        part.Vertices.push_back(static_cast<std::uint32_t>(i));
-        part.Labels.push_back(this->FirstLabel + static_cast<std::uint32_t>(i));
-      }
-      if (!part.Vertices.empty())
-      {
-        const LabelledPath left = this->Cut(part, static_cast<std::uint32_t>(end - 1));
-        whole.Vertices.insert(whole.Vertices.end(), left.Vertices.begin(), left.Vertices.end());
-        whole.Labels.insert(whole.Labels.end(), left.Labels.begin(), left.Labels.end());
-      }
-      begin = end;
-    }
-    return whole;
+    LabelledPath hull;
+    this->Cut(path.Vertices[0], inner, path.Vertices[0], path.Labels[inner], hull);
+    return hull;
   }
 
   /// The triangles, when all is cut but the hull.
@@ -197,6 +185,25 @@ public:
   }
 
 private:
+  /// Cuts the path from `left` through the `inner` first vertices of Stored to `right`, and adds
+  /// what is left of it, without `right`, to a path.
+  /// @param lastLabel that of the edge to `right`; those before are in Stored.
+  void Cut(std::uint32_t left, std::uint32_t inner, std::uint32_t right, std::uint32_t lastLabel,
+    LabelledPath& to)
+  {
+    EarCutter<double, BoundaryEdges> cutter{ this->Chains, this->Stored.data(), inner, left, right,
+      lastLabel, 1, this->Next, this->Open };
+    cutter.Cut();
+    this->Next = cutter.Next;
+    to.Vertices.push_back(left);
+    for (std::uint32_t i = 0; i < cutter.Size; ++i)
+    {
+      to.Vertices.push_back(this->Stored[i].InputTriangle);
+      to.Labels.push_back(this->Stored[i].Flips);
+    }
+    to.Labels.push_back(cutter.LastLabel);
+  }
+
   HullTriangles Result;
   const std::uint32_t FirstLabel; ///< Of the boundary's edges, above those of all corners.
   const BoundaryEdges Open;
@@ -218,7 +225,7 @@ HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePai
     whole.Vertices.begin();
   std::rotate(whole.Vertices.begin(), whole.Vertices.begin() + lowest, whole.Vertices.end());
   std::rotate(whole.Labels.begin(), whole.Labels.begin() + lowest, whole.Labels.end());
-  return filler.Finish(filler.Cut(whole, whole.Vertices[0]), boundary, firstTriangle);
+  return filler.Finish(filler.CutClosed(whole), boundary, firstTriangle);
 }
 
 }

@@ -144,7 +144,8 @@ struct PointMeshBuilder
     return triangles;
   }
 
-  HullTriangles FillHullOnHost(const Boundary& boundary, std::int64_t firstTriangle)
+  /// The coordinates of the boundary's places.
+  std::vector<CoordinatePair<double>> FetchPlaces(const Boundary& boundary)
   {
     const auto size = static_cast<std::int64_t>(boundary.Places.size());
     Array<std::uint32_t> listed = this->Device.template MakeArray<std::uint32_t>(size);
@@ -160,14 +161,12 @@ struct PointMeshBuilder
       });
     std::vector<CoordinatePair<double>> coordinates(size);
     this->Device.Download(to, size, coordinates.data());
-    return FillHull(boundary, coordinates, firstTriangle);
+    return coordinates;
   }
 
-  void MakeArrays(const HullTriangles& hull, std::int64_t inMountains)
+  void MakeArrays(std::int64_t mostTriangles)
   {
-    EdgeMesh& edges = this->Mesh.Edges;
-    edges.NumberOfTriangles = inMountains + static_cast<std::int64_t>(hull.Triangles.size());
-    edges.Triangles = this->Device.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
+    this->Mesh.Edges.Triangles = this->Device.template MakeArray<TriangleRecord>(mostTriangles);
     const std::int64_t places = this->Mesh.Points.Count;
     const std::int64_t slots = this->View().Chains > 1 ? this->CountSlots() : 0;
     this->SidesOfEdge = this->Device.template MakeArray<CornerId>(2 * places);
@@ -188,6 +187,9 @@ struct PointMeshBuilder
 
   void StoreHull(const HullTriangles& hull, std::int64_t firstTriangle)
   {
+    this->Mesh.HullEdges = hull.HullEdges;
+    this->Mesh.Edges.NumberOfTriangles =
+      firstTriangle + static_cast<std::int64_t>(hull.Triangles.size());
     this->Device.Upload(hull.Triangles.data(), static_cast<std::int64_t>(hull.Triangles.size()),
       this->Mesh.Edges.Triangles.Data() + firstTriangle);
     const auto size = static_cast<std::int64_t>(hull.Sides.size());
@@ -211,7 +213,7 @@ struct PointMeshBuilder
   {
     const ChainView<Real> chains = this->View();
     const std::int64_t slots = this->CountSlots();
-    constexpr std::int64_t Grain = Backend::IsOnHost ? 4096 : 32;
+    constexpr std::int64_t Grain = Backend::IsOnHost ? 4096 : 8;
     const auto cut = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t task)
     {
       const std::int64_t end = (task + 1) * Grain;
@@ -303,14 +305,14 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   {
     return BuildDividedMesh(std::move(mesh.Points), backend);
   }
-  const HullTriangles hull = builder.FillHullOnHost(boundary, inMountains);
-  mesh.HullEdges = hull.HullEdges;
-  builder.MakeArrays(hull, inMountains);
+  const std::vector<CoordinatePair<double>> places = builder.FetchPlaces(boundary);
+  builder.MakeArrays(inMountains + boundaryPoints);
   if (mesh.Points.Strips > 1)
   {
     builder.CutAllMountains();
   }
-  builder.StoreHull(hull, inMountains);
+  // A device still cuts mountains meanwhile.
+  builder.StoreHull(FillHull(boundary, places, inMountains), inMountains);
   backend.Download(builder.Failed.Data(), 1, &failed);
   if (failed != 0)
   {

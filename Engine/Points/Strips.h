@@ -132,17 +132,12 @@ DELAUNAYFLIP_HOST_DEVICE inline std::int64_t PickSample(std::uint64_t i, std::in
   return static_cast<std::int64_t>((z ^ (z >> 31)) % static_cast<std::uint64_t>(count));
 }
 
-/// Half of the distance over which the middle 98 of 100 values are spread. Outliers do not count,
-/// and half of it cannot overflow.
-inline double FindSpread(std::vector<double>& values)
+/// Half of the distance over which the middle 98 of 100 sorted values are spread. Outliers do not
+/// count, and half of it cannot overflow.
+inline double FindSpread(const std::vector<double>& sorted)
 {
-  const std::size_t tail = values.size() / 100;
-  const auto low = values.begin() + static_cast<std::ptrdiff_t>(tail);
-  const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(tail);
-  std::nth_element(values.begin(), low, values.end());
-  const double lower = *low;
-  std::nth_element(values.begin(), high, values.end());
-  return 0.5 * *high - 0.5 * lower;
+  const std::size_t tail = sorted.size() / 100;
+  return 0.5 * sorted[sorted.size() - 1 - tail] - 0.5 * sorted[tail];
 }
 
 /// Strips about as high as the points in them are apart in x: `count` points have
@@ -155,26 +150,26 @@ inline std::int64_t CountStrips(std::int64_t count, double width, double height)
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(strips, most) + 0.5));
 }
 
-/// The finite ones of up to `size` of the points; all of them if there are no more.
+/// One coordinate of up to `size` of the points, of all if there are no more, sorted; without
+/// points that are not finite.
 template <typename Backend>
-std::vector<CoordinatePair<double>> SamplePoints(
-  const PlaneArray& points, std::int64_t size, const Backend& backend)
+std::vector<double> SampleAxis(
+  const PlaneArray& points, int axis, std::int64_t size, const Backend& backend)
 {
   const bool all = size >= points.Count;
   size = std::min(size, points.Count);
-  Array<CoordinatePair<double>> sampled = backend.template MakeArray<CoordinatePair<double>>(size);
-  CoordinatePair<double>* samples = sampled.Data();
+  Array<double> sampled = backend.template MakeArray<double>(size);
+  double* samples = sampled.Data();
   backend.ForEach(size,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
     {
       const std::int64_t point = all ? i : PickSample(i, points.Count);
-      samples[i] = { points.Get(point, 0), points.Get(point, 1) };
+      samples[i] = IsFinitePoint(points, point) ? points.Get(point, axis) : INFINITY;
     });
-  std::vector<CoordinatePair<double>> onHost(size);
-  backend.Download(samples, size, onHost.data());
-  onHost.erase(std::remove_if(onHost.begin(), onHost.end(),
-                 [](const CoordinatePair<double>& p) { return !IsFinite(p.U) || !IsFinite(p.V); }),
-    onHost.end());
+  backend.SortNumbers(sampled, size);
+  std::vector<double> onHost(size);
+  backend.Download(sampled.Data(), size, onHost.data());
+  onHost.erase(std::lower_bound(onHost.begin(), onHost.end(), INFINITY), onHost.end());
   return onHost;
 }
 
@@ -184,22 +179,16 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
 {
   constexpr std::int64_t SmallestSample = 1 << 14;
   constexpr std::int64_t SamplesPerStrip = 16;
-  std::vector<double> xs, ys;
+  std::vector<double> ys;
   std::int64_t strips = 1;
   for (std::int64_t size = 0; size < std::max(SmallestSample, SamplesPerStrip * strips);)
   {
     size = std::max(SmallestSample, SamplesPerStrip * strips);
-    const std::vector<CoordinatePair<double>> samples = SamplePoints(points, size, backend);
-    if (samples.empty())
+    const std::vector<double> xs = SampleAxis(points, 0, size, backend);
+    ys = SampleAxis(points, 1, size, backend);
+    if (ys.empty())
     {
       return StripBounds({});
-    }
-    xs.clear();
-    ys.clear();
-    for (const CoordinatePair<double>& sample : samples)
-    {
-      xs.push_back(sample.U);
-      ys.push_back(sample.V);
     }
     strips = CountStrips(points.Count, FindSpread(xs), FindSpread(ys));
     if (size >= points.Count)
@@ -207,7 +196,6 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
       break;
     }
   }
-  std::sort(ys.begin(), ys.end());
   std::vector<double> bounds;
   for (std::int64_t strip = 1; strip < strips; ++strip)
   {

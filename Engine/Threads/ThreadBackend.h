@@ -181,6 +181,12 @@ public:
       });
   }
 
+  /// Sorts `size` numbers, none of which is NaN.
+  void SortNumbers(Array<double>& numbers, std::int64_t size) const
+  {
+    std::sort(numbers.Data(), numbers.Data() + size);
+  }
+
   /// 0 .. size - 1 by keyOf(i), a number of KeyBits bits; equal keys keep their order.
   template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const

@@ -200,7 +200,8 @@ protected:
     ++counts.Flipped;
     if (this->Guard.Active)
     {
-      UpdateGuard(this->Guard, edge, quad, counts);
+      this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+      UpdateGuard(this->Guard.Edges, quad, counts);
     }
     AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     this->Mark(EdgeOf(outer.AP), excluded);
