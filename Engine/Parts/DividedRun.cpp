@@ -44,7 +44,7 @@ constexpr std::int64_t MostRegions = 1000;
 struct EdgeTotals
 {
   EdgeCounts Edges;
-  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByEdge = 0;
+  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByDeviation = 0, BlockedByEdge = 0;
 
   /// @param report of a run without iterations.
   /// @param factor 1 to add, -1 to subtract.
@@ -53,6 +53,7 @@ struct EdgeTotals
     AddCounts(this->Edges, report.Edges, factor);
     this->NonDelaunay += factor * report.NonDelaunayAfter;
     this->BlockedByShape += factor * report.BlockedByShape;
+    this->BlockedByDeviation += factor * report.BlockedByDeviation;
     this->BlockedByEdge += factor * report.BlockedByEdge;
   }
 };
@@ -420,9 +421,11 @@ private:
     }
     this->Report.NonDelaunayAfter = totals.NonDelaunay;
     this->Report.BlockedByShape = totals.BlockedByShape;
+    this->Report.BlockedByDeviation = totals.BlockedByDeviation;
     // A part does not know all edges that exist. After the last flip nothing else blocks any.
-    this->Report.BlockedByEdge =
-      this->Report.Converged() ? totals.NonDelaunay - totals.BlockedByShape : totals.BlockedByEdge;
+    this->Report.BlockedByEdge = this->Report.Converged()
+      ? totals.NonDelaunay - totals.BlockedByShape - totals.BlockedByDeviation
+      : totals.BlockedByEdge;
   }
 
   /// What is known of the whole mesh takes the place of what parts have found.

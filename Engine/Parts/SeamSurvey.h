@@ -69,7 +69,7 @@ public:
   QuadJudge(const PartSurvey& survey, const FlipOptions& options);
 
   /// @param apqb x, y and z of the points a, p, q and b of a quad (picture in EdgeFlip.h).
-  /// @returns Good, Bad or BlockedByShape.
+  /// @returns Good, Bad, BlockedByShape or BlockedByDeviation.
   EdgeState Judge(const double (&apqb)[4][3]) const;
 
   /// The same for the two triangles of an edge. They must run through it in opposite directions.
