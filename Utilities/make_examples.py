@@ -4,8 +4,8 @@
 """Writes the files of the documentation's examples: small meshes of bad triangles.
 
 terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over it.
-scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: one with four sharp edges. part.stl: an
-elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
+scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
+an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
 valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
 outline of the survey, and pond.vtk. The same arguments give the same files.
 """
@@ -39,18 +39,26 @@ def grid_triangles(rows, columns, random, closed=False):
     return np.concatenate([first, second])
 
 
-def ring(random, around=96, across=48, is_square=False):
-    """A torus with bumps, whose points are uneven and in skew rows: (points, triangles). is_square: its
-    tube has four sides instead of bumps, and some points lie on its edges."""
+def ring(random, around=96, across=48):
+    """A torus with bumps, whose points are uneven and in skew rows: (points, triangles)."""
     u, v = np.mgrid[:around, :across].reshape(2, -1).astype(float)
     v += 1.5 * u  # three times around at the end, so that the last row meets the first
     u = (u + random.uniform(-0.24, 0.24, u.shape)) * 2 * np.pi / around
     v = (v + random.uniform(-0.24, 0.24, v.shape)) * 2 * np.pi / across
     tube = 0.4 + 0.03 * np.sin(5 * u) * np.cos(3 * v)
-    if is_square:
-        edge = np.floor(v * 2 / np.pi) * np.pi / 2 + np.pi / 4
-        v = np.where(abs(v - edge) < 0.26 * 2 * np.pi / across, edge, v)
-        tube = 0.3 / np.maximum(abs(np.cos(v)), abs(np.sin(v)))
+    distance = 1 + tube * np.cos(v)
+    points = np.stack([distance * np.cos(u), distance * np.sin(u), tube * np.sin(v)], 1)
+    return points, grid_triangles(around, across, random, closed=True)
+
+
+def square_ring(random, around=64, across=48):
+    """A ring whose tube has four sides and sharp edges; its points lie in bent rows, with noise."""
+    u, v = np.mgrid[:around, :across].reshape(2, -1).astype(float)
+    beside = v % (across // 4) > 0  # not on an edge
+    u += 2.5 * np.sin(4 * np.pi * v / across) ** 2 + random.uniform(-0.3, 0.3, u.shape)
+    v += random.uniform(-0.3, 0.3, v.shape) * beside
+    u, v = u * 2 * np.pi / around, v * 2 * np.pi / across + np.pi / 4
+    tube = 0.3 / np.maximum(abs(np.cos(v)), abs(np.sin(v))) + random.normal(0, 0.005, v.shape)
     distance = 1 + tube * np.cos(v)
     points = np.stack([distance * np.cos(u), distance * np.sin(u), tube * np.sin(v)], 1)
     return points, grid_triangles(around, across, random, closed=True)
@@ -197,7 +205,7 @@ def main():
     write_stl(arguments.folder, "part.stl", *cylinder())
     write_plate(arguments.folder, *plate(random))
     write_valley(arguments.folder, Valley(random))
-    write_ply(arguments.folder, "edges.ply", *ring(random, is_square=True))
+    write_ply(arguments.folder, "edges.ply", *square_ring(random))
     print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk")
 
 

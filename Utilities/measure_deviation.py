@@ -89,7 +89,8 @@ def main():
         for options in ([], ["--criterion", "opposite-angles"],
                         ["--criterion", "opposite-angles", "--tolerance", "1e-3"],
                         ["--criterion", "opposite-angles", "--tolerance", "6e-3"]):
-            print(f"| `{' '.join(options)}` | {count_flips(command, folder, options):,} |")
+            title = f"`{' '.join(options)}`" if options else "none"
+            print(f"| {title} | {count_flips(command, folder, options):,} |")
 
 
 if __name__ == "__main__":
