@@ -183,6 +183,7 @@ FlipOptions ToOptions(const delaunayflip_options* given)
   options.Backend = ToEnumeration(c.backend, BackendKind::Threads, "backend");
   options.Tolerance = c.tolerance;
   options.FeatureAngle = c.feature_angle;
+  options.MaximumDeviation = c.maximum_deviation;
   options.MaximumIterations = c.maximum_iterations;
   options.NumberOfThreads = c.number_of_threads;
   options.Device = c.device;
@@ -285,6 +286,7 @@ void KeptReport::Fill(delaunayflip_report& target) const
   c.triangles_outside = report.FromPoints.OutsideTriangles;
   c.triangles_large = report.FromPoints.LargeTriangles;
   c.keeps_sliver = report.KeepsSliver ? 1 : 0;
+  c.blocked_by_deviation = report.BlockedByDeviation;
   c.size = target.size;
   std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
 }

@@ -255,6 +255,7 @@ extern "C"
     *options = MakeEmpty<delaunayflip_options>();
     options->tolerance = defaults.Tolerance;
     options->feature_angle = defaults.FeatureAngle;
+    options->maximum_deviation = defaults.MaximumDeviation;
     options->maximum_iterations = defaults.MaximumIterations;
     options->number_of_threads = defaults.NumberOfThreads;
     options->device = defaults.Device;

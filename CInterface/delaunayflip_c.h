@@ -159,6 +159,8 @@ extern "C"
                                  255; 0: as few as possible. Does not hold for device memory. [0] */
     const char* devices; /**< GPUs that share the mesh: CUDA's numbers, such as "0,1", or "all";
                             null or "": the one of device. [NULL] */
+    double maximum_deviation; /**< An edge of a surface stays if its flip would move the surface by
+                                 more than this length; 0 or more. [INFINITY] */
   } delaunayflip_options;
 
   typedef enum
@@ -179,7 +181,8 @@ extern "C"
     int64_t flipped;
     int64_t
       excluded; /**< Not flipped because a neighbour was, or because it lies between chunks. */
-    int64_t blocked; /**< Bad, but the flip would fold the mesh or duplicate an edge. */
+    int64_t blocked; /**< Bad, but the flip would fold the mesh, move it too far or duplicate an
+                        edge. */
     double minimum_angle; /**< Degrees, after the iteration; NaN where it was not computed. */
     double seconds;
   } delaunayflip_iteration;
@@ -234,6 +237,8 @@ extern "C"
     int64_t triangles_large; /**< Removed by alpha and longest_edge. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
+    int64_t
+      blocked_by_deviation; /**< Of non_delaunay_after, edges that maximum_deviation blocks. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns

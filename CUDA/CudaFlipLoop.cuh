@@ -191,6 +191,17 @@ public:
     this->CutIntoChunks();
   }
 
+  std::int64_t CountBlockedByDeviation() const override
+  {
+    std::int64_t count = 0;
+    if constexpr (Rule::MayDeviate)
+    {
+      const DeviationSurvey<Rule> survey{ this->Mesh.View(), this->Decision };
+      count = this->Backend.template Sum<std::int64_t>(this->Mesh.NumberOfEdges, survey);
+    }
+    return count;
+  }
+
   double FindLargestSquaredCotangent() const override
   {
     const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Range };

@@ -27,7 +27,7 @@ struct EdgeBits
   std::uint32_t* Candidates;
   std::uint32_t* Bad;
   std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
-  std::uint32_t* BlockedByShape;
+  std::uint32_t* BlockedByShape; ///< Or by their deviation.
   std::uint32_t* BlockedByEdge;
 
   static constexpr int Kinds = 7;

@@ -345,7 +345,8 @@ __device__ bool NoteState(
   {
     EdgeBits::Set(loop.Bits.Bad, edge);
   }
-  if (Rule::MayBlock && state == EdgeState::BlockedByShape)
+  if (Rule::MayBlock &&
+    (state == EdgeState::BlockedByShape || state == EdgeState::BlockedByDeviation))
   {
     EdgeBits::Set(loop.Bits.BlockedByShape, edge);
     ++blockedByShape;

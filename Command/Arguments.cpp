@@ -89,8 +89,20 @@ CLI::Validator FileName()
   return CLI::Validator(check, "");
 }
 
-void AddMethodOptions(CLI::App& app, FlipOptions& flip)
+/// A length, or a percentage.
+std::string FindFaultOfDeviation(const std::string& text)
 {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool isNumber = end != text.c_str() && value >= 0.0;
+  return isNumber && (*end == '\0' || std::string(end) == "%")
+    ? ""
+    : text + " is not a length of 0 or more, or a percentage such as 1%";
+}
+
+void AddMethodOptions(CLI::App& app, Arguments& arguments)
+{
+  FlipOptions& flip = arguments.Flip;
   AddChoice<GeometryKind>(app, "--geometry", flip.Geometry,
     { { "auto", GeometryKind::Auto }, { "planar", GeometryKind::Planar },
       { "planar-xy", GeometryKind::PlanarXY }, { "surface", GeometryKind::Surface } },
@@ -107,6 +119,19 @@ void AddMethodOptions(CLI::App& app, FlipOptions& flip)
       "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]")
     ->type_name("DEGREES")
     ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
+  app
+    .add_option_function<std::string>(
+      "--max-deviation",
+      [&](const std::string& text)
+      {
+        flip.MaximumDeviation = std::strtod(text.c_str(), nullptr);
+        arguments.DeviationIsPercent = text.back() == '%';
+      },
+      "On surfaces, an edge stays if its flip would move the surface by more than this: a length, "
+      "or with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up "
+      "[inf]")
+    ->type_name("LENGTH")
+    ->check(FindFaultOfDeviation);
   app
     .add_option("--tolerance", flip.Tolerance,
       "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as "
@@ -188,8 +213,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   {
     app.get_option(name)->needs(fromPoints);
   }
-  for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--tolerance",
-         "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
+  for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--max-deviation",
+         "--tolerance", "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
          "--region-array", "--devices", "--pieces", "--quality" })
   {
     app.get_option(name)->excludes(fromPoints);
@@ -359,7 +384,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     ->type_name("")
     ->required()
     ->check(FileName());
-  AddMethodOptions(app, arguments.Flip);
+  AddMethodOptions(app, arguments);
   AddConstraintOptions(app, arguments);
   AddRunOptions(app, arguments);
   AddPointOptions(app, arguments);

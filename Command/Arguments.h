@@ -22,6 +22,7 @@ struct Arguments
   MeshFormat InputFormat = MeshFormat::VTK;
   MeshFormat OutputFormat = MeshFormat::VTK;
   PointOptions Flip;
+  bool DeviationIsPercent = false; ///< Flip.MaximumDeviation is one of the bounding box's diagonal.
   bool MergePoints = false; ///< Of the input, at equal places.
   bool FromPoints = false;
   bool InBestPlane = false; ///< Of points: else in x and y.

@@ -88,7 +88,7 @@ void ConfigureRun(vtkDelaunayFlipAlgorithm* filter, const FlipOptions& flip)
   filter->SetDeviceId(flip.Device);
 }
 
-void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
+void Configure(vtkDelaunayFlip* filter, const Arguments& arguments, double diagonal)
 {
   const FlipOptions& flip = arguments.Flip;
   ConfigureRun(filter, flip);
@@ -97,6 +97,8 @@ void Configure(vtkDelaunayFlip* filter, const Arguments& arguments)
   filter->SetTieRule(static_cast<int>(flip.TieRule));
   filter->SetTolerance(flip.Tolerance);
   filter->SetFeatureAngle(flip.FeatureAngle);
+  filter->SetMaximumDeviation(
+    flip.MaximumDeviation * (arguments.DeviationIsPercent ? diagonal / 100.0 : 1.0));
   filter->SetDevices(arguments.Devices.c_str());
   filter->SetNumberOfPieces(flip.NumberOfPieces);
   filter->SetLinesAsConstraints(!arguments.IgnoreLines);
@@ -267,7 +269,7 @@ public:
     {
       const auto filter = vtkSmartPointer<vtkDelaunayFlip>::New();
       filter->SetConstraintsData(this->Segments);
-      Configure(filter, this->Settings);
+      Configure(filter, this->Settings, this->Input->GetLength());
       this->Filter = filter;
     }
     vtkNew<vtkCallbackCommand> progress;

@@ -53,6 +53,7 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["non_delaunay_before"] = flip.NonDelaunayBefore;
   json["non_delaunay_after"] = flip.NonDelaunayAfter;
   json["blocked_by_shape"] = flip.BlockedByShape;
+  json["blocked_by_deviation"] = flip.BlockedByDeviation;
   json["blocked_by_edge"] = flip.BlockedByEdge;
   json["min_angle_before_deg"] = flip.MinimumAngleBefore;
   json["min_angle_after_deg"] = flip.MinimumAngleAfter;

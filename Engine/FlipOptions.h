@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_FLIPOPTIONS_H
 
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -76,6 +77,13 @@ struct FlipOptions
   /// in the input. In degrees, 0 to 180; 180 fixes no edge.
   double FeatureAngle = 30.0;
 
+  /// On surfaces, an edge stays if its flip would move the surface by more than this length, 0 or
+  /// more, in the unit of the points. That is the distance between the edge and the one that would
+  /// take its place. It holds for each flip; the moves of many flips can add up. 0 allows only
+  /// flips whose four points lie in one plane. 1e299 or more, such as infinity (default), is no
+  /// limit. In planar geometry no flip moves the surface, and this has no effect.
+  double MaximumDeviation = std::numeric_limits<double>::infinity();
+
   /// The most iterations to make: 0 makes none, -1 (default) sets no limit. On surfaces, where with
   /// a fixed tolerance nothing proves that the loop ends, -1 means the number of triangles + 1000.
   std::int64_t MaximumIterations = -1;
@@ -115,8 +123,8 @@ inline bool operator==(const FlipOptions& a, const FlipOptions& b)
   const auto tie = [](const FlipOptions& o)
   {
     return std::tie(o.Geometry, o.Criterion, o.TieRule, o.Backend, o.Tolerance, o.FeatureAngle,
-      o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices, o.NumberOfPieces,
-      o.TrackQuality);
+      o.MaximumDeviation, o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices,
+      o.NumberOfPieces, o.TrackQuality);
   };
   return tie(a) == tie(b);
 }

@@ -35,7 +35,8 @@ struct IterationRecord
   std::int64_t NonDelaunay = 0; ///< Bad edges when the iteration chose; fixed edges never count.
   std::int64_t Flipped = 0;
   std::int64_t Excluded = 0; ///< Bad and free, but a neighbour flipped, or between chunks.
-  std::int64_t Blocked = 0; ///< Bad, but the flip would fold the mesh over or repeat an edge.
+  /// Bad, but the flip would fold the mesh over, move it too far, or repeat an edge.
+  std::int64_t Blocked = 0;
   double MinimumAngle = 0.0; ///< In degrees, after the iteration; NaN if not computed.
   double Seconds = 0.0;
 };
@@ -98,6 +99,7 @@ struct FlipReport
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges before the first iteration that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
   std::int64_t BlockedByShape = 0; ///< Of these, those whose flip would fold the mesh over.
+  std::int64_t BlockedByDeviation = 0; ///< Those that FlipOptions::MaximumDeviation blocks.
   std::int64_t BlockedByEdge = 0; ///< And those whose flip would create an edge that exists.
   double MinimumAngleBefore =
     0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.

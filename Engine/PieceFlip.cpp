@@ -40,6 +40,7 @@ void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
     { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
     { "Tolerance", Write(options.Tolerance) },
     { "FeatureAngle", Write(options.FeatureAngle) },
+    { "MaximumDeviation", Write(options.MaximumDeviation) },
     { "MaximumIterations", std::to_string(options.MaximumIterations) },
     { "TrackQuality", Write(options.TrackQuality) },
   };

@@ -124,7 +124,7 @@ void UpdateReport::Add(const UpdateReport& other)
     { &Sum::Points, &Sum::Triangles, &Sum::UnmatchedConstraints, &Sum::InsertedConstraints,
       &Sum::ConstraintFlips, &Sum::EulerCharacteristic, &Sum::TotalFlips, &Sum::TotalExcluded,
       &Sum::TotalBlocked, &Sum::NonDelaunayBefore, &Sum::NonDelaunayAfter, &Sum::BlockedByShape,
-      &Sum::BlockedByEdge });
+      &Sum::BlockedByDeviation, &Sum::BlockedByEdge });
   AddMembers<Sum, double>(*this, other, { &Sum::BuildSeconds, &Sum::FlipSeconds });
   using Found = PointCounts;
   AddMembers(this->FromPoints, other.FromPoints,
@@ -342,7 +342,8 @@ std::string Summarize(const UpdateReport& report)
     "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
     Count(report.NonDelaunayAfter, "") +
     List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
-      { "blocked: would fold", report.BlockedByShape } }) +
+      { "blocked: would fold", report.BlockedByShape },
+      { "blocked: would deviate", report.BlockedByDeviation } }) +
     "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
     Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
     " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
@@ -402,6 +403,7 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   addCount("TotalFlips", report.TotalFlips);
   addCount("NonDelaunayEdges", report.NonDelaunayAfter);
   addCount("BlockedByShape", report.BlockedByShape);
+  addCount("BlockedByDeviation", report.BlockedByDeviation);
   addCount("BlockedByEdge", report.BlockedByEdge);
   addCount("FixedEdges", report.Edges.Fixed);
   addCount("NonManifoldEdges", report.Edges.NonManifold);

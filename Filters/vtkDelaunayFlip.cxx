@@ -58,6 +58,11 @@ vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByShape() const
   return this->GetUpdateReport().BlockedByShape;
 }
 
+vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByDeviation() const
+{
+  return this->GetUpdateReport().BlockedByDeviation;
+}
+
 vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByEdge() const
 {
   return this->GetUpdateReport().BlockedByEdge;
@@ -107,6 +112,7 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   options.Backend = static_cast<BackendKind>(this->Backend);
   options.Tolerance = this->Tolerance;
   options.FeatureAngle = this->FeatureAngle;
+  options.MaximumDeviation = this->MaximumDeviation;
   options.MaximumIterations = this->MaximumIterations;
   options.NumberOfThreads = this->NumberOfThreads;
   options.Device = this->DeviceId;
@@ -157,6 +163,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TieRule: " << this->TieRule << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "MaximumDeviation: " << this->MaximumDeviation << "\n";
   os << indent << "RegionArray: " << this->RegionArray << "\n";
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
   os << indent << "InsertLines: " << this->InsertLines << "\n";

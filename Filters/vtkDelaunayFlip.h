@@ -27,10 +27,11 @@
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
- * Converged, StopReason, Summary, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByEdge,
- * FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges, InsertedConstraintEdges,
- * ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic", the value, or "none" if
- * the in-circle predicate decides) and Backend. In the field data each name begins with
+ * Converged, StopReason, Summary, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByDeviation,
+ * BlockedByEdge, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
+ * InsertedConstraintEdges, ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic",
+ * the value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
+ * begins with
  * "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short names pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
@@ -207,6 +208,17 @@ public:
 
   ///@{
   /**
+   * On surfaces, an edge stays if its flip would move the surface by more than this length, in the
+   * unit of the points: the distance between the edge and the one that would take its place. It
+   * holds for each flip; the moves of many flips can add up. 0 allows only flips in flat quads.
+   * Default: VTK_DOUBLE_MAX, no limit. The update fails if it is negative or NaN.
+   */
+  vtkSetMacro(MaximumDeviation, double);
+  vtkGetMacro(MaximumDeviation, double);
+  ///@}
+
+  ///@{
+  /**
    * The name of a cell array that labels regions: edges between triangles with different values
    * stay. The array may hold numbers or strings, with any number of components. Default: none (""
    * or null). The update fails if the input has no such array.
@@ -351,10 +363,12 @@ public:
 
   ///@{
   /**
-   * Why such edges are left: those whose flip would fold the mesh over, and those whose flip would
-   * make an edge that exists already. The rest, if any, could still flip: the update ended early.
+   * Why such edges are left: those whose flip would fold the mesh over, those that MaximumDeviation
+   * blocks, and those whose flip would make an edge that exists already. The rest, if any, could
+   * still flip: the update ended early.
    */
   vtkIdType GetNumberOfEdgesBlockedByShape() const;
+  vtkIdType GetNumberOfEdgesBlockedByDeviation() const;
   vtkIdType GetNumberOfEdgesBlockedByEdge() const;
   ///@}
 
@@ -414,6 +428,7 @@ protected:
   double Tolerance = -1.0;
   int TieRule = TIE_RULE_KEEP;
   double FeatureAngle = 30.0;
+  double MaximumDeviation = VTK_DOUBLE_MAX;
   std::string RegionArray;
   bool LinesAsConstraints = true;
   bool InsertConstraints = true;

@@ -127,6 +127,20 @@ def draw_survey(command, folder, output):
         save(figure, os.path.join(output, f"guide_{name}.png"))
 
 
+def draw_edges(command, folder, output):
+    """guide_edges.png: what sharp edges become without and with a maximum deviation."""
+    options = {"before": ["--max-iterations", "0"], "--feature-angle 30": [],
+               "--feature-angle 180": ["--feature-angle", "180"],
+               "... --max-deviation 0.3%": ["--feature-angle", "180", "--max-deviation", "0.3%"]}
+    figure, grid = plt.subplots(2, 2, figsize=(9, 6.4))
+    for axes, (title, chosen) in zip(grid.flat, options.items()):
+        mesh = run(command, folder, "edges.ply", ["--quality", *chosen])
+        draw_mesh(axes, mesh, (0.3, -1.0, 1.2), (-0.8, 0.8, -1.35, -0.3))
+        axes.set_title(title, color=INK)
+    figure.subplots_adjust(0.01, 0.02, 0.99, 0.95, wspace=0.04, hspace=0.12)
+    save(figure, os.path.join(output, "guide_edges.png"))
+
+
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
     figure, both = plt.subplots(1, 2, figsize=(9, 4.2))
@@ -152,7 +166,8 @@ def main():
         subprocess.run(["/usr/bin/python3", f"{HERE}/make_examples.py", folder], check=True)
         for name in PICTURES:
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
-        draw_survey(os.path.abspath(arguments.command), folder, arguments.output)
+        for draw in (draw_survey, draw_edges):
+            draw(os.path.abspath(arguments.command), folder, arguments.output)
 
 
 if __name__ == "__main__":

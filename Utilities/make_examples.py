@@ -4,8 +4,8 @@
 """Writes the files of the documentation's examples: small meshes of bad triangles.
 
 terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over it.
-scan.ply: a bumpy ring, as a laser scanner gives it. part.stl: an elliptic cylinder, as a CAD program
-writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
+scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
+an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
 valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
 outline of the survey, and pond.vtk. The same arguments give the same files.
 """
@@ -46,6 +46,19 @@ def ring(random, around=96, across=48):
     u = (u + random.uniform(-0.24, 0.24, u.shape)) * 2 * np.pi / around
     v = (v + random.uniform(-0.24, 0.24, v.shape)) * 2 * np.pi / across
     tube = 0.4 + 0.03 * np.sin(5 * u) * np.cos(3 * v)
+    distance = 1 + tube * np.cos(v)
+    points = np.stack([distance * np.cos(u), distance * np.sin(u), tube * np.sin(v)], 1)
+    return points, grid_triangles(around, across, random, closed=True)
+
+
+def square_ring(random, around=64, across=48):
+    """A ring whose tube has four sides and sharp edges; its points lie in bent rows, with noise."""
+    u, v = np.mgrid[:around, :across].reshape(2, -1).astype(float)
+    beside = v % (across // 4) > 0  # not on an edge
+    u += 2.5 * np.sin(4 * np.pi * v / across) ** 2 + random.uniform(-0.3, 0.3, u.shape)
+    v += random.uniform(-0.3, 0.3, v.shape) * beside
+    u, v = u * 2 * np.pi / around, v * 2 * np.pi / across + np.pi / 4
+    tube = 0.3 / np.maximum(abs(np.cos(v)), abs(np.sin(v))) + random.normal(0, 0.005, v.shape)
     distance = 1 + tube * np.cos(v)
     points = np.stack([distance * np.cos(u), distance * np.sin(u), tube * np.sin(v)], 1)
     return points, grid_triangles(around, across, random, closed=True)
@@ -192,7 +205,8 @@ def main():
     write_stl(arguments.folder, "part.stl", *cylinder())
     write_plate(arguments.folder, *plate(random))
     write_valley(arguments.folder, Valley(random))
-    print("terrain.vtp road.vtk scan.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk")
+    write_ply(arguments.folder, "edges.ply", *square_ring(random))
+    print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk")
 
 
 if __name__ == "__main__":

@@ -85,6 +85,10 @@ public:
   /// edges, and detects again. @returns the iterations.
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);
 
+  /// How many of the edges that the last detection has found blocked by shape have
+  /// EdgeState::BlockedByDeviation.
+  virtual std::int64_t CountBlockedByDeviation() const = 0;
+
   /// The largest LargestSquaredCotangent (SurfaceAngles.h) of all triangles.
   virtual double FindLargestSquaredCotangent() const = 0;
 

@@ -72,7 +72,8 @@ struct RuleChoice
       Range(survey.Range),
       Tolerance(options.Tolerance < 0.0
           ? AngleTolerance{ 0.0, 1.0, survey.Precision }
-          : AngleTolerance{ std::sin(options.Tolerance), std::cos(options.Tolerance), 0.0 })
+          : AngleTolerance{ std::sin(options.Tolerance), std::cos(options.Tolerance), 0.0 }),
+      MaximumDeviation(options.MaximumDeviation < 1e299 ? options.MaximumDeviation : INFINITY)
   {
   }
 
@@ -84,8 +85,10 @@ struct RuleChoice
   {
     if (this->IsSurface)
     {
-      return floats ? visit(SurfaceRule<float>{ { floats, this->Tolerance, this->Range } })
-                    : visit(SurfaceRule<double>{ { doubles, this->Tolerance, this->Range } });
+      return floats ? visit(SurfaceRule<float>{
+                        { floats, this->Tolerance, this->Range }, this->MaximumDeviation })
+                    : visit(SurfaceRule<double>{
+                        { doubles, this->Tolerance, this->Range }, this->MaximumDeviation });
     }
     if (this->ByAngles)
     {
@@ -104,6 +107,7 @@ struct RuleChoice
   bool IsSurface, ByAngles, IsTilted, IsCanonical, FiltersApply;
   CoordinateRange Range;
   AngleTolerance Tolerance;
+  double MaximumDeviation;
 };
 
 /// Makes the loop that suits a mesh. The backend must live as long as the loop.

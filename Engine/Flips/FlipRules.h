@@ -13,8 +13,9 @@
 
 /// @file
 /// The rules that judge edges, one per geometry. A rule reads the coordinates of a quad and returns
-/// EdgeState::Good, Bad, BlockedByShape, or Uncertain when floating-point arithmetic cannot decide;
-/// JudgeExactly can. Judgements do not depend on the order in which edges are judged.
+/// EdgeState::Good, Bad, BlockedByShape, BlockedByDeviation, or Uncertain when floating-point
+/// arithmetic cannot decide; JudgeExactly can. Judgements do not depend on the order in which edges
+/// are judged.
 
 namespace delaunayflip
 {
@@ -116,6 +117,7 @@ struct PlanarRule
 {
   static constexpr bool Tilted = Components == 3;
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
+  static constexpr bool MayDeviate = false; ///< Whether an edge may be BlockedByDeviation.
   static constexpr bool MayBeUncertain = true; ///< Whether Judge may leave it to JudgeExactly.
   static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
@@ -247,6 +249,7 @@ private:
 struct PlanarAngleRule : AnglePoints<double>
 {
   static constexpr bool MayBlock = true;
+  static constexpr bool MayDeviate = false;
   static constexpr bool MayBeUncertain = true;
   static constexpr bool Flat = false;
 
@@ -271,14 +274,18 @@ struct PlanarAngleRule : AnglePoints<double>
   }
 };
 
-/// Judges in space, by the opposite-angle sum; flips must not fold the surface over.
+/// Judges in space, by the opposite-angle sum; flips must not fold the surface over, or move it too
+/// far.
 template <typename Real>
 struct SurfaceRule : AnglePoints<Real>
 {
   using AnglePoints<Real>::Get;
   static constexpr bool MayBlock = true;
+  static constexpr bool MayDeviate = true;
   static constexpr bool MayBeUncertain = false;
   static constexpr bool Flat = false;
+
+  double MaximumDeviation = INFINITY; ///< None.
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
@@ -295,7 +302,13 @@ struct SurfaceRule : AnglePoints<Real>
       return EdgeState::Good;
     }
     const bool folds = this->IsWide(quad, sum) ? this->FoldsOverWide(quad) : FoldsOver(points);
-    return folds ? EdgeState::BlockedByShape : EdgeState::Bad;
+    if (folds)
+    {
+      return EdgeState::BlockedByShape;
+    }
+    return this->MaximumDeviation < INFINITY && this->MovesTooFar(quad)
+      ? EdgeState::BlockedByDeviation
+      : EdgeState::Bad;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -307,6 +320,11 @@ private:
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool FoldsOverWide(const Quad& quad) const
   {
     return delaunayflip::FoldsOverWide(this->Get(quad));
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool MovesTooFar(const Quad& quad) const
+  {
+    return delaunayflip::MovesTooFar(this->Get(quad), this->MaximumDeviation);
   }
 };
 

@@ -6,6 +6,7 @@
 #include "EdgeFlip.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
+#include "FlipRules.h"
 #include "HostDevice.h"
 #include "StepCounts.h"
 
@@ -23,6 +24,23 @@ DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(const GuardedEdges& edge
 {
   return edges.Forbid(quad.A, quad.B) ? EdgeState::BlockedByEdge : EdgeState::Bad;
 }
+
+/// Counts the edges of EdgeState::BlockedByDeviation, which the passes count with BlockedByShape.
+template <typename Rule>
+struct DeviationSurvey
+{
+  EdgeMeshView Mesh; ///< Its States are Fixed for the edges that are not judged.
+  Rule Decision;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge, std::int64_t& sum) const
+  {
+    const auto id = static_cast<EdgeId>(edge);
+    sum += this->Mesh.States[id] != EdgeState::Fixed &&
+        this->Decision.Judge(this->Mesh.GetQuad(id)) == EdgeState::BlockedByDeviation
+      ? 1
+      : 0;
+  }
+};
 
 /// Pass 4: decides which of two bad edges flips first. Priorities are a bijection of edge ids: two
 /// equal ones would both flip, on a shared triangle. They are scattered so that a chain of bad

@@ -196,6 +196,19 @@ DELAUNAYFLIP_HOST_DEVICE inline bool FoldsOverWide(const QuadPoints& quad)
     Dot(WideAreaVector(quad.B, quad.Q, quad.A).Vector, area) > 0.0);
 }
 
+/// Whether flipping p-q to a-b moves the surface by more than a length: the distance between the
+/// lines of p-q and a-b. If the flip does not fold the surface over, the two edges cross as seen
+/// along their common normal, which is that of the quad's vector area. Along it the old and the new
+/// surface lie one above the other. They are furthest apart at that crossing, by this distance.
+DELAUNAYFLIP_HOST_DEVICE inline bool MovesTooFar(const QuadPoints& quad, double maximum)
+{
+  const WideVector normal = Cross(Subtract(quad.B, quad.A), Subtract(quad.Q, quad.P));
+  // Twice a way between the lines. The sum is the same if the two triangles are exchanged.
+  const WideVector ways = Add(Subtract(quad.P, quad.A), Subtract(quad.Q, quad.B));
+  const double twice = std::fabs(Dot(ways.Vector, normal.Vector)) / normal.GetLength();
+  return !(twice <= std::scalbn(maximum, 1 - ways.Exponent));
+}
+
 /// IsSharp of SurfaceAngles.h.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsSharpWide(const QuadPoints& quad, double cosine)
 {

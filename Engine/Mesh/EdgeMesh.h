@@ -45,12 +45,13 @@ enum class EdgeState : std::uint8_t
   Good, ///< Locally Delaunay.
   Fixed, ///< Never flips, never judged.
   Deferred, ///< Between chunks while iterations run within them; a candidate afterwards.
-  Uncertain, ///< The filter could not decide; exact arithmetic must.
+  BlockedByDeviation, ///< Bad, but the flip would move the surface too far.
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
   BlockedByEdge, ///< Bad, but the new edge already exists. May become free when others flip.
   Bad, ///< Violates the criterion and may flip.
   Excluded, ///< A bad edge whose neighbour has flipped while other edges still choose.
-  Candidate ///< To be judged: new, or an incident triangle changed.
+  Candidate, ///< To be judged: new, or an incident triangle changed.
+  Uncertain ///< The filter could not decide; exact arithmetic must.
 };
 
 /// States from the first to the last.

@@ -36,6 +36,8 @@ void CheckOptions(const FlipOptions& options)
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
   Require(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0,
     "the feature angle must be from 0 to 180 degrees");
+  Require(options.MaximumDeviation >= 0.0,
+    "the maximum deviation must be a length of 0 or more, or infinite (none)");
   Require(
     options.MaximumIterations >= -1, "the number of iterations must be -1 (until done), 0 or more");
   Require(options.NumberOfThreads >= 0, "the number of threads must be 0 (all) or more");

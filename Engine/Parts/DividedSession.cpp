@@ -459,9 +459,11 @@ struct DividedSession::Run : MeshInParts
     }
     this->Report.NonDelaunayAfter = totals.NonDelaunay;
     this->Report.BlockedByShape = totals.BlockedByShape;
+    this->Report.BlockedByDeviation = totals.BlockedByDeviation;
     // A part does not know all edges that exist. After the last flip nothing else blocks any.
-    this->Report.BlockedByEdge =
-      this->Report.Converged() ? totals.NonDelaunay - totals.BlockedByShape : totals.BlockedByEdge;
+    this->Report.BlockedByEdge = this->Report.Converged()
+      ? totals.NonDelaunay - totals.BlockedByShape - totals.BlockedByDeviation
+      : totals.BlockedByEdge;
   }
 
   /// What is known of the whole mesh takes the place of what parts have found.

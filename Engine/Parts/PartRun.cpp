@@ -315,7 +315,8 @@ private:
     const bool mayGoOn = this->MayGoOn();
     SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
     this->BadSeams = test.BadOfAll + test.BlockedOfAll;
-    this->FoldedSeams = test.BlockedOfAll;
+    this->BlockedSeams = test.BlockedOfAll;
+    this->DeviatingSeams = test.DeviatingOfAll;
     const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
     GuardRound waiting;
     waiting.FreeOfAll = test.BadOfAll;
@@ -416,7 +417,8 @@ private:
     }
     this->Own.MinimumAngleAfter =
       this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
-    this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByEdge = 0;
+    this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByDeviation =
+      this->Own.BlockedByEdge = 0;
     if (this->HasBlocked || this->StopReason != StopReasonKind::Converged)
     {
       this->CountBad();
@@ -442,6 +444,7 @@ private:
           mate.Triangle > t ? flips.Judge({ t, slot }, mate) : EdgeState::Good;
         this->Own.NonDelaunayAfter += state != EdgeState::Good ? 1 : 0;
         this->Own.BlockedByShape += state == EdgeState::BlockedByShape ? 1 : 0;
+        this->Own.BlockedByDeviation += state == EdgeState::BlockedByDeviation ? 1 : 0;
         this->Own.BlockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
     }
@@ -464,9 +467,10 @@ private:
       report.EulerCharacteristic = 0;
     }
     report.NonDelaunayAfter += this->BadSeams;
-    report.BlockedByShape += this->FoldedSeams;
+    report.BlockedByShape += this->BlockedSeams - this->DeviatingSeams;
+    report.BlockedByDeviation += this->DeviatingSeams;
     const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
-    report.BlockedByEdge += areBlocked ? this->BadSeams - this->FoldedSeams : 0;
+    report.BlockedByEdge += areBlocked ? this->BadSeams - this->BlockedSeams : 0;
     report.GeometryUsed = this->Job.Survey.Geometry;
     report.GeometryReason = this->Job.Survey.GeometryReason;
     report.StopReason = this->WholeStopReason;
@@ -500,7 +504,8 @@ private:
   std::int64_t Iterations = 0; ///< Of earlier rounds.
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
   std::int64_t BadSeams = 0; ///< Bad seam edges that are left at the end, for any reason.
-  std::int64_t FoldedSeams = 0; ///< Of these, the ones whose flip would fold the mesh over.
+  std::int64_t BlockedSeams = 0; ///< Of these, the ones blocked by their shape or deviation.
+  std::int64_t DeviatingSeams = 0; ///< Of these, the ones blocked by deviation.
 };
 
 //------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t FlipReport::*Sums[] = { &FlipReport::Points, &FlipReport::Triangles,
   &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
   &FlipReport::EulerCharacteristic, &FlipReport::NonDelaunayBefore, &FlipReport::NonDelaunayAfter,
-  &FlipReport::BlockedByShape, &FlipReport::BlockedByEdge };
+  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge };
 constexpr double FlipReport::*Smallest[] = { &FlipReport::MinimumAngleBefore,
   &FlipReport::MinimumAngleAfter };
 constexpr double FlipReport::*Largest[] = { &FlipReport::BuildSeconds, &FlipReport::FlipSeconds };

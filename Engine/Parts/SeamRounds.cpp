@@ -62,11 +62,13 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   RecordLists<BadSeam> toRank(group.GetSize());
   std::int64_t bad = 0;
   std::int64_t blocked = 0;
+  std::int64_t deviating = 0;
   const auto test = [&](SeamTriangle& one, SeamTriangle& other)
   {
     const EdgeState state = judge.Judge(one.Side, other.Side);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
-    blocked += state == EdgeState::BlockedByShape ? 1 : 0;
+    blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
+    deviating += state == EdgeState::BlockedByDeviation ? 1 : 0;
     bad += state == EdgeState::Bad ? 1 : 0;
     for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
     {
@@ -95,6 +97,7 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   result.Bad = Join(ExchangeRecords(group, toRank));
   result.BadOfAll = SumOverRanks(group, bad);
   result.BlockedOfAll = SumOverRanks(group, blocked);
+  result.DeviatingOfAll = result.BlockedOfAll > 0 ? SumOverRanks(group, deviating) : 0;
   return result;
 }
 

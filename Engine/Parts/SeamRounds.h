@@ -33,7 +33,8 @@ struct SeamTest
 {
   std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
   std::int64_t BadOfAll = 0; ///< The number of bad seam edges over all ranks, each counted once.
-  std::int64_t BlockedOfAll = 0; ///< Other ones, whose flip would fold the mesh over.
+  std::int64_t BlockedOfAll = 0; ///< Other ones, blocked by their shape or deviation.
+  std::int64_t DeviatingOfAll = 0; ///< Of these, those blocked by deviation.
 };
 
 /// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam

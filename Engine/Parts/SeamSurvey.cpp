@@ -117,6 +117,7 @@ void EdgeTotals::Add(const FlipReport& report, std::int64_t factor)
   AddCounts(this->Edges, report.Edges, factor);
   this->NonDelaunay += factor * report.NonDelaunayAfter;
   this->BlockedByShape += factor * report.BlockedByShape;
+  this->BlockedByDeviation += factor * report.BlockedByDeviation;
   this->BlockedByEdge += factor * report.BlockedByEdge;
 }
 

@@ -70,7 +70,7 @@ public:
   QuadJudge(const PartSurvey& survey, const FlipOptions& options);
 
   /// @param apqb x, y and z of the points a, p, q and b of a quad (picture in EdgeFlip.h).
-  /// @returns Good, Bad or BlockedByShape.
+  /// @returns Good, Bad, BlockedByShape or BlockedByDeviation.
   EdgeState Judge(const double (&apqb)[4][3]) const;
 
   /// The same for the two triangles of an edge. They must run through it in opposite directions.
@@ -93,7 +93,7 @@ private:
 struct EdgeTotals
 {
   EdgeCounts Edges;
-  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByEdge = 0;
+  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByDeviation = 0, BlockedByEdge = 0;
 
   /// @param report of a run without iterations.
   /// @param factor 1 to add, -1 to subtract.

@@ -345,6 +345,8 @@ void FlipSession::Work::KeepFound(const StepCounts& found)
   this->Found = found;
   this->Report.NonDelaunayAfter = found.Bad + found.GetBlocked();
   this->Report.BlockedByShape = found.BlockedByShape;
+  const bool isUnknown = found.BlockedByShape > 0 && this->Options.MaximumDeviation < INFINITY;
+  this->Report.BlockedByDeviation = isUnknown ? -1 : 0; // MeasureEnd counts
   this->Report.BlockedByEdge = found.BlockedByEdge;
 }
 
@@ -372,10 +374,17 @@ double FlipSession::Work::MeasureAngle()
 }
 
 /// The smallest angle is known after the first and the last iteration. If a run stops in between,
-/// this takes a pass over the mesh, made only when the report is requested. Also lists the defects
-/// of the input and, at the end of a run, those that flips have caused.
+/// this takes a pass over the mesh, made only when the report is requested. Also counts the edges
+/// blocked by deviation, and lists the defects of the input and, at the end of a run, those that
+/// flips have caused.
 void FlipSession::Work::MeasureEnd()
 {
+  if (this->Report.BlockedByDeviation < 0)
+  {
+    this->Report.BlockedByDeviation =
+      this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().CountBlockedByDeviation(); });
+    this->Report.BlockedByShape = this->Found.BlockedByShape - this->Report.BlockedByDeviation;
+  }
   if (this->IsMeasured)
   {
     return;

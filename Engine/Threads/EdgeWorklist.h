@@ -326,11 +326,11 @@ private:
     EdgeId edges[UnitSize];
     const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, unit, edges);
     list.insert(list.end(), edges, edges + bad);
-    const auto count = [&](EdgeState state) {
-      return this->MayBlock ? this->Find({ state, state }, unit, edges) : 0;
-    };
-    const std::int64_t byShape = count(EdgeState::BlockedByShape);
-    const std::int64_t byEdge = count(EdgeState::BlockedByEdge);
+    const auto count = [&](StateRange states)
+    { return this->MayBlock ? this->Find(states, unit, edges) : 0; };
+    const std::int64_t byShape =
+      count({ EdgeState::BlockedByDeviation, EdgeState::BlockedByShape });
+    const std::int64_t byEdge = count({ EdgeState::BlockedByEdge, EdgeState::BlockedByEdge });
     counts.Bad += bad;
     counts.BlockedByShape += byShape;
     counts.BlockedByEdge += byEdge;

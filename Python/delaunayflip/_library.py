@@ -91,7 +91,7 @@ class Options(ctypes.Structure):
         *_of(c_int64, "size"), *_of(c_int32, "geometry criterion tie_rule backend"),
         *_of(c_double, "tolerance feature_angle"), *_of(c_int64, "maximum_iterations"),
         *_of(c_int32, "number_of_threads device track_quality number_of_pieces"),
-        *_of(c_char_p, "devices"),
+        *_of(c_char_p, "devices"), *_of(c_double, "maximum_deviation"),
     ]
 
 
@@ -114,7 +114,8 @@ class Report(ctypes.Structure):
         *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
         *_of(c_int64, """number_of_points number_of_triangles points_not_finite points_repeated
              points_too_near segment_edges segments_refused crossings"""),
-        *_of(c_double, "largest_shift"), *_of(c_int64, "triangles_outside triangles_large keeps_sliver"),
+        *_of(c_double, "largest_shift"), *_of(c_int64, """triangles_outside triangles_large keeps_sliver
+             blocked_by_deviation"""),
     ]
 
 

@@ -50,6 +50,7 @@ class Options(typing.TypedDict, total=False):
     tie_rule: TieRule
     tolerance: float
     feature_angle: float
+    maximum_deviation: float
     maximum_iterations: int
     backend: Backend
     threads: int

@@ -17,7 +17,8 @@ ITERATION = numpy.dtype(
 FIELD_PREFIX = "DelaunayFlip:"
 COLUMNS = {name.title().replace("_", ""): name for name in ITERATION.names}
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
-          "BlockedByShape": "blocked_by_shape", "BlockedByEdge": "blocked_by_edge",
+          "BlockedByShape": "blocked_by_shape", "BlockedByDeviation": "blocked_by_deviation",
+          "BlockedByEdge": "blocked_by_edge",
           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
@@ -27,7 +28,8 @@ _KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
           "wrongly wound": "wrongly_wound_edges", "feature angle": "feature_edges",
           "constraints": "constraint_edges", "regions": "region_edges"}
 _BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
-            "blocked: would fold": "blocked_by_shape"}
+            "blocked: would fold": "blocked_by_shape",
+            "blocked: would deviate": "blocked_by_deviation"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
@@ -85,6 +87,7 @@ class Report:
     triangles_outside: int = 0  #: Removed outside the outline and in holes.
     triangles_large: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
+    blocked_by_deviation: int = 0  #: Of non_delaunay_after, those that maximum_deviation blocks.
 
     @property
     def converged(self) -> bool:

@@ -242,7 +242,8 @@ class Result:
 def flip(
     points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
     criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
-    feature_angle: float = 30.0, constraints: Optional[Numbers] = None,
+    feature_angle: float = 30.0, maximum_deviation: float = float("inf"),
+    constraints: Optional[Numbers] = None,
     insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
     frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
     threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0,
@@ -264,6 +265,8 @@ def flip(
         tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
+        maximum_deviation: On surfaces, edges stay whose flip would move the surface by more than
+            this length, 0 or more. It holds per flip: many flips can add up.
         constraints: (k, 2) pairs of point ids: edges that must stay.
         insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.
         regions: (m,) integers: edges between triangles of different labels stay.

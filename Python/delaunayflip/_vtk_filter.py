@@ -7,7 +7,8 @@ import re
 import typing
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow
+from vtkmodules.vtkCommonCore import (
+    VTK_DOUBLE_MAX, VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow)
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
 from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
@@ -65,6 +66,7 @@ _PROPERTIES = (
     Property("Tolerance", -1.0),
     Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
     Property("FeatureAngle", 30.0, 0.0, 180.0),
+    Property("MaximumDeviation", VTK_DOUBLE_MAX),
     Property("RegionArray", ""),
     *(Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
     Property("Devices", ""),
@@ -331,8 +333,8 @@ class vtkDelaunayFlip(Filter):
         self.SetInputDataObject(1, constraints)
 
     def __str__(self):
-        names = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString",
-                 "GeometryReason")
+        names = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByDeviation",
+                 "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString", "GeometryReason")
         lines = [f"  {name.replace('AsString', '')}: {getattr(self, 'Get' + name)()}\n"
                  for name in names]
         return super().__str__() + "".join(lines)
@@ -349,6 +351,7 @@ _ANSWERS = {
                     NumberOfInsertedConstraintEdges="inserted_constraints",
                     NumberOfConstraintFlips="constraint_flips",
                     NumberOfEdgesBlockedByShape="blocked_by_shape",
+                    NumberOfEdgesBlockedByDeviation="blocked_by_deviation",
                     NumberOfEdgesBlockedByEdge="blocked_by_edge"),
 }
 finish(vtkDelaunayFlip, _PROPERTIES, _ANSWERS)

@@ -184,7 +184,8 @@ class Update:
     def _get_options(self):
         filter_ = self._filter
         options = {name: words[getattr(filter_, name)] for name, words in CHOICES.items()}
-        for name in ("tolerance", "feature_angle", "maximum_iterations", "devices", "track_quality"):
+        for name in ("tolerance", "feature_angle", "maximum_deviation", "maximum_iterations", "devices",
+                     "track_quality"):
             options[name] = getattr(filter_, name)
         return {**options, "threads": filter_.GetNumberOfThreads(), "device": filter_.GetDeviceId(),
                 "pieces": filter_.GetNumberOfPieces()}

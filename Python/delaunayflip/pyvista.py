@@ -61,9 +61,9 @@ def flip(
         constraints: Lines and polygons whose edges stay, and are inserted where the mesh is planar.
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
-        **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_iterations,
-            backend, threads, device, devices, pieces and track_quality as for delaunayflip.flip;
-            region_array: a cell array, edges between its values stay; lines_as_constraints,
+        **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_deviation,
+            maximum_iterations, backend, threads, device, devices, pieces and track_quality as for
+            delaunayflip.flip; region_array: a cell array, edges between its values stay; lines_as_constraints,
             insert_lines, insert_constraints and triangulate as in vtkDelaunayFlip.
 
     Returns:

@@ -230,10 +230,39 @@ static void TestInvalidOptions(void)
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
   CHECK(delaunayflip_error_cell() == -1);
   delaunayflip_options_init(&options);
+  options.maximum_deviation = -1.0;
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  CHECK(strstr(delaunayflip_error_message(), "deviation") != NULL);
+  delaunayflip_options_init(&options);
   options.geometry = 4;
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
   options.geometry = -1;
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
+}
+
+/* The diagonals of this quad are 0.25 apart. */
+static void TestMaximumDeviation(void)
+{
+  const double points[] = { 0, 1, 0.25, -4, 0, 0, 4, 0, 0, 0, -1, 0.25 };
+  const int64_t ids[] = { 0, 1, 2, 3, 2, 1 };
+  const double bounds[] = { 0.24, 0.25 };
+  delaunayflip_mesh mesh = MakeMesh();
+  delaunayflip_options options;
+  int64_t i, triangles[6];
+  delaunayflip_options_init(&options);
+  CHECK(options.maximum_deviation > 1e300);
+  options.geometry = DELAUNAYFLIP_GEOMETRY_SURFACE;
+  mesh.points = points;
+  mesh.triangles = ids;
+  for (i = 0; i < 2; ++i)
+  {
+    delaunayflip_report report;
+    delaunayflip_report_init(&report);
+    options.maximum_deviation = bounds[i];
+    CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+    CHECK(report.total_flips == i && report.blocked_by_deviation == 1 - i);
+    CHECK(report.non_delaunay_after == 1 - i && report.blocked_by_shape == 0);
+  }
 }
 
 static void TestNullPointers(void)
@@ -466,6 +495,7 @@ int main(void)
   TestProgressAborts();
   TestInvalidMesh();
   TestInvalidOptions();
+  TestMaximumDeviation();
   TestNullPointers();
   TestUnsetSizes();
   TestOldProgram();

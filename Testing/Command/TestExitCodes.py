@@ -56,6 +56,7 @@ class WrongUsage(CommandTest):
     def test_ranges(self):
         for option, values in {
             "--feature-angle": ["-1", "180.5", "nan", "x"],
+            "--max-deviation": ["-1e-9", "nan", "-1%", "%", "1%%", "1 cm", ""],
             "--tolerance": ["-1e-9", "-2", "1", "nan", "inf"],
             "--threads": ["-1", "1.5", "99999999"],
             "--device": ["-2", "0.5", "x", "nan", "9999999999", "gpu0"],

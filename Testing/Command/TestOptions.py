@@ -149,6 +149,16 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh, "--feature-angle", "85"), 0)
         self.assertEqual(self.flips(mesh, "--feature-angle", "95"), 1)
 
+    def test_max_deviation(self):
+        """A quad whose diagonals are 0.25 apart; the bounding box's diagonal is 8.25."""
+        mesh = make_mesh([(-4, 0, 0), (0, -1, 0.25), (4, 0, 0), (0, 1, 0.25)], KITE_CELLS)
+        surface = ("--geometry", "surface")
+        for bound, flips in (("inf", 1), ("0.25", 1), ("0.249", 0), ("0", 0), ("3.1%", 1), ("3%", 0)):
+            self.assertEqual(self.flips(mesh, *surface, "--max-deviation", bound), flips, bound)
+        text = self.succeed("in.vtk", "out.vtk", *surface, "--max-deviation", "0.1").stdout
+        self.assertIn("bad edges       1 -> 1 (1 blocked: would deviate)\n", text)
+        self.assertEqual(self.flips(mesh, "--max-deviation", "0"), 1)
+
     def test_tolerance(self):
         """The opposite angles sum to about pi + 0.01."""
         mesh = make_mesh([(-1, 0, 0), (0, -0.995, 0), (1, 0, 0), (0, 0.995, 0)], KITE_CELLS)

@@ -26,7 +26,8 @@ KEYS = [
     *("inserted_constraint_edges", "constraint_flips"),
     *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
-    *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape", "blocked_by_edge"),
+    *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape"),
+    *("blocked_by_deviation", "blocked_by_edge"),
     *("min_angle_before_deg", "min_angle_after_deg"),
     *("converged", "stop_reason", "seconds", "warnings"),
 ]

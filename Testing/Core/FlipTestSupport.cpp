@@ -254,6 +254,11 @@ void ExpectConsistentStatistics(const FlipReport& report)
   EXPECT_EQ(flipped, report.TotalFlips);
   EXPECT_EQ(excluded, report.TotalExcluded);
   EXPECT_EQ(blocked, report.TotalBlocked);
+  const std::int64_t explained =
+    report.BlockedByShape + report.BlockedByDeviation + report.BlockedByEdge;
+  EXPECT_TRUE(report.Converged() ? explained == report.NonDelaunayAfter
+                                 : explained <= report.NonDelaunayAfter)
+    << explained << " of " << report.NonDelaunayAfter;
 }
 
 namespace
@@ -321,7 +326,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, inserted, constraintFlips, euler, geometry,
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
-    byShape, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints, buildSeconds,
+    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints, buildSeconds,
     flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
@@ -345,6 +350,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.NonDelaunayBefore, badBefore);
   EXPECT_EQ(a.NonDelaunayAfter, badAfter);
   EXPECT_EQ(a.BlockedByShape, byShape);
+  EXPECT_EQ(a.BlockedByDeviation, byDeviation);
   EXPECT_EQ(a.BlockedByEdge, byEdge);
   ExpectSameAngle(a.MinimumAngleBefore, angleBefore);
   ExpectSameAngle(a.MinimumAngleAfter, angleAfter);

@@ -109,6 +109,10 @@ TEST(InvalidOptions, AreRefused)
   {
     expectRefused(grid, [&](FlipOptions& o) { o.FeatureAngle = angle; });
   }
+  for (double deviation : { -1e-300, -std::numeric_limits<double>::infinity(), nan })
+  {
+    expectRefused(grid, [&](FlipOptions& o) { o.MaximumDeviation = deviation; });
+  }
   expectRefused(grid, [](FlipOptions& o) { o.MaximumIterations = -2; });
   expectRefused(grid, [](FlipOptions& o) { o.NumberOfThreads = -1; });
   expectRefused(grid, [](FlipOptions& o) { o.Device = -2; });

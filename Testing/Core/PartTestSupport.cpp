@@ -142,6 +142,7 @@ void ExpectSameCounts(const FlipReport& alone, PiecesReport together)
   together.TotalBlocked = alone.TotalBlocked;
   together.NonDelaunayAfter = alone.NonDelaunayAfter;
   together.BlockedByShape = alone.BlockedByShape;
+  together.BlockedByDeviation = alone.BlockedByDeviation;
   together.BlockedByEdge = alone.BlockedByEdge;
   together.MinimumAngleAfter = alone.MinimumAngleAfter;
   together.StopReason = alone.StopReason;
@@ -180,6 +181,7 @@ void ExpectNothingLeft(const TriangleMesh& mesh, FlipOptions options, const Part
   EXPECT_EQ(0, again.TotalFlips);
   EXPECT_EQ(again.NonDelaunayAfter, together.Report.NonDelaunayAfter);
   EXPECT_EQ(again.BlockedByShape, together.Report.BlockedByShape);
+  EXPECT_EQ(again.BlockedByDeviation, together.Report.BlockedByDeviation);
   EXPECT_EQ(again.BlockedByEdge, together.Report.BlockedByEdge);
   if (!std::isnan(again.MinimumAngleAfter))
   {

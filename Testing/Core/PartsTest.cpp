@@ -47,6 +47,12 @@ FlipOptions Terrain()
 }
 FlipOptions OnSurfaces() { return OnSurfaceOfRanks(); }
 FlipOptions WithFeatures() { return OnSurfaceOfRanks(20.0); }
+FlipOptions WithDeviation()
+{
+  FlipOptions options = OnSurfaceOfRanks();
+  options.MaximumDeviation = 0.01;
+  return options;
+}
 
 Mesh MakeClockwisePlane()
 {
@@ -154,6 +160,7 @@ const Case Cases[] = {
   { "Sphere", [] { return MakeBadSphere(60, 30, 11); }, OnSurfaces, false },
   { "SmallSphere", [] { return MakeBadSphere(6, 4, 2); }, OnSurfaces, false },
   { "SphereWithFeatures", [] { return MakeBadSphere(40, 20, 44); }, WithFeatures, false },
+  { "SphereWithDeviation", [] { return MakeBadSphere(40, 20, 44); }, WithDeviation, false },
   { "Hills", [] { return MakeHills(0.3); }, OnSurfaces, false },
   { "MoebiusStrip", [] { return MakeMoebiusStrip(60, 6, 14); }, OnSurfaces, false },
   { "RepeatedTriangles", [] { return RepeatTriangles(MakeBadSphere(30, 15, 15)); }, OnSurfaces,

@@ -396,6 +396,7 @@ FlipOptions MakeOptions(std::mt19937& random)
   options.Geometry = Geometries[random() % 3];
   options.Criterion = random() % 4 == 0 ? CriterionKind::OppositeAngles : CriterionKind::InCircle;
   options.FeatureAngle = random() % 2 == 0 ? 180.0 : 30.0;
+  options.MaximumDeviation = random() % 4 == 0 ? 0.05 : options.MaximumDeviation;
   options.NumberOfThreads = 1 + static_cast<int>(random() % 2);
   if (options.Geometry == GeometryKind::PlanarXY && options.Criterion == CriterionKind::InCircle)
   {

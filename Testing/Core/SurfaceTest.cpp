@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace delaunayflip
@@ -19,8 +21,11 @@ namespace
 class SurfaceReferee
 {
 public:
-  SurfaceReferee(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles)
-    : Mesh(mesh)
+  /// @param deviation FlipOptions::MaximumDeviation.
+  SurfaceReferee(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& triangles,
+    long double deviation = INFINITY)
+    : Mesh(mesh),
+      Deviation(deviation)
   {
     for (std::size_t corner = 0; corner < triangles.size(); ++corner)
     {
@@ -32,7 +37,8 @@ public:
   }
 
   /// Counts edges of exactly two consistently wound triangles whose opposite angles sum to more
-  /// than pi by a margin, and whose flip would neither fold the surface over nor repeat an edge.
+  /// than pi by a margin, and whose flip would neither fold the surface over, nor move it too far,
+  /// nor repeat an edge.
   std::int64_t CountMissedFlips() const
   {
     std::int64_t missed = 0;
@@ -46,6 +52,27 @@ public:
       }
     }
     return missed;
+  }
+
+  /// The distance between the segments p-q and a-b, which must be nearest to each other inside:
+  /// from the places s and t on them where the way between is normal to both.
+  long double FindDistance(const std::array<std::int32_t, 4>& quad) const
+  {
+    const LongVector a = this->Get(quad[0]), p = this->Get(quad[1]);
+    const LongVector u = Subtract(this->Get(quad[3]), a), v = Subtract(this->Get(quad[2]), p);
+    const LongVector w = Subtract(p, a);
+    const long double uu = Dot(u, u), uv = Dot(u, v), vv = Dot(v, v);
+    const long double wu = Dot(w, u), wv = Dot(w, v);
+    const long double determinant = uu * vv - uv * uv;
+    const long double s = (wu * vv - wv * uv) / determinant;
+    const long double t = (wu * uv - wv * uu) / determinant;
+    EXPECT_TRUE(s > 0 && s < 1 && t > 0 && t < 1) << double(s) << ' ' << double(t);
+    LongVector way = w;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      way[axis] += t * v[axis] - s * u[axis];
+    }
+    return std::sqrt(Dot(way, way));
   }
 
 private:
@@ -73,18 +100,22 @@ private:
     const LongVector lower = FindNormal(b, q, p);
     const LongVector area = { upper[0] + lower[0], upper[1] + lower[1], upper[2] + lower[2] };
     const long double small = Margin * Dot(area, area);
-    return Dot(FindNormal(a, p, b), area) > small && Dot(FindNormal(b, q, a), area) > small;
+    return Dot(FindNormal(a, p, b), area) > small && Dot(FindNormal(b, q, a), area) > small &&
+      this->FindDistance(quad) <= this->Deviation - Margin;
   }
 
   const OwnedMesh<double>& Mesh;
+  long double Deviation;
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> Opposites;
 };
 
 /// Everything that must hold after flips on any surface.
-FlipResult FlipSurface(const OwnedMesh<double>& mesh)
+FlipResult FlipSurface(const OwnedMesh<double>& mesh, double deviation = INFINITY)
 {
-  FlipResult result = FlipAndAudit(mesh.View(), OnSurface());
-  EXPECT_EQ(0, SurfaceReferee(mesh, result.Triangles).CountMissedFlips());
+  FlipOptions options = OnSurface();
+  options.MaximumDeviation = deviation;
+  FlipResult result = FlipAndAudit(mesh.View(), options);
+  EXPECT_EQ(0, SurfaceReferee(mesh, result.Triangles, deviation).CountMissedFlips());
   return result;
 }
 
@@ -146,6 +177,132 @@ TEST(Surface, FlipsThatFoldItOverAreBlocked)
   const OwnedMesh<double> opened = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, -3, 1 },
     { 2, 0, 1, 3, 1, 0 } };
   EXPECT_EQ(1, FlipSurface(opened).Report.TotalFlips);
+}
+
+/// A quad whose diagonals are apart by a quarter of `size`, first as wide angles.
+OwnedMesh<double> MakeBentQuad(double size)
+{
+  return { { 0, size, size / 4, -4 * size, 0, 0, 4 * size, 0, 0, 0, -size, size / 4 },
+    { 0, 1, 2, 3, 2, 1 } };
+}
+
+TEST(Surface, FlipsThatMoveItTooFarAreBlocked)
+{
+  for (const double size : { 1.0, 0x1p-300, 0x1p-900, 0x1p600 })
+  {
+    OwnedMesh<double> mesh = MakeBentQuad(size);
+    for (int turn = 0; turn < 2; ++turn)
+    {
+      EXPECT_EQ(1, FlipSurface(mesh, size / 4).Report.TotalFlips) << size;
+      const FlipReport report = FlipSurface(mesh, std::nextafter(size / 4, 0.0)).Report;
+      EXPECT_EQ(0, report.TotalFlips) << size;
+      EXPECT_EQ(0U, report.Iterations.size());
+      EXPECT_EQ(1, report.NonDelaunayAfter);
+      EXPECT_EQ(1, report.BlockedByDeviation);
+      EXPECT_EQ(0, report.BlockedByShape + report.BlockedByEdge);
+      EXPECT_EQ(0, FlipSurface(mesh, 0.0).Report.TotalFlips);
+      mesh.Triangles = { 3, 2, 1, 0, 1, 2 };
+    }
+  }
+  EXPECT_EQ(1, FlipSurface(MakeBentQuad(1.0), 1e299).Report.TotalFlips); // VTK's largest number
+}
+
+TEST(Surface, FlatQuadsFlipWithoutAnyDeviation)
+{
+  const OwnedMesh<double> flat =
+    Lift(MakeRandomBadMeshDouble(2000 / Reduction, 64), [](double, double) { return 2.0; });
+  const FlipReport report = FlipSurface(flat, 0.0).Report;
+  EXPECT_LT(0, report.TotalFlips);
+  EXPECT_EQ(0, report.NonDelaunayAfter);
+}
+
+/// In the plane nothing moves, even where points are a little off it.
+TEST(Surface, DeviationHasNoEffectInPlanes)
+{
+  const OwnedMesh<double> tilted = Lift(MakeRandomBadMeshDouble(2000 / Reduction, 65),
+    [](double x, double y) { return 0.3 * x + 0.7 * y; });
+  for (const GeometryKind geometry : { GeometryKind::Planar, GeometryKind::PlanarXY })
+  {
+    for (const CriterionKind criterion : { CriterionKind::InCircle, CriterionKind::OppositeAngles })
+    {
+      FlipOptions options;
+      options.Geometry = geometry;
+      options.Criterion = criterion;
+      const FlipResult free = Flip(tilted.View(), options);
+      options.MaximumDeviation = 0.0;
+      const FlipResult bound = Flip(tilted.View(), options);
+      EXPECT_EQ(free.Triangles, bound.Triangles);
+      EXPECT_EQ(0, bound.Report.BlockedByDeviation);
+    }
+  }
+}
+
+/// The quads {a, p, q, b} that flips of one iteration have changed from triangles apq and bqp.
+std::vector<std::array<std::int32_t, 4>> FindFlips(
+  const std::vector<std::int32_t>& before, const std::vector<std::int32_t>& after)
+{
+  using Ids = std::set<std::int32_t>;
+  const auto intersect = [](const Ids& one, const Ids& other)
+  {
+    std::vector<std::int32_t> both;
+    std::set_intersection(
+      one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(both));
+    return both;
+  };
+  std::map<Ids, std::vector<std::array<Ids, 2>>> sides; // by the four points
+  for (std::size_t i = 0; i < before.size(); i += 3)
+  {
+    const Ids old(&before[i], &before[i] + 3), made(&after[i], &after[i] + 3);
+    if (old != made)
+    {
+      Ids all = old;
+      all.insert(made.begin(), made.end());
+      sides[all].push_back({ old, made });
+    }
+  }
+  std::vector<std::array<std::int32_t, 4>> quads;
+  for (const auto& [ids, two] : sides)
+  {
+    EXPECT_EQ(2U, two.size());
+    const std::vector<std::int32_t> pq = intersect(two[0][0], two[1][0]);
+    const std::vector<std::int32_t> ab = intersect(two[0][1], two[1][1]);
+    quads.push_back({ ab.at(0), pq.at(0), pq.at(1), ab.at(1) });
+  }
+  return quads;
+}
+
+TEST(Surface, NoFlipMovesItByMoreThanTheDeviation)
+{
+  std::int64_t blocked = 0;
+  for (const double deviation : { 0.001, 0.01, 0.1 })
+  {
+    const OwnedMesh<double> mesh = MakeBadSphere(60, 30, 66);
+    const FlipResult result = FlipSurface(mesh, deviation);
+    EXPECT_EQ(result.Report.NonDelaunayAfter,
+      result.Report.BlockedByShape + result.Report.BlockedByDeviation +
+        result.Report.BlockedByEdge);
+    blocked += result.Report.BlockedByDeviation;
+
+    FlipOptions options = OnSurface();
+    options.MaximumDeviation = deviation;
+    FlipSession session(mesh.View(), OnTestBackend(options));
+    std::vector<std::int32_t> triangles = mesh.Triangles;
+    std::int64_t flips = 0;
+    for (bool goesOn = true; goesOn;)
+    {
+      goesOn = session.Advance(1);
+      const std::vector<std::int32_t> next = StoreTriangles(session);
+      for (const std::array<std::int32_t, 4>& quad : FindFlips(triangles, next))
+      {
+        ++flips;
+        EXPECT_LE(SurfaceReferee(mesh, next).FindDistance(quad), deviation * (1 + 1e-12L));
+      }
+      triangles = next;
+    }
+    EXPECT_EQ(result.Report.TotalFlips, flips);
+    EXPECT_EQ(result.Triangles, triangles);
+  }
+  EXPECT_LT(0, blocked);
 }
 
 TEST(Surface, MoebiusStripsStayOneSided)

@@ -79,16 +79,29 @@ TEST(Composite, BlockedEdgesAreSums)
   };
   const delaunayflip::OwnedMesh<double> folded = { { -4, 0, 0, 4, 0, 0, -3, 2, 0, 3, 3, 1 },
     { 2, 0, 1, 3, 1, 0 } };
-  WatchedFilter filter(
-    MakeBlocks({ ToPolyData(tetrahedron), ToPolyData(folded), ToPolyData(tetrahedron) }));
+  const delaunayflip::OwnedMesh<double> bent = { { 0, 1, 0.25, -4, 0, 0, 4, 0, 0, 0, -1, 0.25 },
+    { 0, 1, 2, 3, 2, 1 } };
+  WatchedFilter filter(MakeBlocks(
+    { ToPolyData(tetrahedron), ToPolyData(folded), ToPolyData(tetrahedron), ToPolyData(bent) }));
   filter->SetGeometryToSurface();
   filter->SetFeatureAngle(180.0);
+  filter->SetMaximumDeviation(0.2);
   filter.Run();
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 3);
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 4);
+  EXPECT_EQ(GetTotal(filter.GetBlock(3), "BlockedByDeviation"), 1.0);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByDeviation(), 1);
   EXPECT_EQ(GetTotal(filter.GetBlock(2), "BlockedByEdge"), 1.0);
   EXPECT_EQ(GetTotal(filter.GetBlock(1), "BlockedByShape"), 1.0);
   EXPECT_EQ(filter->GetNumberOfEdgesBlockedByEdge(), 2);
   EXPECT_EQ(filter->GetNumberOfEdgesBlockedByShape(), 1);
+  filter->SetMaximumDeviation(0.25);
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 3);
+  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByDeviation(), 0);
+  filter->SetMaximumDeviation(-1.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_OPTIONS);
+  EXPECT_NE(std::string(filter->GetErrorMessage()).find("deviation"), std::string::npos);
 }
 
 TEST(Composite, OneTableSumsBlocks)

@@ -265,6 +265,7 @@ FlipOptions DrawOptions(ByteSource& source)
 {
   constexpr double Tolerances[] = { -1.0, -1.0, 0.0, 1e-9, 0.1, 0.99 };
   constexpr double FeatureAngles[] = { 180.0, 180.0, 30.0, 0.0 };
+  constexpr double Deviations[] = { INFINITY, INFINITY, 0.0, 1e-9, 0.01, 0.3 };
   constexpr std::int64_t Limits[] = { -1, -1, -1, -1, -1, 0, 1, 3 };
   FlipOptions options;
   options.Backend = BackendKind::Threads;
@@ -273,6 +274,7 @@ FlipOptions DrawOptions(ByteSource& source)
   options.TieRule = source.Once(3) ? TieRuleKind::Canonical : TieRuleKind::Keep;
   options.Tolerance = Tolerances[source.Draw(6)];
   options.FeatureAngle = FeatureAngles[source.Draw(4)];
+  options.MaximumDeviation = Deviations[source.Draw(6)];
   options.MaximumIterations = Limits[source.Draw(8)];
   options.TrackQuality = source.Once(8);
   return options;
@@ -367,6 +369,7 @@ void Print(const EngineCase& drawn, std::ostream& stream)
          << "; OppositeAngles = " << (options.Criterion == CriterionKind::OppositeAngles)
          << "; Canonical = " << (options.TieRule == TieRuleKind::Canonical)
          << "; Tolerance = " << options.Tolerance << "; FeatureAngle = " << options.FeatureAngle
+         << "; MaximumDeviation = " << options.MaximumDeviation
          << "; MaximumIterations = " << options.MaximumIterations << ";\n";
 }
 

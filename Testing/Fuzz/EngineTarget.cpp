@@ -485,6 +485,7 @@ void ExpectSameWhenDoubled(const EngineCase& drawn, const FlipResult& result)
 {
   const double largest = drawn.HasFloats ? 1e38 : 8e307;
   EngineCase doubled = drawn;
+  doubled.Options.MaximumDeviation *= 2.0;
   for (double& coordinate : doubled.Points)
   {
     if (std::isfinite(coordinate) && std::abs(coordinate) > largest)
@@ -494,7 +495,7 @@ void ExpectSameWhenDoubled(const EngineCase& drawn, const FlipResult& result)
     coordinate *= 2.0;
   }
   const EngineInput input(doubled);
-  const std::optional<FlipResult> other = TryToFlip(input.View(), WithThreads(drawn.Options, 1));
+  const std::optional<FlipResult> other = TryToFlip(input.View(), WithThreads(doubled.Options, 1));
   ASSERT_TRUE(other.has_value());
   EXPECT_EQ(result.Triangles, other->Triangles);
   EXPECT_EQ(result.Report.NonDelaunayAfter, other->Report.NonDelaunayAfter);

@@ -91,6 +91,9 @@ const std::vector<Difference>& ListDifferences()
     { "Tolerance", [](vtkDelaunayFlip* f) { f->SetTolerance(0.25 + 0.5 * f->GetTolerance()); } },
     { "FeatureAngle",
       [](vtkDelaunayFlip* f) { f->SetFeatureAngle(1 + f->GetFeatureAngle() / 2); } },
+    { "MaximumDeviation",
+      [](vtkDelaunayFlip* f)
+      { f->SetMaximumDeviation(f->GetMaximumDeviation() == 0.0 ? 1.0 : 0.0); } },
     { "MaximumIterations",
       [](vtkDelaunayFlip* f) { f->SetMaximumIterations(f->GetMaximumIterations() + 1); } },
     { "TrackQuality", [](vtkDelaunayFlip* f) { f->SetTrackQuality(!f->GetTrackQuality()); } },
@@ -206,6 +209,7 @@ vtkSmartPointer<RankFilter> MakeFilter(const RanksCase& drawn, int rank)
   filter->SetTieRule(static_cast<int>(options.TieRule));
   filter->SetTolerance(options.Tolerance);
   filter->SetFeatureAngle(options.FeatureAngle);
+  filter->SetMaximumDeviation(options.MaximumDeviation);
   filter->SetMaximumIterations(static_cast<int>(options.MaximumIterations));
   filter->SetTrackQuality(options.TrackQuality);
   filter->SetBackendToThreads();

@@ -20,7 +20,7 @@ import delaunayflip
 NAMES = ("points", "triangles", "constraints", "insert_constraints", "regions", "frozen")
 ROWS = {"points": "point", "triangles": "triangle", "constraints": "constraint"}
 NUMBERS = ("maximum_iterations", "threads", "device", "pieces", "tolerance", "feature_angle",
-           "track_quality", "geometry", "criterion", "tie_rule", "devices")
+           "maximum_deviation", "track_quality", "geometry", "criterion", "tie_rule", "devices")
 
 
 def make_mesh(draw):
@@ -255,7 +255,8 @@ def try_number(draw, is_printed):
         delaunayflip.flip(arrays["points"], arrays["triangles"],
                           **{"backend": "threads", "threads": 1, name: value})
     except (ValueError, TypeError) as error:
-        words = {"device": "GPU", "devices": "GPUs", "tie_rule": "tie rule", "feature_angle": "feature angle"}
+        words = {"device": "GPU", "devices": "GPUs", "tie_rule": "tie rule", "feature_angle": "feature angle",
+                 "maximum_deviation": "maximum deviation"}
         require(name in str(error) or words.get(name, name) in str(error),
                 f"an error names {name}", type(error), error)
 

@@ -3,6 +3,7 @@
 #include "GpuTestSupport.h"
 #include "RandomInputs.h"
 
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -61,6 +62,7 @@ struct AgreementCase
   CriterionKind Criterion = CriterionKind::InCircle;
   TieRuleKind TieRule = TieRuleKind::Keep;
   double FeatureAngle = 180.0;
+  double MaximumDeviation = INFINITY;
 };
 
 void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
@@ -86,6 +88,7 @@ const AgreementCase Cases[] = {
   { "Chain", [] { return MakeWorstCaseMesh(60); } },
   { "Sphere", MakeSphere },
   { "SphereWithFeatures", MakeSphere, Auto, InCircleOnly, TieRuleKind::Keep, 30.0 },
+  { "SphereWithDeviation", MakeSphere, Auto, InCircleOnly, TieRuleKind::Keep, 180.0, 0.001 },
   { "GentleHills", [] { return MakeHills(0.5); } },
   { "SteepHills", [] { return MakeHills(5.0); } },
   { "NearlyHills", MakeNearlyHills },
@@ -104,6 +107,7 @@ protected:
     options.Criterion = GetParam().Criterion;
     options.TieRule = GetParam().TieRule;
     options.FeatureAngle = GetParam().FeatureAngle;
+    options.MaximumDeviation = GetParam().MaximumDeviation;
     return options;
   }
 };

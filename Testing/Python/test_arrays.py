@@ -207,6 +207,15 @@ class Errors(unittest.TestCase):
                                    maximum_iterations=2**63 - 1, track_quality=numpy.bool_(True))
         self.assertEqual(result.report.total_flips, 1)
 
+    def test_maximum_deviation(self):
+        """The diagonals of the quad are 0.25 apart."""
+        points = [[0, 1, 0.25], [-4, 0, 0], [4, 0, 0], [0, -1, 0.25]]
+        for bound, flips in ((numpy.inf, 1), (0.25, 1), (0.24, 0), (0, 0)):
+            report = delaunayflip.flip(points, [[0, 1, 2], [3, 2, 1]], geometry="surface",
+                                       maximum_deviation=bound).report
+            self.assertEqual((report.total_flips, report.blocked_by_deviation), (flips, 1 - flips))
+            self.assertEqual(report.non_delaunay_after, 1 - flips)
+
     def test_refusals(self):
         """Each is refused before it reaches the engine, by a message that names the argument."""
         def mask(values, value):
@@ -219,6 +228,7 @@ class Errors(unittest.TestCase):
             "pieces": {ValueError: (256,), TypeError: (numpy.float64(2),)},
             "tolerance": {ValueError: (numpy.nan, 10**400), TypeError: ("0.1", [0.1])},
             "feature_angle": {ValueError: (181, numpy.inf, numpy.nan)},
+            "maximum_deviation": {ValueError: (-1, numpy.nan), TypeError: ("1%", None)},
             "track_quality": {ValueError: (2,), TypeError: ("no",)},
             "geometry": {ValueError: (3, "round")},
             "backend": {ValueError: (numpy.array(["auto", "cuda"]),)},
@@ -246,7 +256,7 @@ class Errors(unittest.TestCase):
                 arguments = {"points": POINTS, "triangles": TRIANGLES, "constraints": [[0, 2]],
                              name: value}
                 with (self.subTest(name, value=value),
-                      self.assertRaisesRegex(error, name.rstrip("s").replace("_a", "[_ ]a"))):
+                      self.assertRaisesRegex(error, name.rstrip("s").replace("_a", "[_ ]a").replace("_d", "[_ ]d"))):
                     delaunayflip.flip(**arguments)
         self.assertEqual(delaunayflip.flip(numpy.ma.array(POINTS), TRIANGLES).report.total_flips, 1)
         with self.assertRaises(delaunayflip.InvalidMesh) as caught:

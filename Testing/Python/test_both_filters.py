@@ -223,6 +223,16 @@ class Same(unittest.TestCase):
         for name in ("Tree", "Height", "Number", "Nothing"):
             self.expect_same(mesh, lambda flip, name=name: flip.SetRegionArray(name))
 
+    def test_maximum_deviation(self):
+        def prepare(flip):
+            flip.SetGeometryToSurface()
+            flip.SetFeatureAngle(180)
+            flip.SetMaximumDeviation(0.05)
+
+        told = self.expect_same(make_polygon_mesh(), prepare)
+        self.assertGreater(told["answers"]["GetNumberOfEdgesBlockedByDeviation"], 0)
+        self.assertGreater(told["answers"]["GetTotalFlips"], 0)
+
     def test_failures(self):
         bad = make_rhombus()
         bad.SetPolys(make_cells([(0, 1, 2), (0, 2, 44)]))
@@ -233,6 +243,7 @@ class Same(unittest.TestCase):
         for mesh in (bad, quad, line):
             self.assertEqual(len(self.expect_same(mesh)["errors"]), 1)
         self.expect_same(make_rhombus(), lambda flip: flip.SetTolerance(3))
+        self.expect_same(make_rhombus(), lambda flip: flip.SetMaximumDeviation(-1))
         self.expect_same(make_rhombus(), lambda flip: flip.SetBackendToCUDA())
         self.expect_same(make_rhombus(), lambda flip: flip.SetConstraintsData(bad))
         blocks = vtkMultiBlockDataSet()

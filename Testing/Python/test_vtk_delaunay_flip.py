@@ -393,9 +393,10 @@ def list_properties():
 
 
 def change_property(flip, name):
-    """Gives a property another value; numbers become larger by 1, which is always valid."""
+    """Gives a property another value; numbers become larger by 1, or 1 where that is the same."""
     value = getattr(flip, "Get" + name)()
     other = not value if isinstance(value, bool) else "x" if isinstance(value, str) else value + 1
+    other = 1 if other == value else other
     getattr(flip, "Set" + name)(other)
     return getattr(flip, "Get" + name)() != value
 
