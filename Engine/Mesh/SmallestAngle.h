@@ -92,25 +92,31 @@ struct KeptEdgeSurvey
     {
       return;
     }
+    // Most edges are decided by arithmetic that is not exact.
+    constexpr double SquaredCotangentOfSlivers = 130.0; // a little more than five degrees
+    const double atA = this->Measure(TriangleOf(corners.A));
+    const double atB = this->Measure(TriangleOf(corners.B));
+    const double atWorst = atA > atB ? atA : atB;
+    if (!(atWorst > SquaredCotangentOfSlivers && atA > -INFINITY && atB > -INFINITY))
+    {
+      return;
+    }
     const Quad quad = this->Mesh.GetQuad(corners);
     const TriangleRecord& other = this->Mesh.Triangles[TriangleOf(corners.B)];
     const bool isWound = GetAt(other.Vertices, NextSlot(SlotOf(corners.B))) == quad.Q;
     const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
       this->Get(quad.B) };
-    const double atA = this->Measure(TriangleOf(corners.A));
-    const double atB = this->Measure(TriangleOf(corners.B));
-    const bool isFinite = atA > -INFINITY && atB > -INFINITY;
-    if (isWound && isFinite && SumWide(WideLegs(points)).ExceedsPi({}))
+    if (isWound && SumWide(WideLegs(points)).ExceedsPi({}))
     {
-      sum += { atA > atB ? atA : atB };
+      sum += { atWorst };
     }
   }
 
   DELAUNAYFLIP_HOST_DEVICE double Measure(std::int64_t t) const
   {
     const TriangleRecord& triangle = this->Mesh.Triangles[t];
-    return LargestSquaredCotangentWide(this->Get(triangle.Vertices[0]),
-      this->Get(triangle.Vertices[1]), this->Get(triangle.Vertices[2]));
+    return MeasureSquaredCotangent(this->Get(triangle.Vertices[0]), this->Get(triangle.Vertices[1]),
+      this->Get(triangle.Vertices[2]), this->Points.Components == 2, CoordinateRange::Mixed);
   }
 
 private:

@@ -73,10 +73,8 @@ try
   const std::int64_t limit = iterations < 0 ? NoLimit : work.CountIterations() + iterations;
   work.Resume();
   work.InsertIfDone();
-  const EdgeCounts& edges = report.Edges;
-  const bool mayKeepSliver = edges.Feature + edges.Constraint > 0;
-  // Triangles of points may be removed.
-  work.IsMeasured = work.IsMeasured && !work.Cloud && !mayKeepSliver;
+  work.IsMeasured = work.IsMeasured && !work.Cloud; // triangles may be removed
+  work.AreSliversKnown = false;
   while (work.IsRunning() && work.CountIterations() < limit)
   {
     // At least one iteration; with observers no more than they can wait for.

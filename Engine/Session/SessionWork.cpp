@@ -7,6 +7,7 @@
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -385,6 +386,14 @@ void FlipSession::Work::MeasureEnd()
       this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().CountBlockedByDeviation(); });
     this->Report.BlockedByShape = this->Found.BlockedByShape - this->Report.BlockedByDeviation;
   }
+  if (!this->AreSliversKnown)
+  {
+    const EdgeCounts& edges = this->Report.Edges;
+    this->Report.KeepsSliver = !this->IsRunning() && !this->Cloud &&
+      edges.Feature + edges.Constraint > 0 &&
+      this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
+    this->AreSliversKnown = true;
+  }
   if (this->IsMeasured)
   {
     return;
@@ -406,10 +415,6 @@ void FlipSession::Work::MeasureEnd()
       this->Report.Defects.push_back(turned);
     }
   }
-  const EdgeCounts& edges = this->Report.Edges;
-  this->Report.KeepsSliver = !this->IsRunning() && !this->Cloud &&
-    edges.Feature + edges.Constraint > 0 &&
-    this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
 }
 
 /// Those of the input, without what flips have caused.
