@@ -110,9 +110,10 @@ __device__ void DetectAndList(
 }
 
 /// Chooses among the bad edges, all of which are in the lists of the blocks; winners claim their
-/// new edges.
+/// new edges. This and the other functions of lists with a guard are not inlined, so that
+/// iterations without one keep their registers.
 template <typename Rule>
-__device__ void ClaimListed(const LoopView<Rule>& loop)
+__device__ __noinline__ void ClaimListed(const LoopView<Rule>& loop)
 {
   for (int i = threadIdx.x; i < BadList::GetSize(); i += LoopThreads)
   {
@@ -183,6 +184,19 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
     }
   }
   AddFlips(loop, team, counts);
+}
+
+template <typename Rule>
+__device__ __noinline__ void FlipListedWithGuard(const LoopView<Rule>& loop, Team team)
+{
+  FlipListed<true>(loop, team);
+}
+
+template <typename Rule>
+__device__ __noinline__ void DetectAndListWithGuard(
+  const LoopView<Rule>& loop, BlockWorklist worklist, Team team)
+{
+  DetectAndList<true>(loop, worklist, team);
 }
 
 //------------------------------------------------------------------------------
@@ -310,7 +324,7 @@ private:
     {
       ClaimListed(this->Loop);
       this->Members.Wait();
-      FlipListed<true>(this->Loop, this->Members);
+      FlipListedWithGuard(this->Loop, this->Members);
     }
     else
     {
@@ -326,7 +340,7 @@ private:
     if (list)
     {
       const BlockWorklist worklist = this->Loop.GetSpreadWorklist();
-      this->Loop.Guard.Active ? DetectAndList<true>(this->Loop, worklist, this->Members)
+      this->Loop.Guard.Active ? DetectAndListWithGuard(this->Loop, worklist, this->Members)
                               : DetectAndList<false>(this->Loop, worklist, this->Members);
       this->Members.Wait(iteration);
       this->IsListed = !this->Members.IsWarned();
