@@ -53,7 +53,8 @@ Done. Look at
   $output/after.vtp          the mesh (before.vtp is the input; ParaView opens both)
   $output/report.json        the run in numbers
   $output/iterations.csv     the iterations in numbers
-Try your own: $build/bin/delaunay-flip INPUT OUTPUT
-In Python (PYTHONPATH=$build/lib/python3/dist-packages):
-from delaunayflip import vtkDelaunayFlip
+Your own mesh:
+  $build/bin/delaunay-flip INPUT OUTPUT
+In Python, from delaunayflip import vtkDelaunayFlip, after
+  export PYTHONPATH=$build/lib/python3/dist-packages
 END
