@@ -82,8 +82,8 @@ public:
     this->Divide(std::clamp<std::int64_t>(units / WantedTasks, 1, UnitsPerGroup));
     // A unit takes the time of many edges, and each flip has made four candidates.
     const std::int64_t edges = units * UnitSize / 16 + 4 * this->Listed;
-    const StepCounts found = this->ForTasks(
-      backend, edges, [&](Task& task) { return this->DetectIn(task, steps...); });
+    const StepCounts found =
+      this->ForTasks(backend, edges, [&](Task& task) { return this->DetectIn(task, steps...); });
     this->Listed = found.Bad;
     return found;
   }
