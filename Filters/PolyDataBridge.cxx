@@ -96,6 +96,24 @@ struct VisitTuples
   }
 };
 
+/// Hints to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated and
+/// cleared on first use: with it for the connectivity alone, an update of 5 M points on a GPU takes
+/// 56 ms instead of 63.
+template <typename Value>
+void UseHugePages([[maybe_unused]] Value* values, [[maybe_unused]] vtkIdType count)
+{
+#if defined(__linux__)
+  constexpr std::uintptr_t HugePage = std::uintptr_t(2) << 20;
+  const auto begin = reinterpret_cast<std::uintptr_t>(values);
+  const std::uintptr_t first = (begin + HugePage - 1) / HugePage * HugePage;
+  const std::uintptr_t end = begin + count * sizeof(Value);
+  if (first + HugePage <= end)
+  {
+    madvise(reinterpret_cast<void*>(first), (end - first) / HugePage * HugePage, MADV_HUGEPAGE);
+  }
+#endif
+}
+
 /// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
 /// values of ArrayT. Offsets are not shared with the input, whose cells may grow in place later:
 /// the output would then have more offsets than connectivity.
@@ -105,6 +123,9 @@ vtkSmartPointer<vtkCellArray> FillTriangles(const FlipSession& session, vtkIdTyp
   using Value = typename ArrayT::ValueType;
   vtkNew<ArrayT> offsets, connectivity;
   offsets->SetNumberOfTuples(count + 1);
+  connectivity->SetNumberOfTuples(3 * count);
+  UseHugePages(offsets->GetPointer(0), count + 1);
+  UseHugePages(connectivity->GetPointer(0), 3 * count);
   Value* values = offsets->GetPointer(0);
   vtkSMPTools::For(0, count + 1,
     [values](vtkIdType begin, vtkIdType end)
@@ -114,19 +135,6 @@ vtkSmartPointer<vtkCellArray> FillTriangles(const FlipSession& session, vtkIdTyp
         values[i] = static_cast<Value>(3 * i);
       }
     });
-  connectivity->SetNumberOfTuples(3 * count);
-#if defined(__linux__)
-  // Hints to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated and
-  // cleared on first use: an update of 5 M points on a GPU takes 56 ms instead of 63.
-  constexpr std::uintptr_t HugePage = std::uintptr_t(2) << 20;
-  const auto begin = reinterpret_cast<std::uintptr_t>(connectivity->GetPointer(0));
-  const std::uintptr_t first = (begin + HugePage - 1) / HugePage * HugePage;
-  const std::uintptr_t end = begin + 3 * count * sizeof(Value);
-  if (first + HugePage <= end)
-  {
-    madvise(reinterpret_cast<void*>(first), (end - first) / HugePage * HugePage, MADV_HUGEPAGE);
-  }
-#endif
   session.StoreTriangles(
     MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
   auto cells = vtkSmartPointer<vtkCellArray>::New();

@@ -78,9 +78,14 @@ public:
     // So few units that a mesh of 50,000 points has tasks for many threads.
     constexpr std::int64_t WantedTasks = 64;
     this->Gather();
-    this->Divide(std::clamp<std::int64_t>(
-      static_cast<std::int64_t>(this->Units.size()) / WantedTasks, 1, UnitsPerGroup));
-    return this->ForTasks(backend, [&](Task& task) { return this->DetectIn(task, steps...); });
+    const auto units = static_cast<std::int64_t>(this->Units.size());
+    this->Divide(std::clamp<std::int64_t>(units / WantedTasks, 1, UnitsPerGroup));
+    // A unit takes the time of many edges, and each flip has made four candidates.
+    const std::int64_t edges = units * UnitSize / 16 + 4 * this->Listed;
+    const StepCounts found =
+      this->ForTasks(backend, edges, [&](Task& task) { return this->DetectIn(task, steps...); });
+    this->Listed = found.Bad;
+    return found;
   }
 
   /// The same on the calling thread, as all functions without a backend.
@@ -96,7 +101,7 @@ public:
   template <typename Step>
   void Filter(const ThreadBackend& backend, const Step& step)
   {
-    this->ForTasks(backend,
+    this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
         EdgeId* edges = task.Edges.data();
@@ -117,7 +122,7 @@ public:
   template <typename Step>
   StepCounts Run(const ThreadBackend& backend, const Step& step)
   {
-    return this->ForTasks(backend,
+    return this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
         StepCounts counts;
@@ -211,10 +216,21 @@ private:
     }
   }
 
-  /// Sum of work(task), called on threads.
+  /// Sum of work(task), called on threads unless there are so few edges that the others would
+  /// start too late to help.
   template <typename Work>
-  StepCounts ForTasks(const ThreadBackend& backend, const Work& work)
+  StepCounts ForTasks(const ThreadBackend& backend, std::int64_t edges, const Work& work)
   {
+    constexpr std::int64_t FewestShared = 2048;
+    if (edges < FewestShared)
+    {
+      StepCounts counts;
+      for (Task& task : this->Tasks)
+      {
+        counts += work(task);
+      }
+      return counts;
+    }
     return backend.SumRanges<StepCounts>(
       static_cast<std::int64_t>(this->Tasks.size()),
       [&](std::int64_t task, std::int64_t) { return work(this->Tasks[task]); }, 1);
@@ -376,6 +392,7 @@ private:
   std::vector<std::uint8_t> Flags;
   std::vector<std::int64_t> Units; ///< The flagged units.
   std::vector<Task> Tasks;
+  std::int64_t Listed = 0; ///< Bad edges that the last detection on threads has listed.
 };
 
 }

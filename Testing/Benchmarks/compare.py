@@ -91,7 +91,8 @@ class Ours:
         self.result, self.filter = triangles.copy(), None
 
     def choose(self, threads):
-        return dict(backend="cuda") if threads == "cuda" else dict(backend="threads", threads=threads)
+        backend = "cuda" if threads == "cuda" else "threads"
+        return {"backend": backend, "threads": 0 if threads == "cuda" else threads}
 
     def arrays(self, threads):
         import ctypes

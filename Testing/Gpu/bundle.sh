@@ -72,7 +72,7 @@ fill()
     strip -o "$folder/libs/$(basename "$library")" "$(readlink -f "$library")"
   done
   cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" \
-    "$here/../Python/lattice.py" "$root/LICENSE" "$folder/"
+    "$here/../Python/lattice.py" "$here/../Benchmarks/compare.py" "$root/LICENSE" "$folder/"
   cp -r "$root/Python/delaunayflip" "$folder/"
   cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
   if [ -d "$build/meshes" ]; then
