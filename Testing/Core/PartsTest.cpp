@@ -50,7 +50,7 @@ FlipOptions WithFeatures() { return OnSurfaceOfRanks(20.0); }
 FlipOptions WithDeviation()
 {
   FlipOptions options = OnSurfaceOfRanks();
-  options.MaximumDeviation = 0.01;
+  options.MaximumDeviation = 0.002;
   return options;
 }
 
