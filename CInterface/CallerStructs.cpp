@@ -5,8 +5,6 @@
 #include "CudaDevice.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -19,21 +17,6 @@ static_assert(static_cast<int>(StopReasonKind::Aborted) == DELAUNAYFLIP_ABORTED,
 
 namespace
 {
-
-/// Completes the caller's struct: a program compiled with an older header has fewer members; the
-/// others keep their defaults.
-template <typename Struct>
-Struct Complete(const Struct* given, void (*initialize)(Struct*))
-{
-  Require(given, "a struct is null");
-  Require(given->size >= static_cast<std::int64_t>(sizeof(given->size)),
-    "the size of a struct is not set: call its _init function first");
-  Struct complete;
-  initialize(&complete);
-  std::memcpy(&complete, given, std::min(sizeof(Struct), static_cast<std::size_t>(given->size)));
-  complete.size = sizeof(Struct);
-  return complete;
-}
 
 template <typename Enumeration>
 Enumeration ToEnumeration(std::int32_t value, Enumeration last, const std::string& name)
@@ -84,11 +67,6 @@ TriangleArray ToTriangles(const delaunayflip_mesh& c)
 
 }
 
-delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given)
-{
-  return Complete(given, delaunayflip_mesh_init);
-}
-
 delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
 {
   const delaunayflip_polygons c = Complete(given, delaunayflip_polygons_init);
@@ -108,7 +86,7 @@ bool IsOnDevice(std::int32_t memory)
 
 TriangleMesh ToMesh(const delaunayflip_mesh* given)
 {
-  const delaunayflip_mesh c = CompleteMesh(given);
+  const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
   Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
   TriangleMesh mesh;
   static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
@@ -116,11 +94,6 @@ TriangleMesh ToMesh(const delaunayflip_mesh* given)
   mesh.Points = ToPoints<PointArray>(c);
   mesh.Triangles = ToTriangles(c);
   return mesh;
-}
-
-delaunayflip_points CompletePoints(const delaunayflip_points* given)
-{
-  return Complete(given, delaunayflip_points_init);
 }
 
 PointInput ToPointInput(const delaunayflip_points& c)

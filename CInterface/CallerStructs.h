@@ -7,7 +7,10 @@
 
 #include "DelaunayFlip.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -43,17 +46,26 @@ Struct MakeEmpty()
   return values;
 }
 
-/// The mesh with all members that this library knows.
-delaunayflip_mesh CompleteMesh(const delaunayflip_mesh* given);
+/// Completes the caller's struct: a program compiled with an older header has fewer members; the
+/// others keep their defaults.
+template <typename Struct>
+Struct Complete(const Struct* given, void (*initialize)(Struct*))
+{
+  Require(given, "a struct is null");
+  Require(given->size >= static_cast<std::int64_t>(sizeof(given->size)),
+    "the size of a struct is not set: call its _init function first");
+  Struct complete;
+  initialize(&complete);
+  std::memcpy(&complete, given, std::min(sizeof(Struct), static_cast<std::size_t>(given->size)));
+  complete.size = sizeof(Struct);
+  return complete;
+}
 
 /// The polygons with all members that this library knows.
 delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
 
 /// Views of the arrays of a mesh in the host's memory.
 TriangleMesh ToMesh(const delaunayflip_mesh* given);
-
-/// The points with all members that this library knows.
-delaunayflip_points CompletePoints(const delaunayflip_points* given);
 
 /// Views of the points and segments to triangulate.
 PointInput ToPointInput(const delaunayflip_points& points);

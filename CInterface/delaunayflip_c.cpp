@@ -10,8 +10,6 @@
 #include "TriangleAngles.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstring>
 #include <new>
 #include <optional>
 #include <string>
@@ -281,8 +279,8 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(
-          CompleteMesh(mesh), ToOptions(options), Observers(callbacks).Progress);
+        *session = new delaunayflip_session(Complete(mesh, delaunayflip_mesh_init),
+          ToOptions(options), Observers(callbacks).Progress);
       });
   }
 
@@ -294,8 +292,8 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(
-          CompletePoints(points), ToOptions(options), Observers(callbacks).Progress);
+        *session = new delaunayflip_session(Complete(points, delaunayflip_points_init),
+          ToOptions(options), Observers(callbacks).Progress);
       });
   }
 
@@ -455,7 +453,7 @@ extern "C"
     return Try(
       [=]()
       {
-        const delaunayflip_mesh c = CompleteMesh(mesh);
+        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
         if (report)
         {
           RequireReport(report);

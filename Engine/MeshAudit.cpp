@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -334,22 +335,14 @@ std::int64_t EulerCharacteristic(const TriangleArray& triangles)
 
 std::int64_t CountDuplicateEdgesGained(const TriangleArray& before, const TriangleArray& after)
 {
-  using Valence = std::pair<VertexPair, std::int64_t>;
-  std::vector<Valence> valencesBefore;
+  std::map<VertexPair, std::int64_t> valences;
   ForEachEdge(SortSides(before),
     [&](const Side* sides, std::int64_t incident)
-    { valencesBefore.emplace_back(sides->Ends, incident); });
-
+    { valences.emplace_hint(valences.end(), sides->Ends, incident); });
   std::int64_t gained = 0;
-  auto found = valencesBefore.begin();
   ForEachEdge(SortSides(after),
     [&](const Side* sides, std::int64_t incident)
-    {
-      const auto isBefore = [](const Valence& a, const VertexPair& b) { return a.first < b; };
-      found = std::lower_bound(found, valencesBefore.end(), sides->Ends, isBefore);
-      const bool isKnown = found != valencesBefore.end() && found->first == sides->Ends;
-      gained += incident >= 3 && incident > (isKnown ? found->second : 0);
-    });
+    { gained += incident >= 3 && incident > valences[sides->Ends]; });
   return gained;
 }
 

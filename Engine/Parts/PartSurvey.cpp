@@ -323,39 +323,40 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
   whole.StarsAreSimple = SumOverRanks(group, std::int64_t(areApart ? 0 : 1)) == 0;
 }
 
+Array<std::uint64_t> SumFans(
+  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used)
+{
+  Array<std::uint64_t> fans = threads.MakeArray<std::uint64_t>(mesh.Points.Count);
+  threads.ForEach(mesh.Points.Count, [&](std::int64_t i) { fans[i] = 0; });
+  threads.ForEach(mesh.Triangles.Count,
+    [&](std::int64_t t)
+    {
+      std::int64_t ids[3];
+      std::uint64_t bits[3];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        ids[slot] = mesh.Triangles.Get(t, slot);
+        bits[slot] = ScatterBits(ids[slot]);
+      }
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        // Around a closed fan every neighbour is the next one once, and once the previous one.
+        __atomic_fetch_add(
+          &fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
+        AtomicStore<unsigned char>(&used[ids[slot]], 1);
+      }
+    });
+  return fans;
+}
+
 void SurveyStars(const TriangleMesh& mesh, const ThreadBackend& threads, PartSurvey& survey)
 {
   PointKeys keys; // none is shared
   keys.Closed.resize(mesh.Points.Count);
   {
-    Array<std::uint64_t> fans = threads.MakeArray<std::uint64_t>(mesh.Points.Count);
-    threads.ForEach(mesh.Points.Count, [&](std::int64_t i) { fans[i] = 0; });
-    threads.ForEach(mesh.Triangles.Count,
-      [&](std::int64_t t)
-      {
-        std::int64_t ids[3];
-        std::uint64_t bits[3];
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          ids[slot] = mesh.Triangles.Get(t, slot);
-          bits[slot] = ScatterBits(ids[slot]);
-        }
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          // Around a closed fan every neighbour is the next one once, and once the previous one.
-          __atomic_fetch_add(
-            &fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
-          AtomicStore<unsigned char>(&keys.Closed[ids[slot]], 1);
-        }
-      });
+    const Array<std::uint64_t> fans = SumFans(mesh, threads, keys.Closed.data());
     threads.ForEach(mesh.Points.Count,
-      [&](std::int64_t i)
-      {
-        if (fans[i] != 0)
-        {
-          keys.Closed[i] = 0;
-        }
-      });
+      [&](std::int64_t i) { keys.Closed[i] = fans[i] == 0 ? keys.Closed[i] : 0; });
   }
   keys.Shared.resize(mesh.Points.Count);
   keys.Keys.resize(mesh.Points.Count);

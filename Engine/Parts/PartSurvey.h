@@ -44,6 +44,11 @@ struct PointKeys
 /// the other one's rank.
 PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
 
+/// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none.
+/// @param used one flag per point; set to 1 where a triangle has it.
+Array<std::uint64_t> SumFans(
+  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used);
+
 /// What is known of the whole mesh; the same on all ranks.
 struct PartSurvey : MeshSurvey
 {

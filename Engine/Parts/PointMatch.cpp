@@ -71,7 +71,6 @@ public:
   PointMatcher(const MeshPiece& piece, PieceGroup& group)
     : Mesh(piece.Mesh),
       Group(group),
-      Fans(Mesh.Points.Count, 0),
       Ends(Mesh.Points.Count, 0)
   {
     // Numbers are used only if every rank that has points gives them.
@@ -79,20 +78,7 @@ public:
     const bool haveNumbers = SumOverRanks(group, std::int64_t(lacksThem ? 1 : 0)) == 0;
     this->Numbers = haveNumbers ? piece.PointNumbers : nullptr;
     this->Keys.Used.resize(this->Mesh.Points.Count);
-    for (std::int64_t t = 0; t < this->Mesh.Triangles.Count; ++t)
-    {
-      const TriangleArray& triangles = this->Mesh.Triangles;
-      const std::int64_t ids[3] = { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) };
-      const std::uint64_t bits[3] = { ScatterBits(ids[0]), ScatterBits(ids[1]),
-        ScatterBits(ids[2]) };
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        this->Keys.Used[ids[slot]] = 1;
-        // In a closed fan every neighbour follows this corner once and precedes it once: the sum is
-        // 0.
-        this->Fans[ids[slot]] += bits[(slot + 1) % 3] - bits[(slot + 2) % 3];
-      }
-    }
+    this->Fans = SumFans(this->Mesh, this->Threads, this->Keys.Used.data());
     for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
     {
       this->Ends[this->Mesh.ConstraintEdges[i]] = 1;
@@ -277,7 +263,8 @@ private:
   const TriangleMesh& Mesh;
   PieceGroup& Group;
   const std::int64_t* Numbers = nullptr; ///< Of the points, or null.
-  HostVector<std::uint64_t> Fans;
+  const ThreadBackend Threads{ 1 }; ///< Whose memory Fans has.
+  Array<std::uint64_t> Fans; ///< SumFans.
   std::vector<unsigned char> Ends; ///< Of constraints.
   PointKeys Keys;
 };

@@ -321,11 +321,6 @@ private:
       ++result.HullEdges;
       e = this->Next[e ^ 1];
     } while (e != whole.First);
-    std::vector<std::uint32_t> rank(this->Order.size());
-    for (std::size_t i = 0; i < this->Order.size(); ++i)
-    {
-      rank[this->Order[i]] = static_cast<std::uint32_t>(i);
-    }
     for (Edge first = 0; first < this->Next.size(); ++first)
     {
       if (!isUsed[first / 2] || isOutside[first] || cornerOf[first] != NoCorner)
@@ -335,9 +330,9 @@ private:
       const Edge second = this->NextLeft(first), third = this->NextLeft(second);
       const auto number = static_cast<TriangleId>(result.Triangles.size());
       TriangleRecord triangle{};
-      triangle.Vertices[0] = rank[this->Origin[first]];
-      triangle.Vertices[1] = rank[this->Origin[second]];
-      triangle.Vertices[2] = rank[this->Origin[third]];
+      triangle.Vertices[0] = this->Origin[first];
+      triangle.Vertices[1] = this->Origin[second];
+      triangle.Vertices[2] = this->Origin[third];
       cornerOf[first] = MakeCorner(number, 2);
       cornerOf[second] = MakeCorner(number, 0);
       cornerOf[third] = MakeCorner(number, 1);
@@ -351,7 +346,6 @@ private:
         triangle.HalfEdges[SlotOf(cornerOf[half])] = cornerOf[half ^ 1];
       }
     }
-    result.Order = std::move(this->Order);
     return result;
   }
 

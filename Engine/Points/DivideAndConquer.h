@@ -24,8 +24,8 @@ using TaskRunner =
 
 struct DividedPoints
 {
-  std::vector<std::uint32_t> Order; ///< The numbers of the places, by which vertices are named.
-  std::vector<TriangleRecord> Triangles; ///< HalfEdges hold the other corners, or NoCorner.
+  /// Vertices are numbers of places; HalfEdges hold the other corners, or NoCorner.
+  std::vector<TriangleRecord> Triangles;
   std::int64_t HullEdges = 0;
 };
 

@@ -106,27 +106,15 @@ DELAUNAYFLIP_HOST_DEVICE Gap MeasureGap(const ChainView<Real>& chains, std::int6
   // How many of the lower chain come before a place of the upper one, and the reverse.
   const auto countLower = [&](std::uint32_t place)
   {
-    std::uint32_t first = lower;
-    for (std::uint32_t left = upper - lower; left > 0;)
-    {
-      const std::uint32_t half = left / 2;
-      const bool isBefore = chains.IsBefore(first + half, place);
-      first = isBefore ? first + half + 1 : first;
-      left = isBefore ? left - half - 1 : half;
-    }
-    return first - lower;
+    return FindEnd(
+             lower, upper, [&](std::uint32_t other) { return chains.IsBefore(other, place); }) -
+      lower;
   };
   const auto countUpper = [&](std::uint32_t place)
   {
-    std::uint32_t first = upper;
-    for (std::uint32_t left = end - upper; left > 0;)
-    {
-      const std::uint32_t half = left / 2;
-      const bool isBefore = !chains.IsBefore(place, first + half);
-      first = isBefore ? first + half + 1 : first;
-      left = isBefore ? left - half - 1 : half;
-    }
-    return first - upper;
+    return FindEnd(
+             upper, end, [&](std::uint32_t other) { return !chains.IsBefore(place, other); }) -
+      upper;
   };
   const std::uint32_t fromUpper = countUpper(lower);
   const std::uint32_t lowerAtEnd = (upper - lower) - countLower(end - 1);
@@ -319,14 +307,10 @@ template <typename Real>
 DELAUNAYFLIP_HOST_DEVICE void CutMountains(
   const ChainView<Real>& chains, std::int64_t begin, std::int64_t end)
 {
-  std::int64_t gap = 0;
-  for (std::int64_t left = chains.Chains - 1; left > 1;) // the last gap that begins by `begin`
-  {
-    const std::int64_t half = left / 2;
-    const bool isBefore = chains.FirstSlot(gap + half) <= begin;
-    gap = isBefore ? gap + half : gap;
-    left = isBefore ? left - half : half;
-  }
+  // The last gap that begins by `begin`.
+  std::int64_t gap = FindEnd(std::int64_t(1), chains.Chains - 1,
+                       [&](std::int64_t other) { return chains.FirstSlot(other) <= begin; }) -
+    1;
   for (std::int64_t slot = begin; slot < end; ++gap)
   {
     const std::uint32_t lower = chains.Starts[gap], upper = chains.Starts[gap + 1];
@@ -338,14 +322,10 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountains(
       slot > firstSlot + chains.Gaps[gap].LeftRun ? slot : firstSlot + chains.Gaps[gap].LeftRun;
     // How many of the slots before are of the lower chain: on the merge path.
     const auto before = static_cast<std::uint32_t>(slot - firstSlot);
-    std::uint32_t a = before > last - upper ? before - (last - upper) : 0;
-    for (std::uint32_t most = before < upper - lower ? before : upper - lower; a < most;)
-    {
-      const std::uint32_t middle = (a + most) / 2;
-      const bool isMore = chains.IsBefore(lower + middle, upper + (before - middle) - 1);
-      a = isMore ? middle + 1 : a;
-      most = isMore ? most : middle;
-    }
+    const std::uint32_t a = FindEnd(before > last - upper ? before - (last - upper) : 0,
+      before < upper - lower ? before : upper - lower,
+      [&](std::uint32_t lowerOnes)
+      { return chains.IsBefore(lower + lowerOnes, upper + (before - lowerOnes) - 1); });
     std::uint32_t place[2] = { lower + a, upper + (before - a) };
     const std::uint32_t ends[2] = { upper, last };
     const auto chainAt = [&]()

@@ -245,16 +245,14 @@ struct PointMeshBuilder
   }
 };
 
-/// Triangulates the places of points by divide and conquer, on the host. They get another order.
+/// Triangulates the places of points by divide and conquer, on the host.
 /// @param strips at least three points, merged by MergePlaces.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backend)
 {
   const std::int64_t count = strips.Count;
   std::vector<CoordinatePair<Real>> places(count);
-  std::vector<VertexId> ids(count);
   backend.Download(strips.Places(), count, places.data());
-  backend.Download(strips.Ids.Data(), count, ids.data());
   std::vector<CoordinatePair<double>> exact(count);
   std::transform(places.begin(), places.end(), exact.begin(),
     [](const CoordinatePair<Real>& p) {
@@ -263,17 +261,8 @@ PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backen
   const DividedPoints divided = DivideAndConquer(exact,
     [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
     { backend.ForTasks(tasks, work); });
-  std::vector<CoordinatePair<Real>> sortedPlaces(count);
-  std::vector<VertexId> sortedIds(count);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    sortedPlaces[i] = places[divided.Order[i]];
-    sortedIds[i] = ids[divided.Order[i]];
-  }
   PointMesh<Real> mesh;
   mesh.Points = std::move(strips);
-  backend.Upload(sortedPlaces.data(), count, mesh.Points.Places());
-  backend.Upload(sortedIds.data(), count, mesh.Points.Ids.Data());
   mesh.HullEdges = divided.HullEdges;
   EdgeMesh& edges = mesh.Edges;
   edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.size());

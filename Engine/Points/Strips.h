@@ -33,6 +33,21 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(const PlaneArray& points, std
   return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1));
 }
 
+/// The end of the first numbers of a range, for which `isBefore` is true; it is false for the
+/// others.
+template <typename Number, typename IsBefore>
+DELAUNAYFLIP_HOST_DEVICE Number FindEnd(Number first, Number last, const IsBefore& isBefore)
+{
+  while (first < last)
+  {
+    const Number middle = first + (last - first) / 2;
+    const bool before = isBefore(middle);
+    first = before ? middle + 1 : first;
+    last = before ? last : middle;
+  }
+  return first;
+}
+
 /// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells
 /// narrows a binary search. Plain pointers to StripBounds.
 struct StripFinder
@@ -54,16 +69,8 @@ struct StripFinder
   /// The strip: how many of the bounds are not above y.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t operator()(double y) const
   {
-    const std::uint32_t cell = this->FindCell(y);
-    std::uint32_t first = this->FirstOfCell[cell];
-    for (std::uint32_t left = this->FirstOfCell[cell + 1] - first; left > 0;)
-    {
-      const std::uint32_t half = left / 2;
-      const bool isAbove = this->Bounds[first + half] <= y;
-      first = isAbove ? first + half + 1 : first;
-      left = isAbove ? left - half - 1 : half;
-    }
-    return first;
+    const std::uint32_t* cell = this->FirstOfCell + this->FindCell(y);
+    return FindEnd(cell[0], cell[1], [&](std::uint32_t bound) { return this->Bounds[bound] <= y; });
   }
 };
 
