@@ -14,11 +14,12 @@
 #include <cstring>
 #include <iomanip>
 #include <limits>
-#include <numeric>
 #include <sstream>
 
 namespace delaunayflip
 {
+
+constexpr std::uint64_t HashFactor = 0x9E3779B97F4A7C15u; // 2^64 / golden ratio, odd
 
 std::size_t PointPlaces::Hash::operator()(const Place& place) const
 {
@@ -28,7 +29,7 @@ std::size_t PointPlaces::Hash::operator()(const Place& place) const
   {
     std::uint64_t word = 0;
     std::memcpy(&word, &x, sizeof(x));
-    hash = (hash ^ word) * 0x9E3779B97F4A7C15u; // 2^64 / golden ratio, odd
+    hash = (hash ^ word) * HashFactor;
     hash ^= hash >> 32;
   }
   return static_cast<std::size_t>(hash);
@@ -121,41 +122,33 @@ void AddAllPaths(vtkPolyData* others, vtkIdType numberOfPoints, const ProgressOb
   AddPaths(polygons, true, check, work, pairs);
 }
 
+struct HashPair
+{
+  std::size_t operator()(const PointPair& pair) const
+  {
+    const std::uint64_t hash =
+      (static_cast<std::uint64_t>(pair[0]) * HashFactor + static_cast<std::uint64_t>(pair[1])) *
+      HashFactor;
+    return static_cast<std::size_t>(hash ^ hash >> 32);
+  }
+};
+
 /// Keeps the first of equal pairs, with a flag that is set if that of any of them is.
 /// @throws RunAborted.
 void RemoveRepeated(std::vector<PointPair>& pairs, std::vector<unsigned char>& flags,
   const ProgressObserver& progress)
 {
-  // About as many comparisons as the sort makes.
-  constexpr vtkIdType ComparisonsPerItem = 16;
-  const auto size = static_cast<double>(pairs.size());
-  WorkProgress work(
-    progress, static_cast<vtkIdType>(size * std::log2(size + 2.0) / ComparisonsPerItem));
-  vtkIdType comparisons = 0;
-  std::vector<std::size_t> order(pairs.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b)
-    {
-      work.Add(++comparisons % ComparisonsPerItem == 0 ? 1 : 0);
-      return pairs[a] != pairs[b] ? pairs[a] < pairs[b] : a < b;
-    });
-  std::vector<bool> isRepeated(pairs.size());
-  std::size_t first = 0;
-  for (const std::size_t i : order)
-  {
-    isRepeated[i] = i != order.front() && pairs[i] == pairs[first];
-    first = isRepeated[i] ? first : i;
-    flags[first] |= flags[i];
-  }
+  WorkProgress work(progress, static_cast<vtkIdType>(pairs.size()));
+  std::unordered_map<PointPair, std::size_t, HashPair> known; // never iterated over
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    if (!isRepeated[i])
-    {
-      pairs[kept] = pairs[i];
-      flags[kept++] = flags[i];
-    }
+    const auto added = known.emplace(pairs[i], kept);
+    const std::size_t place = added.first->second;
+    flags[place] = added.second ? flags[i] : flags[place] | flags[i];
+    pairs[place] = pairs[i];
+    kept += added.second ? 1 : 0;
+    work.Add();
   }
   pairs.resize(kept);
   flags.resize(kept);

@@ -4,7 +4,7 @@
 
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
-#include "pqOutputPort.h"
+#include "pqInputSelectorWidget.h"
 #include "pqPipelineSource.h"
 #include "pqPresetGroupsManager.h"
 #include "pqPropertyWidget.h"
@@ -12,7 +12,6 @@
 #include "pqServerManagerModel.h"
 #include "pqView.h"
 #include "vtkCommand.h"
-#include "vtkPVDataInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
@@ -26,6 +25,7 @@
 #define DELAUNAYFLIP_CAN_HIDE_ARRAYS
 #endif
 
+#include <QAbstractItemModel>
 #include <QAbstractScrollArea>
 #include <QComboBox>
 #include <QFile>
@@ -34,9 +34,7 @@
 #include <QPushButton>
 #include <QSet>
 #include <QSignalBlocker>
-#include <QTimer>
 #include <QVBoxLayout>
-#include <QVector>
 
 #include <algorithm>
 #include <string>
@@ -45,11 +43,6 @@ namespace
 {
 
 pqServerManagerModel* GetModel() { return pqApplicationCore::instance()->getServerManagerModel(); }
-
-QString MakeKey(vtkSMProxy* proxy, unsigned int port)
-{
-  return proxy ? QString("%1:%2").arg(proxy->GetGlobalID()).arg(port) : QString();
-}
 
 /// A filter and everything downstream of it.
 QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
@@ -200,132 +193,46 @@ private:
   QLabel* Text;
 };
 
-/// A list of the sources of polygonal data for an optional input, and "(none)". Unlike ParaView's
-/// own list, it leaves out sources downstream of the filter: a loop would crash ParaView.
-class SourceList : public pqPropertyWidget
+/// ParaView's list of sources for an optional input, without those downstream of the filter: a loop
+/// would crash ParaView.
+class SourceList : public pqInputSelectorWidget
 {
   Q_OBJECT
 
 public:
   SourceList(vtkSMProxy* smproxy, vtkSMProperty* smproperty, QWidget* parentWidget)
-    : pqPropertyWidget(smproxy, parentWidget),
-      Choices(new QComboBox(this))
+    : pqInputSelectorWidget(smproxy, smproperty, parentWidget),
+      Choices(this->findChild<QComboBox*>())
   {
-    this->setProperty(smproperty);
-    auto* box = new QVBoxLayout(this);
-    box->setContentsMargins(0, 0, 0, 0);
-    box->addWidget(this->Choices);
-    this->Changes.setSingleShot(true);
-    this->Changes.setInterval(0);
-    QObject::connect(&this->Changes, &QTimer::timeout, this, &SourceList::refill);
-    for (const char* change :
-      { SIGNAL(sourceAdded(pqPipelineSource*)), SIGNAL(sourceRemoved(pqPipelineSource*)),
-        SIGNAL(dataUpdated(pqPipelineSource*)), SIGNAL(nameChanged(pqServerManagerModelItem*)),
-        SIGNAL(connectionAdded(pqPipelineSource*, pqPipelineSource*, int)) })
-    {
-      QObject::connect(GetModel(), change, &this->Changes, SLOT(start()));
-    }
-    pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(showInput()));
-    this->refill();
-    QObject::connect(this->Choices, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-      [this]()
-      {
-        this->IsEdited = true;
-        Q_EMIT this->changeAvailable();
-      });
-  }
-
-  void apply() override
-  {
-    if (this->IsEdited)
-    {
-      const QStringList key = this->Choices->currentData().toString().split(':');
-      auto* source =
-        GetModel()->findItem<pqPipelineSource*>(static_cast<vtkTypeUInt32>(key.first().toUInt()));
-      vtkSMPropertyHelper helper(this->property());
-      source ? helper.Set(source->getProxy(), key.last().toUInt()) : helper.SetNumberOfElements(0);
-      this->IsEdited = false;
-    }
-    pqPropertyWidget::apply();
-  }
-
-  void reset() override
-  {
-    this->showInput();
-    pqPropertyWidget::reset();
-  }
-
-private Q_SLOTS:
-  void showInput()
-  {
-    const vtkSMPropertyHelper helper(this->property());
-    const bool isSet = helper.GetNumberOfElements() > 0;
-    const QString key = isSet ? MakeKey(helper.GetAsProxy(), helper.GetOutputPort()) : QString();
-    const QSignalBlocker blocker(this->Choices);
-    this->Choices->setCurrentIndex(
-      this->Choices->findData(key)); // -1, an empty choice, if not listed
-    this->IsEdited = false;
+    // Later, since ParaView is filling the list.
+    QObject::connect(this->Choices->model(), &QAbstractItemModel::rowsInserted, this,
+      &SourceList::omitLoops, Qt::QueuedConnection);
+    QObject::connect(GetModel(),
+      QOverload<pqPipelineSource*, pqPipelineSource*, int>::of(
+        &pqServerManagerModel::connectionAdded),
+      this, &SourceList::omitLoops);
+    this->omitLoops();
   }
 
 private:
-  using Source = QPair<QString, QString>; ///< The name of an output port, and its key.
-
-  QVector<Source> findSources() const
+  void omitLoops()
   {
-    QVector<Source> sources{ { "(none)", "" } };
     auto* filter = GetModel()->findItem<pqPipelineSource*>(this->proxy());
-    if (!filter)
+    const QSignalBlocker blocker(this->Choices);
+    for (pqPipelineSource* source : filter ? FindDownstream(filter) : QSet<pqPipelineSource*>())
     {
-      return sources;
-    }
-    const QSet<pqPipelineSource*> downstream = FindDownstream(filter);
-    for (pqPipelineSource* source : GetModel()->findItems<pqPipelineSource*>(filter->getServer()))
-    {
-      for (pqOutputPort* port : source->getOutputPorts())
+      for (int i = this->Choices->count() - 1; i >= 0; --i)
       {
-        vtkPVDataInformation* information = port->getDataInformation();
-        if (!downstream.contains(source) && information &&
-          information->DataSetTypeIsA("vtkPolyData"))
+        const QString text = this->Choices->itemText(i), name = source->getSMName();
+        if (text == name || text.startsWith(name + ":"))
         {
-          const QString name = source->getSMName();
-          const bool isOnly = source->getNumberOfOutputPorts() == 1;
-          sources.append({ isOnly ? name : name + ":" + port->getPortName(),
-            MakeKey(source->getProxy(), port->getPortNumber()) });
+          this->Choices->removeItem(i);
         }
       }
-    }
-    return sources;
-  }
-
-  void refill()
-  {
-    const QVector<Source> sources = this->findSources();
-    if (sources == this->Sources)
-    {
-      return;
-    }
-    this->Sources = sources;
-    const QSignalBlocker blocker(this->Choices);
-    const QVariant choice = this->Choices->currentData();
-    this->Choices->clear();
-    for (const Source& source : sources)
-    {
-      this->Choices->addItem(source.first, source.second);
-    }
-    if (this->IsEdited)
-    {
-      this->Choices->setCurrentIndex(qMax(0, this->Choices->findData(choice)));
-    }
-    else
-    {
-      this->showInput();
     }
   }
 
   QComboBox* Choices;
-  QVector<Source> Sources; ///< The entries of the list.
-  bool IsEdited = false; ///< Whether edited since the last Apply or Reset.
-  QTimer Changes; ///< Fires once after one or more changes.
 };
 
 /// Makes the colours of angles the defaults of two arrays, and a preset that the user may choose.
