@@ -326,8 +326,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, inserted, constraintFlips, euler, geometry,
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
-    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints, buildSeconds,
-    flipSeconds, defects] = b;
+    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints,
+    buildSeconds, flipSeconds, defects] = b;
   static_cast<void>(backend);
   static_cast<void>(fallback);
   static_cast<void>(keepsSliver); // runs in parts do not look for it
