@@ -403,14 +403,16 @@ struct DividedSession::Run : MeshInParts
   void CountRest()
   {
     PiecesReport& report = this->Report;
-    AddCounts(report.Edges, this->Seams.Edges, 1);
-    report.EulerCharacteristic = this->Survey.UsedPoints - report.Edges.Edges + report.Triangles;
-    report.NonDelaunayBefore += this->Seams.NonDelaunay;
-    if (!this->AreCounted)
+    if (this->AreCounted)
+    {
+      AddCounts(report.Edges, this->Seams.Edges, 1);
+      report.EulerCharacteristic = this->Survey.UsedPoints - report.Edges.Edges + report.Triangles;
+      report.NonDelaunayBefore += this->Seams.NonDelaunay;
+    }
+    else
     {
       report.Edges = EdgeCounts();
       report.EulerCharacteristic = 0;
-      report.NonDelaunayBefore -= this->Seams.NonDelaunay;
     }
     if (report.Rounds > 1)
     {

@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_OUTLINE_H
 #define DELAUNAYFLIP_OUTLINE_H
 
-#include "ConstraintPath.h"
+#include "PlaneMesh.h"
 #include "PointTriangulation.h"
 
 #include <cstdint>

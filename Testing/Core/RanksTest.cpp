@@ -53,6 +53,24 @@ TEST_P(RanksTest, UnevenParts)
   EXPECT_EQ(GetParam() > 2, without.Report.SeamEdges > 0);
 }
 
+/// Two ranks have a triangle on the same three points: sharp edges, as for one process.
+TEST_P(RanksTest, CountEdgesOfRepeatedTriangles)
+{
+  OwnedMesh<double> mesh = MakeBadSphere(12, 8, 3);
+  const auto first = static_cast<std::int32_t>(mesh.NumberOfPoints());
+  mesh.Points.insert(mesh.Points.end(), { 5, 5, 5, 6, 5, 5, 5, 6, 5 });
+  mesh.Triangles.insert(
+    mesh.Triangles.end(), { first, first + 1, first + 2, first + 1, first, first + 2 });
+  Owners owners = DivideBySpace(mesh.View(), GetParam());
+  owners.back() = GetParam() - 1;
+  owners[owners.size() - 2] = 0;
+  const FlipOptions options = OnSurfaceOfRanks(60.0);
+  const FlipReport alone = Flip(mesh.View(), options).Report;
+  EXPECT_LE(3, alone.Edges.Feature);
+  ExpectSameCounts(
+    alone, FlipDivided(mesh.View(), DivideMesh(mesh.View(), owners, GetParam()), options).Report);
+}
+
 TEST_P(RanksTest, PointsWithoutNumbers)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(2000 / Reduction, 8);
