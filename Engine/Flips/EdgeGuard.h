@@ -33,6 +33,11 @@ struct EdgeClaims
   /// win.
   static std::int64_t GetSize(std::int64_t edges) { return edges / 2 + 64; }
 
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(VertexId a, VertexId b) const
+  {
+    delaunayflip::Prefetch(&this->Words[this->FirstSlot(MakeWord(a, b, 0))]);
+  }
+
   /// @returns the slot of the edge, which HoldsSlot() takes.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Claim(VertexId a, VertexId b, std::uint32_t priority) const
   {

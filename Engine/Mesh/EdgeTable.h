@@ -123,13 +123,20 @@ struct EdgeTableView
     return NoSlot;
   }
 
-  /// Prefetches the slot at which a search for `key` begins, and its words.
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
+  /// Prefetches the slot at which a search for `key` begins. @returns it.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t PrefetchKey(std::uint64_t key) const
   {
     const VertexId smaller = static_cast<VertexId>(key >> 32);
     const std::uint32_t slot =
       this->NearSlot(smaller, Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller)));
     delaunayflip::Prefetch(&this->Keys[slot]);
+    return slot;
+  }
+
+  /// The same with its words.
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
+  {
+    const std::uint32_t slot = this->PrefetchKey(key);
     delaunayflip::Prefetch(&this->First[slot]);
     delaunayflip::Prefetch(&this->Second[slot]);
   }

@@ -74,11 +74,12 @@ public:
   void SetPoll(std::function<void()> poll);
 
   /// How many items a piece of a range has: enough that its start costs little, and so few that
-  /// a mesh of 50,000 points still has work for many threads.
+  /// a mesh of 50,000 points still has work for many threads. Small ranges are one piece, which
+  /// wakes no other thread.
   static constexpr std::int64_t GetGrain(std::int64_t size)
   {
     constexpr std::int64_t Fewest = 2048, Most = 16384, WantedPieces = 64;
-    return std::clamp(size / WantedPieces, Fewest, Most);
+    return size <= Most ? Most : std::clamp(size / WantedPieces, Fewest, Most);
   }
 
   /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
@@ -322,7 +323,7 @@ private:
     const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
   {
     // A piece has a count of every digit.
-    constexpr std::int64_t Fewest = 1 << 13, Most = 1 << 17, WantedPieces = 16;
+    constexpr std::int64_t Fewest = 1 << 14, Most = 1 << 17, WantedPieces = 16;
     const std::int64_t grain = std::clamp(size / WantedPieces, Fewest, Most);
     const std::int64_t pieces = (size + grain - 1) / grain;
     std::vector<std::uint32_t> starts(pieces * digits, 0);

@@ -99,6 +99,7 @@ struct GuardStep : QuadStep
   GuardedEdges Edges;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
+  void Prefetch(const Quad& quad) const { this->Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B)); }
   void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     AtomicStore(&this->Mesh.States[edge], DecideByGuard(this->Edges, quad));
@@ -146,6 +147,7 @@ struct ClaimStep : QuadStep
 {
   EdgeClaims Claims;
 
+  void Prefetch(const Quad& quad) const { this->Claims.Prefetch(quad.A, quad.B); }
   void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
     this->Claims.Claim(quad.A, quad.B, Priority(edge));
@@ -157,6 +159,7 @@ struct ConfirmStep : QuadStep
 {
   EdgeClaims Claims;
 
+  void Prefetch(const Quad& quad) const { this->Claims.Prefetch(quad.A, quad.B); }
   /// @returns whether the edge still wins.
   bool operator()(EdgeId edge, const Quad& quad) const
   {
@@ -175,6 +178,12 @@ struct FlipStep : QuadStep
   void Prefetch(const Quad& quad) const
   {
     this->PrefetchOuter(GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB));
+    if (this->Guard.Active)
+    {
+      this->Guard.Claims.Prefetch(quad.A, quad.B);
+      this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B));
+      this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.P, quad.Q));
+    }
   }
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
