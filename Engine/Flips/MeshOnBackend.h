@@ -95,6 +95,7 @@ public:
     const MeshInput input{ mesh, local.View(), local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
+    this->Range = survey.Range;
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
@@ -226,7 +227,10 @@ public:
       : Defect();
   }
 
-  bool KeepsSliver() override { return KeepsWorstSliver(this->Mesh, this->Points, this->Backend); }
+  bool KeepsSliver() override
+  {
+    return KeepsWorstSliver(this->Mesh, this->Points, this->Range, this->Backend);
+  }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 
@@ -393,6 +397,7 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
+  CoordinateRange Range = CoordinateRange::Usual; ///< Of a mesh from triangles.
   PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
   TurnCounts Turns;

@@ -84,6 +84,7 @@ struct KeptEdgeSurvey
 {
   EdgeMeshView Mesh;
   PackedPointsView Points;
+  CoordinateRange Range;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t e, LargestValue& sum) const
   {
@@ -116,7 +117,7 @@ struct KeptEdgeSurvey
   {
     const TriangleRecord& triangle = this->Mesh.Triangles[t];
     return MeasureSquaredCotangent(this->Get(triangle.Vertices[0]), this->Get(triangle.Vertices[1]),
-      this->Get(triangle.Vertices[2]), this->Points.Components == 2, CoordinateRange::Mixed);
+      this->Get(triangle.Vertices[2]), this->Points.Components == 2, this->Range);
   }
 
 private:
@@ -130,11 +131,12 @@ private:
 /// Whether one of the ten triangles with the smallest angles is a sliver that a fixed edge keeps:
 /// it has an angle below five degrees, and an edge that would flip if it were free.
 template <typename Backend>
-bool KeepsWorstSliver(EdgeMesh& mesh, const PackedPoints& points, const Backend& backend)
+bool KeepsWorstSliver(
+  EdgeMesh& mesh, const PackedPoints& points, CoordinateRange range, const Backend& backend)
 {
   constexpr std::int64_t Worst = 10;
   constexpr double SliverAngle = 5.0;
-  const KeptEdgeSurvey survey{ mesh.View(), points.View() };
+  const KeptEdgeSurvey survey{ mesh.View(), points.View(), range };
   const double kept = backend.template Sum<LargestValue>(mesh.NumberOfEdges, survey).Value;
   return ToDegrees(kept) < SliverAngle &&
     backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
