@@ -5,9 +5,12 @@
 #include "CornerPairing.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <thread>
@@ -131,12 +134,55 @@ public:
 
 #else
 
+/// Arenas that no backend uses. oneTBB 2021 may never free an arena that ends before its threads
+/// have come, as on busy cores, so they are kept for the next backends.
+class IdleArenas
+{
+public:
+  static std::unique_ptr<tbb::task_arena> Take(int threads)
+  {
+    const std::lock_guard<std::mutex> lock(Get().Mutex);
+    for (std::unique_ptr<tbb::task_arena>& arena : Get().Arenas)
+    {
+      if (arena && arena->max_concurrency() == threads)
+      {
+        return std::move(arena);
+      }
+    }
+    return std::make_unique<tbb::task_arena>(threads);
+  }
+
+  static void Return(std::unique_ptr<tbb::task_arena> arena)
+  {
+    const std::lock_guard<std::mutex> lock(Get().Mutex);
+    for (std::unique_ptr<tbb::task_arena>& place : Get().Arenas)
+    {
+      if (!place)
+      {
+        place = std::move(arena);
+        return;
+      }
+    }
+  }
+
+private:
+  /// Lives as long as the process: oneTBB may end before static objects do.
+  static IdleArenas& Get()
+  {
+    static auto* idle = new IdleArenas;
+    return *idle;
+  }
+
+  std::mutex Mutex;
+  std::array<std::unique_ptr<tbb::task_arena>, 8> Arenas; ///< Null where there is room.
+};
+
 class ThreadBackend::Pool
 {
 public:
   explicit Pool(int threads)
     : Size(threads),
-      Arena(threads)
+      Arena(IdleArenas::Take(threads))
   {
     if (threads == 1)
     {
@@ -152,9 +198,13 @@ public:
     }
   }
 
+  ~Pool() { IdleArenas::Return(std::move(this->Arena)); }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
-    this->Arena.execute(
+    this->Arena->execute(
       [&]() { tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t task) { work(task); }); });
   }
 
@@ -180,7 +230,7 @@ private:
   }
 
   std::optional<tbb::global_control> Allowance; // allows more threads than cores
-  tbb::task_arena Arena;
+  std::unique_ptr<tbb::task_arena> Arena;
 };
 
 #endif
