@@ -136,14 +136,16 @@ ExitCode ToExitCode(int failure)
 }
 
 /// The filter's message with options of the command for properties of the filter.
-std::string WithOptions(const std::string& message)
+std::string WithOptions(const std::string& message, bool mergesPoints)
 {
   static const std::regex region("\\bRegionArray\\b");
   static const std::regex tolerance("\\bTolerance\\b");
   static const std::regex merge("merge points that lie at the same place");
   std::string text = std::regex_replace(message, region, "--region-array");
   text = std::regex_replace(text, tolerance, "--tolerance");
-  return std::regex_replace(text, merge, "--merge-points joins those that lie at the same place");
+  return std::regex_replace(text, merge,
+    mergesPoints ? "no two edges lie at the same place, even after --merge-points"
+                 : "--merge-points joins those that lie at the same place");
 }
 
 void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
@@ -282,7 +284,7 @@ public:
     this->Bar.Clear();
     for (const std::string& warning : this->Messages.TakeWarnings())
     {
-      this->Warn(WithOptions(warning));
+      this->Warn(WithOptions(warning, this->Settings.MergePoints));
     }
     this->ThrowErrors();
     this->TakeReport();
@@ -438,7 +440,8 @@ private:
       const char* const work = failure != vtkDelaunayFlip::FAILURE_OTHER ? ": "
         : this->Settings.FromPoints ? ": cannot be triangulated: "
                                     : ": cannot be flipped: ";
-      throw CommandError(ToExitCode(failure), this->Settings.Input + work + WithOptions(errors));
+      throw CommandError(ToExitCode(failure),
+        this->Settings.Input + work + WithOptions(errors, this->Settings.MergePoints));
     }
   }
 

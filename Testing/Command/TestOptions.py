@@ -98,6 +98,12 @@ class Options(CommandTest):
         self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
         self.assertEqual(len(points_of(read_mesh(self.path("out.vtk")))), 4)
 
+    def test_nothing_to_merge(self):
+        apart = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (5, 1, 0)]
+        path = write_mesh(make_mesh(apart, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
+        told = self.succeed(path, "out.vtk", "--merge-points").stderr
+        self.assertIn("no two edges lie at the same place, even after --merge-points", told)
+
     def test_bad_constraints(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
         self.fail_with(3, path, "out.vtk", "--constraints", "none.vtk", naming=["none.vtk"])
