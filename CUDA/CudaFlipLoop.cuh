@@ -193,13 +193,7 @@ public:
 
   std::int64_t CountBlockedByDeviation() const override
   {
-    std::int64_t count = 0;
-    if constexpr (Rule::MayDeviate)
-    {
-      const DeviationSurvey<Rule> survey{ this->Mesh.View(), this->Decision };
-      count = this->Backend.template Sum<std::int64_t>(this->Mesh.NumberOfEdges, survey);
-    }
-    return count;
+    return CountDeviating(this->Mesh, this->Decision, this->Backend);
   }
 
   double FindLargestSquaredCotangent() const override

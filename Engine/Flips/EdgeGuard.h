@@ -72,7 +72,7 @@ struct EdgeClaims
     {
       slot = this->Next(slot);
     }
-    return AtomicLoad(&this->Words[slot]) == word;
+    return this->HoldsSlot(slot, a, b, priority);
   }
 
   /// The same for the slot that Claim() returned. Others may be released at the same time.

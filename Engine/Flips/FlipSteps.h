@@ -26,21 +26,26 @@ DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(const GuardedEdges& edge
 }
 
 /// Counts the edges of EdgeState::BlockedByDeviation, which the passes count with BlockedByShape.
-template <typename Rule>
-struct DeviationSurvey
+/// @param mesh its States are Fixed for the edges that are not judged.
+template <typename Rule, typename Backend>
+std::int64_t CountDeviating(EdgeMesh& mesh, const Rule& rule, const Backend& backend)
 {
-  EdgeMeshView Mesh; ///< Its States are Fixed for the edges that are not judged.
-  Rule Decision;
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge, std::int64_t& sum) const
+  std::int64_t count = 0;
+  if constexpr (Rule::MayDeviate)
   {
-    const auto id = static_cast<EdgeId>(edge);
-    sum += this->Mesh.States[id] != EdgeState::Fixed &&
-        this->Decision.Judge(this->Mesh.GetQuad(id)) == EdgeState::BlockedByDeviation
-      ? 1
-      : 0;
+    const EdgeMeshView view = mesh.View();
+    count = backend.template Sum<std::int64_t>(mesh.NumberOfEdges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      {
+        const auto edge = static_cast<EdgeId>(i);
+        sum += view.States[edge] != EdgeState::Fixed &&
+            rule.Judge(view.GetQuad(edge)) == EdgeState::BlockedByDeviation
+          ? 1
+          : 0;
+      });
   }
-};
+  return count;
+}
 
 /// Pass 4: decides which of two bad edges flips first. Priorities are a bijection of edge ids: two
 /// equal ones would both flip, on a shared triangle. They are scattered so that a chain of bad

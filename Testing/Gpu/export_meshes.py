@@ -4,7 +4,7 @@
 """Usage: export_meshes.py DATA_DIR OUT_DIR
 
 Writes every mesh of DATA_DIR and of its folder small/ that VTK can read to OUT_DIR/NAME.dfmesh, for
-machines without VTK; Testing/Meshes/MeshFile.h describes the files. Polygons are split into fans,
+machines without VTK, and two of its own; Testing/Meshes/MeshFile.h describes the files. Polygons are split into fans,
 images become height fields with two triangles per cell, and lines become constraint edges. Needs
 VTK's Python package and numpy (Debian: python3-vtk9).
 """
@@ -123,6 +123,42 @@ def write(path, points, triangles, lines):
         file.write(lines.astype("<i8").tobytes())
 
 
+def join(parts):
+    """Meshes as one."""
+    sizes = numpy.cumsum([0] + [len(points) for points, _ in parts])
+    return (numpy.concatenate([points for points, _ in parts]).astype(numpy.float32),
+            numpy.concatenate([triangles + size for (_, triangles), size in zip(parts, sizes)]))
+
+
+def chains(size=470, lattice=182):
+    """A surface whose last iterations flip few edges: six good lattices, and four chains of the
+    paper's Fig. 6, two of them upright."""
+    parts = []
+    random = numpy.random.default_rng(1)
+    i, step = numpy.arange(size), numpy.arange(size - 1)
+    upper = numpy.stack((numpy.full(size - 1, size), step + 1, step), axis=1)
+    lower = numpy.stack((numpy.full(size - 1, size - 1), size + step, size + step + 1), axis=1)
+    x, side = numpy.concatenate((size + 1 + i, i)), numpy.repeat((1, -1), size)
+    for k in range(4):
+        yz = (side, numpy.full(2 * size, 5 * k)) if k % 2 else (numpy.full(2 * size, 3 * k), side)
+        parts.append((numpy.stack((x, *yz), axis=1), numpy.concatenate((upper, lower))))
+    corner = (lattice * numpy.arange(lattice - 1)[:, None] + numpy.arange(lattice - 1)).reshape(-1)
+    cells = numpy.concatenate(
+        (numpy.stack((corner, corner + lattice, corner + lattice + 1), axis=1),
+         numpy.stack((corner, corner + lattice + 1, corner + 1), axis=1)))
+    for k in range(6):
+        flat = numpy.indices((lattice, lattice)).reshape(2, -1)
+        flat = flat + random.uniform(-0.2, 0.2, flat.shape)
+        far = numpy.full(lattice * lattice, -10 - 300 * (k // 3))
+        parts.append((numpy.roll(numpy.stack((*flat, far), axis=1), k % 3, axis=1), cells))
+    return join(parts)
+
+
+def repeat_triangles(points, triangles, share=3):
+    """With every third triangle again at the end."""
+    return points, numpy.concatenate((triangles, triangles[::share]))
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -135,6 +171,9 @@ def main():
             points, triangles, lines = convert(path)
             write(f"{target}/{name}.dfmesh", points, triangles, lines)
             print(f"{name}: {len(points)} points, {len(triangles)} triangles, {len(lines)} lines")
+    none = numpy.empty((0, 2), numpy.int64)
+    write(f"{target}/chains.dfmesh", *chains(), none)
+    write(f"{target}/chains_repeated.dfmesh", *repeat_triangles(*chains()), none)
 
 
 if __name__ == "__main__":
