@@ -54,31 +54,17 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
   }
 }
 
-/// The work of the child.
-int RunInChild(
-  const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
-{
-  Phase now = Phase::Reading;
-  const auto follow = [&now, &enter](Phase phase)
-  {
-    now = phase;
-    enter(phase);
-  };
-  return Guarded([&] { return RunFlipJob(arguments, files, follow); },
-    [&] { return DescribeWork(arguments, now); });
-}
-
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
-  const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
+  const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome, Phase phase)
 {
   const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
-  const std::string work = DescribeWork(arguments, outcome.LastPhase);
+  const std::string work = DescribeWork(arguments, phase);
   if (outcome.LacksMemory)
   {
     return work + "not enough memory; nothing was written";
   }
-  switch (outcome.LastPhase)
+  switch (phase)
   {
     case Phase::Reading:
       return work +
@@ -93,7 +79,7 @@ std::string ExplainDeath(
   }
 }
 
-int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome)
+int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome, Phase phase)
 {
   if (outcome.InterruptedBy != 0)
   {
@@ -102,9 +88,9 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
   }
   if (outcome.KilledBy != 0)
   {
-    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome));
+    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome, phase));
   }
-  if (outcome.LastPhase == Phase::Over)
+  if (phase == Phase::Over)
   {
     files.Commit();
     if (!arguments.Quiet)
@@ -128,9 +114,13 @@ int main(int argc, char** argv)
     }
     ChildProcess child;
     OutputFiles files(arguments);
-    const ChildOutcome outcome = child.Run(
-      [&](const std::function<void(Phase)>& enter) { return RunInChild(arguments, files, enter); });
-    return Finish(arguments, files, outcome);
+    const auto work = [&]
+    {
+      return Guarded([&] { return RunFlipJob(arguments, files, child); },
+        [&] { return DescribeWork(arguments, child.GetPhase()); });
+    };
+    const ChildOutcome outcome = child.Run(work);
+    return Finish(arguments, files, outcome, child.GetPhase());
   };
   return Guarded(run, [] { return std::string(); });
 }
