@@ -105,10 +105,12 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
       {
         arguments.DeviationIsPercent = !text.empty() && text.back() == '%';
         std::string number = text.substr(0, text.size() - (arguments.DeviationIsPercent ? 1 : 0));
-        const bool isLength =
-          Within(0.0, std::numeric_limits<double>::infinity(), "")(number).empty();
-        return isLength ? (text = number, "")
-                        : text + " is not a length of 0 or more, or a percentage such as 1%";
+        if (!Within(0.0, std::numeric_limits<double>::infinity(), "")(number).empty())
+        {
+          return text + " is not a length of 0 or more, or a percentage such as 1%";
+        }
+        text = number;
+        return std::string();
       },
       ""),
     "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "

@@ -156,6 +156,7 @@ ChildOutcome ChildProcess::Wait(int child)
   }
   outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   outcome.KilledBy = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  outcome.LastPhase = this->Shared->Value;
   outcome.LacksMemory = this->Shared->LacksMemory;
   return outcome;
 }

@@ -28,6 +28,7 @@ struct ChildOutcome
   int KilledBy = 0; ///< The signal that killed the child, or 0.
   int InterruptedBy = 0; ///< The signal that made this process kill the child, or 0.
   bool LacksMemory = false; ///< That is why it was killed.
+  Phase LastPhase = Phase::Reading;
 };
 
 /// Watches one child. While this object lives, SIGINT, SIGTERM and SIGHUP do not end this process.

@@ -56,15 +56,15 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
 
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
-  const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome, Phase phase)
+  const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
   const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
-  const std::string work = DescribeWork(arguments, phase);
+  const std::string work = DescribeWork(arguments, outcome.LastPhase);
   if (outcome.LacksMemory)
   {
     return work + "not enough memory; nothing was written";
   }
-  switch (phase)
+  switch (outcome.LastPhase)
   {
     case Phase::Reading:
       return work +
@@ -79,7 +79,7 @@ std::string ExplainDeath(
   }
 }
 
-int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome, Phase phase)
+int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome)
 {
   if (outcome.InterruptedBy != 0)
   {
@@ -88,9 +88,9 @@ int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& o
   }
   if (outcome.KilledBy != 0)
   {
-    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome, phase));
+    throw CommandError(ExitCode::BadFile, ExplainDeath(arguments, files, outcome));
   }
-  if (phase == Phase::Over)
+  if (outcome.LastPhase == Phase::Over)
   {
     files.Commit();
     if (!arguments.Quiet)
@@ -119,8 +119,7 @@ int main(int argc, char** argv)
       return Guarded([&] { return RunFlipJob(arguments, files, child); },
         [&] { return DescribeWork(arguments, child.GetPhase()); });
     };
-    const ChildOutcome outcome = child.Run(work);
-    return Finish(arguments, files, outcome, child.GetPhase());
+    return Finish(arguments, files, child.Run(work));
   };
   return Guarded(run, [] { return std::string(); });
 }
