@@ -6,14 +6,13 @@
 #include "Console.h"
 #include "CudaDevice.h"
 #include "FlipError.h"
+#include "InputFile.h"
 #include "OutputFiles.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 
@@ -28,8 +27,7 @@ class PlainFormatter : public CLI::Formatter
 {
   std::string make_option_opts(const CLI::Option* option) const override
   {
-    const std::string type = option->get_type_name();
-    return (type.empty() ? "" : " ") + type;
+    return option->get_positional() ? "" : " " + option->get_type_name();
   }
 };
 
@@ -49,55 +47,39 @@ void AddChoice(CLI::App& app, const std::string& name, Kind& value,
     ->check(CLI::IsMember(choices).description(""));
 }
 
-/// Unlike CLI::Range, refuses NaN.
-CLI::Validator Within(double low, double high, const std::string& range)
+/// A number in a range; unlike with CLI::Range, NaN is in none. An integer may have leading zeros,
+/// which CLI would take for octal.
+template <typename T>
+CLI::Validator Within(T low, T high, const std::string& range)
 {
   const auto check = [low, high, range](std::string& text)
   {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const bool inside = end != text.c_str() && *end == '\0' && value >= low && value <= high;
-    return inside ? std::string() : text + " is not " + range;
-  };
-  return CLI::Validator(check, "");
-}
-
-/// A decimal number. It may have leading zeros, which CLI would take for octal.
-CLI::Validator WholeNumber(std::int64_t low, std::int64_t high, const std::string& range)
-{
-  const auto check = [low, high, range](std::string& text)
-  {
-    const char* const end = text.data() + text.size();
-    std::int64_t value = 0;
-    const bool hasPlus = text.rfind('+', 0) == 0 && text.rfind("+-", 0) != 0;
-    const auto [last, error] = std::from_chars(text.data() + (hasPlus ? 1 : 0), end, value);
-    if (error != std::errc() || last != end || value < low || value > high)
+    T value = 0;
+    if (ReadNumber(text, value) != std::errc() || !(value >= low && value <= high))
     {
       return text + " is not " + range;
     }
-    text = std::to_string(value);
+    text = std::is_integral_v<T> ? std::to_string(value) : text;
     return std::string();
   };
   return CLI::Validator(check, "");
 }
 
-/// An empty name would count as an option that is not given.
-CLI::Validator FileName()
+/// An option with a value that is checked. `type` is what help calls the value.
+template <typename T>
+void AddValue(CLI::App& app, const std::string& name, T& value, const std::string& type,
+  const CLI::Validator& check, const std::string& help)
 {
-  const auto check = [](std::string& text)
-  { return text.empty() ? std::string("the name of the file is empty") : std::string(); };
-  return CLI::Validator(check, "");
+  app.add_option(name, value, help)->type_name(type)->transform(check);
 }
 
-/// A length, or a percentage.
-std::string FindFaultOfDeviation(const std::string& text)
+/// The same for a file. An empty name would count as an option that is not given.
+CLI::Option* AddFile(
+  CLI::App& app, const std::string& name, std::string& value, const std::string& help)
 {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool isNumber = end != text.c_str() && value >= 0.0;
-  return isNumber && (*end == '\0' || std::string(end) == "%")
-    ? ""
-    : text + " is not a length of 0 or more, or a percentage such as 1%";
+  const auto check = [](const std::string& text)
+  { return text.empty() ? "the name of the file is empty" : ""; };
+  return app.add_option(name, value, help)->type_name("FILE")->check(check);
 }
 
 void AddMethodOptions(CLI::App& app, Arguments& arguments)
@@ -114,31 +96,30 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
       { "opposite-angles", CriterionKind::OppositeAngles } },
     "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
     "[in-circle]");
-  app
-    .add_option("--feature-angle", flip.FeatureAngle,
-      "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]")
-    ->type_name("DEGREES")
-    ->check(Within(0.0, 180.0, "an angle from 0 to 180 degrees"));
-  app
-    .add_option_function<std::string>(
-      "--max-deviation",
-      [&](const std::string& text)
+  AddValue(app, "--feature-angle", flip.FeatureAngle, "DEGREES",
+    Within(0.0, 180.0, "an angle from 0 to 180 degrees"),
+    "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]");
+  AddValue(app, "--max-deviation", flip.MaximumDeviation, "LENGTH",
+    CLI::Validator(
+      [&arguments](std::string& text)
       {
-        flip.MaximumDeviation = std::strtod(text.c_str(), nullptr);
-        arguments.DeviationIsPercent = text.back() == '%';
+        arguments.DeviationIsPercent = !text.empty() && text.back() == '%';
+        std::string number = text.substr(0, text.size() - (arguments.DeviationIsPercent ? 1 : 0));
+        if (!Within(0.0, std::numeric_limits<double>::infinity(), "")(number).empty())
+        {
+          return text + " is not a length of 0 or more, or a percentage such as 1%";
+        }
+        text = number;
+        return std::string();
       },
-      "On surfaces, an edge stays if its flip would move the surface by more than this: a length, "
-      "or with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up "
-      "[inf]")
-    ->type_name("LENGTH")
-    ->check(FindFaultOfDeviation);
-  app
-    .add_option("--tolerance", flip.Tolerance,
-      "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as "
-      "much as the rounding of its points can explain [-1]")
-    ->type_name("RADIANS")
-    ->check(Within(-1.0, -1.0, "automatic (-1)") |
-      Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"));
+      ""),
+    "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "
+    "with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up [inf]");
+  AddValue(app, "--tolerance", flip.Tolerance, "RADIANS",
+    Within(-1.0, -1.0, "automatic (-1)") |
+      Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
+    "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
+    "as the rounding of its points can explain [-1]");
   AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
     { { "keep", TieRuleKind::Keep }, { "canonical", TieRuleKind::Canonical } },
     "Edges whose four points lie on one circle: keep them, or make the result independent of the "
@@ -150,13 +131,10 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
   app.add_flag("--merge-points", arguments.MergePoints,
     "First join points of the input at the same place, as in a file that lists the corners of "
     "each triangle. Points that no cell uses go");
-  app
-    .add_option("--constraints", arguments.Constraints,
-      "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
-      "it has the same points; otherwise points are matched by their coordinates. In the plane, "
-      "edges that the input does not have are inserted by flips")
-    ->type_name("FILE")
-    ->check(FileName());
+  AddFile(app, "--constraints", arguments.Constraints,
+    "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
+    "it has the same points; otherwise points are matched by their coordinates. In the plane, "
+    "edges that the input does not have are inserted by flips");
   app.add_flag_callback(
     "--no-insert-constraints", [&arguments] { arguments.InsertConstraints = false; },
     "Do not insert edges of --constraints");
@@ -176,34 +154,19 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "Make a mesh from the points of INPUT, whatever its cells: their Delaunay triangulation. The "
     "lines and polygons of --constraints become edges of it, and with --insert-lines the lines of "
     "INPUT too. Points of these files that INPUT does not have are added");
-  app
-    .add_option("--outline", arguments.Outline,
-      "A mesh file whose polygons and closed lines are rings: what is outside of all is removed")
-    ->type_name("FILE")
-    ->check(FileName());
-  app
-    .add_option("--holes", arguments.Holes,
-      "A mesh file whose polygons and closed lines are rings: what is inside is removed")
-    ->type_name("FILE")
-    ->check(FileName());
+  AddFile(app, "--outline", arguments.Outline,
+    "A mesh file whose polygons and closed lines are rings: what is outside of all is removed");
+  AddFile(app, "--holes", arguments.Holes,
+    "A mesh file whose polygons and closed lines are rings: what is inside is removed");
   app.add_flag("--split-crossings", arguments.Flip.SplitCrossings,
     "Add a point where segments cross. Else one that crosses an earlier one is left out");
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
-  app
-    .add_option("--alpha", arguments.Flip.Alpha,
-      "Remove triangles whose circumcircle has a larger radius; 0: none [0]")
-    ->type_name("RADIUS")
-    ->check(length);
-  app
-    .add_option("--longest-edge", arguments.Flip.LongestEdge,
-      "Remove triangles that have a longer edge; 0: none [0]")
-    ->type_name("LENGTH")
-    ->check(length);
-  app
-    .add_option("--point-tolerance", arguments.Flip.PointTolerance,
-      "Leave out points nearer than this to one before them; 0: those at the same place [0]")
-    ->type_name("LENGTH")
-    ->check(length);
+  AddValue(app, "--alpha", arguments.Flip.Alpha, "RADIUS", length,
+    "Remove triangles whose circumcircle has a larger radius; 0: none [0]");
+  AddValue(app, "--longest-edge", arguments.Flip.LongestEdge, "LENGTH", length,
+    "Remove triangles that have a longer edge; 0: none [0]");
+  AddValue(app, "--point-tolerance", arguments.Flip.PointTolerance, "LENGTH", length,
+    "Leave out points nearer than this to one before them; 0: those at the same place [0]");
   AddChoice<bool>(app, "--projection", arguments.InBestPlane,
     { { "xy", false }, { "plane", true } },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
@@ -237,49 +200,38 @@ std::string FindFaultOfDevices(const std::string& list)
 
 void AddRunOptions(CLI::App& app, Arguments& arguments)
 {
-  app
-    .add_option("--max-iterations", arguments.Flip.MaximumIterations,
-      "Stop after this many iterations; -1: when nothing is left to flip [-1]")
-    ->transform(WholeNumber(
-      -1, std::numeric_limits<std::int64_t>::max(), "a number of iterations (-1 or more)"));
-  AddChoice<BackendKind>(app, "--backend", arguments.Flip.Backend,
+  FlipOptions& flip = arguments.Flip;
+  AddValue(app, "--max-iterations", flip.MaximumIterations, "INT",
+    Within<std::int64_t>(
+      -1, std::numeric_limits<std::int64_t>::max(), "a number of iterations (-1 or more)"),
+    "Stop after this many iterations; -1: when nothing is left to flip [-1]");
+  AddChoice<BackendKind>(app, "--backend", flip.Backend,
     { { "auto", BackendKind::Auto }, { "cuda", BackendKind::CUDA },
       { "threads", BackendKind::Threads } },
     "Where the flips run; the result is the same. auto: on a GPU if there is one and the mesh has "
     "at least " +
       std::to_string(SmallestMeshForCuda) +
       " triangles, else, or if the GPU fails, on the CPU [auto]");
-  app
-    .add_option("--device", arguments.Flip.Device,
-      "Which GPU, by CUDA's number, 0 or more; -1: CUDA's default [-1]")
-    ->transform(
-      WholeNumber(-1, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"));
-  app
-    .add_option("--devices", arguments.Devices,
-      "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
-      "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
-    ->type_name("LIST")
-    ->check(FindFaultOfDevices);
-  app
-    .add_option("--pieces", arguments.Flip.NumberOfPieces,
-      "Flip the mesh in this many pieces, one after the other, so that it may be larger than the "
-      "memory of the GPU. With --devices they take turns and need no NVLink. With --tie-rule "
-      "canonical the result does not depend on it; 0: as few as possible [0]")
-    ->transform(WholeNumber(0, 255, "a number of pieces (0 to 255)"));
-  app
-    .add_option("--threads", arguments.Flip.NumberOfThreads,
-      "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
-      "that is more. The result does not depend on it [0]")
-    ->transform(WholeNumber(0, 65536, "a number of threads (0 to 65536)"));
+  AddValue(app, "--device", flip.Device, "INT",
+    Within(-1, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"),
+    "Which GPU, by CUDA's number, 0 or more; -1: CUDA's default [-1]");
+  AddValue(app, "--devices", arguments.Devices, "LIST", CLI::Validator(FindFaultOfDevices, ""),
+    "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
+    "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink");
+  AddValue(app, "--pieces", flip.NumberOfPieces, "INT",
+    Within(0, 255, "a number of pieces (0 to 255)"),
+    "Flip the mesh in this many pieces, one after the other, so that it may be larger than the "
+    "memory of the GPU. With --devices they take turns and need no NVLink. With --tie-rule "
+    "canonical the result does not depend on it; 0: as few as possible [0]");
+  AddValue(app, "--threads", flip.NumberOfThreads, "INT",
+    Within(0, 65536, "a number of threads (0 to 65536)"),
+    "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
+    "that is more. The result does not depend on it [0]");
   app.add_flag("--quality", arguments.Quality,
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk, .vtp and .ply)");
-  app.add_option("--statistics", arguments.Statistics, "Write a table of the iterations (CSV)")
-    ->type_name("FILE")
-    ->check(FileName());
-  app.add_option("--report", arguments.Report, "Write a summary of the run (JSON)")
-    ->type_name("FILE")
-    ->check(FileName());
+  AddFile(app, "--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
+  AddFile(app, "--report", arguments.Report, "Write a summary of the run (JSON)");
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
 }
@@ -314,9 +266,8 @@ std::string SuggestOption(const CLI::App& app)
 /// Checks that files can be read or written as what they are given for.
 void CheckFormats(Arguments& arguments)
 {
-  arguments.InputFormat = FormatOf(arguments.Input);
   arguments.OutputFormat = FormatOf(arguments.Output);
-  if (arguments.InputFormat == MeshFormat::Points && !arguments.FromPoints)
+  if (FormatOf(arguments.Input) == MeshFormat::Points && !arguments.FromPoints)
   {
     throw CommandError(ExitCode::WrongUsage,
       arguments.Input + ": has points, but no triangles; --from-points makes them");
@@ -376,14 +327,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
-  app.add_option("INPUT", arguments.Input, "The mesh or the points to read")
-    ->type_name("")
-    ->required()
-    ->check(FileName());
-  app.add_option("OUTPUT", arguments.Output, "The mesh to write; may be INPUT")
-    ->type_name("")
-    ->required()
-    ->check(FileName());
+  AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
+  AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments);
   AddConstraintOptions(app, arguments);
   AddRunOptions(app, arguments);

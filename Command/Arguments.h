@@ -19,7 +19,6 @@ struct Arguments
 {
   std::string Input;
   std::string Output;
-  MeshFormat InputFormat = MeshFormat::VTK;
   MeshFormat OutputFormat = MeshFormat::VTK;
   PointOptions Flip;
   bool DeviationIsPercent = false; ///< Flip.MaximumDeviation is one of the bounding box's diagonal.

@@ -32,26 +32,8 @@ struct ChildProcess::SharedPhase
 namespace
 {
 
-bool IsIgnored(int signal)
-{
-  struct sigaction action = {};
-  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-/// The signals by which a user or the system ends a program, except ignored ones (nohup).
-sigset_t EndingSignals()
-{
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
-  {
-    if (!IsIgnored(signal))
-    {
-      sigaddset(&signals, signal);
-    }
-  }
-  return signals;
-}
+/// The signals by which a user or the system ends a program.
+constexpr int Endings[] = { SIGINT, SIGTERM, SIGHUP };
 
 /// In the child; null in the parent.
 std::atomic<bool>* lacksMemory = nullptr;
@@ -79,8 +61,6 @@ std::atomic<bool>* lacksMemory = nullptr;
 }
 
 ChildProcess::ChildProcess()
-  : Watched(EndingSignals()),
-    Parent(getpid())
 {
   void* memory =
     mmap(nullptr, sizeof(SharedPhase), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -94,7 +74,16 @@ ChildProcess::ChildProcess()
   signal(SIGXFSZ, SIG_IGN);
   // If SIGCHLD were ignored, the system would reap the child itself and its status would be lost.
   signal(SIGCHLD, SIG_DFL);
+  sigemptyset(&this->Watched);
   sigaddset(&this->Watched, SIGCHLD);
+  for (const int ending : Endings)
+  {
+    struct sigaction action = {};
+    if (sigaction(ending, nullptr, &action) != 0 || action.sa_handler != SIG_IGN) // as by nohup
+    {
+      sigaddset(&this->Watched, ending);
+    }
+  }
   sigprocmask(SIG_BLOCK, &this->Watched, &this->Before);
 }
 
@@ -104,9 +93,10 @@ ChildProcess::~ChildProcess()
   munmap(this->Shared, sizeof(SharedPhase));
 }
 
-ChildOutcome ChildProcess::Run(const ChildWork& work)
+ChildOutcome ChildProcess::Run(const std::function<int()>& work)
 {
   std::cout.flush();
+  const int parent = getpid();
   const int child = fork();
   if (child < 0)
   {
@@ -114,15 +104,19 @@ ChildOutcome ChildProcess::Run(const ChildWork& work)
   }
   if (child == 0)
   {
-    this->Work(work);
+    this->Work(work, parent);
   }
   return this->Wait(child);
 }
 
-void ChildProcess::Work(const ChildWork& work)
+void ChildProcess::Enter(Phase phase) { this->Shared->Value = phase; }
+
+Phase ChildProcess::GetPhase() const { return this->Shared->Value; }
+
+void ChildProcess::Work(const std::function<int()>& work, int parent)
 {
   // Ctrl-C in a terminal reaches both processes; only the parent acts on it.
-  for (const int ending : { SIGINT, SIGTERM, SIGHUP })
+  for (const int ending : Endings)
   {
     signal(ending, SIG_IGN);
   }
@@ -134,12 +128,12 @@ void ChildProcess::Work(const ChildWork& work)
   setrlimit(RLIMIT_CORE, &none);
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != this->Parent)
+  if (getppid() != parent)
   {
     _exit(static_cast<int>(ExitCode::Interrupted));
   }
 #endif
-  const int code = work([this](Phase phase) { this->Shared->Value = phase; });
+  const int code = work();
   std::cout.flush();
   _exit(code);
 }

@@ -21,10 +21,6 @@ enum class Phase
   Over
 };
 
-/// What runs in the child. It reports its phases through the function that it is given, and returns
-/// the exit code.
-using ChildWork = std::function<int(const std::function<void(Phase)>&)>;
-
 /// How the child ended.
 struct ChildOutcome
 {
@@ -46,19 +42,23 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Runs `work` in the child until it ends.
+  /// Runs `work`, which returns the exit code, in the child until it ends.
   /// @throws CommandError when the child cannot be started.
-  ChildOutcome Run(const ChildWork& work);
+  ChildOutcome Run(const std::function<int()>& work);
+
+  /// Begins a phase, in the child; both processes know it.
+  void Enter(Phase phase);
+
+  Phase GetPhase() const;
 
 private:
-  [[noreturn]] void Work(const ChildWork& work);
+  [[noreturn]] void Work(const std::function<int()>& work, int parent);
   ChildOutcome Wait(int child);
 
   struct SharedPhase;
   SharedPhase* Shared; ///< In memory shared by both processes.
   sigset_t Watched;
   sigset_t Before;
-  int Parent;
 };
 
 }

@@ -7,14 +7,12 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <regex>
 #include <utility>
 
@@ -112,76 +110,36 @@ void PrintWarning(const std::string& message) { PrintLine("warning: " + message)
 
 void PrintNote(const std::string& message) { PrintLine("note: " + message); }
 
-VTKMessages::VTKMessages()
+void CollectVTKMessages()
 {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkNew<CollectingWindow> window;
   vtkOutputWindow::SetInstance(window);
 }
 
-std::vector<std::string> VTKMessages::TakeWarnings()
-{
-  return std::exchange(Window()->Warnings, {});
-}
+std::vector<std::string> TakeVTKWarnings() { return std::exchange(Window()->Warnings, {}); }
 
-std::string VTKMessages::TakeErrors()
-{
-  const std::string joined = Joined(Window()->Errors);
-  Window()->Errors.clear();
-  return joined;
-}
+std::string TakeVTKErrors() { return Joined(std::exchange(Window()->Errors, {})); }
 
-std::string VTKMessages::TakeProblems()
+std::string TakeVTKProblems()
 {
   std::vector<std::string>& warnings = Window()->Warnings;
   const auto problems = std::stable_partition(warnings.begin(), warnings.end(), IsAboutVersion);
   Window()->Errors.insert(Window()->Errors.end(), problems, warnings.end());
   warnings.erase(problems, warnings.end());
-  return this->TakeErrors();
+  return TakeVTKErrors();
 }
 
-MutedStandardError::MutedStandardError()
-  : Saved(dup(STDERR_FILENO))
-{
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (this->Saved >= 0 && nowhere >= 0)
-  {
-    dup2(nowhere, STDERR_FILENO);
-  }
-  if (nowhere >= 0)
-  {
-    close(nowhere);
-  }
-}
-
-MutedStandardError::~MutedStandardError()
-{
-  if (this->Saved >= 0)
-  {
-    dup2(this->Saved, STDERR_FILENO);
-    close(this->Saved);
-  }
-}
-
-ProgressBar::ProgressBar(bool wanted, MeshFormat input, MeshFormat output)
+ProgressBar::ProgressBar(bool wanted)
   : Draws(wanted && isatty(STDERR_FILENO))
 {
-  // Times per triangle, by format, relative to building the edges of a badly triangulated terrain
-  // and flipping them. Writing includes checking the file.
-  static const std::map<MeshFormat, std::pair<double, double>> costs = {
-    { MeshFormat::VTK, { 0.5, 1.6 } }, { MeshFormat::VTP, { 1.8, 3.2 } },
-    { MeshFormat::PLY, { 0.8, 2.0 } }, { MeshFormat::STL, { 3.5, 1.6 } },
-    { MeshFormat::OBJ, { 1.4, 3.6 } }, { MeshFormat::Points, { 0.8, 0.0 } }
-  };
-  const double read = costs.at(input).first;
-  const double flipped = read + 4.0;
-  const double all = flipped + costs.at(output).second;
-  this->Ends = { read / all, flipped / all, 1.0 };
 }
 
 void ProgressBar::Begin(Phase phase, const std::string& text)
 {
-  this->PhaseBegin = std::exchange(this->PhaseEnd, this->Ends.at(static_cast<std::size_t>(phase)));
+  // When the phases end in most runs, as shares of the time.
+  constexpr double ends[] = { 0.15, 0.6, 1.0 };
+  this->PhaseBegin = std::exchange(this->PhaseEnd, ends[static_cast<std::size_t>(phase)]);
   this->Done = std::max(this->Done, this->PhaseBegin);
   this->Draw(text);
 }

@@ -4,9 +4,7 @@
 #define DELAUNAYFLIP_CONSOLE_H
 
 #include "ChildProcess.h"
-#include "MeshFiles.h"
 
-#include <array>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -25,43 +23,26 @@ void PrintError(const std::string& message);
 void PrintWarning(const std::string& message);
 void PrintNote(const std::string& message);
 
-/// From its construction on, collects VTK's messages in this process instead of printing them.
-class VTKMessages
-{
-public:
-  VTKMessages();
+/// From now on, collects VTK's messages in this process instead of printing them.
+void CollectVTKMessages();
 
-  /// The warnings since the last call.
-  std::vector<std::string> TakeWarnings();
+/// The warnings since the last call.
+std::vector<std::string> TakeVTKWarnings();
 
-  /// The errors since the last call, joined, or an empty string.
-  std::string TakeErrors();
+/// The errors since the last call, joined, or an empty string.
+std::string TakeVTKErrors();
 
-  /// The errors and warnings since the last call, joined, or an empty string. Leaves out warnings
-  /// that the file has a newer version than VTK knows; TakeWarnings returns these.
-  std::string TakeProblems();
-};
-
-/// Discards what is written to stderr while it lives: the output of a crashing reader helps nobody.
-class MutedStandardError
-{
-public:
-  MutedStandardError();
-  ~MutedStandardError();
-  MutedStandardError(const MutedStandardError&) = delete;
-  MutedStandardError& operator=(const MutedStandardError&) = delete;
-
-private:
-  int Saved;
-};
+/// The errors and warnings since the last call, joined, or an empty string. Leaves out warnings
+/// that the file has a newer version than VTK knows; TakeVTKWarnings returns these.
+std::string TakeVTKProblems();
 
 /// One line that shows how much of a job is done. It never goes backwards. It is drawn on a
 /// terminal only, so logs do not contain it.
 class ProgressBar
 {
 public:
-  /// `wanted` false: never draws. The shares of the phases are estimated for these formats.
-  ProgressBar(bool wanted, MeshFormat input, MeshFormat output);
+  /// `wanted` false: never draws.
+  explicit ProgressBar(bool wanted);
   ~ProgressBar() { this->Clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -80,8 +61,6 @@ private:
 
   bool Draws;
   std::chrono::steady_clock::time_point LastDrawn;
-  std::array<double, 3>
-    Ends = {}; ///< The shares of the time, 0 .. 1, at which the phases are expected to end.
   double PhaseBegin = 0.0;
   double PhaseEnd = 0.0;
   double Done = 0.0;

@@ -10,8 +10,8 @@
 #include "Report.h"
 
 #include <vtkAppendPolyData.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipPoints.h>
 #include <vtkNew.h>
@@ -30,7 +30,6 @@
 #include <limits>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <vector>
 
 namespace delaunayflip
@@ -148,16 +147,6 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
                  : "--merge-points joins those that lie at the same place");
 }
 
-void ShowProgress(vtkObject* caller, unsigned long, void* bar, void*)
-{
-  auto* filter = vtkDelaunayFlipAlgorithm::SafeDownCast(caller);
-  const vtkIdType iterations = filter->GetNumberOfIterations();
-  static_cast<ProgressBar*>(bar)->Show(filter->GetProgress(),
-    iterations == 0 ? "finding edges"
-                    : "iteration " + std::to_string(iterations) + ", " +
-        Counted(filter->GetTotalFlips(), "flip"));
-}
-
 enum class SegmentKind
 {
   Breaklines,
@@ -227,8 +216,9 @@ public:
   FlipJob(const Arguments& arguments, OutputFiles& files)
     : Settings(arguments),
       Files(files),
-      Bar(!arguments.Quiet, arguments.InputFormat, arguments.OutputFormat)
+      Bar(!arguments.Quiet)
   {
+    CollectVTKMessages();
   }
 
   void Read()
@@ -274,15 +264,12 @@ public:
       Configure(filter, this->Settings, this->Input->GetLength());
       this->Filter = filter;
     }
-    vtkNew<vtkCallbackCommand> progress;
-    progress->SetCallback(ShowProgress);
-    progress->SetClientData(&this->Bar);
     this->Bar.Begin(Phase::Flipping, "finding edges");
-    this->Filter->AddObserver(vtkCommand::ProgressEvent, progress);
+    this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
     this->Filter->SetInputData(this->Input);
     this->Filter->Update();
     this->Bar.Clear();
-    for (const std::string& warning : this->Messages.TakeWarnings())
+    for (const std::string& warning : TakeVTKWarnings())
     {
       this->Warn(WithOptions(warning, this->Settings.MergePoints));
     }
@@ -299,8 +286,7 @@ public:
     // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
-    WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat, this->Messages,
-      [this](double fraction) { this->Bar.Show(fraction, "writing " + this->Settings.Output); });
+    WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat);
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
     mesh->SetFieldData(this->Input->GetFieldData()); // what flips add is in reports
@@ -313,21 +299,11 @@ public:
 
   void Tell()
   {
-    if (this->Files.Statistics)
-    {
-      std::ostringstream text;
-      WriteCsv(this->Run.Flip, text);
-      this->Files.Statistics->Write(text.str());
-    }
-    if (this->Files.Report)
-    {
-      std::ostringstream text;
-      WriteJson(this->Run, text);
-      this->Files.Report->Write(text.str());
-    }
+    this->Files.Statistics.Write(MakeCsv(this->Run.Flip));
+    this->Files.Report.Write(MakeJson(this->Run));
     if (!this->Settings.Quiet)
     {
-      WriteSummary(this->Run, std::cout);
+      std::cout << MakeSummary(this->Run);
     }
   }
 
@@ -338,10 +314,19 @@ public:
   }
 
 private:
+  void ShowProgress()
+  {
+    const vtkIdType iterations = this->Filter->GetNumberOfIterations();
+    this->Bar.Show(this->Filter->GetProgress(),
+      iterations == 0 ? "finding edges"
+                      : "iteration " + std::to_string(iterations) + ", " +
+          Counted(this->Filter->GetTotalFlips(), "flip"));
+  }
+
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path)
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
-    const FileMesh file = ReadMesh(path, FormatOf(path), this->Messages);
+    const FileMesh file = ReadMesh(path, FormatOf(path));
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
     {
@@ -427,7 +412,7 @@ private:
 
   void ThrowErrors()
   {
-    const std::string errors = this->Messages.TakeErrors();
+    const std::string errors = TakeVTKErrors();
     static const std::regex ring("ring (\\d+) from .* cannot be inserted(.*)");
     std::smatch found;
     if (std::regex_search(errors, found, ring))
@@ -462,7 +447,6 @@ private:
 
   const Arguments& Settings;
   OutputFiles& Files;
-  VTKMessages Messages;
   ProgressBar Bar;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
@@ -473,20 +457,19 @@ private:
 
 }
 
-int RunFlipJob(
-  const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
+int RunFlipJob(const Arguments& arguments, OutputFiles& files, ChildProcess& child)
 {
   KeepVTKFromThreads();
   TryOptions(arguments.Flip);
   FlipJob job(arguments, files);
-  enter(Phase::Reading);
+  child.Enter(Phase::Reading);
   job.Read();
-  enter(Phase::Flipping);
+  child.Enter(Phase::Flipping);
   job.Flip();
-  enter(Phase::Writing);
+  child.Enter(Phase::Writing);
   job.Write();
   job.Tell();
-  enter(Phase::Over);
+  child.Enter(Phase::Over);
   return static_cast<int>(job.GetExitCode());
 }
 

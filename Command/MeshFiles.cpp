@@ -21,7 +21,7 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <map>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -139,6 +139,12 @@ bool IsEnded(const std::string& path, MeshFormat format)
 
 using Place = std::array<double, 3>;
 
+std::int64_t CountDistinct(std::vector<Place> places)
+{
+  std::sort(places.begin(), places.end());
+  return std::unique(places.begin(), places.end()) - places.begin();
+}
+
 /// What a .stl loses of the points.
 struct PointLosses
 {
@@ -152,30 +158,27 @@ struct PointLosses
         { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
     }
     this->Unused = std::count(isUsed.begin(), isUsed.end(), false);
-    std::vector<std::pair<Place, Place>> places; // as float, and as it was
+    std::vector<Place> places;
+    std::vector<Place> roundedPlaces;
     for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
     {
       Place place;
       Place rounded;
       mesh->GetPoint(point, place.data());
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t axis = 0; axis < 3 && isUsed[point]; ++axis)
       {
         place[axis] = std::isnan(place[axis]) ? 0.0 : place[axis]; // it has no order
         rounded[axis] = static_cast<float>(place[axis]);
-        const bool differs = isUsed[point] && rounded[axis] != place[axis];
-        const double move = differs ? std::abs(rounded[axis] - place[axis]) : 0.0;
-        this->LargestMove = std::max(this->LargestMove, move);
+        const double move = std::abs(rounded[axis] - place[axis]);
+        this->LargestMove = std::fmax(this->LargestMove, move); // infinity does not move
       }
       if (isUsed[point])
       {
-        places.emplace_back(rounded, place);
+        places.push_back(place);
+        roundedPlaces.push_back(rounded);
       }
     }
-    std::sort(places.begin(), places.end());
-    for (std::size_t i = 1; i < places.size() && this->LargestMove > 0.0; ++i)
-    {
-      this->Fallen += places[i].first == places[i - 1].first && places[i] != places[i - 1] ? 1 : 0;
-    }
+    this->Fallen = CountDistinct(std::move(places)) - CountDistinct(std::move(roundedPlaces));
   }
 
   std::int64_t Unused = 0; ///< Points of no polygon.
@@ -226,38 +229,58 @@ std::string LostCount(const std::string& what, std::int64_t count)
   return count > 0 ? what + " (" + std::to_string(count) + ")" : "";
 }
 
+/// A file format, by one of its extensions.
+struct FormatRow
+{
+  const char* Extension;
+  MeshFormat Format;
+  FileMesh (*Read)(const InputFile&);
+  void (*Write)(vtkPolyData*, const std::string&);
+};
+
+constexpr FormatRow Formats[] = {
+  { ".vtk", MeshFormat::VTK, ReadLegacy, WriteLegacy },
+  { ".vtp", MeshFormat::VTP, ReadXml, WriteXml },
+  { ".ply", MeshFormat::PLY, ReadPly, WritePly },
+  { ".stl", MeshFormat::STL, ReadStl, WriteStl },
+  { ".obj", MeshFormat::OBJ, ReadObj, WriteObj },
+  { ".xyz", MeshFormat::Points, ReadPoints, nullptr },
+  { ".csv", MeshFormat::Points, ReadPoints, nullptr },
+  { ".txt", MeshFormat::Points, ReadPoints, nullptr },
+};
+
+const FormatRow& RowOf(MeshFormat format)
+{
+  return *std::find_if(std::begin(Formats), std::end(Formats),
+    [format](const FormatRow& row) { return row.Format == format; });
+}
+
 }
 
 MeshFormat FormatOf(const std::string& path)
 {
-  static const std::map<std::string, MeshFormat> formats = { { ".vtk", MeshFormat::VTK },
-    { ".vtp", MeshFormat::VTP }, { ".ply", MeshFormat::PLY }, { ".stl", MeshFormat::STL },
-    { ".obj", MeshFormat::OBJ }, { ".xyz", MeshFormat::Points }, { ".csv", MeshFormat::Points },
-    { ".txt", MeshFormat::Points } };
-  const auto found = formats.find(
-    vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path)));
-  if (found == formats.end())
+  const std::string extension =
+    vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
+  for (const FormatRow& row : Formats)
   {
-    throw CommandError(ExitCode::WrongUsage,
-      path +
-        ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
-        ".xyz, .csv and .txt");
+    if (extension == row.Extension)
+    {
+      return row.Format;
+    }
   }
-  return found->second;
+  throw CommandError(ExitCode::WrongUsage,
+    path +
+      ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
+      ".xyz, .csv and .txt");
 }
 
-FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages)
+FileMesh ReadMesh(const std::string& path, MeshFormat format)
 {
   const InputFile file(path);
   const ReadingLimits limits(static_cast<double>(file.GetBytes().size()));
   try
   {
-    FileMesh read = format == MeshFormat::VTK ? ReadLegacy(file, messages)
-      : format == MeshFormat::VTP             ? ReadXml(file, messages)
-      : format == MeshFormat::PLY             ? ReadPly(file)
-      : format == MeshFormat::STL             ? ReadStl(file)
-      : format == MeshFormat::OBJ             ? ReadObj(file)
-                                              : ReadPoints(file);
+    FileMesh read = RowOf(format).Read(file);
     RequireValidIds(read.Mesh, file);
     return read;
   }
@@ -272,33 +295,18 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messa
     std::to_string(file.GetBytes().size()) + " bytes can hold");
 }
 
-void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
-  const WriteObserver& tell)
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)
 {
   RequireStorable(mesh, format);
   std::string problem;
   try
   {
-    switch (format)
+    RowOf(format).Write(mesh, path);
+    if (format == MeshFormat::VTP)
     {
-      case MeshFormat::VTP:
-        return WriteXml(mesh, path, messages, tell); // and checks it
-      case MeshFormat::VTK:
-        WriteLegacy(mesh, path, messages);
-        break;
-      case MeshFormat::PLY:
-        WritePly(mesh, path);
-        break;
-      case MeshFormat::STL:
-        WriteStl(mesh, path, messages);
-        break;
-      case MeshFormat::OBJ:
-        WriteObj(mesh, path);
-        break;
-      case MeshFormat::Points:
-        return; // the command line does not allow it
+      return; // WriteXml has checked it
     }
-    const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format, messages).Mesh;
+    const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format).Mesh;
     if (IsEnded(path, format) && mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
       (format == MeshFormat::STL || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
       (format != MeshFormat::VTK || mesh->GetNumberOfCells() == written->GetNumberOfCells()))

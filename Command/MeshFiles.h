@@ -6,7 +6,6 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,6 @@
 
 namespace delaunayflip
 {
-
-class VTKMessages;
 
 enum class MeshFormat
 {
@@ -42,16 +39,12 @@ struct FileMesh
 
 /// Reads a surface mesh.
 /// @throws CommandError (BadFile) that names the file and the reason.
-FileMesh ReadMesh(const std::string& path, MeshFormat format, VTKMessages& messages);
-
-/// Called with the share that has been written, 0 .. 1, if writing the format takes long.
-using WriteObserver = std::function<void(double)>;
+FileMesh ReadMesh(const std::string& path, MeshFormat format);
 
 /// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
 /// complete, because the writers of some formats do not notice a full disk.
 /// @throws std::runtime_error with the reason; it does not name the file.
-void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format, VTKMessages& messages,
-  const WriteObserver& tell);
+void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format);
 
 /// Lists in words which parts of `mesh` a file of this format cannot store; empty if it can store
 /// all of them.

@@ -9,11 +9,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace delaunayflip
 {
@@ -108,9 +110,13 @@ std::string ExplainFailedWrite(const std::string& path)
 }
 
 PendingFile::PendingFile(const std::string& target, bool mayBeStream)
-  : Target(target),
-    Resolved(FollowLinks(target, &this->OpenFile))
+  : Target(target)
 {
+  if (target.empty())
+  {
+    return;
+  }
+  this->Resolved = FollowLinks(target, &this->OpenFile);
   std::error_code error;
   const fs::file_status status = fs::status(this->Resolved, error);
   const bool exists = fs::exists(status);
@@ -145,17 +151,23 @@ PendingFile::PendingFile(const std::string& target, bool mayBeStream)
 
 PendingFile::~PendingFile()
 {
-  for (const std::string& name : { this->Temporary, this->Backup })
+  if (!this->Backup.empty())
   {
-    if (!name.empty())
-    {
-      unlink(name.c_str());
-    }
+    std::rename(this->Backup.c_str(), this->Resolved.c_str());
+  }
+  for (const std::string& name :
+    { this->Temporary, this->Backup, this->IsNew ? this->Resolved.string() : "" })
+  {
+    unlink(name.c_str());
   }
 }
 
 void PendingFile::Write(const std::string& text) const
 {
+  if (this->Target.empty())
+  {
+    return;
+  }
   const std::string& path = this->Temporary.empty() ? this->Target : this->Temporary;
   const int file = this->OpenFile >= 0 ? dup(this->OpenFile) : open(path.c_str(), O_WRONLY);
   std::size_t done = 0;
@@ -180,28 +192,23 @@ void PendingFile::Commit()
     return;
   }
   CopyOwner(this->Resolved, this->Temporary);
-  // Some file systems allow no second name for the old file; then Undo cannot bring it back.
+  // Some file systems allow no second name for the old file; then it cannot be put back.
   this->Backup = MakeUnused(
     this->Resolved, [this](const char* name) { return link(this->Resolved.c_str(), name) == 0; });
-  this->HadNone = this->Backup.empty() && errno == ENOENT;
+  const bool isNew = this->Backup.empty() && errno == ENOENT;
   if (std::rename(this->Temporary.c_str(), this->Resolved.c_str()) != 0)
   {
     this->Fail(std::strerror(errno));
   }
+  this->IsNew = isNew;
   this->Temporary.clear();
 }
 
-void PendingFile::Undo()
+void PendingFile::Keep()
 {
-  if (this->HadNone)
-  {
-    unlink(this->Resolved.c_str());
-  }
-  else if (!this->Backup.empty())
-  {
-    std::rename(this->Backup.c_str(), this->Resolved.c_str());
-    this->Backup.clear();
-  }
+  this->IsNew = false;
+  unlink(this->Backup.c_str());
+  this->Backup.clear();
 }
 
 void PendingFile::Fail(const std::string& reason) const
@@ -210,41 +217,17 @@ void PendingFile::Fail(const std::string& reason) const
 }
 
 OutputFiles::OutputFiles(const Arguments& arguments)
-  : Mesh(arguments.Output)
+  : Mesh(arguments.Output),
+    Statistics(arguments.Statistics, true),
+    Report(arguments.Report, true)
 {
-  if (!arguments.Statistics.empty())
-  {
-    this->Statistics.emplace(arguments.Statistics, true);
-  }
-  if (!arguments.Report.empty())
-  {
-    this->Report.emplace(arguments.Report, true);
-  }
 }
 
 void OutputFiles::Commit()
 {
-  std::vector<PendingFile*> done;
-  try
-  {
-    for (PendingFile* file : { this->Statistics ? &*this->Statistics : nullptr,
-           this->Report ? &*this->Report : nullptr, &this->Mesh })
-    {
-      if (file)
-      {
-        file->Commit();
-        done.push_back(file);
-      }
-    }
-  }
-  catch (...)
-  {
-    for (PendingFile* file : done)
-    {
-      file->Undo();
-    }
-    throw;
-  }
+  PendingFile* const files[] = { &this->Statistics, &this->Report, &this->Mesh };
+  std::for_each(std::begin(files), std::end(files), [](PendingFile* file) { file->Commit(); });
+  std::for_each(std::begin(files), std::end(files), [](PendingFile* file) { file->Keep(); });
 }
 
 }

@@ -6,7 +6,6 @@
 #include "Arguments.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 /// @file
@@ -25,8 +24,8 @@ std::filesystem::path FollowLinks(const std::string& path, int* openFile = nullp
 /// size of files. Empty if neither is the cause.
 std::string ExplainFailedWrite(const std::string& path);
 
-/// An empty temporary file beside `target`. Commit() replaces the target with it; if Commit() is
-/// not called, the destructor removes it.
+/// An empty temporary file beside `target`, or no file for an empty name. Commit() replaces the
+/// target with it, and Keep() makes that final; without Keep(), the destructor puts all back.
 ///
 /// A target that is a pipe, a device or one of this process's open files (/dev/stdout) is a stream:
 /// it has no temporary file, and Write writes to it.
@@ -50,8 +49,8 @@ public:
   /// @throws CommandError (BadFile); the target is unchanged then.
   void Commit();
 
-  /// Puts back what Commit replaced.
-  void Undo();
+  /// From now on, what Commit replaced is not put back.
+  void Keep();
 
 private:
   [[noreturn]] void Fail(const std::string& reason) const;
@@ -61,7 +60,7 @@ private:
   std::filesystem::path Resolved; ///< The target, with symbolic links resolved.
   std::string Temporary; ///< Empty for a stream.
   std::string Backup; ///< Another name of the file that was replaced.
-  bool HadNone = false; ///< Whether there was no such file.
+  bool IsNew = false; ///< Whether Commit made a file where there was none.
 };
 
 /// The files that a run writes. They are created before the work begins, so that a missing write
@@ -76,8 +75,8 @@ struct OutputFiles
   void Commit();
 
   PendingFile Mesh;
-  std::optional<PendingFile> Statistics;
-  std::optional<PendingFile> Report;
+  PendingFile Statistics;
+  PendingFile Report;
 };
 
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -13,7 +14,7 @@
 namespace delaunayflip
 {
 
-void WriteJson(const RunReport& run, std::ostream& stream)
+std::string MakeJson(const RunReport& run)
 {
   const FlipReport& flip = run.Flip;
   nlohmann::ordered_json json;
@@ -62,27 +63,22 @@ void WriteJson(const RunReport& run, std::ostream& stream)
   json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
     { "flip", flip.FlipSeconds }, { "write", run.WriteSeconds } };
   json["warnings"] = run.Warnings;
-  stream << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
-void WriteCsv(const FlipReport& flip, std::ostream& stream)
+std::string MakeCsv(const FlipReport& flip)
 {
-  stream << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
-         << std::setprecision(std::numeric_limits<double>::max_digits10);
+  std::ostringstream text;
+  text << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
+       << std::setprecision(std::numeric_limits<double>::max_digits10);
   for (const IterationRecord& record : flip.Iterations)
   {
-    stream << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
-           << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ',';
-    if (record.MinimumAngle == record.MinimumAngle)
-    {
-      stream << record.MinimumAngle;
-    }
-    else
-    {
-      stream << "nan"; // a stream may print it with a sign
-    }
-    stream << ',' << record.Seconds << '\n';
+    text << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
+         << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ','
+         << std::abs(record.MinimumAngle) // a NaN may have a sign
+         << ',' << record.Seconds << '\n';
   }
+  return text.str();
 }
 
 namespace
@@ -115,18 +111,12 @@ std::string DescribePoints(const FlipReport& flip)
   return text;
 }
 
-std::string Seconds(double seconds)
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << seconds << " s";
-  return text.str();
 }
 
-}
-
-void WriteSummary(const RunReport& run, std::ostream& stream)
+std::string MakeSummary(const RunReport& run)
 {
   constexpr std::size_t Column = 16;
+  std::ostringstream text;
   std::istringstream lines(run.Summary);
   for (std::string line; std::getline(lines, line);)
   {
@@ -136,18 +126,19 @@ void WriteSummary(const RunReport& run, std::ostream& stream)
     if (!run.IsFromPoints ||
       (title != "geometry" && title != "constraints" && title != "bad edges"))
     {
-      stream << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
+      text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
     }
     if (run.IsFromPoints && title == "mesh")
     {
-      stream << DescribePoints(run.Flip);
+      text << DescribePoints(run.Flip);
     }
   }
   const FlipReport& flip = run.Flip;
-  stream << "time            read " << Seconds(run.ReadSeconds) << ", edges "
-         << Seconds(flip.BuildSeconds) << ", flips " << Seconds(flip.FlipSeconds) << ", write "
-         << Seconds(run.WriteSeconds) << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
-         << '\n';
+  text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds
+       << " s, edges " << flip.BuildSeconds << " s, flips " << flip.FlipSeconds << " s, write "
+       << run.WriteSeconds << " s" << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
+       << '\n';
+  return text.str();
 }
 
 }

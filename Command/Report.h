@@ -5,7 +5,6 @@
 
 #include "FlipReport.h"
 
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -27,13 +26,13 @@ struct RunReport
 };
 
 /// One JSON object; numbers that are not finite become null.
-void WriteJson(const RunReport& run, std::ostream& stream);
+std::string MakeJson(const RunReport& run);
 
 /// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
-void WriteCsv(const FlipReport& flip, std::ostream& stream);
+std::string MakeCsv(const FlipReport& flip);
 
 /// The summary and the times, in two columns.
-void WriteSummary(const RunReport& run, std::ostream& stream);
+std::string MakeSummary(const RunReport& run);
 
 }
 

@@ -54,20 +54,6 @@ std::string DescribeWork(const Arguments& arguments, Phase phase)
   }
 }
 
-/// The work of the child.
-int RunInChild(
-  const Arguments& arguments, OutputFiles& files, const std::function<void(Phase)>& enter)
-{
-  Phase now = Phase::Reading;
-  const auto follow = [&now, &enter](Phase phase)
-  {
-    now = phase;
-    enter(phase);
-  };
-  return Guarded([&] { return RunFlipJob(arguments, files, follow); },
-    [&] { return DescribeWork(arguments, now); });
-}
-
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
@@ -128,9 +114,12 @@ int main(int argc, char** argv)
     }
     ChildProcess child;
     OutputFiles files(arguments);
-    const ChildOutcome outcome = child.Run(
-      [&](const std::function<void(Phase)>& enter) { return RunInChild(arguments, files, enter); });
-    return Finish(arguments, files, outcome);
+    const auto work = [&]
+    {
+      return Guarded([&] { return RunFlipJob(arguments, files, child); },
+        [&] { return DescribeWork(arguments, child.GetPhase()); });
+    };
+    return Finish(arguments, files, child.Run(work));
   };
   return Guarded(run, [] { return std::string(); });
 }

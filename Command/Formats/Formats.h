@@ -19,8 +19,8 @@ namespace delaunayflip
 
 class InputFile;
 
-FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages);
-FileMesh ReadXml(const InputFile& file, VTKMessages& messages);
+FileMesh ReadLegacy(const InputFile& file);
+FileMesh ReadXml(const InputFile& file);
 FileMesh ReadPly(const InputFile& file);
 FileMesh ReadObj(const InputFile& file);
 FileMesh ReadPoints(const InputFile& file);
@@ -29,10 +29,9 @@ FileMesh ReadPoints(const InputFile& file);
 /// that collapses stays a triangle.
 FileMesh ReadStl(const InputFile& file);
 
-void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messages);
-void WriteXml(
-  vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell);
-void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages);
+void WriteLegacy(vtkPolyData* mesh, const std::string& path);
+void WriteXml(vtkPolyData* mesh, const std::string& path);
+void WriteStl(vtkPolyData* mesh, const std::string& path);
 void WritePly(vtkPolyData* mesh, const std::string& path);
 void WriteObj(vtkPolyData* mesh, const std::string& path);
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -16,6 +17,16 @@
 
 namespace delaunayflip
 {
+
+/// Reads a whole word as a number, as std::from_chars does; it may begin with a plus sign.
+template <typename T>
+std::errc ReadNumber(std::string_view word, T& value)
+{
+  const bool hasPlus = word.substr(0, 1) == "+" && word.substr(0, 2) != "+-";
+  const char* const end = word.data() + word.size();
+  const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
+  return last == end ? error : std::errc::invalid_argument;
+}
 
 /// The bytes of a file, in memory as long as this object lives. A pipe is read to its end first.
 class InputFile
@@ -101,11 +112,9 @@ T TextLines::Number(std::size_t place) const
     this->Fail("a number is missing");
   }
   const std::string_view word = this->Words[place];
-  const bool hasPlus = word[0] == '+' && word.substr(0, 2) != "+-";
-  const char* const end = word.data() + word.size();
   T value = 0;
-  const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
-  if (last != end || error == std::errc::invalid_argument)
+  const std::errc error = ReadNumber(word, value);
+  if (error == std::errc::invalid_argument)
   {
     this->FailOn(word, " is not a number, or is out of range");
   }

@@ -185,10 +185,9 @@ private:
       const auto seen =
         static_cast<std::int64_t>(this->Values[kind].size()) / Vectors[kind].Components;
       std::int64_t index = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
       if (kind == 0 || !text.empty())
       {
-        if (error != std::errc() || end != text.data() + text.size())
+        if (ReadNumber(text, index) != std::errc())
         {
           break;
         }

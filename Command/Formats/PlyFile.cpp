@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 /// @file
 /// .ply: a header lists elements (vertex, face, edge) with their number and properties; their
@@ -26,18 +27,13 @@ namespace delaunayflip
 namespace
 {
 
-struct PlyType
-{
-  const char* Name;
-  const char* OtherName;
-  int VtkType;
-};
-
-constexpr PlyType Types[] = { { "char", "int8", VTK_SIGNED_CHAR },
-  { "uchar", "uint8", VTK_UNSIGNED_CHAR }, { "short", "int16", VTK_SHORT },
-  { "ushort", "uint16", VTK_UNSIGNED_SHORT }, { "int", "int32", VTK_INT },
-  { "uint", "uint32", VTK_UNSIGNED_INT }, { "float", "float32", VTK_FLOAT },
-  { "double", "float64", VTK_DOUBLE } };
+/// The types, each by two names; the first is written.
+constexpr std::pair<const char*, int> Types[] = { { "char", VTK_SIGNED_CHAR },
+  { "int8", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
+  { "short", VTK_SHORT }, { "int16", VTK_SHORT }, { "ushort", VTK_UNSIGNED_SHORT },
+  { "uint16", VTK_UNSIGNED_SHORT }, { "int", VTK_INT }, { "int32", VTK_INT },
+  { "uint", VTK_UNSIGNED_INT }, { "uint32", VTK_UNSIGNED_INT }, { "float", VTK_FLOAT },
+  { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE } };
 
 using Names = std::vector<std::string>;
 
@@ -71,9 +67,9 @@ struct PlyProperty
 {
   std::string Name;
   int Type;
-  int CountType; ///< Of a list, the type of its length; else VTK_VOID.
-  vtkDataArray* Array = nullptr; ///< Receives the values of a scalar property.
+  vtkDataArray* Array = nullptr; ///< Has the values of a scalar property.
   int Component = 0;
+  int CountType = VTK_VOID; ///< Of a list, the type of its length.
 
   bool IsList() const { return this->CountType != VTK_VOID; }
 };
@@ -212,7 +208,7 @@ private:
         {
           this->Lines.Fail("a list whose length is no integer, or a second property of this name");
         }
-        properties.push_back({ this->Word(type + 1), this->TypeAt(type), countType });
+        properties.push_back({ this->Word(type + 1), this->TypeAt(type), nullptr, 0, countType });
       }
       else if (keyword != "comment" && keyword != "obj_info" && keyword != "end_header" &&
         keyword != "Created") // by Open Asset Import Library
@@ -236,11 +232,11 @@ private:
   int TypeAt(std::size_t place) const
   {
     const std::string name = this->Word(place);
-    for (const PlyType& type : Types)
+    for (const auto& [known, type] : Types)
     {
-      if (name == type.Name || name == type.OtherName)
+      if (name == known)
       {
-        return type.VtkType;
+        return type;
       }
     }
     this->Lines.Fail("unknown type of a property");
@@ -423,20 +419,11 @@ private:
   FileMesh Result;
 };
 
-/// A scalar property to be written: a component of an array.
-struct PlyColumn
-{
-  std::string Name;
-  int Type;
-  vtkDataArray* Array;
-  int Component;
-};
-
 const char* NameOf(int type)
 {
   const auto* const found = std::find_if(std::begin(Types), std::end(Types),
-    [type](const PlyType& candidate) { return candidate.VtkType == type; });
-  return found == std::end(Types) ? nullptr : found->Name;
+    [type](const auto& candidate) { return candidate.second == type; });
+  return found == std::end(Types) ? nullptr : found->first;
 }
 
 /// The type of a .ply that holds all values of an array; VTK_VOID if none does.
@@ -484,9 +471,9 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
 
 /// The properties of vertices or faces. Leaves out arrays that a .ply cannot hold: strings, too
 /// large integers, and those whose names are used by an earlier array, coordinates or indices.
-std::vector<PlyColumn> PlanColumns(vtkPolyData* mesh, bool ofPoints)
+std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh, bool ofPoints)
 {
-  std::vector<PlyColumn> columns;
+  std::vector<PlyProperty> columns;
   Names taken = ofPoints ? Names{ "x", "y", "z" } : Names{ "vertex_indices", "vertex_index" };
   vtkDataArray* const coordinates = mesh->GetPoints()->GetData();
   const int real = coordinates->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
@@ -513,9 +500,9 @@ std::vector<PlyColumn> PlanColumns(vtkPolyData* mesh, bool ofPoints)
   return columns;
 }
 
-void WriteProperties(std::ostream& out, const std::vector<PlyColumn>& columns)
+void WriteProperties(std::ostream& out, const std::vector<PlyProperty>& columns)
 {
-  for (const PlyColumn& column : columns)
+  for (const PlyProperty& column : columns)
   {
     out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
   }
@@ -527,9 +514,9 @@ void WriteNumber(std::ostream& out, T number)
   out.write(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
-void WriteValues(std::ostream& out, const std::vector<PlyColumn>& columns, vtkIdType tuple)
+void WriteValues(std::ostream& out, const std::vector<PlyProperty>& columns, vtkIdType tuple)
 {
-  for (const PlyColumn& column : columns)
+  for (const PlyProperty& column : columns)
   {
     const double value = column.Array->GetComponent(tuple, column.Component);
     switch (column.Type)
@@ -550,8 +537,8 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   {
     throw CommandError(ExitCode::BadFile, "more points than this file format can number");
   }
-  const std::vector<PlyColumn> vertices = PlanColumns(mesh, true);
-  const std::vector<PlyColumn> faces = PlanColumns(mesh, false);
+  const std::vector<PlyProperty> vertices = PlanColumns(mesh, true);
+  const std::vector<PlyProperty> faces = PlanColumns(mesh, false);
   const bool isShort = mesh->GetPolys()->GetMaxCellSize() < 256;
   std::vector<std::int32_t> edges; // two points each
   ForEachCell(mesh->GetLines(),
@@ -602,7 +589,7 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
 std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh, bool ofPoints)
 {
   std::vector<vtkAbstractArray*> arrays;
-  for (const PlyColumn& column : PlanColumns(mesh, ofPoints))
+  for (const PlyProperty& column : PlanColumns(mesh, ofPoints))
   {
     arrays.push_back(column.Array);
   }

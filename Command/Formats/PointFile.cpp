@@ -24,10 +24,8 @@ using Words = std::vector<std::string_view>;
 
 bool IsNumber(std::string_view word)
 {
-  word.remove_prefix(word.substr(0, 1) == "+" ? 1 : 0);
-  const char* const end = word.data() + word.size();
   double value = 0.0;
-  return !word.empty() && std::from_chars(word.data(), end, value).ptr == end;
+  return ReadNumber(word, value) != std::errc::invalid_argument;
 }
 
 bool IsComment(std::string_view word)

@@ -5,7 +5,6 @@
 #include "Formats.h"
 #include "InputFile.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
@@ -25,7 +24,9 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <fcntl.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -52,16 +53,41 @@ namespace
     "Extract Surface (vtkDataSetSurfaceFilter) extracts one");
 }
 
+/// Discards what is written to stderr while it lives: the output of a crashing reader helps nobody.
+class MutedStandardError
+{
+public:
+  MutedStandardError()
+    : Saved(dup(STDERR_FILENO))
+  {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+
+  ~MutedStandardError()
+  {
+    dup2(this->Saved, STDERR_FILENO);
+    close(this->Saved);
+  }
+
+  MutedStandardError(const MutedStandardError&) = delete;
+  MutedStandardError& operator=(const MutedStandardError&) = delete;
+
+private:
+  int Saved;
+};
+
 /// Runs a reader. Any message of its means that a part of the file is missing.
 template <typename Reader>
-FileMesh Run(Reader* reader, const InputFile& file, VTKMessages& messages)
+FileMesh Run(Reader* reader, const InputFile& file)
 {
   reader->SetFileName(file.GetPath().c_str());
   {
     const MutedStandardError muted;
     reader->Update();
   }
-  const std::string problems = messages.TakeProblems();
+  const std::string problems = TakeVTKProblems();
   FileMesh result;
   result.Mesh = reader->GetOutput();
   if (!problems.empty() || !result.Mesh)
@@ -204,10 +230,8 @@ private:
     // A value takes a byte at least; compressed it may take less.
     const vtkIdType compression = name == "NumberOfComponents" ? 1 : 10000;
     const auto bytes = static_cast<vtkIdType>(this->File->GetBytes().size());
-    const char* const end = text.data() + text.size();
     vtkIdType count = -1;
-    const auto [last, error] = std::from_chars(text.data(), end, count);
-    if (error != std::errc() || last != end || count < 0 || count / compression > bytes)
+    if (ReadNumber(text, count) != std::errc() || count < 0 || count / compression > bytes)
     {
       this->File->Fail(name + "=\"" + text + "\" is not a valid count (corrupt)");
     }
@@ -240,12 +264,12 @@ private:
 vtkStandardNewMacro(CheckedXmlReader);
 
 template <typename Writer>
-void Run(Writer* writer, vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+void Run(Writer* writer, vtkPolyData* mesh, const std::string& path)
 {
   writer->SetInputData(mesh);
   writer->SetFileName(path.c_str());
   const bool written = writer->Write() != 0;
-  const std::string problems = messages.TakeProblems();
+  const std::string problems = TakeVTKProblems();
   if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
   {
     throw CommandError(ExitCode::BadFile, "no space for the whole file");
@@ -306,14 +330,9 @@ void PrepareForXml(vtkFieldData* data)
   }
 }
 
-void TellProgress(vtkObject* writer, unsigned long, void* tell, void*)
-{
-  (*static_cast<const WriteObserver*>(tell))(vtkAlgorithm::SafeDownCast(writer)->GetProgress());
 }
 
-}
-
-FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
+FileMesh ReadLegacy(const InputFile& file)
 {
   const std::string mark = "# vtk DataFile Version";
   const std::string_view bytes = file.GetBytes();
@@ -339,7 +358,7 @@ FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
   reader->ReadAllColorScalarsOn();
   reader->ReadAllTCoordsOn();
   reader->ReadAllFieldsOn();
-  const FileMesh result = Run(reader.Get(), file, messages);
+  const FileMesh result = Run(reader.Get(), file);
   vtkPolyData* const mesh = result.Mesh;
   if (!mesh->GetPoints())
   {
@@ -354,7 +373,7 @@ FileMesh ReadLegacy(const InputFile& file, VTKMessages& messages)
   return result;
 }
 
-FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
+FileMesh ReadXml(const InputFile& file)
 {
   vtkNew<vtkXMLFileReadTester> tester;
   tester->SetFileName(file.GetPath().c_str());
@@ -369,7 +388,7 @@ FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
   }
   vtkNew<CheckedXmlReader> reader;
   reader->File = &file;
-  FileMesh result = Run<CheckedXmlReader>(reader, file, messages);
+  FileMesh result = Run<CheckedXmlReader>(reader, file);
   vtkPolyData* const mesh = result.Mesh;
   for (const MeshCount& count : CountsOf(mesh))
   {
@@ -382,45 +401,40 @@ FileMesh ReadXml(const InputFile& file, VTKMessages& messages)
   return result;
 }
 
-void WriteLegacy(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+void WriteLegacy(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkPolyDataWriter> writer;
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), mesh, path);
 }
 
-void WriteStl(vtkPolyData* mesh, const std::string& path, VTKMessages& messages)
+void WriteStl(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkSTLWriter> writer;
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), mesh, path);
 }
 
-void WriteXml(
-  vtkPolyData* mesh, const std::string& path, VTKMessages& messages, const WriteObserver& tell)
+void WriteXml(vtkPolyData* mesh, const std::string& path)
 {
   PrepareForXml(mesh->GetFieldData());
   PrepareForXml(mesh->GetPointData());
   PrepareForXml(mesh->GetCellData());
   LimitRange(mesh->GetPoints()->GetData());
   vtkNew<vtkXMLPolyDataWriter> writer;
-  vtkNew<vtkCallbackCommand> progress;
-  progress->SetCallback(TellProgress);
-  progress->SetClientData(const_cast<WriteObserver*>(&tell));
-  writer->AddObserver(vtkCommand::ProgressEvent, progress);
   // Appended data, raw or base64, would be twice as fast. But Debian 12's ParaView 5.11 cannot read
   // them: VTK before 9.3 with an expat that delays parsing (2.6, or 2.5 with that fix) fails.
   writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToLZ4(); // a fifth of zlib's time, for files half as large again
-  Run(writer.Get(), mesh, path, messages);
+  Run(writer.Get(), mesh, path);
 
   // Parses the whole file, to its last tag, but does not decode the numbers, which takes three
   // times as long.
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->UpdateInformation();
-  if (!messages.TakeProblems().empty() || reader->GetNumberOfPieces() != 1)
+  if (!TakeVTKProblems().empty() || reader->GetNumberOfPieces() != 1)
   {
     throw CommandError(ExitCode::BadFile, "the file is incomplete when read back");
   }

@@ -52,63 +52,44 @@ CUDA = 1  # a memory
 STOP_REASONS = ("not started", "converged", "iteration limit", "aborted", "running")
 
 
-def _of(kind, names):
-    return [(name, kind) for name in names.split()]
+def make_struct(name, members):
+    """A struct of the header. `members`: (type, names) in its order."""
+    fields = [(member, kind) for kind, names in members for member in names.split()]
+    return type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
-class Mesh(ctypes.Structure):
-    _fields_ = [
-        *_of(c_int64, "size"), *_of(c_void_p, "points"), *_of(c_int64, "number_of_points"),
-        *_of(c_void_p, "triangles"), *_of(c_int64, "number_of_triangles"),
-        *_of(c_int32, "point_type id_type"), *_of(c_void_p, "constraint_edges"),
-        *_of(c_int64, "number_of_constraint_edges"),
-        *_of(c_void_p, "constraints_to_insert regions frozen_triangles triangle_numbers"),
-        *_of(c_int32, "memory point_components"), *_of(c_void_p, "stream"),
-    ]
+Mesh = make_struct("Mesh", (
+    (c_int64, "size"), (c_void_p, "points"), (c_int64, "number_of_points"), (c_void_p, "triangles"),
+    (c_int64, "number_of_triangles"), (c_int32, "point_type id_type"), (c_void_p, "constraint_edges"),
+    (c_int64, "number_of_constraint_edges"),
+    (c_void_p, "constraints_to_insert regions frozen_triangles triangle_numbers"),
+    (c_int32, "memory point_components"), (c_void_p, "stream")))
 
+Points = make_struct("Points", (
+    (c_int64, "size"), (c_void_p, "points"), (c_int64, "number_of_points"),
+    (c_int32, "point_type point_components"), (c_void_p, "segments"), (c_int64, "number_of_segments"),
+    (c_void_p, "rings hole_seeds"), (c_int64, "number_of_hole_seeds"),
+    (c_double, "point_tolerance alpha longest_edge"), (c_int32, "outline split_crossings memory"),
+    (c_void_p, "stream")))
 
-class Points(ctypes.Structure):
-    _fields_ = [
-        *_of(c_int64, "size"), *_of(c_void_p, "points"), *_of(c_int64, "number_of_points"),
-        *_of(c_int32, "point_type point_components"), *_of(c_void_p, "segments"),
-        *_of(c_int64, "number_of_segments"), *_of(c_void_p, "rings hole_seeds"),
-        *_of(c_int64, "number_of_hole_seeds"),
-        *_of(c_double, "point_tolerance alpha longest_edge"),
-        *_of(c_int32, "outline split_crossings memory"), *_of(c_void_p, "stream"),
-    ]
+Polygons = make_struct("Polygons", (
+    (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners")))
 
+Options = make_struct("Options", (
+    (c_int64, "size"), (c_int32, "geometry criterion tie_rule backend"),
+    (c_double, "tolerance feature_angle"), (c_int64, "maximum_iterations"),
+    (c_int32, "number_of_threads device track_quality number_of_pieces"), (c_char_p, "devices"),
+    (c_double, "maximum_deviation")))
 
-class Polygons(ctypes.Structure):
-    _fields_ = [*_of(c_int64, "size number_of_polygons"), *_of(c_void_p, "offsets corners")]
-
-
-class Options(ctypes.Structure):
-    _fields_ = [
-        *_of(c_int64, "size"), *_of(c_int32, "geometry criterion tie_rule backend"),
-        *_of(c_double, "tolerance feature_angle"), *_of(c_int64, "maximum_iterations"),
-        *_of(c_int32, "number_of_threads device track_quality number_of_pieces"),
-        *_of(c_char_p, "devices"), *_of(c_double, "maximum_deviation"),
-    ]
-
-
-class Iteration(ctypes.Structure):
-    _fields_ = [
-        *_of(c_int64, "iteration tested non_delaunay flipped excluded blocked"),
-        *_of(c_double, "minimum_angle seconds"),
-    ]
-
+Iteration = make_struct("Iteration", (
+    (c_int64, "iteration tested non_delaunay flipped excluded blocked"),
+    (c_double, "minimum_angle seconds")))
 
 ProgressFunction = ctypes.CFUNCTYPE(c_int32, c_double, c_void_p)
 IterationFunction = ctypes.CFUNCTYPE(c_int32, ctypes.POINTER(Iteration), c_void_p)
-
-
-class Callbacks(ctypes.Structure):
-    _fields_ = [
-        ("size", c_int64),
-        ("progress", ProgressFunction),
-        ("iteration", IterationFunction),
-        ("user", c_void_p),
-    ]
+Callbacks = make_struct("Callbacks", (
+    (c_int64, "size"), (ProgressFunction, "progress"), (IterationFunction, "iteration"),
+    (c_void_p, "user")))
 
 
 @functools.lru_cache(maxsize=None)

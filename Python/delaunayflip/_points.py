@@ -115,7 +115,7 @@ class Input:
         self.library, points = _device.view_points(points)
         if self.library is None:
             points = _arrays.as_plane(points)
-        self.segments = [_as_ids(segments, "segments")]
+        self.segments = [_arrays.as_ids("segments", [] if segments is None else segments, 2)]
         self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
         self.new_points, self.ends = [], []
         self.number_of_points = len(points)
@@ -132,7 +132,7 @@ class Input:
             self.library, points = None, numpy.concatenate([_device.to_host(points), *self.new_points])
         self.points = points
         self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
-        self.all_segments = numpy.ascontiguousarray(numpy.concatenate(self.segments))
+        self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
         self._fill()
 
@@ -159,7 +159,7 @@ class Input:
             self.new_points.append(places)
             self.number_of_points += len(ring)
         else:
-            ids = _as_ids(numpy.stack([ring, ring], axis=1), "a ring")[:, 0]
+            ids = _arrays.as_ids("a ring", numpy.stack([ring, ring], axis=1), 2)[:, 0]
             inside = ids[(ids >= 0) & (ids < len(points))]  # the engine names the others
             places = _device.to_host(points[inside])
         if len(ids) > 1 and ids[0] == ids[-1]:
@@ -207,17 +207,6 @@ class Input:
             for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
                 points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
         return points
-
-
-def _as_ids(values, name):
-    ids = numpy.empty((0, 2), dtype=numpy.int64) if values is None else numpy.asarray(values)
-    if ids.size == 0:
-        ids = ids.astype(numpy.int64).reshape(0, 2)
-    if ids.dtype.kind not in "iu":
-        raise TypeError(f"{name} must be ids of points, integers, not {ids.dtype}")
-    if ids.ndim != 2 or ids.shape[1] != 2:
-        raise ValueError(f"{name} must have the shape (k, 2), not {ids.shape}")
-    return ids.astype(numpy.int64)
 
 
 def _is_list_of_places(holes):

@@ -99,9 +99,9 @@ class Report:
 
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 #: delaunayflip_report: the members of Report, of which the first two are numbers there.
-Struct = type("Report", (ctypes.Structure,), {"_fields_": [
-    ("size", ctypes.c_int64), ("stop_reason", ctypes.c_int32), ("geometry_used", ctypes.c_int32),
-    *((field.name, _TYPES[field.type]) for field in dataclasses.fields(Report)[2:])]})
+Struct = _library.make_struct("Report", (
+    (ctypes.c_int64, "size"), (ctypes.c_int32, "stop_reason geometry_used"),
+    *((_TYPES[field.type], field.name) for field in dataclasses.fields(Report)[2:])))
 
 
 def read(handle: ctypes.c_void_p) -> Report:

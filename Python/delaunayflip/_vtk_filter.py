@@ -116,6 +116,7 @@ class Filter(VTKPythonAlgorithmBase):
     no_mesh = "not a surface, passed unchanged"
     no_composite = "the constraints of a single mesh cannot be a composite dataset"
     properties = ()
+    answers = ()  #: What a print-out says of the last update.
     update_type = Update
 
     def __init__(self, **properties):
@@ -139,6 +140,8 @@ class Filter(VTKPythonAlgorithmBase):
         lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
                  for name, value in values]
         lines += ["  Summary:", *self.GetSummary().splitlines()]
+        lines += [f"  {name.replace('AsString', '')}: {getattr(self, 'Get' + name)()}"
+                  for name in self.answers]
         return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
 
     def SetInputData(self, *port_and_data):
@@ -307,6 +310,8 @@ class vtkDelaunayFlip(Filter):
     """
 
     GEOMETRY_MIXED = 4
+    answers = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByDeviation",
+               "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString", "GeometryReason")
 
     def get_mesh(self, data):
         """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
@@ -318,13 +323,6 @@ class vtkDelaunayFlip(Filter):
 
     def SetConstraintsData(self, constraints):
         self.SetInputDataObject(1, constraints)
-
-    def __str__(self):
-        names = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByDeviation",
-                 "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString", "GeometryReason")
-        lines = [f"  {name.replace('AsString', '')}: {getattr(self, 'Get' + name)()}\n"
-                 for name in names]
-        return super().__str__() + "".join(lines)
 
 
 _ANSWERS = {

@@ -3,7 +3,6 @@
  */
 #include "check.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,31 +183,6 @@ static void TestInvalidOptions(void)
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
 }
 
-/* The diagonals of this quad are 0.25 apart. */
-static void TestMaximumDeviation(void)
-{
-  const double points[] = { 0, 1, 0.25, -4, 0, 0, 4, 0, 0, 0, -1, 0.25 };
-  const int64_t ids[] = { 0, 1, 2, 3, 2, 1 };
-  const double bounds[] = { 0.24, 0.25 };
-  delaunayflip_mesh mesh = MakeMesh();
-  delaunayflip_options options;
-  int64_t i, triangles[6];
-  delaunayflip_options_init(&options);
-  CHECK(options.maximum_deviation > 1e300);
-  options.geometry = DELAUNAYFLIP_GEOMETRY_SURFACE;
-  mesh.points = points;
-  mesh.triangles = ids;
-  for (i = 0; i < 2; ++i)
-  {
-    delaunayflip_report report;
-    delaunayflip_report_init(&report);
-    options.maximum_deviation = bounds[i];
-    CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-    CHECK(report.total_flips == i && report.blocked_by_deviation == 1 - i);
-    CHECK(report.non_delaunay_after == 1 - i && report.blocked_by_shape == 0);
-  }
-}
-
 static void TestNullPointers(void)
 {
   delaunayflip_mesh mesh = MakeMesh();
@@ -374,7 +348,6 @@ int main(void)
   TestAllTypes();
   TestSteps();
   TestInvalidOptions();
-  TestMaximumDeviation();
   TestNullPointers();
   TestUnsetSizes();
   TestOldProgram();

@@ -5,7 +5,6 @@ In the plane the answers are exact: the Delaunay triangulation is unique except 
 points. On surfaces, with feature edges off, the number of flips depends on their order, except where
 one iteration makes all of them."""
 
-import csv
 import os
 import sys
 import unittest
@@ -95,12 +94,6 @@ class Planar(RealDataTest):
             old, new = (memoryview(m.GetPoints().GetData()) for m in (before, after))
             self.assertEqual(old.tobytes(), new.tobytes())
 
-    def test_flips_an_iteration(self):
-        path = os.path.join(FOLDER, SUPERIOR)
-        self.succeed(path, "out.vtk", *XY, "--ignore-lines", "--statistics", "table.csv")
-        with open(self.path("table.csv"), encoding="utf-8", newline="") as file:
-            self.assertEqual([int(row["Flipped"]) for row in csv.DictReader(file)], [29, 3])
-
 
 # The known answers treat coordinates as exact.
 AS_GIVEN = ("--tolerance", "1e-9")
@@ -183,11 +176,6 @@ class Surfaces(RealDataTest):
                 report = self.check(name, known)
                 self.assertEqual(report["total_flips"], known.flips)
                 self.assertEqual(report["iterations"], 1 if known.flips else 0)
-
-    def test_zero_angle_is_repaired(self):
-        report = self.flip("small/pv_42400-IDGH.stl", *OFF)
-        self.assertEqual(report["min_angle_before_deg"], 0.0)
-        self.assertAlmostEqual(report["min_angle_after_deg"], 0.053, 3)
 
     def test_feature_edges(self):
         report = self.flip("dtc_ship_hull.stl", "--feature-angle", "10", *AS_GIVEN)

@@ -125,16 +125,6 @@ class Success(CommandTest):
             self.assertIn(code, text)
         self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")
 
-    def test_every_option_at_once(self):
-        mesh = write_mesh(bumpy_grid(6, 0), self.path("mesh.vtk"))
-        self.succeed(
-            *(mesh, "out.vtk", "--geometry", "planar-xy", "--criterion", "in-circle"),
-            *("--feature-angle", "20", "--tolerance", "1e-8", "--tie-rule", "canonical"),
-            *("--ignore-lines", "--max-iterations", "-1", "--backend", "threads"),
-            *("--device", "0", "--threads", "2", "--pieces", "3", "--statistics", "s.csv", "--report", "r.json", "--quiet"),
-        )
-        self.assertLess({"out.vtk", "s.csv", "r.json"}, set(os.listdir(self.folder)))
-
     def test_iteration_limit(self):
         mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
         report = self.report(mesh, "out.vtk", "--max-iterations", "2", code=4)

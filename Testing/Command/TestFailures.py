@@ -50,10 +50,6 @@ class FullDisk(CommandTest):
         limit = self.content("out.obj").index(b"\n", -500) + 1
         self.refuse(limit, "out.obj", naming="out.obj")
 
-    def test_new_mesh(self):
-        for extension in FORMATS:
-            self.refuse(5000, "new" + extension, naming="new" + extension)
-
     def test_a_limit_is_not_blamed_for_other_errors(self):
         path = write_mesh(make_mesh([(0, 0, 0)] * 3, [(0, 1, 2), (0, 1)]), self.path("in.vtk"))
         result = self.run_command(

@@ -54,21 +54,6 @@ class RoundTrip(CommandTest):
             for pair, result in results.items():
                 self.assertEqual(result, first, pair)
 
-    def test_text_files(self):
-        mesh = bumpy_grid(6, 0)
-        self.succeed(write_mesh(mesh, self.path("in.vtk")), "expected.vtk")
-        expected = triangle_set(read_mesh(self.path("expected.vtk")))
-        for name, settings in {
-            "a.vtk": {"SetFileTypeToASCII": ()},
-            "b.vtk": {"SetFileTypeToASCII": (), "SetFileVersion": (42,)},
-            "c.vtk": {"SetFileVersion": (42,)},
-            "a.vtp": {"SetDataModeToAscii": ()},
-            "a.ply": {"SetFileTypeToASCII": ()},
-            "b.ply": {"SetDataByteOrderToBigEndian": ()},
-            "a.stl": {"SetFileTypeToASCII": ()},
-        }.items():
-            self.succeed(write_mesh(mesh, self.path(name), **settings), "out.vtk")
-            self.assertEqual(triangle_set(read_mesh(self.path("out.vtk"))), expected, name)
 
 class Kept(CommandTest):
     def test_vtk_formats_keep_everything(self):
@@ -98,15 +83,6 @@ class Kept(CommandTest):
             self.succeed(path, path)
             same, separate = self.bytes("mesh" + extension), self.bytes("separate" + extension)
             self.assertEqual(same, separate)
-
-    def test_threads_give_the_same_bytes(self):
-        path = write_mesh(bumpy_grid(40, 0), self.path("mesh.vtk"))
-        for extension in FORMATS:
-            results = set()
-            for threads in (1, 2, 3, 16):
-                self.succeed(path, "out" + extension, "--threads", threads)
-                results.add(self.bytes("out" + extension))
-            self.assertEqual(len(results), 1, extension)
 
     def bytes(self, name):
         with open(self.path(name), "rb") as file:
@@ -167,11 +143,6 @@ class Lost(CommandTest):
             path = write_mesh(lines, self.path("in.vtk"))
             self.fail_with(3, path, name, naming=[name, "line 0 has 1 point,"])
 
-    def test_nothing_is_said_where_nothing_is_lost(self):
-        for extension in FORMATS:
-            self.assertEqual(self.losses(bumpy_grid(4, 0), "out" + extension), "")
-        for extension in (".vtk", ".vtp"):
-            self.assertEqual(self.losses(annotated_mesh(), "out" + extension), "")
 
 class RepeatedPoints(CommandTest):
     def test_obj_keeps_vertices_that_it_repeats(self):

@@ -67,14 +67,6 @@ class Options(CommandTest):
         self.assertIn("1 edge kept, 1 inserted by 1 flip, 0 not in the mesh", result.stdout)
         self.assertTrue(self.has_edge(0, 2))
 
-    def test_constraints_that_cannot_be_inserted_are_named(self):
-        mesh = make_mesh(KITE, [(0, 1, 3), (1, 2, 3)])
-        path = write_mesh(mesh, self.path("in.vtk"))
-        lines = write_mesh(make_mesh(KITE, [], [(1, 3), (2, 0)]), self.path("lines.vtk"))
-        result = self.succeed(path, "out.vtk", "--constraints", lines)
-        self.assertIn("1 edge kept, 1 not in the mesh", result.stdout)
-        self.assertIn("crosses edges that stay (first: 0-2)", result.stderr)
-
     def test_constraints_beside_the_mesh(self):
         """The message says why they do not match, and where the first is."""
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
@@ -103,16 +95,6 @@ class Options(CommandTest):
         path = write_mesh(make_mesh(apart, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
         told = self.succeed(path, "out.vtk", "--merge-points").stderr
         self.assertIn("no two edges lie at the same place, even after --merge-points", told)
-
-    def test_bad_constraints(self):
-        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
-        self.fail_with(3, path, "out.vtk", "--constraints", "none.vtk", naming=["none.vtk"])
-        self.fail_with(2, path, "out.vtk", "--constraints", "lines.txt", naming=["lines.txt"])
-        self.fail_with(2, path, "out.vtk", "--constraints", "out.vtk", naming=["out.vtk"])
-        other = write_mesh(make_mesh(KITE[:2], [], [(0, 1)]), self.path("short.vtk"))
-        with open(other, "r+b") as file:
-            file.truncate(os.path.getsize(other) // 2)
-        self.fail_with(3, path, "out.vtk", "--constraints", other, naming=["short.vtk"])
 
     def test_region_array(self):
         mesh = make_mesh(KITE, KITE_CELLS)
@@ -194,12 +176,6 @@ class Options(CommandTest):
         self.assertEqual(self.report(path, "out.vtk")["geometry"], "planar-xy")
         flat = write_mesh(bumpy_grid(6, 0), self.path("flat.vtk"))
         self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
-
-    def test_threads(self):
-        path = write_mesh(bumpy_grid(6, 0), self.path("in.vtk"))
-        arguments = (path, "out.vtk", "--backend", "threads", "--threads")
-        for threads in (1, 3):
-            self.assertEqual(self.report(*arguments, threads)["backend"], f"Threads: {threads}")
 
     def test_pieces(self):
         path = write_mesh(random_insertion(500), self.path("in.vtk"))

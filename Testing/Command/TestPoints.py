@@ -3,15 +3,12 @@
 """--from-points: files of points, segments, outlines, holes, and what the command says about them."""
 
 import math
-import random
 import unittest
 
 from CommandTesting import (
     FORMATS,
     BadFileTest,
     bumpy_grid,
-    cells_of,
-    edge_counts,
     make_array,
     make_mesh,
     points_of,
@@ -143,47 +140,8 @@ class Files(PointTest):
             self.assertEqual(triangle_set(out), expected, extension)
         self.assertNotEqual(expected, triangle_set(mesh))
 
-    def test_any_format_is_written(self):
-        self.write("in.xyz", text_of(PLACES))
-        expected = None
-        for extension in FORMATS:
-            result = self.succeed("in.xyz", "out" + extension, "--from-points")
-            self.assertEqual(result.stderr, "")
-            written = triangle_set(read_mesh(self.path("out" + extension)))
-            expected = expected or written
-            self.assertEqual(written, expected)
-        self.assertEqual(len(expected), 4)
-
-    def test_point_data_are_kept(self):
-        mesh = make_mesh(PLACES, [])
-        mesh.GetPointData().AddArray(make_array("depth", [1, 2, 3, 4, 5]))
-        out, _ = self.triangulate(write_mesh(mesh, self.path("in.vtp")))
-        depth = out.GetPointData().GetArray("depth")
-        self.assertEqual([depth.GetValue(i) for i in range(5)], [1, 2, 3, 4, 5])
-
 
 class Results(PointTest):
-    def test_delaunay(self):
-        """Of a jittered grid: the numbers of Euler's formula, the area of the hull, and what flips of
-        another triangulation of these points give."""
-        mesh = bumpy_grid(20, 1)
-        path = write_mesh(mesh, self.path("in.vtp"))
-        out, _ = self.triangulate(path)
-        edges, boundary, others = edge_counts(triangles_of(out))
-        self.assertEqual((len(triangles_of(out)), others), (2 * 400 - 2 - boundary, 0))
-        self.assertEqual(edges, 3 * 400 - 3 - boundary)
-        again = self.report("out.vtp", "again.vtp", "--geometry", "planar-xy")
-        self.assertEqual((again["total_flips"], again["non_delaunay_before"]), (0, 0))
-
-    def test_order_and_threads_do_not_matter(self):
-        points = grid(9)
-        shuffled = list(points)
-        random.Random(5).shuffle(shuffled)
-        self.write("in.xyz", text_of(points))
-        self.write("other.xyz", text_of(shuffled))
-        first, _ = self.triangulate("in.xyz", "--threads", 1)
-        second, _ = self.triangulate("other.xyz", "--threads", 3)
-        self.assertEqual(triangle_set(first), triangle_set(second))
 
     def test_points_that_are_not_used(self):
         more = PLACES + [(4, 0, 9), (math.nan, 1, 1), (0, math.inf, 1), (2.01, 2, 0)]
@@ -224,14 +182,6 @@ class Results(PointTest):
             mesh, result = self.triangulate("in.xyz", option, value)
             self.assertEqual(area_of(mesh), 9.0)
             self.assertRegex(result.stdout, r"removed +0 triangles outside, \d too large\n")
-
-    def test_iteration_limit(self):
-        path = write_mesh(bumpy_grid(20, 0), self.path("in.vtp"))
-        whole, _ = self.triangulate(path)
-        self.succeed(path, "out.vtk", "--from-points", "--max-iterations", 0, code=4)
-        start = read_mesh(self.path("out.vtk"))
-        self.assertNotEqual(triangle_set(start), triangle_set(whole))
-        self.assertAlmostEqual(area_of(start), area_of(whole))
 
 
 class Segments(PointTest):

@@ -10,7 +10,6 @@ import unittest
 from CommandTesting import (
     CommandTest,
     bumpy_grid,
-    edge_counts,
     make_mesh,
     points_of,
     random_insertion,
@@ -32,20 +31,6 @@ KEYS = [
     *("converged", "stop_reason", "seconds", "warnings"),
 ]
 COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"
-
-
-def smallest_angle(mesh):
-    """The smallest angle in degrees."""
-    points = points_of(mesh)
-    angles = []
-    for triangle in triangles_of(mesh):
-        for corner in range(3):
-            a, b, c = (points[triangle[(corner + k) % 3]] for k in range(3))
-            u = [q - p for p, q in zip(a, b)]
-            v = [q - p for p, q in zip(a, c)]
-            cosine = sum(p * q for p, q in zip(u, v)) / math.hypot(*u) / math.hypot(*v)
-            angles.append(math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
-    return min(angles)
 
 
 class Report(CommandTest):
@@ -78,26 +63,6 @@ class Report(CommandTest):
             **{"converged": True, "stop_reason": "converged"},
         }
         self.assertEqual({key: report[key] for key in expected}, expected)
-
-    def test_counts_and_angles(self):
-        for height in (0, 1):
-            mesh = bumpy_grid(12, height)
-            path = write_mesh(mesh, self.path("in.vtk"))
-            report = self.report(path, "out.vtk", "--geometry", "surface")
-            edges, boundary, non_manifold = edge_counts(triangles_of(mesh))
-            self.assertEqual(report["edges"], edges)
-            self.assertEqual(report["boundary_edges"], boundary)
-            self.assertEqual(report["non_manifold_edges"], non_manifold)
-            after = smallest_angle(read_mesh(self.path("out.vtk")))
-            self.assertAlmostEqual(report["min_angle_before_deg"], smallest_angle(mesh), 6)
-            self.assertAlmostEqual(report["min_angle_after_deg"], after, 6)
-
-    def test_non_manifold_edge(self):
-        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 1), (0, -1, -1)]
-        mesh = make_mesh(points, [(0, 1, 2), (1, 0, 3), (1, 0, 4)])
-        report = self.report(write_mesh(mesh, self.path("in.vtk")), "out.vtk")
-        counts = [report[key] for key in ("edges", "boundary_edges", "non_manifold_edges")]
-        self.assertEqual(counts, [7, 6, 1])
 
     def test_no_triangles(self):
         report = self.report(write_mesh(make_mesh([(0, 0, 0)], []), self.path("in.vtk")), "out.vtk")

@@ -213,12 +213,6 @@ echo "Cuda compilation tools, release {version}, V{version}.89"
         self.assertNotEqual(code, 0)
         self.assertIn(f"{reason}; install a newer CUDA Toolkit", text)
 
-    def test_the_oldest_one_is_tried(self):
-        self.write_nvcc("12.0")
-        code, text = self.configure_engine(CUDACXX=self.nvcc)
-        self.assertEqual(code, 0, text)
-        self.assertIn("CUDA backend: not built, no CUDA compiler", text)
-
 
 class Packing(Consumer):
     """What cpack makes of the build works where it is unpacked. Utilities/test-on.sh also installs the

@@ -191,6 +191,15 @@ class Errors(unittest.TestCase):
                                    maximum_iterations=2**63 - 1, track_quality=numpy.bool_(True))
         self.assertEqual(result.report.total_flips, 1)
 
+    def test_maximum_deviation(self):
+        """The diagonals of the quad are 0.25 apart."""
+        points = [[0, 1, 0.25], [-4, 0, 0], [4, 0, 0], [0, -1, 0.25]]
+        for bound, flips in ((numpy.inf, 1), (0.25, 1), (0.24, 0), (0, 0)):
+            report = delaunayflip.flip(points, [[0, 1, 2], [3, 2, 1]], geometry="surface",
+                                       maximum_deviation=bound).report
+            self.assertEqual((report.total_flips, report.blocked_by_deviation), (flips, 1 - flips))
+            self.assertEqual(report.non_delaunay_after, 1 - flips)
+
     def test_refusals(self):
         """Each is refused before it reaches the engine, by a message that names the argument."""
         def mask(values, value):
