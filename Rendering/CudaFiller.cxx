@@ -119,7 +119,7 @@ public:
     }
   }
 
-  void Fill(const FlipSession& session) override
+  void Fill(const FlipSession& session, bool /*isNew*/) override
   {
     if (!IsOnGpu(session.GetReport().Backend))
     {

@@ -4,15 +4,12 @@
 #define LiveScene_h
 
 #include "vtkNew.h"
-#include "vtkType.h"
 #include "vtkWeakPointer.h"
 
-#include <string>
-
 class vtkActor;
-class vtkDelaunayFlip;
+class vtkDataObject;
+class vtkDelaunayFlipLiveView;
 class vtkDelaunayFlipMapper;
-class vtkPolyData;
 class vtkRenderer;
 class vtkRenderWindow;
 class vtkScalarBarActor;
@@ -20,30 +17,6 @@ class vtkTextActor;
 
 namespace delaunayflip
 {
-
-/// The state of the mesh in a live view.
-enum class LiveState
-{
-  NotStarted,
-  UnderWay, ///< Another step may change it.
-  Aborted, ///< The same, but the filter was asked to stop.
-  Converged,
-  Limited, ///< The iteration limit was reached.
-  Failed, ///< The filter failed; the mesh is that of the step before.
-  Unchanged, ///< The filter had nothing to do. Only an outcome of a step.
-};
-
-/// What the statistics of a live view are about.
-struct LiveStatus
-{
-  vtkDelaunayFlip* Filter;
-  LiveState State;
-  bool IsRunning;
-  int Frame;
-  vtkIdType Triangles;
-  double SmallestAngle; ///< In degrees; NaN if unknown.
-  std::string Drawing; ///< How it is drawn; may be empty.
-};
 
 /// What a live view adds to a renderer: a mesh, its colour scale, and texts.
 class LiveScene
@@ -57,44 +30,27 @@ public:
   /// Adds the scene to the first renderer of a window; creates one if there is none.
   void Enter(vtkRenderWindow* window);
   void Leave();
-  vtkRenderer* GetRenderer() const { return this->Renderer; }
 
   /// Makes a camera that looks at the mesh, if the renderer has none yet.
   void LookAtMesh();
 
-  /// Shows a mesh.
-  void SetMesh(vtkPolyData* mesh);
+  /// Shows a mesh, or all blocks of a composite one; none if it is null.
+  void SetMesh(vtkDataObject* mesh);
 
-  /// What draws the mesh.
-  vtkDelaunayFlipMapper* GetMapper() { return this->Mapper; }
+  /// Draws the window, with what the view is set to show.
+  /// @param state of the mesh: one of vtkDelaunayFlip::StopReasonType.
+  void Draw(vtkDelaunayFlipLiveView* view, int state);
 
-  /// Sets what colours show, one of vtkDelaunayFlipLiveView::ColorByType, and brings the mapper's
-  /// buffers up to date.
-  void SetColorBy(int what);
-  void SetEdgeVisibility(bool visible);
-  bool GetEdgeVisibility() const;
-
-  /// Shows statistics in two or three lines. A failure, and how the mesh is drawn, take as many as
-  /// their reasons need.
-  void SetStatus(const LiveStatus& status);
-  void HideStatus();
-
-  /// Shows or hides the line that explains the keys.
-  void SetKeyVisibility(bool visible);
-
-  /// Draws the window with what was set.
-  void Draw();
+  vtkWeakPointer<vtkRenderer> Renderer; ///< Null outside a window.
+  vtkNew<vtkDelaunayFlipMapper> Mapper;
+  vtkNew<vtkActor> Actor; ///< Of the mesh.
 
 private:
-  void ShowScale(const char* title);
+  void ArrangeTexts(bool hasFailed);
 
-  vtkWeakPointer<vtkRenderer> Renderer;
-  vtkNew<vtkDelaunayFlipMapper> Mapper;
-  vtkNew<vtkActor> Actor;
   vtkNew<vtkScalarBarActor> Scale;
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
-  double Ink[3] = { 0.0, 0.0, 0.0 };
 };
 
 }

@@ -4,10 +4,9 @@
 
 #include "LiveScene.h"
 
+#include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkAppendPolyData.h"
 #include "vtkCommand.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
@@ -16,14 +15,14 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
-#include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
-#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <map>
 
@@ -31,88 +30,6 @@ using namespace delaunayflip;
 
 namespace
 {
-
-constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
-
-/// Sets a flag for as long as it lives.
-struct Raised
-{
-  bool& Flag;
-  explicit Raised(bool& flag)
-    : Flag(flag)
-  {
-    flag = true;
-  }
-  ~Raised() { this->Flag = false; }
-};
-
-/// Whether a step with this outcome ends a run. An abort only pauses it.
-bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }
-
-/// Makes the filter do one step. On request it does not put the mesh out, if it can do without; an
-/// update follows the last step, so that the output is then the final mesh.
-/// An update caused only by a change of the input or of an option is a step too.
-LiveState MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
-{
-  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
-  bool works = true;
-  if (withholdsMesh)
-  {
-    works = filter->AdvanceSession();
-  }
-  else
-  {
-    filter->Advance();
-    works = filter->GetExecutive()->Update(0) != 0;
-  }
-  if (!works || filter->GetFailure() != vtkDelaunayFlip::FAILURE_NONE)
-  {
-    return LiveState::Failed;
-  }
-  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  const int reason = filter->GetStopReason();
-  const LiveState state = !isNew                             ? LiveState::Unchanged
-    : reason == vtkDelaunayFlip::STOP_REASON_RUNNING         ? LiveState::UnderWay
-    : reason == vtkDelaunayFlip::STOP_REASON_ABORTED         ? LiveState::Aborted
-    : reason == vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT ? LiveState::Limited
-                                                             : LiveState::Converged;
-  if (IsEnd(state))
-  {
-    filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
-  }
-  return state;
-}
-
-/// A mesh, or all blocks of a composite one as one mesh.
-vtkSmartPointer<vtkPolyData> JoinBlocks(vtkDataObject* data)
-{
-  vtkNew<vtkAppendPolyData> append;
-  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
-  if (!blocks)
-  {
-    return vtkPolyData::SafeDownCast(data);
-  }
-  const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
-  {
-    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
-    {
-      append->AddInputData(mesh);
-    }
-  }
-  if (append->GetNumberOfInputConnections(0) > 0)
-  {
-    append->Update();
-  }
-  return append->GetOutput();
-}
-
-/// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
-std::string MakeFrameName(const std::string& prefix, int frame)
-{
-  const std::string number = std::to_string(frame);
-  return prefix + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".png";
-}
 
 /// Writes the picture in a window to a PNG file. Encodes it in memory first, because VTK's writer
 /// does not report a full disk.
@@ -146,7 +63,7 @@ vtkStandardNewMacro(vtkDelaunayFlipLiveView);
 //------------------------------------------------------------------------------
 vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
   : Scene(new LiveScene),
-    State(LiveState::NotStarted)
+    State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
 {
 }
 
@@ -215,13 +132,18 @@ bool vtkDelaunayFlipLiveView::IsReady()
   return true;
 }
 
+bool vtkDelaunayFlipLiveView::HasStarted() const
+{
+  return this->State != vtkDelaunayFlip::STOP_REASON_NOT_STARTED && this->Window;
+}
+
 bool vtkDelaunayFlipLiveView::BeginIfNeeded()
 {
-  if (this->State == LiveState::NotStarted || !this->Window)
+  if (!this->HasStarted())
   {
     this->Start();
   }
-  return !this->IsBusy && this->State != LiveState::NotStarted && this->Window;
+  return !this->IsBusy && this->HasStarted();
 }
 
 //------------------------------------------------------------------------------
@@ -252,7 +174,7 @@ void vtkDelaunayFlipLiveView::Detach()
   this->Observers.clear();
   this->Scene->Leave();
   this->Window = nullptr;
-  this->State = LiveState::NotStarted;
+  this->State = vtkDelaunayFlip::STOP_REASON_NOT_STARTED;
   this->FrameNumber = -1;
   this->IsMeantToRun = false;
   this->CanWrite = true;
@@ -267,9 +189,9 @@ void vtkDelaunayFlipLiveView::ShowInput()
   this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
-  this->State = LiveState::UnderWay;
-  this->Scene->GetMapper()->SetFilter(nullptr);
-  this->Scene->SetMesh(JoinBlocks(input));
+  this->State = vtkDelaunayFlip::STOP_REASON_RUNNING;
+  this->Scene->Mapper->SetFilter(nullptr);
+  this->Scene->SetMesh(input);
   this->Scene->LookAtMesh();
   this->ShowFrame(0);
 }
@@ -300,7 +222,7 @@ bool vtkDelaunayFlipLiveView::Step()
 
 void vtkDelaunayFlipLiveView::Restart()
 {
-  if (this->State == LiveState::NotStarted || !this->Window)
+  if (!this->HasStarted())
   {
     this->Start();
   }
@@ -316,51 +238,64 @@ void vtkDelaunayFlipLiveView::Restart()
 }
 
 //------------------------------------------------------------------------------
+/// Makes a step without putting the mesh out, if the mapper can do without. An update follows the
+/// last step, so that the output is then the final mesh. An update that is caused only by a change
+/// of the input or of an option is a step too.
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  LiveState next = LiveState::Unchanged;
+  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  vtkDelaunayFlipMapper* mapper = this->Scene->Mapper;
+  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
+  this->IsBusy = true;
+  mapper->SetZeroCopy(this->ZeroCopy);
+  mapper->BeginStep();
+  bool works = true;
+  if (mapper->DrawsRun())
   {
-    const Raised busy(this->IsBusy);
-    const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-    vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
-    mapper->SetZeroCopy(this->ZeroCopy);
-    mapper->BeginStep();
-    next = MakeStep(filter, mapper->DrawsRun());
+    works = filter->AdvanceSession();
   }
-  if (this->State == LiveState::NotStarted)
+  else
+  {
+    filter->Advance();
+    works = filter->GetExecutive()->Update(0) != 0;
+  }
+  const int state = works ? filter->GetStopReason() : vtkDelaunayFlip::STOP_REASON_FAILED;
+  const bool hasFailed = state == vtkDelaunayFlip::STOP_REASON_FAILED;
+  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
+  const bool isUnderWay = state == vtkDelaunayFlip::STOP_REASON_RUNNING;
+  const bool goesOn = isNew && (isUnderWay || state == vtkDelaunayFlip::STOP_REASON_ABORTED);
+  if (!goesOn && !hasFailed)
+  {
+    filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
+  }
+  this->IsBusy = false;
+  if (this->State == vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
   {
     return false; // An observer of the filter has ended the run.
   }
-  const bool isNews = next != LiveState::Unchanged || this->IsRunning();
-  if (next != LiveState::UnderWay)
+  const bool isEnd = !goesOn && (isNew || hasFailed || this->IsRunning());
+  this->TimerId = isNew && isUnderWay ? this->TimerId : 0;
+  this->State = isNew || hasFailed ? state : this->State;
+  if (isNew && !hasFailed)
   {
-    this->TimerId = 0;
+    if (!filter->GetMeshIsWithheld())
+    {
+      this->Scene->SetMesh(filter->GetOutputDataObject(0));
+      mapper->SetFilter(filter->GetSession() ? filter.Get() : nullptr);
+    }
+    mapper->EndStep();
+    this->ShowFrame(this->FrameNumber + 1);
   }
-  this->State = next == LiveState::Unchanged ? this->State : next;
-  this->ShowStep(next);
-  if (isNews && IsEnd(next))
+  else
+  {
+    this->Render(); // the last mesh
+  }
+  if (isEnd)
   {
     this->InvokeEvent(vtkCommand::EndEvent);
   }
-  return !IsEnd(next);
-}
-
-/// If the filter failed, the last mesh stays.
-void vtkDelaunayFlipLiveView::ShowStep(LiveState outcome)
-{
-  if (outcome == LiveState::Failed || outcome == LiveState::Unchanged)
-  {
-    this->Render();
-    return;
-  }
-  if (!this->Filter->GetMeshIsWithheld())
-  {
-    this->Scene->SetMesh(JoinBlocks(this->Filter->GetOutputDataObject(0)));
-    this->Scene->GetMapper()->SetFilter(this->Filter->GetSession() ? this->Filter : nullptr);
-  }
-  this->Scene->GetMapper()->EndStep();
-  this->ShowFrame(this->FrameNumber + 1);
+  return goesOn;
 }
 
 //------------------------------------------------------------------------------
@@ -370,12 +305,15 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   this->Render();
   if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
   {
-    const Raised busy(this->IsBusy);
-    const std::string name = MakeFrameName(this->FramePrefix, number);
-    this->CanWrite = WriteFrame(this->Window, name);
+    char name[32];
+    std::snprintf(name, sizeof(name), "%04d.png", number);
+    this->IsBusy = true;
+    this->CanWrite = WriteFrame(this->Window, this->FramePrefix + name);
+    this->IsBusy = false;
     if (!this->CanWrite)
     {
-      vtkErrorMacro("Cannot write " << name << "; no more frames are written.");
+      vtkErrorMacro(
+        "Cannot write " << this->FramePrefix << name << "; no more frames are written.");
     }
   }
   this->InvokeEvent(vtkCommand::UpdateEvent);
@@ -383,39 +321,25 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
 
 void vtkDelaunayFlipLiveView::Render()
 {
-  if (this->IsBusy || !this->Window || !this->Scene->GetRenderer())
+  if (!this->IsBusy && this->Window && this->Scene->Renderer)
   {
-    return;
+    this->IsBusy = true;
+    this->Scene->Draw(this, this->State);
+    this->IsBusy = false;
   }
-  const Raised busy(this->IsBusy);
-  vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
-  const bool isSmall = mapper->GetNumberOfTriangles() < SmallMesh;
-  const bool isOffScreen = this->Window->GetOffScreenRendering(); // there are no keys
-  this->Scene->SetKeyVisibility(this->ShowKeys && !isOffScreen);
-  this->Scene->SetColorBy(this->ColorBy);
-  this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
-    (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  if (this->ShowStatistics || this->State == LiveState::Failed)
-  {
-    this->Scene->SetStatus({ this->Filter, this->State, this->IsRunning() || isOffScreen,
-      this->FrameNumber, mapper->GetNumberOfTriangles(), mapper->GetSmallestAngle(),
-      this->ShowDrawing ? mapper->GetDrawing() : "" });
-  }
-  else
-  {
-    this->Scene->HideStatus();
-  }
-  this->Scene->Draw();
 }
 
 std::string vtkDelaunayFlipLiveView::GetDrawing() const
 {
-  return this->Scene->GetMapper()->GetDrawing();
+  return this->Scene->Mapper->GetDrawing();
 }
 
-bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
+bool vtkDelaunayFlipLiveView::GetConverged() const
+{
+  return this->State == vtkDelaunayFlip::STOP_REASON_CONVERGED;
+}
 
-vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->GetRenderer(); }
+vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->Renderer; }
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::StartTimer()
@@ -474,7 +398,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
     { "g",
       [](Self* self)
       {
-        const bool areShown = self->Scene->GetEdgeVisibility();
+        const bool areShown = self->Scene->Actor->GetProperty()->GetEdgeVisibility() != 0;
         self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
       } },
     { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },

@@ -77,7 +77,6 @@ class vtkRenderWindowInteractor;
 namespace delaunayflip
 {
 class LiveScene;
-enum class LiveState;
 }
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipLiveView : public vtkObject
@@ -284,12 +283,12 @@ protected:
 
 private:
   bool IsReady();
+  bool HasStarted() const;
   bool BeginIfNeeded();
   void Attach();
   void Detach();
   void ShowInput();
   bool TakeStep();
-  void ShowStep(delaunayflip::LiveState outcome);
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();
@@ -300,7 +299,7 @@ private:
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkRenderWindow> Window; ///< Null before Start().
   std::unique_ptr<delaunayflip::LiveScene> Scene;
-  delaunayflip::LiveState State;
+  int State; ///< Of the mesh that is shown: one of vtkDelaunayFlip::StopReasonType.
   int FrameNumber = -1;
   int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
